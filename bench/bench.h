@@ -1,0 +1,13 @@
+/* bench.h - what `lutetia bench NAME` calls, one function a benchmark.
+ *
+ *     return bench_diffusion_main(argc, argv);   // argv[0] is "diffusion", its options follow
+ *
+ * Each measures ours and its peers in one run, prints a table, and returns the exit status: 0,
+ * 1 where something failed or results that must be equal differ, 2 where the options are wrong.
+ */
+#ifndef LUTETIA_BENCH_H
+#define LUTETIA_BENCH_H
+
+int bench_diffusion_main(int argc, char **argv);
+
+#endif

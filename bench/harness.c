@@ -1,0 +1,284 @@
+/* harness.c - see harness.h. */
+#include "harness.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#ifndef LUTETIA_COMMIT
+#define LUTETIA_COMMIT "unknown"
+#endif
+
+static char error_text[512];
+
+bool bench_fail(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error_text, sizeof error_text, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+const char *bench_error(void)
+{
+    return error_text;
+}
+
+/* ---- timing ---- */
+
+double bench_now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int doubles_compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+struct bench_sample bench_sample_of(double *values, int count)
+{
+    qsort(values, (size_t)count, sizeof *values, doubles_compare);
+    return (struct bench_sample){(values[(count - 1) / 2] + values[count / 2]) / 2, values[0]};
+}
+
+bool bench_measure_in_turns(struct bench_contender *contenders, int count, int repeat_count)
+{
+    double *seconds = malloc((size_t)repeat_count * (size_t)count * sizeof *seconds);
+    bool ok = true;
+    if (!seconds)
+        return bench_fail("no memory for %d timings", repeat_count * count);
+    for (int i = -1; i < repeat_count; i++) /* -1 warms up */
+        for (int k = 0; ok && k < count; k++) {
+            struct bench_contender *c = &contenders[k];
+            ok = !c->ready || c->ready(c->context);
+            double start = bench_now_s();
+            ok = ok && c->work(c->context);
+            if (i >= 0)
+                seconds[k * repeat_count + i] = bench_now_s() - start;
+        }
+    for (int k = 0; ok && k < count; k++)
+        contenders[k].seconds = bench_sample_of(seconds + k * repeat_count, repeat_count);
+    free(seconds);
+    return ok;
+}
+
+bool bench_measure(bench_work *work, void *context, int repeat_count, struct bench_sample *out)
+{
+    struct bench_contender alone = {.work = work, .context = context};
+    bool ok = bench_measure_in_turns(&alone, 1, repeat_count);
+    *out = alone.seconds;
+    return ok;
+}
+
+int bench_threads_count(void)
+{
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
+/* ---- bandwidth ---- */
+
+typedef float vector __attribute__((vector_size(64)));
+
+static void copy_pass(float *restrict to, const float *restrict from, size_t count)
+{
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i += 16) {
+#if defined(__clang__)
+        __builtin_nontemporal_store(*(const vector *)(from + i), (vector *)(to + i));
+#elif defined(__AVX512F__)
+        __builtin_ia32_movntps512(to + i, *(const vector *)(from + i));
+#elif defined(__AVX__)
+        typedef float half_vector __attribute__((vector_size(32)));
+        __builtin_ia32_movntps256(to + i, *(const half_vector *)(from + i));
+        __builtin_ia32_movntps256(to + i + 8, *(const half_vector *)(from + i + 8));
+#else
+        *(vector *)(to + i) = *(const vector *)(from + i);
+#endif
+    }
+}
+
+bool bench_copy_bandwidth(size_t bytes, int repeat_count,
+                          struct bench_sample *gigabytes_a_second)
+{
+    size_t count = bytes / sizeof(float) / 16 * 16;
+    float *from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+    float *to = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+    double *rates = malloc((size_t)repeat_count * sizeof *rates);
+    bool ok = from && to && rates;
+    if (!ok) {
+        bench_fail("no memory for two arrays of %zu bytes", bytes);
+        goto cleanup;
+    }
+    memset(from, 0, bytes);
+    memset(to, 0, bytes);
+    copy_pass(to, from, count);
+    for (int i = 0; i < repeat_count; i++) {
+        double start = bench_now_s();
+        copy_pass(to, from, count);
+        rates[i] = -2e-9 * (double)(count * sizeof(float)) /
+                   (bench_now_s() - start); /* best sorts first */
+    }
+    struct bench_sample negative = bench_sample_of(rates, repeat_count);
+    *gigabytes_a_second = (struct bench_sample){-negative.median, -negative.min};
+cleanup:
+    free(from);
+    free(to);
+    free(rates);
+    return ok;
+}
+
+/* ---- rows ---- */
+
+void bench_report_init(struct bench_report *r, const char *name, int threads_count,
+                       const char *device)
+{
+    r->name = name;
+    r->device = device;
+    r->threads_count = threads_count;
+    r->rows_count = 0;
+}
+
+void bench_report_add(struct bench_report *r, const char *what, const char *of_case,
+                      struct bench_sample seconds, double scale, const char *unit)
+{
+    if (r->rows_count == BENCH_ROWS_MAX)
+        abort();
+    struct bench_row *row = &r->rows[r->rows_count++];
+    snprintf(row->what, sizeof row->what, "%s", what);
+    snprintf(row->of_case, sizeof row->of_case, "%s", of_case);
+    snprintf(row->unit, sizeof row->unit, "%s", unit);
+    row->value = seconds.median * scale;
+    row->min = seconds.min * scale;
+}
+
+const struct bench_row *bench_report_find(const struct bench_report *r, const char *what,
+                                          const char *of_case)
+{
+    for (int i = 0; i < r->rows_count; i++)
+        if (!strcmp(r->rows[i].what, what) && !strcmp(r->rows[i].of_case, of_case))
+            return &r->rows[i];
+    return NULL;
+}
+
+void bench_report_print(const struct bench_report *r, const char *yardstick, FILE *out)
+{
+    fprintf(out, "%s on %s, %d threads\n", r->name, r->device, r->threads_count);
+    fprintf(out, "%-22s %-11s %10s %10s  %-14s %s\n", "", "", "median", "best", "unit",
+            yardstick);
+    for (int i = 0; i < r->rows_count; i++) {
+        const struct bench_row *row = &r->rows[i];
+        const struct bench_row *peer = bench_report_find(r, yardstick, row->of_case);
+        fprintf(out, "%-22s %-11s %10.3f %10.3f  %-14s", row->what, row->of_case, row->value,
+                row->min, row->unit);
+        if (peer && peer->value > 0 && !strcmp(peer->unit, row->unit))
+            fprintf(out, " %.2fx", row->value / peer->value);
+        putc('\n', out);
+    }
+}
+
+/* ---- JSON ---- */
+
+static void json_string(FILE *f, const char *s)
+{
+    putc('"', f);
+    for (; *s; s++) {
+        unsigned char c = (unsigned char)*s;
+        if (c == '"' || c == '\\')
+            putc('\\', f);
+        if (c < 0x20)
+            fprintf(f, "\\u%04x", c);
+        else
+            putc(c, f);
+    }
+    putc('"', f);
+}
+
+static void json_number(FILE *f, double x)
+{
+    if (isfinite(x))
+        fprintf(f, "%.6g", x);
+    else
+        fputs("null", f);
+}
+
+static void json_report(FILE *f, const struct bench_report *r)
+{
+    fputs("{\"bench\": ", f);
+    json_string(f, r->name);
+    fputs(", \"commit\": ", f);
+    json_string(f, LUTETIA_COMMIT);
+    fputs(", \"compiler\": ", f);
+#ifdef __clang__
+    json_string(f, __VERSION__);
+#else
+    json_string(f, "gcc " __VERSION__);
+#endif
+    fputs(", \"device\": ", f);
+    json_string(f, r->device);
+    fprintf(f, ", \"threads\": %d,\n \"rows\": [", r->threads_count);
+    for (int i = 0; i < r->rows_count; i++) {
+        const struct bench_row *row = &r->rows[i];
+        fputs(i ? ",\n  {\"what\": " : "\n  {\"what\": ", f);
+        json_string(f, row->what);
+        fputs(", \"case\": ", f);
+        json_string(f, row->of_case);
+        fputs(", \"value\": ", f);
+        json_number(f, row->value);
+        fputs(", \"min\": ", f);
+        json_number(f, row->min);
+        fputs(", \"unit\": ", f);
+        json_string(f, row->unit);
+        putc('}', f);
+    }
+    fputs("]}\n", f);
+}
+
+bool bench_report_write(const struct bench_report *r, const char *path)
+{
+    size_t length = strlen(path) + sizeof ".XXXXXX";
+    char *part = malloc(length);
+    if (!part)
+        return bench_fail("no memory for a path");
+    snprintf(part, length, "%s.XXXXXX", path);
+    int descriptor = mkstemp(part);
+    if (descriptor < 0) {
+        bench_fail("%s cannot be written: %s", path, strerror(errno));
+        free(part);
+        return false;
+    }
+    fchmod(descriptor, 0644);
+    FILE *f = fdopen(descriptor, "w");
+    bool ok = f != NULL;
+    if (ok)
+        json_report(f, r);
+    else
+        close(descriptor);
+    ok = ok && !ferror(f);
+    if (f && fclose(f))
+        ok = false;
+    if (!ok || rename(part, path)) {
+        ok = bench_fail("%s cannot be written: %s", path, strerror(errno));
+        unlink(part);
+    }
+    free(part);
+    return ok;
+}

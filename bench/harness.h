@@ -1,0 +1,90 @@
+/* harness.h - timing, rows, the table and the JSON of every benchmark.
+ *
+ *     struct bench_report report;
+ *     bench_report_init(&report, "diffusion", threads_count, device_name);
+ *     struct bench_sample t = bench_measure(step, context, 10);
+ *     bench_report_add(&report, "listing", "1024x1024", t, 1e9 / fibers, "ns/fiber-step");
+ *     bench_report_print(&report, "hand per axis", stdout);
+ *     status = bench_report_write(&report, "diffusion.json");
+ *     bench_report_finish(&report);
+ *
+ * Errors. Functions that can fail return false, and bench_error() says why in one line. */
+#ifndef LUTETIA_BENCH_HARNESS_H
+#define LUTETIA_BENCH_HARNESS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Of one measured thing, in seconds (or in whatever the rows' unit is, with a scale of 1). */
+struct bench_sample {
+    double median, min;
+};
+
+double bench_now_s(void); /* monotonic */
+
+/* Does the work once and waits until it is done. False stops the measurement: bench_error() is
+ * set. */
+typedef bool bench_work(void *context);
+
+/* One run to warm up, then repeat_count counted ones. Errors: false. */
+bool bench_measure(bench_work *work, void *context, int repeat_count, struct bench_sample *out);
+/* Several that are compared with each other take turns, so that what else the machine does hits
+ * all alike. */
+struct bench_contender {
+    const char *what;
+    bench_work
+        *ready; /* before each counted run, not counted: fills the caches; NULL is fine */
+    bench_work *work;
+    void *context;
+    struct bench_sample seconds; /* the result */
+};
+bool bench_measure_in_turns(struct bench_contender *contenders, int count, int repeat_count);
+/* The sample of counted values; reorders them. Shape: count is 1 or more. */
+struct bench_sample bench_sample_of(double *values, int count);
+
+struct bench_row {
+    char what[32];     /* "listing" */
+    char of_case[32];  /* "1024x1024" */
+    double value, min; /* median and the least (of rates, the greatest), in unit */
+    char unit[24];
+};
+
+enum { BENCH_ROWS_MAX = 256 };
+
+struct bench_report {
+    const char *name;
+    const char *device; /* borrowed */
+    int threads_count;
+    int rows_count;
+    struct bench_row rows[BENCH_ROWS_MAX];
+};
+
+void bench_report_init(struct bench_report *r, const char *name, int threads_count,
+                       const char *device);
+/* Values are seconds * scale. */
+void bench_report_add(struct bench_report *r, const char *what, const char *of_case,
+                      struct bench_sample seconds, double scale, const char *unit);
+/* NULL if there is no such row. */
+const struct bench_row *bench_report_find(const struct bench_report *r, const char *what,
+                                          const char *of_case);
+/* A table with a column of ratios: each row's value over that of the row `yardstick` of the
+ * same case and unit. */
+void bench_report_print(const struct bench_report *r, const char *yardstick, FILE *out);
+/* One JSON object; the file appears under its name only when it is complete. Errors: false. */
+bool bench_report_write(const struct bench_report *r, const char *path);
+
+/* Copy bandwidth of this machine: arrays of bytes each, several passes, non-temporal stores
+ * where the compiler has them; read and written bytes count. median and min are GB/s here, min
+ * the best. Errors: false. */
+bool bench_copy_bandwidth(size_t bytes, int repeat_count,
+                          struct bench_sample *gigabytes_a_second);
+
+int bench_threads_count(void); /* that OpenMP uses; 1 without it */
+
+/* ---- errors ---- */
+
+/* Keeps the text and returns false. */
+bool bench_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+const char *bench_error(void);
+
+#endif

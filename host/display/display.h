@@ -1,0 +1,60 @@
+/* display.h - pictures in files: what the paper shows goes out as PNG, and bitmaps to screen come in.
+ *
+ *     struct display_image page = {.width_px = 640, .height_px = 480, .channels = 3};
+ *     if (display_image_create(&page) != DISPLAY_OK)
+ *         die(display_error());
+ *     fill(page.pixels);
+ *     if (display_png_write("page.png", &page) != DISPLAY_OK)
+ *         die(display_error());
+ *     display_image_destroy(&page);
+ *
+ * Errors. Functions that can fail return a status and leave one line in display_error().
+ * Threads. Any; display_error() belongs to the thread that failed.
+ */
+#ifndef LUTETIA_DISPLAY_H
+#define LUTETIA_DISPLAY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum display_status {
+    DISPLAY_OK = 0,
+    DISPLAY_BAD_ARGUMENT, /* an image without size, pixels or a known number of channels */
+    DISPLAY_BAD_FILE,     /* not a PNG, or a damaged one */
+    DISPLAY_IO_FAILED,    /* the system's reason is in display_error() */
+    DISPLAY_NO_MEMORY
+};
+
+/* The longest side of an image that is read or written. */
+#define DISPLAY_SIDE_MAX 65536
+
+/* Rows from top to bottom, pixels from left to right, channels together, no padding. */
+struct display_image {
+    int width_px, height_px;
+    int channels; /* 1 gray, 3 red, green, blue */
+    uint8_t *pixels;
+};
+
+/* Detail of this thread's last failure, one line without a newline; "" if there was none.
+ * Owns: the library; valid until this thread's next failure. */
+const char *display_error(void);
+
+/* Allocates pixels, all 0, for the size and channels that image holds.
+ * Errors: BAD_ARGUMENT, NO_MEMORY; pixels is then NULL. */
+enum display_status display_image_create(struct display_image *image);
+
+/* Frees the pixels; an image of zeros is fine. */
+void display_image_destroy(struct display_image *image);
+
+/* Writes 8-bit gray or RGB. The file appears under its name only when it is whole: it is written beside it
+ * under a temporary name, then renamed. Where the name is a device (/dev/full) it is written to directly.
+ * Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing or closed), NO_MEMORY; what stood
+ * under that name stands as it was, and nothing is left beside it. */
+enum display_status display_png_write(const char *path, const struct display_image *image);
+
+/* Reads any PNG as 8-bit gray: colours by their luminance, transparency over white, 16 bits rounded to 8.
+ * Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros.
+ * Owns: the caller destroys *image. */
+enum display_status display_png_read_gray(const char *path, struct display_image *image);
+
+#endif

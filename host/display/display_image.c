@@ -1,0 +1,47 @@
+/* display_image.c - images in memory, and this thread's last error. */
+#include "display_internal.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static _Thread_local char error_text[1024];
+
+const char *display_error(void)
+{
+    return error_text;
+}
+
+enum display_status display_fail(enum display_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error_text, sizeof error_text, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+enum display_status display_image_create(struct display_image *image)
+{
+    image->pixels = NULL;
+    if (image->width_px < 1 || image->height_px < 1 || image->width_px > DISPLAY_SIDE_MAX ||
+        image->height_px > DISPLAY_SIDE_MAX || (image->channels != 1 && image->channels != 3))
+        return display_fail(DISPLAY_BAD_ARGUMENT,
+                            "an image is 1..%d pixels wide and high with 1 or 3 channels "
+                            "(got %dx%d with %d)",
+                            DISPLAY_SIDE_MAX, image->width_px, image->height_px, image->channels);
+    size_t row_bytes = (size_t)image->width_px * (size_t)image->channels;
+    image->pixels = calloc((size_t)image->height_px, row_bytes);
+    if (!image->pixels)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory for an image of %dx%d pixels",
+                            image->width_px, image->height_px);
+    return DISPLAY_OK;
+}
+
+void display_image_destroy(struct display_image *image)
+{
+    if (!image)
+        return;
+    free(image->pixels);
+    image->pixels = NULL;
+}

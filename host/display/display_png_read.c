@@ -1,0 +1,122 @@
+/* display_png_read.c - any PNG as gray.
+ *
+ * libpng's simplified reader would round-trip through colour management; the transformations asked for here
+ * are plain: palette and low depths expanded, 16 bits scaled, transparency put over white, colours weighed. */
+#include "display_internal.h"
+
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct png_source {
+    FILE *file;
+    int error; /* errno of a read that failed; 0 where the file simply ended */
+    char message[256];
+    uint8_t *rows; /* as libpng gives them, gray+alpha or RGB+alpha: one, or all where it is interlaced */
+    struct display_image image;
+};
+
+static void source_read(png_structp png, png_bytep bytes, size_t count)
+{
+    struct png_source *source = png_get_io_ptr(png);
+    if (fread(bytes, 1, count, source->file) == count)
+        return;
+    if (ferror(source->file))
+        source->error = errno ? errno : EIO;
+    png_error(png, "the file ends too early");
+}
+
+_Noreturn static void source_error(png_structp png, png_const_charp message)
+{
+    struct png_source *source = png_get_error_ptr(png);
+    snprintf(source->message, sizeof source->message, "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void source_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message; /* readable all the same */
+}
+
+/* One row of `channels` (2 gray+alpha, 4 RGB+alpha) over white; Rec. 709 weights in 1/256. */
+static void row_to_gray(const uint8_t *row, int channels, int width_px, uint8_t *gray)
+{
+    for (int x = 0; x < width_px; x++, row += channels) {
+        unsigned luminance =
+            channels == 2 ? row[0] : (54u * row[0] + 183u * row[1] + 19u * row[2] + 128u) / 256u;
+        unsigned alpha = row[channels - 1];
+        gray[x] = (uint8_t)((luminance * alpha + 255u * (255u - alpha) + 127u) / 255u);
+    }
+}
+
+/* Everything that may jump; what it allocates is in source, so the caller frees it. */
+static int png_decode(png_structp png, png_infop info, struct png_source *source)
+{
+    if (setjmp(png_jmpbuf(png)))
+        return 0;
+    png_set_read_fn(png, source, source_read);
+    png_set_user_limits(png, DISPLAY_SIDE_MAX, DISPLAY_SIDE_MAX);
+    png_set_chunk_malloc_max(png, 1 << 24);
+    png_read_info(png, info);
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    int channels = png_get_channels(png, info);
+    source->image = (struct display_image){.width_px = (int)png_get_image_width(png, info),
+                                           .height_px = (int)png_get_image_height(png, info),
+                                           .channels = 1};
+    if (channels != 2 && channels != 4)
+        png_error(png, "unknown kind of pixels");
+    size_t height = (size_t)source->image.height_px, row_bytes = png_get_rowbytes(png, info);
+    if (display_image_create(&source->image) != DISPLAY_OK ||
+        !(source->rows = calloc(passes > 1 ? height : 1, row_bytes))) {
+        source->error = ENOMEM;
+        png_error(png, "no memory");
+    }
+    for (int pass = 0; pass < passes; pass++)
+        for (size_t y = 0; y < height; y++) {
+            uint8_t *row = source->rows + (passes > 1 ? y * row_bytes : 0);
+            png_read_row(png, row, NULL);
+            if (pass == passes - 1)
+                row_to_gray(row, channels, source->image.width_px,
+                            source->image.pixels + y * (size_t)source->image.width_px);
+        }
+    png_read_end(png, NULL);
+    return 1;
+}
+
+enum display_status display_png_read_gray(const char *path, struct display_image *image)
+{
+    *image = (struct display_image){0};
+    errno = 0;
+    struct png_source source = {.file = fopen(path, "rb")};
+    if (!source.file)
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot read: %s", path,
+                            strerror(errno ? errno : EIO));
+    png_structp png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, source_error, source_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    int decoded = 0;
+    if (info)
+        decoded = png_decode(png, info, &source);
+    else
+        source.error = ENOMEM;
+    png_destroy_read_struct(&png, &info, NULL);
+    free(source.rows);
+    fclose(source.file);
+    if (decoded) {
+        *image = source.image;
+        return DISPLAY_OK;
+    }
+    display_image_destroy(&source.image);
+    if (source.error)
+        return display_fail(source.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
+                            "%s: cannot read: %s", path, strerror(source.error));
+    return display_fail(DISPLAY_BAD_FILE, "%s: not a readable PNG: %s", path, source.message);
+}

@@ -1,0 +1,173 @@
+/* display_png_write.c - whole PNG files or none.
+ *
+ * libpng writes through png_write() below, which keeps the system's errno; the file is flushed, synchronised
+ * and closed, each checked, before it is renamed over the final name. A name that stands for a device or a pipe
+ * cannot be renamed over and is written to as it is. */
+#include "display_internal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct png_sink {
+    FILE *file;
+    int error; /* errno of the first write that failed */
+    char message[256];
+};
+
+static void sink_write(png_structp png, png_bytep bytes, size_t count)
+{
+    struct png_sink *sink = png_get_io_ptr(png);
+    if (fwrite(bytes, 1, count, sink->file) != count) {
+        sink->error = errno ? errno : EIO;
+        png_error(png, "write failed");
+    }
+}
+
+static void sink_flush(png_structp png)
+{
+    struct png_sink *sink = png_get_io_ptr(png);
+    if (fflush(sink->file) != 0 && !sink->error)
+        sink->error = errno ? errno : EIO;
+}
+
+_Noreturn static void sink_error(png_structp png, png_const_charp message)
+{
+    struct png_sink *sink = png_get_error_ptr(png);
+    snprintf(sink->message, sizeof sink->message, "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void sink_warning(png_structp png, png_const_charp message)
+{
+    (void)png;
+    (void)message; /* a file that could be written is fine */
+}
+
+/* Everything between signature and IEND; false with sink's error or message set. No local is changed after
+ * setjmp, so none needs to be volatile. */
+static int png_encode(struct png_sink *sink, const struct display_image *image)
+{
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, sink, sink_error, sink_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (!info) {
+        png_destroy_write_struct(&png, NULL);
+        sink->error = ENOMEM;
+        return 0;
+    }
+    if (setjmp(png_jmpbuf(png))) {
+        png_destroy_write_struct(&png, &info);
+        return 0;
+    }
+    png_set_write_fn(png, sink, sink_write, sink_flush);
+    png_set_IHDR(png, info, (png_uint_32)image->width_px, (png_uint_32)image->height_px, 8,
+                 image->channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    size_t row_bytes = (size_t)image->width_px * (size_t)image->channels;
+    for (int y = 0; y < image->height_px; y++)
+        png_write_row(png, image->pixels + (size_t)y * row_bytes);
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    return 1;
+}
+
+/* Opens a file beside path, its name in *temporary, or path itself (with *temporary NULL) if it is a device. */
+static FILE *sink_open(const char *path, char **temporary)
+{
+    struct stat status;
+    *temporary = NULL;
+    if (stat(path, &status) == 0) {
+        if (S_ISDIR(status.st_mode)) {
+            errno = EISDIR;
+            return NULL;
+        }
+        if (!S_ISREG(status.st_mode))
+            return fopen(path, "wb");
+    }
+    char *name;
+    if (asprintf(&name, "%s.%ld.part", path, (long)getpid()) < 0) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    int descriptor = open(name, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    if (!file) {
+        int error = errno;
+        if (descriptor >= 0) {
+            close(descriptor);
+            unlink(name);
+        }
+        free(name);
+        errno = error;
+        return NULL;
+    }
+    *temporary = name;
+    return file;
+}
+
+static const char *advice(int error)
+{
+    switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+        return "; free some space or write elsewhere";
+    case ENOENT:
+        return "; the folder must exist";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+        return "; choose a folder that you may write to";
+    case EISDIR:
+        return "; name a file in it";
+    default:
+        return "";
+    }
+}
+
+enum display_status display_png_write(const char *path, const struct display_image *image)
+{
+    if (!path || !image || !image->pixels || image->width_px < 1 || image->height_px < 1 ||
+        (image->channels != 1 && image->channels != 3))
+        return display_fail(DISPLAY_BAD_ARGUMENT, "%s: there is no image to write",
+                            path ? path : "(no file name)");
+
+    struct png_sink sink = {0};
+    char *temporary;
+    errno = 0;
+    sink.file = sink_open(path, &temporary);
+    if (!sink.file) {
+        int error = errno ? errno : EIO;
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s%s", path, strerror(error),
+                            advice(error));
+    }
+    errno = 0;
+    int encoded = png_encode(&sink, image);
+    if (fflush(sink.file) != 0 && !sink.error)
+        sink.error = errno ? errno : EIO;
+    if (temporary && !sink.error && fsync(fileno(sink.file)) != 0 && errno != EINVAL)
+        sink.error = errno;
+    if (fclose(sink.file) != 0 && !sink.error)
+        sink.error = errno ? errno : EIO;
+    if (encoded && !sink.error && temporary && rename(temporary, path) != 0)
+        sink.error = errno;
+    if (temporary && (!encoded || sink.error))
+        unlink(temporary);
+    free(temporary);
+    if (sink.error)
+        return display_fail(sink.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
+                            "%s: cannot write: %s%s", path, strerror(sink.error),
+                            advice(sink.error));
+    if (!encoded)
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", path, sink.message);
+    return DISPLAY_OK;
+}

@@ -1,0 +1,180 @@
+/* common.c - what verbs share: failures, Ctrl-C, the progress line, sheets to files. */
+#include "lutetia.h"
+
+#include <display.h>
+#include <paris_internal.h>
+
+#include <errno.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static int fail_as(int status, const char *verb, const char *format, va_list arguments)
+{
+    char text[1200];
+    vsnprintf(text, sizeof text, format, arguments);
+    for (char *c = text; *c; c++)
+        if (*c == '\n' || *c == '\r')
+            *c = ' '; /* one line, whatever a name or a build log holds */
+    fprintf(stderr, "lutetia%s%s: %s\n", verb ? " " : "", verb ? verb : "", text);
+    return status;
+}
+
+int fail(const char *verb, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int status = fail_as(EXIT_FAILED, verb, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+int fail_usage(const char *verb, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int status = fail_as(EXIT_USAGE, verb, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+static volatile sig_atomic_t interrupt_flag;
+
+static void interrupt_take(int signal_number)
+{
+    (void)signal_number;
+    interrupt_flag = 1;
+}
+
+void interrupt_catch(void)
+{
+    struct sigaction action = {.sa_handler = interrupt_take, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+bool interrupted(void)
+{
+    return interrupt_flag != 0;
+}
+
+double clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+struct progress progress_begin(const char *what, int total)
+{
+    double now = clock_s();
+    return (struct progress){what, total, isatty(STDERR_FILENO) != 0, now, 0};
+}
+
+void progress_show(struct progress *p, int done)
+{
+    enum { BAR = 32 };
+    double now = clock_s();
+    if (!p->shown || (now - p->drawn_s < 0.1 && done < p->total))
+        return;
+    p->drawn_s = now;
+    char bar[BAR + 1];
+    int filled = p->total > 0 ? (int)((long)BAR * done / p->total) : BAR;
+    memset(bar, '.', BAR);
+    memset(bar, '#', (size_t)filled);
+    bar[BAR] = '\0';
+    double passed = now - p->began_s;
+    fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s \033[K", p->what, bar, done, p->total,
+            passed > 0 ? done / passed : 0);
+    fflush(stderr);
+}
+
+void progress_end(struct progress *p)
+{
+    if (p->shown) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
+}
+
+/* Finds the memory of the device that the machine chose. */
+struct device_memory {
+    const char *device;
+    uint64_t bytes;
+};
+
+static void device_memory_take(void *context, int index, const char *platform, const char *device,
+                               const char *version, int compute_units, uint64_t memory_bytes)
+{
+    (void)index;
+    (void)platform;
+    (void)version;
+    (void)compute_units;
+    struct device_memory *memory = context;
+    if (memory->bytes == 0 && strstr(memory->device, device))
+        memory->bytes = memory_bytes;
+}
+
+int machine_prepare(const char *verb, int width, int height)
+{
+    if (!paris_reset(NULL))
+        return fail(verb, "%s", paris_error());
+    struct device_memory memory = {.device = machine_device_name(paris_machine())};
+    machine_devices_list(device_memory_take, &memory);
+    /* What is computed stands beside what it is computed from; the picture goes out as 4 bytes and 3. */
+    double bits = 2.0 * paper_bits_per_fiber(width, height) + 56;
+    double needed = bits / 8 * width * height;
+    if (memory.bytes && needed > (double)memory.bytes)
+        return fail(verb,
+                    "paper of %dx%d fibers needs %.1f GB and %s has %.1f GB; take smaller paper",
+                    width, height, needed * 1e-9, memory.device, (double)memory.bytes * 1e-9);
+    return EXIT_SUCCESS;
+}
+
+int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, const char *path)
+{
+    struct display_image image = {
+        .width_px = paper_width(sheet), .height_px = paper_height(sheet), .channels = 3};
+    if (display_image_create(&image) != DISPLAY_OK)
+        return fail(verb, "%s", display_error());
+    int status = EXIT_SUCCESS;
+    if (paper_view_read(sheet, view, image.pixels) != PAPER_OK)
+        status = fail(verb, "%s", paper_error());
+    else if (interrupted())
+        status = fail(verb, "interrupted; %s is as it was", path);
+    else if (display_png_write(path, &image) != DISPLAY_OK)
+        status = fail(verb, "%s", display_error());
+    display_image_destroy(&image);
+    return interrupted() ? EXIT_INTERRUPTED : status;
+}
+
+int folder_make(const char *verb, const char *path)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0)
+        return EXIT_SUCCESS;
+    if (errno != EEXIST)
+        return fail(verb, "%s: cannot make the folder: %s", path, strerror(errno));
+    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode))
+        return fail(verb, "%s: not a folder; name another", path);
+    if (access(path, W_OK) != 0)
+        return fail(verb, "%s: cannot write there: %s", path, strerror(errno));
+    return EXIT_SUCCESS;
+}
+
+const char *font_first(const char *const *names)
+{
+    for (int i = 0; names[i]; i++) {
+        char *path = paper_font_find(names[i]);
+        bool found = path != NULL;
+        free(path);
+        if (found)
+            return names[i];
+    }
+    return names[0];
+}

@@ -1,0 +1,32 @@
+/* demo_page.h - the demonstration page as a scene: what is put on the sheet when, and the weather.
+ *
+ *     struct demo_page *page;
+ *     if (demo_page_create(&page) != PAPER_OK)
+ *         die(paper_error());
+ *     struct paper_config config = demo_page_config();
+ *     paper_create(&config, &sheet);
+ *     demo_page_begin(page, sheet);
+ *     for (int step = 0; step < DEMO_STEPS; step++)
+ *         demo_page_step(page, sheet, step);
+ *     demo_page_destroy(page);
+ */
+#ifndef LUTETIA_DEMO_PAGE_H
+#define LUTETIA_DEMO_PAGE_H
+
+#include <paper.h>
+
+enum { DEMO_WIDTH = 1600, DEMO_HEIGHT = 1200, DEMO_STEPS = 900 };
+
+struct paper_config demo_page_config(void);
+
+struct demo_page;
+/* Sets the type. Errors: BAD_FONT where none of the page's fonts is installed, NO_MEMORY. */
+enum paper_status demo_page_create(struct demo_page **out);
+void demo_page_destroy(struct demo_page *page); /* NULL is fine */
+
+/* The dry letters, and the marsh. Errors: as paper_screen_ink(). */
+enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet);
+/* One cycle of time, with what is put on before it. Errors: as paper_screen_ink() and paper_disperse(). */
+enum paper_status demo_page_step(struct demo_page *page, struct paper *sheet, int step);
+
+#endif

@@ -1,0 +1,58 @@
+/* main.c - the verbs. */
+#include "lutetia.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *arguments, *help;
+} verbs[] = {
+    {"paint", verb_paint, "\"Text\" [-o out.png]", "set type or a bitmap in ink on wet paper"},
+    {"demo", verb_demo, "[-o DIR]", "paint the demonstration page"},
+    {"cc", verb_cc, "prog.c... [-o prog]", "compile a C/Paris program"},
+    {"bench", verb_bench, "NAME [options]", "measure"},
+    {"info", verb_info, "", "versions, devices, folders, and what a fiber takes"},
+};
+
+enum { VERBS_COUNT = sizeof verbs / sizeof *verbs };
+
+static void help(FILE *out)
+{
+    fputs("usage: lutetia VERB ...\n\n", out);
+    for (int i = 0; i < VERBS_COUNT; i++) {
+        char left[64];
+        snprintf(left, sizeof left, "%s %s", verbs[i].name, verbs[i].arguments);
+        fprintf(out, "  %-28s %s\n", left, verbs[i].help);
+    }
+    fputs("\n`lutetia VERB --help` says more.  LUTETIA_DEVICE chooses a device (part of its name, or "
+          "its number);\nLUTETIA_EAGER=1 computes each instruction at once.\n",
+          out);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        help(stderr);
+        return EXIT_USAGE;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        puts("lutetia " LUTETIA_VERSION);
+        return EXIT_SUCCESS;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+        help(stdout);
+        return EXIT_SUCCESS;
+    }
+    for (int i = 0; i < VERBS_COUNT; i++) {
+        if (strcmp(argv[1], verbs[i].name) != 0)
+            continue;
+        int status = verbs[i].run(argc - 1, argv + 1);
+        if (fflush(stdout) != 0 && status == EXIT_SUCCESS)
+            status = fail(verbs[i].name, "cannot write to the standard output");
+        return status;
+    }
+    return fail_usage(NULL, "there is no verb '%.60s'; `lutetia --help` lists them", argv[1]);
+}

@@ -1,0 +1,59 @@
+/* options.h - command-line options as rows of a table.
+ *
+ *     int steps = 200;
+ *     const struct option_row rows[] = {
+ *         {"steps", 0, OPTION_INTEGER, "N", "cycles to compute", &steps, 0, 1e6, 0},
+ *         {0}};
+ *     struct option_words words;
+ *     if (!options_parse("paint", rows, argc, argv, &words))
+ *         return EXIT_USAGE;
+ *
+ * Options are `--name value`, `--name=value` or `-o value`; `--` ends them; all else is a word.
+ */
+#ifndef LUTETIA_OPTIONS_H
+#define LUTETIA_OPTIONS_H
+
+#include <stdbool.h>
+
+enum option_kind {
+    OPTION_FLAG,    /* bool */
+    OPTION_TEXT,    /* const char *; what argv holds, not empty */
+    OPTION_INTEGER, /* int within least..most */
+    OPTION_NUMBER,  /* double within least..most; NaN and infinity are not */
+    OPTION_NUMBERS, /* double[count], separated by commas, each within least..most */
+    OPTION_SIZE,    /* int[2]: WxH, each within least..most */
+    OPTION_LIST     /* struct option_list: NUMBERS as often as wanted */
+};
+
+enum { OPTION_LIST_MAX = 64, OPTION_NUMBERS_MAX = 8, OPTION_WORDS_MAX = 64 };
+
+struct option_list {
+    double numbers[OPTION_LIST_MAX][OPTION_NUMBERS_MAX];
+    int count;
+};
+
+struct option_row {
+    const char *name;  /* without the dashes; NULL ends the table */
+    char letter;       /* of the short form, or 0 */
+    enum option_kind kind;
+    const char *value; /* what the help calls it */
+    const char *help;
+    void *target;
+    double least, most;
+    int count; /* of OPTION_NUMBERS and OPTION_LIST */
+};
+
+struct option_words {
+    const char *words[OPTION_WORDS_MAX];
+    int count;
+    bool help; /* --help or -h was there: nothing else has been looked at */
+};
+
+/* Fills the targets. False: it has said, in one line, what is wrong. */
+bool options_parse(const char *verb, const struct option_row *rows, int argc, char **argv,
+                   struct option_words *words);
+
+/* One line for each option, on the standard output. */
+void options_help(const struct option_row *rows);
+
+#endif

@@ -1,0 +1,34 @@
+/* verb_bench.c - `lutetia bench NAME`: hands the rest of the line to that benchmark. */
+#include "lutetia.h"
+
+#include <bench.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *help;
+} benches[] = {
+    {"diffusion", bench_diffusion_main, "the thesis's cycle through the machine, beside its limits"},
+};
+
+enum { BENCHES_COUNT = sizeof benches / sizeof *benches };
+
+int verb_bench(int argc, char **argv)
+{
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        FILE *out = argc < 2 ? stderr : stdout;
+        fputs("usage: lutetia bench NAME [options]\n\n", out);
+        for (int i = 0; i < BENCHES_COUNT; i++)
+            fprintf(out, "  %-12s %s\n", benches[i].name, benches[i].help);
+        return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
+    }
+    for (int i = 0; i < BENCHES_COUNT; i++)
+        if (strcmp(argv[1], benches[i].name) == 0)
+            return benches[i].run(argc - 1, argv + 1);
+    return fail_usage("bench", "there is no benchmark '%.60s'; `lutetia bench --help` lists them",
+                      argv[1]);
+}

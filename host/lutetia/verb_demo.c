@@ -1,0 +1,143 @@
+/* verb_demo.c - `lutetia demo`: paints the demonstration page, with a strip of its stages and a view of its water. */
+#include "demo_page.h"
+#include "lutetia.h"
+#include "options.h"
+
+#include <display.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The strip: a piece of the page at so many moments, side by side. */
+enum { STAGES = 5, STAGE_X = 420, STAGE_Y = 380, STAGE_WIDTH = 390, STAGE_HEIGHT = 520, STAGE_GAP = 12 };
+
+struct demo {
+    const char *dir;
+    struct paper *sheet;
+    struct demo_page *page;
+    struct display_image strip, view;
+    int stages_count;
+};
+
+static int stage_step(int stage)
+{
+    return DEMO_STEPS * stage / (STAGES - 1);
+}
+
+static int stage_take(struct demo *demo)
+{
+    if (paper_view_read(demo->sheet, PAPER_VIEW_COLOR, demo->view.pixels) != PAPER_OK)
+        return fail("demo", "%s", paper_error());
+    size_t strip_row = 3 * (size_t)demo->strip.width_px, page_row = 3 * (size_t)DEMO_WIDTH;
+    size_t left = 3 * (size_t)(demo->stages_count * (STAGE_WIDTH + STAGE_GAP));
+    for (size_t y = 0; y < STAGE_HEIGHT; y++)
+        memcpy(demo->strip.pixels + y * strip_row + left,
+               demo->view.pixels + (STAGE_Y + y) * page_row + 3 * STAGE_X, 3 * STAGE_WIDTH);
+    demo->stages_count++;
+    return EXIT_SUCCESS;
+}
+
+static int demo_run(struct demo *demo)
+{
+    if (demo_page_begin(demo->page, demo->sheet) != PAPER_OK)
+        return fail("demo", "%s", paper_error());
+    int status = EXIT_SUCCESS;
+    struct progress progress = progress_begin("painting", DEMO_STEPS);
+    for (int step = 0; step <= DEMO_STEPS && status == EXIT_SUCCESS && !interrupted(); step++) {
+        if (step == stage_step(demo->stages_count))
+            status = stage_take(demo);
+        if (step == DEMO_STEPS || status != EXIT_SUCCESS)
+            break;
+        if (demo_page_step(demo->page, demo->sheet, step) != PAPER_OK ||
+            ((step + 1) % STEPS_AT_ONCE == 0 && paper_finish(demo->sheet) != PAPER_OK))
+            status = fail("demo", "%s", paper_error());
+        if ((step + 1) % STEPS_AT_ONCE == 0)
+            progress_show(&progress, step + 1);
+    }
+    progress_end(&progress);
+    if (interrupted()) {
+        fail("demo", "interrupted; the pictures in %s are as they were", demo->dir);
+        return EXIT_INTERRUPTED;
+    }
+    return status;
+}
+
+static int demo_write(struct demo *demo)
+{
+    static const char *const names[] = {"page.png", "stages.png", "water.png"};
+    int status = EXIT_SUCCESS;
+    for (int i = 0; i < 3 && status == EXIT_SUCCESS; i++) {
+        char path[4096];
+        int length = snprintf(path, sizeof path, "%s/%s", demo->dir, names[i]);
+        if (length < 0 || (size_t)length >= sizeof path)
+            return fail("demo", "the folder's name is too long");
+        if (i == 1)
+            status = display_png_write(path, &demo->strip) == DISPLAY_OK
+                         ? EXIT_SUCCESS
+                         : fail("demo", "%s", display_error());
+        else
+            status = sheet_write("demo", demo->sheet, i == 0 ? PAPER_VIEW_COLOR : PAPER_VIEW_WATER, path);
+        if (status == EXIT_SUCCESS)
+            printf("%s\n", path);
+    }
+    return status;
+}
+
+static int demo_prepare(struct demo *demo)
+{
+    demo->strip = (struct display_image){.width_px = STAGES * (STAGE_WIDTH + STAGE_GAP) - STAGE_GAP,
+                                         .height_px = STAGE_HEIGHT,
+                                         .channels = 3};
+    demo->view = (struct display_image){.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT, .channels = 3};
+    if (display_image_create(&demo->strip) != DISPLAY_OK || display_image_create(&demo->view) != DISPLAY_OK)
+        return fail("demo", "%s", display_error());
+    memset(demo->strip.pixels, 255, 3 * (size_t)demo->strip.width_px * STAGE_HEIGHT);
+    int status = folder_make("demo", demo->dir);
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (demo_page_create(&demo->page) != PAPER_OK)
+        return fail("demo", "%s", paper_error());
+    status = machine_prepare("demo", DEMO_WIDTH, DEMO_HEIGHT);
+    if (status != EXIT_SUCCESS)
+        return status;
+    struct paper_config config = demo_page_config();
+    if (paper_create(&config, &demo->sheet) != PAPER_OK)
+        return fail("demo", "%s", paper_error());
+    return EXIT_SUCCESS;
+}
+
+int verb_demo(int argc, char **argv)
+{
+    struct demo demo = {.dir = "demo"};
+    const struct option_row rows[] = {
+        {"out", 'o', OPTION_TEXT, "DIR", "where the pictures go (demo)", &demo.dir, 0, 0, 0}, {0}};
+    struct option_words words;
+    if (!options_parse("demo", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    if (words.help) {
+        puts("usage: lutetia demo [options]\n\nPaints the demonstration page: page.png, stages.png, "
+             "water.png.\n");
+        options_help(rows);
+        return EXIT_SUCCESS;
+    }
+    if (words.count)
+        return fail_usage("demo", "there is nothing to do with '%.60s'", words.words[0]);
+
+    double began_s = clock_s();
+    interrupt_catch();
+    int status = demo_prepare(&demo);
+    if (status == EXIT_SUCCESS)
+        status = demo_run(&demo);
+    double painted_s = clock_s();
+    if (status == EXIT_SUCCESS)
+        status = demo_write(&demo);
+    if (status == EXIT_SUCCESS)
+        printf("%dx%d fibers, %d cycles: painted in %.1f s, written in %.1f s\n", DEMO_WIDTH, DEMO_HEIGHT,
+               DEMO_STEPS, painted_s - began_s, clock_s() - painted_s);
+    paper_destroy(demo.sheet);
+    demo_page_destroy(demo.page);
+    display_image_destroy(&demo.strip);
+    display_image_destroy(&demo.view);
+    return status;
+}

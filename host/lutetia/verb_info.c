@@ -1,0 +1,69 @@
+/* verb_info.c - `lutetia info`: what there is here. */
+#include "lutetia.h"
+#include "options.h"
+
+#include <paris_internal.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void device_print(void *context, int index, const char *platform, const char *device,
+                         const char *version, int compute_units, uint64_t memory_bytes)
+{
+    (void)context;
+    printf("  %d: %s\n     %s, %s; %d compute units, %.1f GB\n", index, device, platform, version,
+           compute_units, (double)memory_bytes * 1e-9);
+}
+
+static void cache_print(void)
+{
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    if (cache && *cache)
+        printf("kernel cache: %s/lutetia\n", cache);
+    else if (home && *home)
+        printf("kernel cache: %s/.cache/lutetia\n", home);
+    else
+        puts("kernel cache: in memory only (neither XDG_CACHE_HOME nor HOME is set)");
+}
+
+static void fields_print(int width, int height)
+{
+    const char *name;
+    int bits;
+    printf("a fiber of %dx%d paper takes %d bits:\n", width, height,
+           paper_bits_per_fiber(width, height));
+    for (int i = 0; paper_field_describe(width, height, i, &name, &bits); i++)
+        printf("  %3d  %s\n", bits, name);
+}
+
+int verb_info(int argc, char **argv)
+{
+    int size[2] = {1024, 1024};
+    const struct option_row rows[] = {
+        {"paper", 0, OPTION_SIZE, "WxH", "whose fibers to describe (1024x1024)", size, PAPER_SIDE_MIN,
+         PAPER_SIDE_MAX, 0},
+        {0}};
+    struct option_words words;
+    if (!options_parse("info", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    if (words.help) {
+        puts("usage: lutetia info [options]\n");
+        options_help(rows);
+        return EXIT_SUCCESS;
+    }
+    if (words.count)
+        return fail_usage("info", "there is nothing to say about '%.60s'", words.words[0]);
+
+    puts("lutetia " LUTETIA_VERSION);
+    puts("OpenCL devices:");
+    if (machine_devices_list(device_print, NULL) <= 0)
+        puts("  none");
+    fields_print(size[0], size[1]);
+    cache_print();
+    if (!paris_reset(NULL))
+        return fail("info", "%s", paris_error());
+    printf("chosen: %s, %d physical processors\n", machine_device_name(paris_machine()),
+           machine_processors_count(paris_machine()));
+    return EXIT_SUCCESS;
+}

@@ -1,0 +1,483 @@
+/* device.c - OpenCL: which device, buffers, programs.
+ *
+ * Buffers. Versions of values come and go at every step, so released buffers are kept in a pool by size. The queue is
+ * in order: a buffer may be used again as soon as nobody refers to it. Arrays that begin at the same offset
+ * from a page disturb each other in the caches (1.5 to 2 times slower sweeps over large sheets), so each begins
+ * at another multiple of 128 bytes, as a sub-buffer.
+ *
+ * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file in
+ * $XDG_CACHE_HOME/lutetia named by a hash of text, options, device and driver, and compared as a whole. */
+#include "internal.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PROGRAMS_SIZE = 1024, SKEW_BYTES = 128, SKEWS = 61, POOL_BYTES_MAX = 1 << 30 };
+
+struct program_entry {
+    char *key; /* options, then text */
+    cl_program program;
+    cl_kernel kernel;
+    struct program_entry *next;
+};
+
+static const struct {
+    cl_int code;
+    const char *name;
+} error_names[] = {
+    {CL_DEVICE_NOT_FOUND, "no such device"},
+    {CL_DEVICE_NOT_AVAILABLE, "the device is not available"},
+    {CL_COMPILER_NOT_AVAILABLE, "there is no compiler"},
+    {CL_MEM_OBJECT_ALLOCATION_FAILURE, "not enough device memory"},
+    {CL_OUT_OF_RESOURCES, "out of resources"},
+    {CL_OUT_OF_HOST_MEMORY, "not enough memory"},
+    {CL_BUILD_PROGRAM_FAILURE, "a kernel did not compile"},
+    {CL_INVALID_VALUE, "invalid value"},
+    {CL_INVALID_BUFFER_SIZE, "the buffer is too large"},
+    {CL_INVALID_KERNEL_ARGS, "invalid kernel arguments"},
+    {CL_INVALID_WORK_GROUP_SIZE, "invalid work-group size"},
+    {-1001, "no OpenCL platform is installed (Debian: apt-get install pocl-opencl-icd)"},
+};
+
+static const char *error_name(cl_int error)
+{
+    for (size_t i = 0; i < sizeof error_names / sizeof *error_names; i++)
+        if (error_names[i].code == error)
+            return error_names[i].name;
+    return "error";
+}
+
+enum machine_status device_check(struct machine *m, cl_int error, const char *what)
+{
+    if (error == CL_SUCCESS)
+        return MACHINE_OK;
+    bool memory = error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY ||
+                  error == CL_INVALID_BUFFER_SIZE;
+    return machine_fail(m, memory ? MACHINE_NO_MEMORY : MACHINE_DEVICE_FAILED, "%s: %s (OpenCL error %d on %s)", what,
+                        error_name(error), error, m->device.name);
+}
+
+/* ---- choice ---- */
+
+enum { DEVICES_MAX = 64 };
+struct candidate {
+    cl_platform_id platform;
+    cl_device_id device;
+    char platform_name[128], name[256], version[128];
+};
+
+static int find_devices(struct candidate *out)
+{
+    cl_platform_id platforms[16];
+    cl_uint platforms_count = 0;
+    if (clGetPlatformIDs(16, platforms, &platforms_count) != CL_SUCCESS)
+        return 0;
+    if (platforms_count > 16)
+        platforms_count = 16;
+    int count = 0;
+    for (cl_uint p = 0; p < platforms_count; p++) {
+        cl_device_id devices[DEVICES_MAX];
+        cl_uint devices_count = 0;
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices, &devices_count) != CL_SUCCESS)
+            continue;
+        for (cl_uint d = 0; d < devices_count && d < DEVICES_MAX && count < DEVICES_MAX; d++) {
+            struct candidate *c = &out[count++];
+            memset(c, 0, sizeof *c);
+            c->platform = platforms[p];
+            c->device = devices[d];
+            clGetPlatformInfo(c->platform, CL_PLATFORM_NAME, sizeof c->platform_name - 1, c->platform_name, NULL);
+            clGetDeviceInfo(c->device, CL_DEVICE_NAME, sizeof c->name - 1, c->name, NULL);
+            clGetDeviceInfo(c->device, CL_DEVICE_VERSION, sizeof c->version - 1, c->version, NULL);
+        }
+    }
+    return count;
+}
+
+int machine_devices_list(void (*each)(void *context, int index, const char *platform, const char *device,
+                                      const char *version, int compute_units, uint64_t memory_bytes),
+                         void *context)
+{
+    struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
+    if (!all)
+        return 0;
+    int count = find_devices(all);
+    for (int i = 0; i < count; i++) {
+        cl_uint units = 0;
+        cl_ulong memory = 0;
+        clGetDeviceInfo(all[i].device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+        clGetDeviceInfo(all[i].device, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+        each(context, i, all[i].platform_name, all[i].name, all[i].version, (int)units, memory);
+    }
+    free(all);
+    return count;
+}
+
+static int choose(const struct candidate *all, int count, const char *choice)
+{
+    if (!choice)
+        return count ? 0 : -1;
+    char *end;
+    long index = strtol(choice, &end, 10);
+    if (!*end)
+        return index >= 0 && index < count ? (int)index : -1;
+    for (int i = 0; i < count; i++)
+        if (strcasestr(all[i].name, choice) || strcasestr(all[i].platform_name, choice))
+            return i;
+    return -1;
+}
+
+/* What generated code should look like there. Costs measured with PoCL on two cores with AVX-512: see
+ * docs/engine.md. */
+static struct device_shape shape_of(const struct device *d)
+{
+    if (!d->is_cpu)
+        return (struct device_shape){.vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
+    cl_uint width = 0;
+    clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
+    const char *forced = getenv("LUTETIA_VECTOR");
+    if (forced && *forced)
+        width = (cl_uint)strtoul(forced, NULL, 10);
+    int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
+    return (struct device_shape){
+        .vector = vector, .halo = vector > 1 ? vector : 0, .op_ns = 0.064 / vector, .byte_ns = 0.022, .launch_ns = 3000};
+}
+
+enum machine_status device_open(struct machine *m, const char *choice)
+{
+    struct device *d = &m->device;
+    struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
+    if (!all)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
+    int count = find_devices(all), chosen = choose(all, count, choice);
+    if (chosen < 0) {
+        enum machine_status status =
+            count == 0 ? machine_fail(m, MACHINE_NO_DEVICE,
+                                      "no OpenCL device was found: install one (Debian: apt-get install "
+                                      "pocl-opencl-icd)")
+                       : machine_fail(m, MACHINE_NO_DEVICE,
+                                      "no OpenCL device is called \"%s\": `lutetia info` lists the %d there are",
+                                      choice, count);
+        free(all);
+        return status;
+    }
+    d->platform = all[chosen].platform;
+    d->id = all[chosen].device;
+    snprintf(d->name, sizeof d->name, "%s", all[chosen].name);
+    snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
+    free(all);
+    cl_device_type type = 0;
+    cl_ulong memory = 0, max_alloc = 0;
+    cl_device_fp_config doubles = 0, singles = 0;
+    clGetDeviceInfo(d->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_alloc, &max_alloc, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof singles, &singles, NULL);
+    clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
+    d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
+    d->memory_max_alloc_bytes = max_alloc;
+    if (!doubles)
+        return machine_fail(m, MACHINE_NO_DEVICE, "%s has no double precision, which the machine needs", d->name);
+    d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? "-cl-fp32-correctly-rounded-divide-sqrt" : "";
+    d->shape = shape_of(d);
+    cl_int error;
+    d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
+    if (error)
+        return device_check(m, error, "a context cannot be made");
+    m->device_open = true;
+    d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
+    if (error)
+        return device_check(m, error, "a command queue cannot be made");
+    d->programs = calloc(PROGRAMS_SIZE, sizeof *d->programs);
+    return d->programs ? MACHINE_OK : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
+}
+
+static void pool_empty(struct device *d)
+{
+    for (int i = 0; i < d->pool_count; i++) {
+        clReleaseMemObject(d->pool[i]->mem);
+        free(d->pool[i]);
+    }
+    d->pool_count = 0;
+    d->pool_bytes = 0;
+}
+
+void device_close(struct machine *m)
+{
+    struct device *d = &m->device;
+    if (d->queue)
+        clFinish(d->queue);
+    pool_empty(d);
+    free(d->pool);
+    if (d->programs)
+        for (int i = 0; i < PROGRAMS_SIZE; i++)
+            for (struct program_entry *p = d->programs[i].next, *next; p; p = next) {
+                next = p->next;
+                clReleaseKernel(p->kernel);
+                clReleaseProgram(p->program);
+                free(p->key);
+                free(p);
+            }
+    free(d->programs);
+    if (d->queue)
+        clReleaseCommandQueue(d->queue);
+    if (d->context)
+        clReleaseContext(d->context);
+}
+
+/* ---- buffers ---- */
+
+struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
+{
+    struct device *d = &m->device;
+    static unsigned skew;
+    for (int i = d->pool_count - 1; i >= 0; i--)
+        if (d->pool[i]->bytes == bytes) {
+            struct device_buffer *b = d->pool[i];
+            d->pool[i] = d->pool[--d->pool_count];
+            d->pool_bytes -= bytes;
+            d->held_bytes += bytes;
+            b->refs = 1;
+            return b;
+        }
+    size_t whole = bytes + SKEW_BYTES * SKEWS;
+    if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
+        pool_empty(d);
+        machine_fail(m, MACHINE_NO_MEMORY,
+                     "%.1f MB more for one field do not fit in the memory of %s (%.0f MB, %.0f in use)",
+                     1e-6 * (double)whole, d->name, 1e-6 * (double)d->memory_bytes, 1e-6 * (double)d->held_bytes);
+        return NULL;
+    }
+    struct device_buffer *b = calloc(1, sizeof *b);
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    cl_mem parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
+    if (error && d->pool_count) {
+        clFinish(d->queue);
+        pool_empty(d);
+        parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
+    }
+    if (!error) {
+        cl_buffer_region region = {.origin = SKEW_BYTES * (skew++ % SKEWS), .size = bytes};
+        b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &error);
+        if (error) { /* an alignment that the device does not like */
+            region.origin = 0;
+            b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &error);
+        }
+        clReleaseMemObject(parent); /* lives as long as the part of it does */
+    }
+    if (error) {
+        free(b);
+        device_check(m, error, "memory for a field");
+        return NULL;
+    }
+    b->bytes = bytes;
+    b->refs = 1;
+    d->held_bytes += bytes;
+    return b;
+}
+
+void device_buffer_ref(struct device_buffer *b)
+{
+    b->refs++;
+}
+
+void device_buffer_unref(struct machine *m, struct device_buffer *b)
+{
+    struct device *d = &m->device;
+    if (--b->refs)
+        return;
+    d->held_bytes -= b->bytes;
+    if (d->pool_count == d->pool_capacity) {
+        int capacity = d->pool_capacity ? 2 * d->pool_capacity : 64;
+        struct device_buffer **pool = realloc(d->pool, (size_t)capacity * sizeof *pool);
+        if (pool) {
+            d->pool = pool;
+            d->pool_capacity = capacity;
+        }
+    }
+    if (d->pool_count == d->pool_capacity || d->pool_bytes + b->bytes > POOL_BYTES_MAX) {
+        clReleaseMemObject(b->mem);
+        free(b);
+        return;
+    }
+    d->pool[d->pool_count++] = b;
+    d->pool_bytes += b->bytes;
+}
+
+/* ---- programs ---- */
+
+static uint64_t hash_text(uint64_t h, const char *s)
+{
+    for (; *s; s++)
+        h = (h ^ (unsigned char)*s) * 0x100000001b3u;
+    return (h ^ 0xff) * 0x100000001b3u;
+}
+
+static bool cache_path(char *out, size_t size, const struct device *d, const char *key)
+{
+    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char folder[512];
+    int n = -1;
+    if (base && *base == '/')
+        n = snprintf(folder, sizeof folder, "%s/lutetia", base);
+    else if (home && *home == '/')
+        n = snprintf(folder, sizeof folder, "%s/.cache/lutetia", home);
+    if (n < 0 || (size_t)n >= sizeof folder)
+        return false;
+    for (char *slash = folder + 1; (slash = strchr(slash, '/')); slash++) {
+        *slash = 0;
+        mkdir(folder, 0700);
+        *slash = '/';
+    }
+    mkdir(folder, 0700);
+    uint64_t a = hash_text(hash_text(hash_text(0xcbf29ce484222325u, key), d->name), d->driver);
+    uint64_t b = hash_text(hash_text(hash_text(0x84222325cbf29ce4u, d->platform_name), key), d->driver);
+    n = snprintf(out, size, "%s/%016llx%016llx.bin", folder, (unsigned long long)a, (unsigned long long)b);
+    return n > 0 && (size_t)n < size;
+}
+
+/* File: length of the key, the key (driver and device in front), the binary. */
+static char *whole_key(const struct device *d, const char *key)
+{
+    size_t size = strlen(d->name) + strlen(d->driver) + strlen(key) + 3;
+    char *whole = malloc(size);
+    if (whole)
+        snprintf(whole, size, "%s\n%s\n%s", d->name, d->driver, key);
+    return whole;
+}
+
+static unsigned char *cache_read(const char *path, const char *key, size_t *size)
+{
+    FILE *f = fopen(path, "rb");
+    if (!f)
+        return NULL;
+    unsigned char *binary = NULL;
+    uint64_t length[2];
+    size_t key_length = strlen(key);
+    char *read_key = malloc(key_length + 1);
+    if (read_key && fread(length, sizeof length, 1, f) == 1 && length[0] == key_length && length[1] > 0 &&
+        length[1] < (64u << 20) && fread(read_key, 1, key_length, f) == key_length &&
+        !memcmp(read_key, key, key_length)) {
+        *size = (size_t)length[1];
+        binary = malloc(*size);
+        if (binary && fread(binary, 1, *size, f) != *size) {
+            free(binary);
+            binary = NULL;
+        }
+    }
+    free(read_key);
+    fclose(f);
+    return binary;
+}
+
+static void cache_write(const char *path, const char *key, cl_program program)
+{
+    size_t size = 0;
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) || !size)
+        return;
+    unsigned char *binary = malloc(size);
+    char temporary[600];
+    snprintf(temporary, sizeof temporary, "%.560s.%ld", path, (long)getpid());
+    FILE *f = binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
+                  ? fopen(temporary, "wb")
+                  : NULL;
+    if (f) {
+        uint64_t length[2] = {strlen(key), size};
+        bool good = fwrite(length, sizeof length, 1, f) == 1 && fwrite(key, 1, length[0], f) == length[0] &&
+                    fwrite(binary, 1, size, f) == size;
+        good = fclose(f) == 0 && good;
+        if (!good || rename(temporary, path))
+            unlink(temporary);
+    }
+    free(binary);
+}
+
+static cl_program build(struct machine *m, const char *const parts[3], const char *options, const char *key)
+{
+    struct device *d = &m->device;
+    char path[700];
+    char *whole = whole_key(d, key);
+    bool cached = whole && cache_path(path, sizeof path, d, key);
+    size_t size = 0;
+    unsigned char *binary = cached ? cache_read(path, whole, &size) : NULL;
+    cl_int error = CL_SUCCESS, status = CL_SUCCESS;
+    cl_program program = NULL;
+    if (binary) {
+        const unsigned char *data = binary;
+        program = clCreateProgramWithBinary(d->context, 1, &d->id, &size, &data, &status, &error);
+        free(binary);
+        if (!error && !status && clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
+            free(whole);
+            return program;
+        }
+        if (program)
+            clReleaseProgram(program);
+    }
+    const char *sources[3] = {parts[0], parts[1], parts[2]};
+    program = clCreateProgramWithSource(d->context, 3, sources, NULL, &error);
+    if (error) {
+        device_check(m, error, "a program cannot be made");
+        free(whole);
+        return NULL;
+    }
+    error = clBuildProgram(program, 1, &d->id, options, NULL, NULL);
+    if (error) {
+        char log[900] = "";
+        clGetProgramBuildInfo(program, d->id, CL_PROGRAM_BUILD_LOG, sizeof log - 1, log, NULL);
+        for (char *c = log; *c; c++)
+            if (*c == '\n')
+                *c = ' ';
+        machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s", d->name, error, log);
+        if (getenv("LUTETIA_DUMP"))
+            fprintf(stderr, "%s\n%s\n", options, parts[2]);
+        clReleaseProgram(program);
+        free(whole);
+        return NULL;
+    }
+    if (cached)
+        cache_write(path, whole, program);
+    free(whole);
+    return program;
+}
+
+cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options, const char *name)
+{
+    struct device *d = &m->device;
+    char all_options[256];
+    snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
+    size_t size = strlen(all_options) + strlen(name) + strlen(parts[2]) + 64;
+    char *key = malloc(size);
+    if (!key) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
+        return NULL;
+    }
+    uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
+    snprintf(key, size, "%s\n%s %llx\n%s", all_options, name, (unsigned long long)library, parts[2]);
+    struct program_entry *bucket = &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
+    for (struct program_entry *p = bucket->next; p; p = p->next)
+        if (!strcmp(p->key, key)) {
+            free(key);
+            return p->kernel;
+        }
+    struct program_entry *entry = calloc(1, sizeof *entry);
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    if (entry && (entry->program = build(m, parts, all_options, key))) {
+        entry->kernel = clCreateKernel(entry->program, name, &error);
+        if (!error) {
+            entry->key = key;
+            entry->next = bucket->next;
+            bucket->next = entry;
+            d->kernels_built++;
+            return entry->kernel;
+        }
+        device_check(m, error, "a kernel cannot be made");
+        clReleaseProgram(entry->program);
+    }
+    free(entry);
+    free(key);
+    return NULL;
+}

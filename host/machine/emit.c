@@ -1,0 +1,827 @@
+/* emit.c - the text of one kernel.
+ *
+ * The text follows from the graph alone: numbers are arguments, lengths of axes too. Each (node, offset) is
+ * one variable; offsets along the last axis are columns, along the others another row. The shape is
+ *
+ *     row = get_global_id(1); rows at other offsets; a pointer for each array and row
+ *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
+ *         variables, stores
+ *
+ * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of this kind); with
+ * VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants. */
+#include "internal.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct text {
+    char *data;
+    size_t length, capacity;
+    bool failed;
+};
+
+__attribute__((format(printf, 2, 3))) static void put(struct text *t, const char *format, ...)
+{
+    for (;;) {
+        va_list arguments;
+        va_start(arguments, format);
+        size_t room = t->capacity - t->length;
+        int n = t->data ? vsnprintf(t->data + t->length, room, format, arguments) : -1;
+        va_end(arguments);
+        if (t->data && n >= 0 && (size_t)n < room) {
+            t->length += (size_t)n;
+            return;
+        }
+        size_t capacity = t->capacity ? 2 * t->capacity : 8192;
+        char *data = realloc(t->data, capacity);
+        if (!data) {
+            t->failed = true;
+            return;
+        }
+        t->data = data;
+        t->capacity = capacity;
+    }
+}
+
+struct variable {
+    int32_t node, row, dx;
+    bool canonical;
+    int name;
+    uint32_t next; /* in its chain, + 1 */
+};
+
+struct row_offset {
+    int d[MACHINE_AXES_MAX]; /* the last axis is always 0 here */
+};
+
+struct pointer {
+    int node, row;
+};
+
+struct emitter {
+    const struct plan_graph *g;
+    const struct vpset *set;
+    int stage;
+    struct text body, rows, pointers, constants;
+    struct variable *variables;
+    uint32_t variables_count, variables_capacity, chains[1024];
+    struct row_offset *row_offsets;
+    int rows_count, rows_capacity;
+    struct pointer *seen_pointers;
+    int pointers_count, pointers_capacity;
+    int *input_number, *constant_number; /* of a node: + 1 */
+    struct kernel_argument *arguments;
+    int arguments_count, arguments_capacity;
+    int inputs, constants_count, names;
+    int reach; /* furthest column */
+    bool wide, axes_used, failed;
+    int ops, loads;
+};
+
+static const char *container(struct machine_type t)
+{
+    if (t.kind == MACHINE_FLOAT)
+        return t.width == 32 ? "VF" : "VD";
+    return t.width == 1 ? "VI" : t.width <= 32 ? "VU" : t.width <= 64 ? "VL" : "VQ";
+}
+
+static char letter(struct machine_type t)
+{
+    return container(t)[1];
+}
+
+static const char *memory_kind(struct machine_type t)
+{
+    if (t.kind == MACHINE_FLOAT)
+        return t.width == 32 ? "f32" : "f64";
+    return t.width == 1    ? "bit"
+           : t.width <= 8  ? "u8"
+           : t.width <= 16 ? "u16"
+           : t.width <= 32 ? "u32"
+           : t.width <= 64 ? "u64"
+                           : "u128";
+}
+
+static const char *memory_type(struct machine_type t)
+{
+    if (t.kind == MACHINE_FLOAT)
+        return t.width == 32 ? "float" : "double";
+    return t.width <= 8 ? "uchar" : t.width <= 16 ? "ushort" : t.width <= 32 ? "uint" : "ulong";
+}
+
+static void *more(struct emitter *e, void *old, int *capacity, size_t size)
+{
+    int wanted = *capacity ? 2 * *capacity : 64;
+    void *new = realloc(old, (size_t)wanted * size);
+    if (!new) {
+        e->failed = true;
+        return old;
+    }
+    *capacity = wanted;
+    return new;
+}
+
+static int add_argument(struct emitter *e, int kind, int node, int size)
+{
+    if (e->arguments_count == e->arguments_capacity)
+        e->arguments = more(e, e->arguments, &e->arguments_capacity, sizeof *e->arguments);
+    if (e->failed)
+        return 0;
+    e->arguments[e->arguments_count] =
+        (struct kernel_argument){.kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
+    return e->arguments_count++;
+}
+
+/* ---- rows and pointers ---- */
+
+static int row_moved(struct emitter *e, int from, int axis, int distance)
+{
+    struct row_offset wanted = e->row_offsets[from];
+    int length = e->set->dimensions[axis];
+    wanted.d[axis] = (wanted.d[axis] + distance) % length;
+    for (int i = 0; i < e->rows_count; i++)
+        if (!memcmp(&e->row_offsets[i], &wanted, sizeof wanted))
+            return i;
+    if (e->rows_count == e->rows_capacity)
+        e->row_offsets = more(e, e->row_offsets, &e->rows_capacity, sizeof *e->row_offsets);
+    if (e->failed)
+        return 0;
+    e->row_offsets[e->rows_count] = wanted;
+    put(&e->rows, "    const int r%d = row", e->rows_count);
+    for (int a = 0; a < e->set->rank - 1; a++)
+        if (wanted.d[a])
+            put(&e->rows, " + (wrap(c%d + (%d), D%d) - c%d) * S%d", a, wanted.d[a], a, a, a);
+    put(&e->rows, ";\n");
+    e->axes_used = true;
+    return e->rows_count++;
+}
+
+static int input_of(struct emitter *e, int node)
+{
+    if (!e->input_number[node]) {
+        add_argument(e, ARGUMENT_INPUT, node, 0);
+        e->input_number[node] = ++e->inputs;
+    }
+    return e->input_number[node] - 1;
+}
+
+static int pointer_of(struct emitter *e, int node, int row)
+{
+    for (int i = 0; i < e->pointers_count; i++)
+        if (e->seen_pointers[i].node == node && e->seen_pointers[i].row == row)
+            return i;
+    if (e->pointers_count == e->pointers_capacity)
+        e->seen_pointers = more(e, e->seen_pointers, &e->pointers_capacity, sizeof *e->seen_pointers);
+    if (e->failed)
+        return 0;
+    struct machine_type type = e->g->nodes[node].type;
+    e->seen_pointers[e->pointers_count] = (struct pointer){node, row};
+    put(&e->pointers, "    const __global %s *p%d = b%d + ((size_t)r%d * PITCH + HALO)%s;\n",
+        memory_type(type), e->pointers_count, input_of(e, node), row, type.width > 64 ? " * 2" : "");
+    return e->pointers_count++;
+}
+
+/* ---- variables ---- */
+
+static uint32_t chain_of(int node, int row, int dx)
+{
+    uint32_t h = (uint32_t)node * 0x9e3779b1u ^ (uint32_t)row * 0x85ebca6bu ^ (uint32_t)dx * 0xc2b2ae35u;
+    return h >> 22;
+}
+
+static int variable_find(const struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    for (uint32_t i = e->chains[chain_of(node, row, dx)]; i; i = e->variables[i - 1].next) {
+        const struct variable *v = &e->variables[i - 1];
+        if (v->node == node && v->row == row && v->dx == dx && v->canonical == canonical)
+            return v->name;
+    }
+    return -1;
+}
+
+static int variable_add(struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    if (e->variables_count == e->variables_capacity) {
+        int capacity = (int)e->variables_capacity;
+        e->variables = more(e, e->variables, &capacity, sizeof *e->variables);
+        e->variables_capacity = (uint32_t)capacity;
+    }
+    if (e->failed)
+        return 0;
+    uint32_t h = chain_of(node, row, dx);
+    e->variables[e->variables_count] = (struct variable){node, row, dx, canonical, e->names, e->chains[h]};
+    e->chains[h] = ++e->variables_count;
+    return e->names++;
+}
+
+/* A number: an argument, made a vector once, before the loop. */
+static int constant_of(struct emitter *e, int node)
+{
+    if (e->constant_number[node])
+        return e->constant_number[node] - 1;
+    struct machine_type t = e->g->nodes[node].type;
+    int k = e->constants_count++;
+    switch (letter(t)) {
+    case 'I':
+    case 'U':
+    case 'F':
+        add_argument(e, ARGUMENT_CONSTANT, node, 4);
+        break;
+    default:
+        add_argument(e, ARGUMENT_CONSTANT, node, 8);
+        break;
+    }
+    if (letter(t) == 'Q') {
+        add_argument(e, ARGUMENT_SECOND, node, 8);
+        put(&e->constants, "    const VQ k%d = q_of((VL)(a%d), (VL)(h%d));\n", k, k, k);
+        e->wide = true;
+    } else {
+        put(&e->constants, "    const %s k%d = (%s)(a%d);\n", container(t), k, container(t), k);
+    }
+    e->constant_number[node] = k + 1;
+    return k;
+}
+
+struct operand {
+    char text[24];
+};
+
+static struct operand value_at(struct emitter *e, int node, int row, int dx, bool canonical);
+
+/* An expression of container U, L or Q (want) from bits in another container; zero-extends. */
+static void widened(char *out, size_t size, const char *from, struct machine_type type, char want)
+{
+    char have = letter(type);
+    if (have == 'I') {
+        snprintf(out, size, "AS_U(%s & 1)", from);
+        have = 'U';
+    } else {
+        snprintf(out, size, "%s", from);
+    }
+    if (have == want)
+        return;
+    char inner[600];
+    snprintf(inner, sizeof inner, "%s", out);
+    if (have == 'U' && want == 'L')
+        snprintf(out, size, "CONVERT(ulong, %s)", inner);
+    else if (have == 'U' && want == 'Q')
+        snprintf(out, size, "q_of(CONVERT(ulong, %s), (VL)(0))", inner);
+    else if (have == 'L' && want == 'Q')
+        snprintf(out, size, "q_of(%s, (VL)(0))", inner);
+    else if (have == 'L' && want == 'U')
+        snprintf(out, size, "CONVERT(uint, %s)", inner);
+    else if (have == 'Q' && want == 'L')
+        snprintf(out, size, "(%s).lo", inner);
+    else if (have == 'Q' && want == 'U')
+        snprintf(out, size, "CONVERT(uint, (%s).lo)", inner);
+}
+
+/* All but the low width bits cleared. */
+static void cut(char *out, size_t size, const char *from, int width)
+{
+    if (width == 32 || width == 64 || width == 128)
+        snprintf(out, size, "%s", from);
+    else if (width < 32)
+        snprintf(out, size, "((%s) & 0x%xu)", from, (1u << width) - 1);
+    else if (width < 64)
+        snprintf(out, size, "((%s) & 0x%" PRIx64 "UL)", from, (UINT64_C(1) << width) - 1);
+    else
+        snprintf(out, size, "q_cut(%s, %d)", from, width);
+}
+
+/* A signed number in its whole container, as a signed vector (U, L) or VQ. */
+static void extended(char *out, size_t size, const char *a, struct machine_type t)
+{
+    switch (letter(t)) {
+    case 'I':
+        snprintf(out, size, "%s", a);
+        break;
+    case 'U':
+        snprintf(out, size, "(AS_S(%s << %d) >> %d)", a, 32 - t.width, 32 - t.width);
+        break;
+    case 'L':
+        snprintf(out, size, "(AS_M(%s << %dUL) >> %dL)", a, 64 - t.width, 64 - t.width);
+        break;
+    default:
+        snprintf(out, size, "q_extended(%s, %d)", a, t.width);
+        break;
+    }
+}
+
+static void emit_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
+{
+    static const char *const symbols[] = {
+        [MACHINE_AND] = "&", [MACHINE_OR] = "|",  [MACHINE_XOR] = "^", [MACHINE_ADD] = "+", [MACHINE_SUB] = "-",
+        [MACHINE_MUL] = "*", [MACHINE_EQ] = "==", [MACHINE_NE] = "!=", [MACHINE_ULT] = "<", [MACHINE_ULE] = "<="};
+    static const char *const functions[] = {
+        [MACHINE_AND] = "q_and", [MACHINE_OR] = "q_or",   [MACHINE_XOR] = "q_xor",
+        [MACHINE_ADD] = "q_add", [MACHINE_SUB] = "q_sub", [MACHINE_MUL] = "q_mul"};
+    char c = letter(t), raw[192], x[96], y[96];
+    switch (op) {
+    case MACHINE_AND:
+    case MACHINE_OR:
+    case MACHINE_XOR:
+    case MACHINE_ADD:
+    case MACHINE_SUB:
+    case MACHINE_MUL:
+        if (c == 'Q')
+            snprintf(raw, sizeof raw, "%s(%s, %s)", functions[op], a, b);
+        else
+            snprintf(raw, sizeof raw, "%s %s %s", a, symbols[op], b);
+        if (op >= MACHINE_ADD && c != 'I')
+            cut(out, size, raw, t.width);
+        else
+            snprintf(out, size, "%s", raw);
+        break;
+    case MACHINE_EQ:
+    case MACHINE_NE:
+    case MACHINE_ULT:
+    case MACHINE_ULE:
+        if (c != 'Q')
+            snprintf(out, size, "CMP_%c(%s %s %s)", c, a, symbols[op], b);
+        else if (op == MACHINE_ULE)
+            snprintf(out, size, "~q_ult(%s, %s)", b, a);
+        else
+            snprintf(out, size, "%s(%s, %s)",
+                     op == MACHINE_EQ ? "q_eq" : op == MACHINE_NE ? "~q_eq" : "q_ult", a, b);
+        break;
+    case MACHINE_SLT:
+    case MACHINE_SLE:
+        if (c == 'Q' && op == MACHINE_SLT)
+            snprintf(out, size, "q_slt(%s, %s, %d)", a, b, t.width);
+        else if (c == 'Q')
+            snprintf(out, size, "~q_slt(%s, %s, %d)", b, a, t.width);
+        else {
+            extended(x, sizeof x, a, t);
+            extended(y, sizeof y, b, t);
+            snprintf(out, size, "CMP_%c(%s %s %s)", c, x, op == MACHINE_SLT ? "<" : "<=", y);
+        }
+        break;
+    case MACHINE_UMIN:
+    case MACHINE_UMAX:
+        if (c == 'Q')
+            snprintf(out, size, "q_select(q_ult(%s, %s), %s, %s)", a, b, op == MACHINE_UMIN ? a : b,
+                     op == MACHINE_UMIN ? b : a);
+        else
+            snprintf(out, size, "%s(%s, %s)", op == MACHINE_UMIN ? "min" : "max", a, b);
+        break;
+    default: /* SMIN, SMAX */
+        emit_bits_binary(raw, sizeof raw, MACHINE_SLT, t, a, b);
+        snprintf(out, size, "SEL_%c(%s, %s, %s)", c, raw, op == MACHINE_SMIN ? a : b,
+                 op == MACHINE_SMIN ? b : a);
+        break;
+    }
+}
+
+static void emit_float(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
+{
+    static const char *const symbols[] = {
+        [MACHINE_FADD] = "+", [MACHINE_FSUB] = "-", [MACHINE_FMUL] = "*", [MACHINE_FDIV] = "/",
+        [MACHINE_FMIN] = "<", [MACHINE_FMAX] = ">", [MACHINE_FEQ] = "==", [MACHINE_FNE] = "!=",
+        [MACHINE_FLT] = "<",  [MACHINE_FLE] = "<=", [MACHINE_FGT] = ">",  [MACHINE_FGE] = ">="};
+    static const char *const functions[] = {
+        [MACHINE_FNEG] = "-",      [MACHINE_FABS] = "fabs",    [MACHINE_FSQRT] = "sqrt",
+        [MACHINE_FFLOOR] = "floor", [MACHINE_FCEIL] = "ceil", [MACHINE_FTRUNC] = "trunc",
+        [MACHINE_FROUND] = "rint"};
+    const char *compare = t.width == 32 ? "CMP_U" : "CMP_L";
+    if (op <= MACHINE_FROUND)
+        snprintf(out, size, "%s(%s)", functions[op], a);
+    else if (op <= MACHINE_FDIV)
+        snprintf(out, size, "%s %s %s", a, symbols[op], b);
+    else if (op <= MACHINE_FMAX)
+        snprintf(out, size, "SEL_%c(%s(%s %s %s), %s, %s)", letter(t), compare, a, symbols[op], b, a, b);
+    else
+        snprintf(out, size, "%s(%s %s %s)", compare, a, symbols[op], b);
+}
+
+static void emit_overflow(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
+{
+    char c = letter(t), raw[256], r[300], x[100], y[100];
+    int w = t.width;
+    switch (op) {
+    case NODE_OVERFLOW_UADD:
+        emit_bits_binary(raw, sizeof raw, MACHINE_ADD, t, a, b);
+        if (c == 'I')
+            snprintf(out, size, "%s & %s", a, b);
+        else if (c == 'Q')
+            snprintf(out, size, "q_ult(%s, %s)", raw, a);
+        else
+            snprintf(out, size, "CMP_%c((%s) < %s)", c, raw, a);
+        return;
+    case NODE_OVERFLOW_USUB:
+        if (c == 'I')
+            snprintf(out, size, "~%s & %s", a, b);
+        else
+            emit_bits_binary(out, size, MACHINE_ULT, t, a, b);
+        return;
+    case NODE_OVERFLOW_UMUL:
+        if (c == 'I')
+            snprintf(out, size, "(VI)(0)");
+        else if (c == 'U')
+            snprintf(out, size, "CMP_L((CONVERT(ulong, %s) * CONVERT(ulong, %s)) >> %dUL != (VL)(0))", a, b, w);
+        else if (c == 'Q')
+            snprintf(out, size, "q_umul_overflows(%s, %s, %d)", a, b, w);
+        else if (w == 64)
+            snprintf(out, size, "CMP_L(high_product(%s, %s) != (VL)(0))", a, b);
+        else
+            snprintf(out, size, "CMP_L(high_product(%s, %s) != (VL)(0)) | CMP_L((%s * %s) >> %dUL != (VL)(0))",
+                     a, b, a, b, w);
+        return;
+    case NODE_OVERFLOW_SADD:
+    case NODE_OVERFLOW_SSUB:
+        if (c == 'I') { /* a bit is 0 or -1: -1 + -1 and 0 - -1 do not fit */
+            snprintf(out, size, op == NODE_OVERFLOW_SADD ? "%s & %s" : "~%s & %s", a, b);
+            return;
+        }
+        emit_bits_binary(r, sizeof r, op == NODE_OVERFLOW_SADD ? MACHINE_ADD : MACHINE_SUB, t, a, b);
+        if (c == 'Q')
+            snprintf(out, size, "(q_sign(%s, %d) ^ q_sign(%s, %d)) & (q_sign(%s, %d) ^ q_sign(%s, %d))", a, w, r, w,
+                     op == NODE_OVERFLOW_SADD ? r : a, w, b, w);
+        else
+            snprintf(out, size, "CMP_%c((((%s ^ (%s)) & (%s ^ %s)) >> %d%s & 1) != 0)", c, a, r, b,
+                     op == NODE_OVERFLOW_SADD ? r : a, w - 1, c == 'L' ? "UL" : "");
+        return;
+    case NODE_OVERFLOW_SNEG:
+        if (c == 'I')
+            snprintf(out, size, "%s", a);
+        else if (c == 'Q')
+            snprintf(out, size, "q_eq(%s, q_shl(q_of((VL)(1), (VL)(0)), %d))", a, w - 1);
+        else
+            snprintf(out, size, "CMP_%c(%s == (V%c)(1) << %d%s)", c, a, c, w - 1, c == 'L' ? "UL" : "");
+        return;
+    case NODE_OVERFLOW_SMUL:
+        extended(x, sizeof x, a, t);
+        extended(y, sizeof y, b, t);
+        if (c == 'I')
+            snprintf(out, size, "%s & %s", a, b);
+        else if (c == 'U')
+            snprintf(out, size, "s_product_overflows(CONVERT(long, %s) * CONVERT(long, %s), %d)", x, y, w);
+        else if (c == 'L')
+            snprintf(out, size, "l_smul_overflows(%s, %s, %d)", x, y, w);
+        else
+            snprintf(out, size, "q_smul_overflows(%s, %s, %d)", a, b, w);
+        return;
+    default: {
+        static const char symbols[] = {'+', '-', '*', '/'};
+        snprintf(out, size, "INFINITE_%c(%s %c %s) & FINITE_%c(%s) & FINITE_%c(%s)", c, a,
+                 symbols[op - NODE_OVERFLOW_FADD], b, c, a, c, b);
+        return;
+    }
+    }
+}
+
+static void emit_conversion(char *out, size_t size, const struct plan_node *n, struct machine_type from,
+                            const char *a)
+{
+    char raw[460], inner[200];
+    char have = letter(from), want = letter(n->type);
+    int w = n->type.width;
+    switch (n->op) {
+    case NODE_ZERO_EXTEND:
+        widened(out, size, a, from, want);
+        return;
+    case NODE_SIGN_EXTEND:
+        extended(inner, sizeof inner, a, from);
+        if (have == 'I' || have == 'U') {
+            if (want == 'U')
+                snprintf(raw, sizeof raw, "AS_U(%s)", inner);
+            else if (want == 'L')
+                snprintf(raw, sizeof raw, "AS_L(CONVERT(long, %s))", inner);
+            else
+                snprintf(raw, sizeof raw, "q_signed(CONVERT(long, %s))", inner);
+        } else if (have == 'L') {
+            snprintf(raw, sizeof raw, want == 'L' ? "AS_L(%s)" : "q_signed(%s)", inner);
+        } else {
+            snprintf(raw, sizeof raw, "%s", inner);
+        }
+        cut(out, size, raw, w);
+        return;
+    case NODE_EXTRACT:
+        if (have == 'I')
+            snprintf(raw, sizeof raw, "AS_U(%s & 1)", a);
+        else if (have == 'Q')
+            snprintf(raw, sizeof raw, "q_shr(%s, %d)", a, n->detail);
+        else
+            snprintf(raw, sizeof raw, "(%s >> %d%s)", a, n->detail, have == 'L' ? "UL" : "");
+        if (want == 'I') {
+            widened(inner, sizeof inner, raw, MACHINE_UINT(from.width), have == 'U' || have == 'I' ? 'U' : 'L');
+            snprintf(out, size, "CMP_%c((%s & 1) != 0)", have == 'U' || have == 'I' ? 'U' : 'L',
+                     have == 'I' ? raw : inner);
+            return;
+        }
+        widened(inner, sizeof inner, raw, MACHINE_UINT(from.width), want);
+        cut(out, size, inner, w);
+        return;
+    case NODE_U_TO_F:
+        if (have == 'Q')
+            snprintf(out, size, "q_to_%c(%s)", want == 'F' ? 'f' : 'd', a);
+        else {
+            widened(inner, sizeof inner, a, from, have == 'L' ? 'L' : 'U');
+            snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
+        }
+        return;
+    case NODE_S_TO_F:
+        if (have == 'Q')
+            snprintf(out, size, "SEL_%c(q_sign(%s, %d), -q_to_%c(q_magnitude(%s, %d)), q_to_%c(%s))", want, a,
+                     from.width, want == 'F' ? 'f' : 'd', a, from.width, want == 'F' ? 'f' : 'd', a);
+        else {
+            extended(inner, sizeof inner, a, from);
+            snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
+        }
+        return;
+    case NODE_F_TO_U:
+    case NODE_F_TO_S: {
+        bool is_signed = n->op == NODE_F_TO_S;
+        int e = is_signed ? w - 1 : w;
+        if (have == 'F' && w <= (is_signed ? 32 : 31)) {
+            snprintf(raw, sizeof raw, "f_to_%c_small(%s, 0x1p%df, 0x%x)", is_signed ? 's' : 'u', a, e,
+                     (unsigned)((UINT64_C(1) << e) - 1));
+        } else {
+            snprintf(inner, sizeof inner, have == 'F' ? "CONVERT(double, %s)" : "%s", a);
+            if (want == 'Q')
+                snprintf(raw, sizeof raw, "d_to_%cq(%s, 0x1p%d, %d)", is_signed ? 's' : 'u', inner, e, w);
+            else
+                snprintf(raw, sizeof raw, "d_to_%c(%s, 0x1p%d, 0x%" PRIx64 "%s)", is_signed ? 's' : 'u', inner, e,
+                         e == 64 ? UINT64_MAX : (UINT64_C(1) << e) - 1, is_signed ? "L" : "UL");
+            if (want == 'U' || want == 'I') {
+                snprintf(inner, sizeof inner, "%s", raw);
+                snprintf(raw, sizeof raw, "CONVERT(uint, %s)", inner);
+            }
+        }
+        if (want == 'I')
+            snprintf(out, size, "CMP_U((%s & 1) != 0)", raw);
+        else
+            cut(out, size, raw, w);
+        return;
+    }
+    case NODE_F_TO_F:
+        snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", a);
+        return;
+    default: /* REINTERPRET */
+        snprintf(out, size, "AS_%c(%s)", want, a);
+        return;
+    }
+}
+
+static void emit_generated(struct emitter *e, char *out, size_t size, const struct plan_node *n, int node, int row,
+                           int dx)
+{
+    char index[96], raw[300];
+    int last = e->set->rank - 1;
+    if (n->op == NODE_COORDINATE && n->axis != last) {
+        e->axes_used = true;
+        snprintf(index, sizeof index, "(VU)((uint)wrap(c%d + (%d), D%d))", n->axis,
+                 e->row_offsets[row].d[n->axis], n->axis);
+    } else if (n->op == NODE_COORDINATE) {
+        snprintf(index, sizeof index, "column(x + (%d), W)", dx);
+    } else {
+        snprintf(index, sizeof index, "(column(x + (%d), W) + (uint)(r%d * W))", dx, row);
+    }
+    int reach = abs(dx);
+    e->reach = reach > e->reach ? reach : e->reach;
+    if (n->op == NODE_RANDOM) {
+        int k = e->constants_count++;
+        add_argument(e, ARGUMENT_CONSTANT, node, 8);
+        add_argument(e, ARGUMENT_SECOND, node, 8);
+        put(&e->constants, "    /* draw: key a%d, limit h%d */\n", k, k);
+        if (n->detail == 0)
+            snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k, 64 - n->type.width);
+        else if (n->detail == 1)
+            snprintf(raw, sizeof raw, "(((random_bits(%s, a%d) >> 32UL) * h%d) >> 32UL)", index, k, k);
+        else
+            snprintf(raw, sizeof raw, "mul_hi(random_bits(%s, a%d), (VL)(h%d))", index, k, k);
+        if (n->type.width == 1)
+            snprintf(out, size, "CMP_L((%s & 1UL) != 0UL)", raw);
+        else {
+            char w[340];
+            widened(w, sizeof w, raw, MACHINE_UINT(64), letter(n->type));
+            cut(out, size, w, n->type.width);
+        }
+        return;
+    }
+    if (n->op == NODE_SEND_ADDRESS)
+        snprintf(raw, sizeof raw, "((%s & ((1u << PLOG2) - 1u)) * (uint)RATIO + (%s >> PLOG2))", index, index);
+    else
+        snprintf(raw, sizeof raw, "%s", index);
+    if (n->type.width == 1)
+        snprintf(out, size, "CMP_U((%s & 1u) != 0u)", raw);
+    else {
+        char w[340];
+        widened(w, sizeof w, raw, MACHINE_UINT(32), letter(n->type));
+        if (n->type.width < 32)
+            cut(out, size, w, n->type.width);
+        else
+            snprintf(out, size, "%s", w);
+    }
+}
+
+/* Some of it may be a NaN whose bits are the program's, not an operation's. */
+static bool holds_bits(const struct plan_graph *g, int node)
+{
+    const struct plan_node *n = &g->nodes[node];
+    if (!n->maybe_nan)
+        return true;
+    if (n->leaf || n->op != NODE_SELECT)
+        return n->op == NODE_SHIFT && !n->leaf ? holds_bits(g, n->in[0]) : n->leaf;
+    return holds_bits(g, n->in[1]) || holds_bits(g, n->in[2]);
+}
+
+static struct operand named(int name)
+{
+    struct operand o;
+    snprintf(o.text, sizeof o.text, "v%d", name);
+    return o;
+}
+
+static struct operand value_at(struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    const struct plan_node *n = &e->g->nodes[node];
+    struct operand result;
+    if (e->failed)
+        return named(0);
+    if (n->constant) {
+        snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
+        return result;
+    }
+    bool loads = plan_loads(n, e->stage);
+    canonical = canonical && n->maybe_nan && !loads;
+    int known = variable_find(e, node, row, dx, canonical);
+    if (known >= 0)
+        return named(known);
+    char expression[1200];
+    const char *type = container(n->type);
+    e->wide = e->wide || type[1] == 'Q';
+    if (loads) {
+        int p = pointer_of(e, node, row);
+        e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
+        snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p, dx);
+        e->loads++;
+    } else if (n->op == NODE_SHIFT) {
+        bool along_row = n->axis == e->set->rank - 1;
+        int moved_row = along_row ? row : row_moved(e, row, n->axis, n->detail);
+        return value_at(e, n->in[0], moved_row, along_row ? dx + n->detail : dx, canonical);
+    } else if (canonical && !(n->op == NODE_SELECT && holds_bits(e->g, node))) {
+        struct operand a = value_at(e, node, row, dx, false);
+        snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
+    } else if (node_ops[n->op].inputs == 0) {
+        emit_generated(e, expression, sizeof expression, n, node, row, dx);
+    } else {
+        struct operand in[3] = {{""}, {""}, {""}};
+        for (int i = 0; i < node_ops[n->op].inputs; i++) {
+            bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
+            in[i] = value_at(e, plan_input(e->g, n, i, e->stage), row, dx, want);
+        }
+        struct machine_type from = e->g->nodes[n->in[0]].type;
+        const char *a = in[0].text, *b = in[1].text;
+        e->ops++;
+        e->wide = e->wide || letter(from) == 'Q';
+        if (n->op == NODE_SELECT)
+            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b, in[2].text);
+        else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG) {
+            char raw[100];
+            if (type[1] == 'Q')
+                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg", a);
+            else
+                snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+            if (type[1] == 'I')
+                snprintf(expression, sizeof expression, "%s", raw);
+            else
+                cut(expression, sizeof expression, raw, n->type.width);
+        } else if (n->op < MACHINE_FNEG)
+            emit_bits_binary(expression, sizeof expression, n->op, from, a, b);
+        else if (n->op < MACHINE_OP_COUNT_PUBLIC)
+            emit_float(expression, sizeof expression, n->op, from, a, b);
+        else if (n->op >= NODE_OVERFLOW_UADD) {
+            emit_overflow(expression, sizeof expression, n->op, from, a, b);
+            e->wide = e->wide || from.width > 32;
+        } else if (n->op == NODE_CONCAT) {
+            char low[120], high[120];
+            struct machine_type to = e->g->nodes[n->in[1]].type;
+            widened(low, sizeof low, a, from, type[1]);
+            widened(high, sizeof high, b, to, type[1]);
+            if (type[1] == 'Q')
+                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high, from.width);
+            else
+                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high, from.width,
+                         type[1] == 'L' ? "UL" : "");
+        } else {
+            emit_conversion(expression, sizeof expression, n, from, a);
+        }
+    }
+    int name = variable_add(e, node, row, dx, canonical);
+    put(&e->body, "        const %s v%d = %s;\n", type, name, expression);
+    return named(name);
+}
+
+/* ---- the whole ---- */
+
+static void header(struct emitter *e, struct text *t)
+{
+    put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO");
+    for (int a = 0; a < e->set->rank - 1; a++)
+        put(t, ", int D%d", a);
+    int input = 0, output = 0, constant = 0;
+    for (int i = 0; i < e->arguments_count; i++) {
+        const struct kernel_argument *arg = &e->arguments[i];
+        struct machine_type type = e->g->nodes[arg->node].type;
+        switch (arg->kind) {
+        case ARGUMENT_INPUT:
+            put(t, ",\n    const __global %s *restrict b%d", memory_type(type), input++);
+            break;
+        case ARGUMENT_OUTPUT:
+            put(t, ",\n    __global %s *restrict o%d", memory_type(type), output++);
+            break;
+        case ARGUMENT_CONSTANT: {
+            static const char letters[] = "IUFDLQ";
+            static const char *const names[] = {"int", "uint", "float", "double", "ulong", "ulong"};
+            const char *name = e->g->nodes[arg->node].op == NODE_RANDOM
+                                   ? "ulong"
+                                   : names[strchr(letters, letter(type)) - letters];
+            put(t, ", %s a%d", name, constant++);
+            break;
+        }
+        default:
+            put(t, ", ulong h%d", constant - 1);
+            break;
+        }
+    }
+    put(t, ")\n{\n");
+}
+
+void kernel_text_finish(struct kernel_text *k)
+{
+    free(k->text);
+    free(k->arguments);
+    memset(k, 0, sizeof *k);
+}
+
+bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count, const struct vpset *set,
+                 const struct device_shape *shape, struct kernel_text *out)
+{
+    struct emitter *e = calloc(1, sizeof *e);
+    memset(out, 0, sizeof *out);
+    if (!e)
+        return false;
+    e->g = g;
+    e->set = set;
+    e->stage = g->nodes[stores[0]].stage;
+    e->input_number = calloc((size_t)g->count, sizeof *e->input_number);
+    e->constant_number = calloc((size_t)g->count, sizeof *e->constant_number);
+    e->row_offsets = calloc(64, sizeof *e->row_offsets);
+    e->rows_capacity = 64;
+    e->failed = !e->input_number || !e->constant_number || !e->row_offsets;
+    e->rows_count = 1; /* row 0: where we are */
+    for (int i = 0; i < stores_count && !e->failed; i++) {
+        struct operand v = value_at(e, stores[i], 0, 0, true);
+        struct machine_type type = g->nodes[stores[i]].type;
+        add_argument(e, ARGUMENT_OUTPUT, stores[i], 0);
+        put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n", memory_type(type), i,
+            i, type.width > 64 ? " * 2" : "");
+        put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
+    }
+    bool wraps = set->halo == 0 || e->reach > set->halo;
+    out->vector = wraps || set->width < shape->vector || set->halo < shape->vector ? 1 : shape->vector;
+    out->wraps = wraps;
+    out->wide = e->wide;
+    struct text t = {0};
+    header(e, &t);
+    put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");
+    if (e->axes_used && set->rank > 1) {
+        put(&t, "    const int S%d = 1;\n", set->rank - 2);
+        for (int a = set->rank - 3; a >= 0; a--)
+            put(&t, "    const int S%d = S%d * D%d;\n", a, a + 1, a + 1);
+        for (int a = 0; a < set->rank - 1; a++)
+            put(&t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
+    }
+    put(&t, "%s%s%s", e->rows.data ? e->rows.data : "", e->pointers.data ? e->pointers.data : "",
+        e->constants.data ? e->constants.data : "");
+    put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n"
+            "    for (int at = begin; at < end; at += VECTOR) {\n"
+            "        const int x = min(at, W - VECTOR);\n"
+            "%s    }\n}\n",
+        e->body.data ? e->body.data : "");
+    out->text = t.data;
+    out->arguments = e->arguments;
+    out->arguments_count = e->arguments_count;
+    out->ops = e->ops;
+    out->loads = e->loads;
+    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d", out->vector, set->halo,
+             wraps ? 1 : 0);
+    bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed && !e->pointers.failed &&
+                !e->constants.failed;
+    free(e->body.data);
+    free(e->rows.data);
+    free(e->pointers.data);
+    free(e->constants.data);
+    free(e->variables);
+    free(e->row_offsets);
+    free(e->seen_pointers);
+    free(e->input_number);
+    free(e->constant_number);
+    free(e);
+    if (!good)
+        kernel_text_finish(out);
+    return good;
+}

@@ -1,0 +1,607 @@
+/* fields.c - VP sets, their flags, and fields: which value is where.
+ *
+ * A field is a row of bits in each processor. What is stored in it is kept as slots, each the bits [offset,
+ * offset + bits) with one value; bits in no slot are 0. An access of just a slot's bits gives its value; any other is
+ * put together from pieces. Ids are addresses in a space of 2^31 bits that is not used again until it has been
+ * gone through, so an id that has died stays dead for long. */
+#include "internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ID_SPACE 0x7fff0000u
+
+/* ---- VP sets ---- */
+
+struct vpset *vpset_get(struct machine *m, int vpset)
+{
+    if (vpset > 0 && vpset < m->sets_count && m->sets[vpset].used)
+        return &m->sets[vpset];
+    machine_fail(m, MACHINE_BAD_ARGUMENT,
+                 vpset ? "there is no VP set %d" : "there is no current VP set (%d)", vpset);
+    return NULL;
+}
+
+static void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
+{
+    graph_ref(v);
+    if (slot->value)
+        graph_unref(m, slot->value);
+    slot->value = v;
+}
+
+static void overflow_clear(struct machine *m, struct lazy_overflow *o)
+{
+    if (!o->op)
+        return;
+    graph_unref(m, o->a);
+    if (o->b)
+        graph_unref(m, o->b);
+    graph_unref(m, o->context);
+    o->op = 0;
+}
+
+static struct machine_value *zero(struct machine *m, int width)
+{
+    return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){0, 0});
+}
+
+int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
+{
+    if (rank < 1 || rank > MACHINE_AXES_MAX) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)", MACHINE_AXES_MAX, rank);
+        return 0;
+    }
+    uint64_t count = 1;
+    for (int i = 0; i < rank; i++) {
+        if (dimensions[i] < 1) {
+            machine_fail(m, MACHINE_BAD_ARGUMENT, "axis %d must have a length of 1 or more (got %d)", i,
+                         dimensions[i]);
+            return 0;
+        }
+        count *= (uint64_t)dimensions[i];
+        if (count > INT32_MAX) {
+            machine_fail(m, MACHINE_NO_MEMORY, "a VP set has at most 2^31 - 1 processors");
+            return 0;
+        }
+    }
+    int id = 1;
+    while (id < m->sets_count && m->sets[id].used)
+        id++;
+    if (id > UINT16_MAX) {
+        machine_fail(m, MACHINE_NO_MEMORY, "there are too many VP sets");
+        return 0;
+    }
+    if (id >= m->sets_count) {
+        struct vpset *sets = realloc(m->sets, (size_t)(id + 1) * sizeof *sets);
+        if (!sets) {
+            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another VP set");
+            return 0;
+        }
+        m->sets = sets;
+        memset(&m->sets[id], 0, sizeof *m->sets);
+        if (id == 1)
+            memset(&m->sets[0], 0, sizeof *m->sets);
+        m->sets_count = id + 1;
+    }
+    struct vpset *s = &m->sets[id];
+    *s = (struct vpset){.generation = (uint16_t)(s->generation + 1)};
+    s->used = true;
+    s->rank = rank;
+    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
+    s->count = count;
+    s->width = dimensions[rank - 1];
+    s->rows = count / (uint64_t)s->width;
+    s->ratio = (count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
+    const struct device_shape *shape = &m->device.shape;
+    s->halo = s->width >= shape->vector ? shape->halo : 0;
+    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
+    if (s->halo)
+        s->pitch = (s->pitch + 15) / 16 * 16;
+    for (int flag = 0; flag < 3; flag++) {
+        s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
+        struct machine_value *one =
+            machine_constant(m, MACHINE_BIT, (struct machine_scalar){flag == MACHINE_CONTEXT, 0});
+        slot_set(m, &s->flags[flag], one);
+    }
+    return id;
+}
+
+static void vpset_release(struct machine *m, struct vpset *s)
+{
+    overflow_clear(m, &s->overflow);
+    for (int flag = 0; flag < 3; flag++)
+        graph_unref(m, s->flags[flag].value);
+    s->used = false;
+}
+
+static void field_release(struct machine *m, int index)
+{
+    struct field *f = m->fields[index];
+    for (int i = 0; i < f->slots_count; i++)
+        graph_unref(m, f->slots[i].value);
+    free(f->slots);
+    free(f);
+    m->fields_count--;
+    memmove(&m->fields[index], &m->fields[index + 1],
+            (size_t)(m->fields_count - index) * sizeof *m->fields);
+}
+
+enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
+{
+    struct vpset *s = vpset_get(m, vpset);
+    if (!s)
+        return m->status;
+    machine_begin(m);
+    for (int i = m->fields_count - 1; i >= 0; i--)
+        if (m->fields[i]->vpset == vpset)
+            field_release(m, i);
+    vpset_release(m, s);
+    if (m->set_current == vpset)
+        m->set_current = 0;
+    return MACHINE_OK;
+}
+
+void fields_finish(struct machine *m)
+{
+    while (m->fields_count)
+        field_release(m, m->fields_count - 1);
+    free(m->fields);
+    for (int i = 1; i < m->sets_count; i++)
+        if (m->sets[i].used)
+            vpset_release(m, &m->sets[i]);
+    free(m->sets);
+}
+
+enum machine_status machine_vpset_select(struct machine *m, int vpset)
+{
+    if (!vpset_get(m, vpset))
+        return m->status;
+    m->set_current = vpset;
+    return MACHINE_OK;
+}
+
+int machine_vpset_current(const struct machine *m)
+{
+    return m->set_current;
+}
+
+static const struct vpset *peek(const struct machine *m, int vpset)
+{
+    return vpset > 0 && vpset < m->sets_count && m->sets[vpset].used ? &m->sets[vpset] : NULL;
+}
+
+int machine_vpset_rank(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->rank : 0;
+}
+
+int machine_vpset_length(const struct machine *m, int vpset, int axis)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s && axis >= 0 && axis < s->rank ? s->dimensions[axis] : 0;
+}
+
+uint64_t machine_vpset_count(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->count : 0;
+}
+
+uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->ratio : 0;
+}
+
+uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
+{
+    const struct vpset *s = peek(m, vpset);
+    uint64_t processors = (uint64_t)m->processors_count;
+    return s ? index % processors * s->ratio + index / processors : 0;
+}
+
+uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address)
+{
+    const struct vpset *s = peek(m, vpset);
+    if (!s)
+        return UINT64_MAX;
+    uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
+    uint64_t index = which * (uint64_t)m->processors_count + processor;
+    return processor < (uint64_t)m->processors_count && index < s->count ? index : UINT64_MAX;
+}
+
+/* ---- fields ---- */
+
+/* The first field whose base is above id. */
+static int fields_above(const struct machine *m, uint32_t id)
+{
+    int low = 0, high = m->fields_count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (m->fields[middle]->base <= id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Where a new field of that many bits goes: on from the last one, and round once the space is used up. */
+static uint32_t find_room(struct machine *m, uint32_t bits)
+{
+    uint32_t room = (bits + 127) / 64 * 64; /* a gap between fields: an id never runs into the next one */
+    for (int round = 0; round < 2; round++) {
+        uint32_t base = m->field_next_base;
+        for (int i = fields_above(m, base); base <= ID_SPACE - room; i++) {
+            if (i > 0 && m->fields[i - 1]->base + m->fields[i - 1]->bits > base)
+                base = (m->fields[i - 1]->base + m->fields[i - 1]->bits + 127) / 64 * 64;
+            if (base > ID_SPACE - room)
+                break;
+            if (i >= m->fields_count || m->fields[i]->base >= base + room) {
+                m->field_next_base = base + room;
+                return base;
+            }
+        }
+        m->field_next_base = 64;
+    }
+    return MACHINE_NO_FIELD;
+}
+
+uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits, enum machine_region region)
+{
+    if (!vpset_get(m, vpset))
+        return MACHINE_NO_FIELD;
+    if (bits < 1 || bits > ID_SPACE / 4) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a field has 1..%u bits (got %u)", ID_SPACE / 4, bits);
+        return MACHINE_NO_FIELD;
+    }
+    uint32_t base = find_room(m, bits);
+    struct field *f = base ? calloc(1, sizeof *f) : NULL;
+    if (f && m->fields_count == m->fields_capacity) {
+        int capacity = m->fields_capacity ? 2 * m->fields_capacity : 64;
+        struct field **fields = realloc(m->fields, (size_t)capacity * sizeof *fields);
+        if (fields) {
+            m->fields = fields;
+            m->fields_capacity = capacity;
+        } else {
+            free(f);
+            f = NULL;
+        }
+    }
+    if (!f) {
+        machine_fail(m, MACHINE_NO_MEMORY, "there is no room for another field of %u bits", bits);
+        return MACHINE_NO_FIELD;
+    }
+    *f = (struct field){.base = base, .bits = bits, .vpset = vpset, .region = region,
+                         .serial = m->field_serial++};
+    int at = fields_above(m, base);
+    memmove(&m->fields[at + 1], &m->fields[at], (size_t)(m->fields_count - at) * sizeof *m->fields);
+    m->fields[at] = f;
+    m->fields_count++;
+    return base;
+}
+
+struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
+{
+    int i = m->field_last;
+    if (!(i < m->fields_count && m->fields[i]->base <= id && id - m->fields[i]->base < m->fields[i]->bits))
+        i = fields_above(m, id) - 1;
+    if (i < 0 || id - m->fields[i]->base >= m->fields[i]->bits) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", id);
+        return NULL;
+    }
+    m->field_last = i;
+    *offset = id - m->fields[i]->base;
+    return m->fields[i];
+}
+
+bool machine_field_lookup(const struct machine *m, uint32_t field, struct machine_field_info *out)
+{
+    int i = fields_above(m, field) - 1;
+    if (i < 0 || field - m->fields[i]->base >= m->fields[i]->bits)
+        return false;
+    const struct field *f = m->fields[i];
+    *out = (struct machine_field_info){
+        .base = f->base, .bits = f->bits, .offset = field - f->base, .vpset = f->vpset, .region = f->region};
+    return true;
+}
+
+static int exact_index(struct machine *m, uint32_t id, enum machine_region region)
+{
+    int i = fields_above(m, id) - 1;
+    if (i >= 0 && m->fields[i]->base == id && m->fields[i]->region == region)
+        return i;
+    machine_fail(m, MACHINE_BAD_ARGUMENT, "%u is not a field on the %s (any more)", id,
+                 region == MACHINE_STACK ? "stack" : "heap");
+    return -1;
+}
+
+enum machine_status machine_field_deallocate(struct machine *m, uint32_t field)
+{
+    int i = exact_index(m, field, MACHINE_HEAP);
+    if (i < 0)
+        return m->status;
+    field_release(m, i);
+    return MACHINE_OK;
+}
+
+enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t field)
+{
+    int first = exact_index(m, field, MACHINE_STACK);
+    if (first < 0)
+        return m->status;
+    uint64_t serial = m->fields[first]->serial;
+    for (int i = m->fields_count - 1; i >= 0; i--)
+        if (m->fields[i]->region == MACHINE_STACK && m->fields[i]->serial >= serial)
+            field_release(m, i);
+    return MACHINE_OK;
+}
+
+/* ---- slots ---- */
+
+/* The first slot that ends beyond offset. */
+static int slot_at(const struct field *f, uint32_t offset)
+{
+    int low = 0, high = f->slots_count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (f->slots[middle].offset + f->slots[middle].bits <= offset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
+{
+    if (slot->epoch_accessed == m->epoch)
+        return;
+    slot->epoch_accessed = m->epoch;
+    slot->overwritten_first = overwrites && slot->epoch_created != m->epoch;
+}
+
+static struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits)
+{
+    int i = slot_at(f, offset);
+    return i < f->slots_count && f->slots[i].offset == offset && f->slots[i].bits == bits ? &f->slots[i]
+                                                                                          : NULL;
+}
+
+struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
+{
+    struct slot *slot = slot_exact(f, offset, bits);
+    if (slot)
+        return graph_borrow(m, slot->value);
+    struct machine_value *sum = NULL;
+    uint32_t at = offset, end = offset + bits;
+    for (int i = slot_at(f, offset); at < end; i++) {
+        uint32_t next = i < f->slots_count && f->slots[i].offset < end ? f->slots[i].offset : end;
+        struct machine_value *piece;
+        if (next > at) {
+            piece = zero(m, (int)(next - at));
+            sum = sum ? machine_concat(m, sum, piece) : piece;
+            at = next;
+        }
+        if (at < end) {
+            slot = &f->slots[i];
+            uint32_t stop = slot->offset + slot->bits < end ? slot->offset + slot->bits : end;
+            piece = machine_extract(m, slot->value, (int)(at - slot->offset), (int)(stop - at));
+            sum = sum ? machine_concat(m, sum, piece) : piece;
+            at = stop;
+        }
+        if (!sum)
+            return NULL;
+    }
+    return sum;
+}
+
+static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
+{
+    if (f->slots_count == f->slots_capacity) {
+        int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
+        struct slot *slots = realloc(f->slots, (size_t)capacity * sizeof *slots);
+        INVARIANT(slots != NULL);
+        f->slots = slots;
+        f->slots_capacity = capacity;
+    }
+    int i = slot_at(f, offset);
+    memmove(&f->slots[i + 1], &f->slots[i], (size_t)(f->slots_count - i) * sizeof *f->slots);
+    f->slots_count++;
+    f->slots[i] = (struct slot){.offset = offset, .bits = bits, .epoch_created = m->epoch};
+    return &f->slots[i];
+}
+
+/* Makes [offset, offset + bits) free of slots; what of them lies outside stays. */
+static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
+{
+    uint32_t end = offset + bits;
+    for (int i = slot_at(f, offset); i < f->slots_count && f->slots[i].offset < end;) {
+        struct slot old = f->slots[i];
+        f->slots_count--;
+        memmove(&f->slots[i], &f->slots[i + 1], (size_t)(f->slots_count - i) * sizeof *f->slots);
+        if (old.offset < offset) {
+            struct machine_value *v = machine_extract(m, old.value, 0, (int)(offset - old.offset));
+            slot_set(m, slot_insert(m, f, old.offset, offset - old.offset), v);
+            i++;
+        }
+        if (old.offset + old.bits > end) {
+            uint32_t rest = old.offset + old.bits - end;
+            struct machine_value *v = machine_extract(m, old.value, (int)(end - old.offset), (int)rest);
+            slot_set(m, slot_insert(m, f, end, rest), v);
+            i++;
+        }
+        graph_unref(m, old.value);
+    }
+}
+
+enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset, struct machine_value *v)
+{
+    struct slot *slot = slot_exact(f, offset, v->type.width);
+    if (!slot) {
+        carve(m, f, offset, v->type.width);
+        slot = slot_insert(m, f, offset, v->type.width);
+    }
+    slot_set(m, slot, v);
+    return MACHINE_OK;
+}
+
+static struct field *field_part(struct machine *m, uint32_t id, struct machine_type type, uint32_t *offset)
+{
+    struct field *f = field_find(m, id, offset);
+    if (!f)
+        return NULL;
+    if (type.width < 1 || type.width > 128 ||
+        (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64)) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a value's width must be 1..128 bits, a float's 32 or 64");
+        return NULL;
+    }
+    if (*offset + type.width > f->bits) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "%d bits from bit %u on run over the end of a field of %u bits",
+                     type.width, *offset, f->bits);
+        return NULL;
+    }
+    return f;
+}
+
+struct machine_value *machine_field_value(struct machine *m, uint32_t field, struct machine_type type,
+                                          enum machine_scope scope)
+{
+    uint32_t offset;
+    struct field *f = field_part(m, field, type, &offset);
+    if (!f)
+        return NULL;
+    for (int i = slot_at(f, offset); i < f->slots_count && f->slots[i].offset < offset + type.width; i++)
+        slot_accessed(m, &f->slots[i], false);
+    struct machine_value *v = field_content(m, f, offset, type.width);
+    if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->set_current)
+        v = simplify_under(m, v, m->sets[f->vpset].flags[MACHINE_CONTEXT].value, 12);
+    return machine_reinterpret(m, v, type);
+}
+
+enum machine_status machine_field_store(struct machine *m, uint32_t field, struct machine_value *value,
+                                        enum machine_scope scope)
+{
+    if (!value)
+        return m->status;
+    uint32_t offset;
+    struct field *f = field_part(m, field, value->type, &offset);
+    if (!f)
+        return m->status;
+    if (value->set && value->set != f->vpset)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value and the field belong to different VP sets");
+    if (value->op == NODE_REINTERPRET && !value->buffer)
+        value = value->in[0]; /* the same bits; a float that is moved as bits stays a float */
+    struct slot *slot = slot_exact(f, offset, value->type.width);
+    if (slot)
+        slot_accessed(m, slot, true);
+    if (scope == MACHINE_WHERE_ACTIVE) {
+        struct machine_value *context = m->sets[f->vpset].flags[MACHINE_CONTEXT].value;
+        struct machine_value *old = field_content(m, f, offset, value->type.width);
+        old = machine_reinterpret(m, old, value->type);
+        value = old ? machine_select(m, context, value, old) : NULL;
+        if (!value)
+            return m->status;
+    }
+    field_replace(m, f, offset, value);
+    return run_after_store(m, value);
+}
+
+/* ---- flags ---- */
+
+struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag)
+{
+    struct lazy_overflow *o = &s->overflow;
+    if (flag == MACHINE_OVERFLOW && o->op) {
+        struct slot *slot = &s->flags[MACHINE_OVERFLOW];
+        struct machine_value *new = node_overflow(m, (enum node_op)o->op, o->a, o->b);
+        if (new)
+            slot_set(m, slot, machine_select(m, o->context, new, slot->value));
+        overflow_clear(m, o);
+    }
+    return s->flags[flag].value;
+}
+
+struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag, enum machine_scope scope)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    if (!s)
+        return NULL;
+    slot_accessed(m, &s->flags[flag], false);
+    struct machine_value *v = graph_borrow(m, flag_resolved(m, s, flag));
+    if (scope == MACHINE_WHERE_ACTIVE && flag != MACHINE_CONTEXT)
+        v = simplify_under(m, v, s->flags[MACHINE_CONTEXT].value, 12);
+    return v;
+}
+
+enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag, struct machine_value *value,
+                                       enum machine_scope scope)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    if (!value || !s)
+        return m->status;
+    if (!type_equal(value->type, MACHINE_BIT))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
+    if (value->set && value->set != m->set_current)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    struct slot *slot = &s->flags[flag];
+    slot_accessed(m, slot, true);
+    if (flag == MACHINE_OVERFLOW) {
+        if (scope == MACHINE_WHERE_ACTIVE)
+            flag_resolved(m, s, flag);
+        else
+            overflow_clear(m, &s->overflow);
+    }
+    if (scope == MACHINE_WHERE_ACTIVE)
+        value = machine_select(m, s->flags[MACHINE_CONTEXT].value, value, slot->value);
+    if (!value)
+        return m->status;
+    slot_set(m, slot, value);
+    return run_after_store(m, value);
+}
+
+static int overflow_op(enum machine_op op, bool is_signed)
+{
+    switch ((int)op) {
+    case MACHINE_ADD:
+        return is_signed ? NODE_OVERFLOW_SADD : NODE_OVERFLOW_UADD;
+    case MACHINE_SUB:
+        return is_signed ? NODE_OVERFLOW_SSUB : NODE_OVERFLOW_USUB;
+    case MACHINE_MUL:
+        return is_signed ? NODE_OVERFLOW_SMUL : NODE_OVERFLOW_UMUL;
+    case MACHINE_NEG:
+        return NODE_OVERFLOW_SNEG;
+    case MACHINE_FADD:
+        return NODE_OVERFLOW_FADD;
+    case MACHINE_FSUB:
+        return NODE_OVERFLOW_FSUB;
+    case MACHINE_FMUL:
+        return NODE_OVERFLOW_FMUL;
+    case MACHINE_FDIV:
+        return NODE_OVERFLOW_FDIV;
+    default:
+        return 0;
+    }
+}
+
+enum machine_status machine_overflow_record(struct machine *m, enum machine_op op, bool is_signed,
+                                            struct machine_value *a, struct machine_value *b)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    int node = overflow_op(op, is_signed);
+    if (!s || !a || !node || (node_ops[node].inputs == 2 && !b))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    if (s->overflow.op && s->overflow.context != context)
+        flag_resolved(m, s, MACHINE_OVERFLOW);
+    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
+    graph_ref(a);
+    if (b)
+        graph_ref(b);
+    graph_ref(context);
+    overflow_clear(m, &s->overflow);
+    s->overflow = (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
+    return MACHINE_OK;
+}

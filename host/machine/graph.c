@@ -1,0 +1,242 @@
+/* graph.c - the value graph: nodes made once (hash-consing), counted references, release.
+ *
+ * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out of the table and
+ * lets its inputs go. Nodes live in blocks that are kept until the machine goes. */
+#include "internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NODES_IN_BLOCK = 512, TABLE_FIRST = 4096 };
+
+bool graph_init(struct machine *m)
+{
+    m->table_size = TABLE_FIRST;
+    m->table = calloc(m->table_size, sizeof *m->table);
+    return m->table != NULL;
+}
+
+void graph_finish(struct machine *m)
+{
+    machine_begin(m);
+    for (int i = 0; i < m->node_blocks_count; i++)
+        free(m->node_blocks[i]);
+    free(m->node_blocks);
+    free(m->table);
+    free(m->borrowed);
+    free(m->release_stack);
+}
+
+/* Memory for the graph itself is small beside the fields' and is not expected to run out: when it does there is
+ * no state to return to. */
+static void *grown(void *old, int *capacity, size_t element)
+{
+    int wanted = *capacity ? *capacity * 2 : 64;
+    void *new = realloc(old, (size_t)wanted * element);
+    INVARIANT(new != NULL);
+    *capacity = wanted;
+    return new;
+}
+
+static struct machine_value *node_new(struct machine *m)
+{
+    if (!m->free_nodes) {
+        if (m->node_blocks_count == m->node_blocks_capacity)
+            m->node_blocks = grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
+        struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
+        INVARIANT(block != NULL);
+        m->node_blocks[m->node_blocks_count++] = block;
+        for (int i = 0; i < NODES_IN_BLOCK; i++) {
+            block[i].next = m->free_nodes;
+            m->free_nodes = &block[i];
+        }
+    }
+    struct machine_value *v = m->free_nodes;
+    m->free_nodes = v->next;
+    m->nodes_live++;
+    return v;
+}
+
+void graph_ref(struct machine_value *v)
+{
+    v->refs++;
+}
+
+struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
+{
+    if (m->borrowed_count == m->borrowed_capacity)
+        m->borrowed = grown(m->borrowed, &m->borrowed_capacity, sizeof *m->borrowed);
+    m->borrowed[m->borrowed_count++] = v;
+    v->refs++;
+    return v;
+}
+
+void machine_begin(struct machine *m)
+{
+    for (int i = 0; i < m->borrowed_count; i++)
+        graph_unref(m, m->borrowed[i]);
+    m->borrowed_count = 0;
+}
+
+static uint32_t hash_of(const struct machine_value *k)
+{
+    uint64_t h = k->op | (uint64_t)k->type.kind << 8 | (uint64_t)k->type.width << 16 |
+                 (uint64_t)k->axis << 24 | (uint64_t)(uint32_t)k->detail << 32;
+    h = (h ^ k->set) * 0x9e3779b97f4a7c15u;
+    for (int i = 0; i < 3; i++)
+        h = (h ^ (h >> 29) ^ (uint64_t)(uintptr_t)k->in[i]) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 32) ^ k->imm.lo) * 0x94d049bb133111ebu;
+    h = (h ^ (h >> 30) ^ k->imm.hi) * 0x9e3779b97f4a7c15u;
+    return (uint32_t)(h >> 32);
+}
+
+static bool same_key(const struct machine_value *v, const struct machine_value *k)
+{
+    return v->op == k->op && type_equal(v->type, k->type) && v->axis == k->axis && v->set == k->set &&
+           v->detail == k->detail && v->in[0] == k->in[0] && v->in[1] == k->in[1] &&
+           v->in[2] == k->in[2] && v->imm.lo == k->imm.lo && v->imm.hi == k->imm.hi;
+}
+
+static void table_grow(struct machine *m)
+{
+    uint32_t size = m->table_size * 2;
+    struct machine_value **table = calloc(size, sizeof *table);
+    INVARIANT(table != NULL);
+    for (uint32_t i = 0; i < m->table_size; i++)
+        for (struct machine_value *v = m->table[i], *next; v; v = next) {
+            next = v->next;
+            v->next = table[v->hash & (size - 1)];
+            table[v->hash & (size - 1)] = v;
+        }
+    free(m->table);
+    m->table = table;
+    m->table_size = size;
+}
+
+static void table_remove(struct machine *m, struct machine_value *v)
+{
+    struct machine_value **link = &m->table[v->hash & (m->table_size - 1)];
+    while (*link != v)
+        link = &(*link)->next;
+    *link = v->next;
+    v->interned = false;
+    m->table_count--;
+}
+
+static void derive(struct machine_value *v, uint32_t epoch)
+{
+    const struct node_op_info *info = &node_ops[v->op];
+    unsigned generator = info->cost, height = 0;
+    bool nan = info->may_be_nan;
+    v->birth = epoch;
+    for (int i = 0; i < info->inputs; i++) {
+        const struct machine_value *in = v->in[i];
+        generator += in->generator;
+        if (in->height + 1u > height && !node_is_leaf(in))
+            height = in->height + 1u;
+        if (!node_is_leaf(in) && !node_is_cheap(in) && in->birth < v->birth)
+            v->birth = in->birth;
+        if (v->op == NODE_SELECT || v->op == NODE_SHIFT)
+            nan = nan || in->maybe_nan;
+    }
+    /* min and max give b where either is NaN: with a number for b they never give a NaN. */
+    if ((v->op == MACHINE_FMIN || v->op == MACHINE_FMAX) && v->in[1]->op == NODE_CONSTANT) {
+        uint64_t magnitude = v->in[1]->imm.lo & (v->type.width == 32 ? 0x7fffffffu : INT64_MAX);
+        nan = magnitude > (v->type.width == 32 ? 0x7f800000u : 0x7ff0000000000000u);
+    }
+    v->generator = generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
+    v->height = height > UINT16_MAX ? UINT16_MAX : (uint16_t)height;
+    v->maybe_nan = nan && v->type.kind == MACHINE_FLOAT;
+}
+
+struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
+{
+    uint32_t hash = hash_of(key);
+    for (struct machine_value *v = m->table[hash & (m->table_size - 1)]; v; v = v->next)
+        if (v->hash == hash && same_key(v, key))
+            return graph_borrow(m, v);
+    if (m->table_count >= m->table_size)
+        table_grow(m);
+    struct machine_value *v = node_new(m);
+    *v = *key;
+    v->refs = 0;
+    v->hash = hash;
+    v->mark = 0;
+    v->buffer = NULL;
+    for (int i = 0; i < 3; i++)
+        if (v->in[i])
+            graph_ref(v->in[i]);
+    derive(v, m->epoch);
+    v->interned = true;
+    v->next = m->table[hash & (m->table_size - 1)];
+    m->table[hash & (m->table_size - 1)] = v;
+    m->table_count++;
+    if (v->op != NODE_CONSTANT)
+        m->nodes_pending++;
+    return graph_borrow(m, v);
+}
+
+struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
+                                        struct device_buffer *buffer)
+{
+    struct machine_value *v = node_new(m);
+    *v = (struct machine_value){.op = NODE_BUFFER,
+                                .type = type,
+                                .generator = GENERATOR_NONE,
+                                .set = (uint16_t)set,
+                                .buffer = buffer};
+    return graph_borrow(m, v);
+}
+
+/* Iterative: chains can be long. */
+void graph_unref(struct machine *m, struct machine_value *v)
+{
+    if (--v->refs)
+        return;
+    m->release_count = 0;
+    for (;;) {
+        if (v->interned) {
+            table_remove(m, v);
+            if (v->op != NODE_CONSTANT && !v->buffer)
+                m->nodes_pending--;
+        }
+        if (v->buffer)
+            device_buffer_unref(m, v->buffer);
+        for (int i = 0; i < 3; i++)
+            if (v->in[i] && --v->in[i]->refs == 0) {
+                if (m->release_count == m->release_capacity)
+                    m->release_stack =
+                        grown(m->release_stack, &m->release_capacity, sizeof *m->release_stack);
+                m->release_stack[m->release_count++] = v->in[i];
+            }
+        v->next = m->free_nodes;
+        m->free_nodes = v;
+        m->nodes_live--;
+        if (!m->release_count)
+            return;
+        v = m->release_stack[--m->release_count];
+    }
+}
+
+void graph_materialised(struct machine *m, struct machine_value *v, struct device_buffer *buffer)
+{
+    INVARIANT(!v->buffer && v->interned);
+    v->buffer = buffer;
+    m->nodes_pending--;
+    if (node_is_cheap(v))
+        return; /* keeps its name: the next one like it is the same node */
+    table_remove(m, v);
+    struct machine_value *in[3];
+    memcpy(in, v->in, sizeof in);
+    memset(v->in, 0, sizeof v->in);
+    v->op = NODE_BUFFER;
+    v->detail = 0;
+    v->axis = 0;
+    v->imm = (struct machine_scalar){0, 0};
+    v->generator = GENERATOR_NONE;
+    v->height = 0;
+    v->maybe_nan = false;
+    for (int i = 0; i < 3; i++)
+        if (in[i])
+            graph_unref(m, in[i]);
+}

@@ -1,0 +1,338 @@
+/* internal.h - what the files of the machine share.
+ *
+ *   fields.c    VP sets, fields, flags: which value is where          (uses simplify)
+ *   simplify.c  makes values; the rules that keep the graph small     (uses graph)
+ *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
+ *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
+ *   emit.c      the text of one kernel                                (pure; no OpenCL)
+ *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
+ *   observe.c   reading, writing, reducing                            (uses run)
+ *   device.c    OpenCL: devices, buffers, programs and their cache
+ *   machine.c   creation, errors, configuration
+ */
+#ifndef LUTETIA_MACHINE_INTERNAL_H
+#define LUTETIA_MACHINE_INTERNAL_H
+
+#include <CL/cl.h>
+#include <stdio.h>
+
+#include "machine.h"
+
+/* An assertion that stays in release builds: a broken invariant of ours, never of the caller. */
+#define INVARIANT(condition)                                                                   \
+    ((condition) ? (void)0 : machine_invariant_failed(#condition, __FILE__, __LINE__))
+_Noreturn void machine_invariant_failed(const char *what, const char *file, int line);
+
+/* ---- nodes ---- */
+
+enum node_op {
+    /* 0 .. MACHINE_OP_COUNT_PUBLIC - 1 are enum machine_op */
+    NODE_CONSTANT = MACHINE_OP_COUNT_PUBLIC, /* imm */
+    NODE_BUFFER,                             /* materialised: see buffer */
+    NODE_COORDINATE,                         /* axis */
+    NODE_INDEX,                              /* row-major */
+    NODE_SEND_ADDRESS,
+    NODE_RANDOM,      /* imm.lo key, imm.hi limit (0: all bits); detail 1: limit fits 32 bits */
+    NODE_SELECT,      /* in: condition, a, b */
+    NODE_SHIFT,       /* axis, detail = distance */
+    NODE_ZERO_EXTEND, /* also truncates */
+    NODE_SIGN_EXTEND,
+    NODE_EXTRACT, /* detail = offset */
+    NODE_CONCAT,  /* in: low, high */
+    NODE_REINTERPRET,
+    NODE_U_TO_F,
+    NODE_S_TO_F,
+    NODE_F_TO_U,
+    NODE_F_TO_S,
+    NODE_F_TO_F,
+    NODE_OVERFLOW_UADD, /* operands -> bit: the result does not fit */
+    NODE_OVERFLOW_USUB,
+    NODE_OVERFLOW_UMUL,
+    NODE_OVERFLOW_SADD,
+    NODE_OVERFLOW_SSUB,
+    NODE_OVERFLOW_SMUL,
+    NODE_OVERFLOW_SNEG,
+    NODE_OVERFLOW_FADD,
+    NODE_OVERFLOW_FSUB,
+    NODE_OVERFLOW_FMUL,
+    NODE_OVERFLOW_FDIV,
+    NODE_OP_COUNT
+};
+
+struct node_op_info {
+    const char *name;   /* in dumps, and of the prelude's function */
+    uint8_t inputs;     /* operands */
+    uint8_t cost;       /* vector instructions, about */
+    uint8_t may_be_nan; /* gives a NaN whose bits are not canonical until it is stored */
+};
+extern const struct node_op_info node_ops[NODE_OP_COUNT];
+
+struct device_buffer {
+    cl_mem mem;
+    size_t bytes;
+    uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
+};
+
+#define GENERATOR_NONE 255 /* reads memory, or is dear: stored like any value */
+#define GENERATOR_CHEAP 24 /* a function of coordinates and constants this cheap is never stored */
+
+struct machine_value {
+    uint8_t op;
+    struct machine_type type;
+    uint8_t axis;
+    uint8_t generator; /* cost where nothing is read from memory, else GENERATOR_NONE */
+    bool maybe_nan;    /* bits of a NaN in it may not be canonical */
+    uint16_t set;      /* VP set; 0: one number for all */
+    uint16_t height;   /* longest path to something materialised */
+    bool interned;
+    int32_t detail;
+    uint32_t refs;
+    uint32_t hash;
+    uint32_t mark;  /* visit stamp of run.c */
+    uint32_t birth; /* the evaluation before which the oldest thing in it still to compute was made */
+    uint32_t local; /* index in the evaluation at hand */
+    struct machine_value *next; /* in its hash chain, or in the free list */
+    struct machine_value *in[3];
+    struct machine_scalar imm;
+    struct device_buffer *buffer;
+};
+
+/* Held by fields and flags. */
+struct slot {
+    struct machine_value *value;
+    uint32_t offset, bits;   /* within the field; a flag: 0, 1 */
+    uint32_t epoch_created;  /* evaluations so far when it was first stored */
+    uint32_t epoch_accessed; /* ... when it was last accessed for the first time since an evaluation */
+    bool overwritten_first; /* that first access overwrote it: a temporary */
+};
+
+struct field {
+    uint32_t base; /* its id */
+    uint32_t bits;
+    int vpset;
+    enum machine_region region;
+    uint64_t serial; /* order of allocation */
+    struct slot *slots; /* ascending offsets, no overlap; what is missing is 0 */
+    int slots_count, slots_capacity;
+};
+
+struct lazy_overflow {
+    uint8_t op; /* a NODE_OVERFLOW_*; 0: none */
+    struct machine_value *a, *b, *context;
+};
+
+struct vpset {
+    bool used;
+    uint16_t generation; /* of those that had this id */
+    int rank;
+    int dimensions[MACHINE_AXES_MAX];
+    uint64_t count, rows; /* rows: product of all axes but the last */
+    int width;            /* the last axis: what vectors run along */
+    int halo;             /* columns repeated on both sides of a row */
+    size_t pitch;         /* elements from row to row */
+    uint64_t ratio;
+    struct slot flags[3];
+    struct lazy_overflow overflow;
+};
+
+/* ---- the device ---- */
+
+struct device_shape { /* what generated code should look like there */
+    int vector;       /* lanes of 32 bits in a work-item; 1 on a GPU */
+    int halo;         /* columns of padding, where vectors are used */
+    double op_ns;     /* cost model: one vector instruction, for an element */
+    double byte_ns;   /* ... one byte to or from memory */
+    double launch_ns; /* ... a launch */
+};
+
+struct program_entry;
+
+struct device {
+    cl_platform_id platform;
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    char name[256], platform_name[128], driver[128];
+    bool is_cpu, has_double;
+    uint64_t memory_bytes, memory_max_alloc_bytes;
+    struct device_shape shape;
+    struct device_buffer **pool;
+    int pool_count, pool_capacity;
+    uint64_t pool_bytes, held_bytes;
+    struct program_entry *programs; /* hash table by text: see device.c */
+    uint64_t kernels_built, kernels_run;
+    const char *options;
+};
+
+struct plan;
+
+enum { TRACE_LENGTH = 128 };
+
+struct machine {
+    struct device device;
+    bool device_open;
+    bool eager;
+    char *dump_dir;
+    int dump_count;
+    int processors_count, processors_log2;
+    enum machine_status status;
+    char error[1024];
+
+    /* graph.c */
+    struct machine_value **table;
+    uint32_t table_size, table_count;
+    struct machine_value *free_nodes;
+    void **node_blocks;
+    int node_blocks_count, node_blocks_capacity;
+    uint64_t nodes_live, nodes_pending;
+    struct machine_value **borrowed;
+    int borrowed_count, borrowed_capacity;
+    struct machine_value **release_stack;
+    int release_count, release_capacity;
+
+    /* fields.c */
+    struct vpset *sets; /* 1 .. sets_count - 1 */
+    int sets_count, set_current;
+    struct field **fields; /* ascending base */
+    int fields_count, fields_capacity;
+    int field_last; /* index of the last one found */
+    uint32_t field_next_base;
+    uint64_t field_serial;
+    uint64_t random_seed, random_draws;
+
+    /* run.c */
+    struct plan **plans;
+    int plans_count, plans_size;
+    uint32_t epoch; /* evaluations so far */
+    uint32_t mark;
+    uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
+    uint64_t trace_hash, trace_power, flush_hash;
+    uint32_t trace_count;
+    uint64_t stores, stores_evaluated, flushes, plans_built;
+    double busy_s;
+};
+
+/* machine.c */
+enum machine_status machine_fail(struct machine *m, enum machine_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+double machine_clock_s(void);
+
+/* graph.c */
+bool graph_init(struct machine *m);
+void graph_finish(struct machine *m);
+/* The one node that is this; borrowed. Inputs are taken as references of the node's own. */
+struct machine_value *graph_node(struct machine *m, const struct machine_value *key);
+struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
+                                        struct device_buffer *buffer);
+void graph_ref(struct machine_value *v);
+void graph_unref(struct machine *m, struct machine_value *v);
+struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
+/* The node now has its values in buffer, and forgets how they came about (unless it is a cheap generator). */
+void graph_materialised(struct machine *m, struct machine_value *v, struct device_buffer *buffer);
+static inline bool node_is_leaf(const struct machine_value *v)
+{
+    return v->buffer || v->op == NODE_CONSTANT;
+}
+static inline bool node_is_cheap(const struct machine_value *v)
+{
+    return v->generator <= GENERATOR_CHEAP;
+}
+static inline bool type_equal(struct machine_type a, struct machine_type b)
+{
+    return a.kind == b.kind && a.width == b.width;
+}
+
+/* simplify.c */
+struct machine_value *simplify_under(struct machine *m, struct machine_value *v, struct machine_value *context,
+                                     int depth);
+struct machine_value *node_overflow(struct machine *m, enum node_op op, struct machine_value *a,
+                                    struct machine_value *b);
+
+/* fields.c */
+struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
+void fields_finish(struct machine *m);
+struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
+/* The whole content of [offset, offset + type.width) of a field, as it is. */
+struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset, uint32_t bits);
+struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset);
+enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset, struct machine_value *v);
+
+/* plan.c: see there */
+struct plan_node {
+    uint8_t op;
+    struct machine_type type;
+    uint8_t axis;
+    uint8_t generator;
+    bool maybe_nan;
+    bool leaf;     /* a buffer */
+    bool constant; /* an argument */
+    bool target;
+    uint16_t set;
+    int32_t detail;
+    int32_t in[3];
+    int32_t instead[3]; /* another node that may stand for in[k] here, if it is in memory; else -1 */
+    /* decided */
+    int stage;
+    bool stored;
+};
+struct plan_graph {
+    struct plan_node *nodes; /* inputs before users */
+    int count;
+};
+void plan_choose(struct plan_graph *g, const struct vpset *sets, const struct device_shape *shape);
+/* What a kernel finds in memory: leaves, and what an earlier stage stored. */
+static inline bool plan_loads(const struct plan_node *n, int stage)
+{
+    return n->leaf || (n->stored && n->stage < stage);
+}
+
+/* What node n, evaluated in a kernel of that stage, takes as its operand k. */
+static inline int plan_input(const struct plan_graph *g, const struct plan_node *n, int k, int stage)
+{
+    int instead = n->instead[k];
+    return instead >= 0 && plan_loads(&g->nodes[instead], stage) && !plan_loads(&g->nodes[n->in[k]], stage)
+               ? instead
+               : n->in[k];
+}
+
+/* emit.c */
+enum kernel_argument_kind { ARGUMENT_INPUT, ARGUMENT_OUTPUT, ARGUMENT_CONSTANT, ARGUMENT_SECOND };
+struct kernel_argument {
+    uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
+    uint8_t size; /* of a constant, bytes */
+    int32_t node;
+};
+struct kernel_text {
+    char *text; /* without the prelude */
+    char options[96];
+    struct kernel_argument *arguments;
+    int arguments_count;
+    int vector;
+    bool wide, wraps;
+    int ops, loads; /* emitted */
+};
+/* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
+bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count, const struct vpset *set,
+                 const struct device_shape *shape, struct kernel_text *out);
+void kernel_text_finish(struct kernel_text *k);
+size_t type_bytes(struct machine_type type); /* in a buffer */
+
+/* run.c */
+/* Evaluates targets (may be none) and whatever else should be: all: everything that is live. */
+enum machine_status run_evaluate(struct machine *m, struct machine_value **targets, int count, bool all);
+enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
+void run_init(struct machine *m);
+void run_finish(struct machine *m);
+
+/* device.c */
+enum machine_status device_open(struct machine *m, const char *choice);
+void device_close(struct machine *m);
+struct device_buffer *device_buffer_get(struct machine *m, size_t bytes); /* refs 1; NULL: error set */
+void device_buffer_ref(struct device_buffer *b);
+void device_buffer_unref(struct machine *m, struct device_buffer *b);
+/* The kernel of that name in a program of three parts, the first two the same for many; from memory, from disk, or
+ * built. Belongs to the device. NULL: error set. */
+cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options, const char *name);
+enum machine_status device_check(struct machine *m, cl_int error, const char *what);
+
+#endif

@@ -1,0 +1,137 @@
+/* machine.c - creation, configuration, errors. */
+#include "internal.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+_Noreturn void machine_invariant_failed(const char *what, const char *file, int line)
+{
+    fprintf(stderr, "lutetia: broken invariant: %s (%s:%d)\n", what, file, line);
+    abort();
+}
+
+enum machine_status machine_fail(struct machine *m, enum machine_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(m->error, sizeof m->error, format, arguments);
+    va_end(arguments);
+    m->status = status;
+    return status;
+}
+
+double machine_clock_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+struct machine_config machine_config_default(void)
+{
+    return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1, .dump_dir = NULL};
+}
+
+static enum machine_status set_processors(struct machine *m, int wanted)
+{
+    const char *from_environment = getenv("LUTETIA_PROCESSORS");
+    long count = wanted;
+    if (count == 0 && from_environment && *from_environment) {
+        char *end;
+        count = strtol(from_environment, &end, 10);
+        if (*end || count < 1)
+            return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                                "LUTETIA_PROCESSORS must be a power of two from 1 to 2^30 (is \"%s\")",
+                                from_environment);
+    }
+    if (count == 0)
+        count = 65536;
+    if (count < 1 || count > (1L << 30) || (count & (count - 1)))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "the number of processors must be a power of two from 1 to 2^30 (is %ld)", count);
+    m->processors_count = (int)count;
+    m->processors_log2 = __builtin_ctzl((unsigned long)count);
+    return MACHINE_OK;
+}
+
+static bool environment_says_yes(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value && strcmp(value, "0") != 0;
+}
+
+enum machine_status machine_create(const struct machine_config *config, struct machine **out)
+{
+    struct machine *m = calloc(1, sizeof *m);
+    *out = m;
+    if (!m)
+        return MACHINE_NO_MEMORY;
+    if (!graph_init(m))
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
+    m->eager = config->eager < 0 ? environment_says_yes("LUTETIA_EAGER") : config->eager != 0;
+    const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
+    if (dump && *dump)
+        m->dump_dir = strdup(dump);
+    m->sets_count = 1;
+    m->field_next_base = 64;
+    m->epoch = 1;
+    run_init(m);
+    m->random_seed = 1;
+    enum machine_status status = set_processors(m, config->processors_count);
+    if (status)
+        return status;
+    const char *device = config->device ? config->device : getenv("LUTETIA_DEVICE");
+    return device_open(m, device && *device ? device : NULL);
+}
+
+void machine_destroy(struct machine *m)
+{
+    if (!m)
+        return;
+    fields_finish(m);
+    run_finish(m);
+    graph_finish(m);
+    device_close(m);
+    free(m->dump_dir);
+    free(m);
+}
+
+enum machine_status machine_status_last(const struct machine *m)
+{
+    return m->status;
+}
+
+const char *machine_error(const struct machine *m)
+{
+    return m ? m->error : "not enough memory for a machine";
+}
+
+void machine_error_clear(struct machine *m)
+{
+    m->status = MACHINE_OK;
+    m->error[0] = 0;
+}
+
+int machine_processors_count(const struct machine *m)
+{
+    return m->processors_count;
+}
+
+const char *machine_device_name(const struct machine *m)
+{
+    return m->device.name;
+}
+
+void machine_stats_get(const struct machine *m, struct machine_stats *out)
+{
+    *out = (struct machine_stats){.stores = m->stores,
+                                  .values_live = m->nodes_live,
+                                  .flushes = m->flushes,
+                                  .plans_built = m->plans_built,
+                                  .kernels_built = m->device.kernels_built,
+                                  .kernels_run = m->device.kernels_run,
+                                  .bytes_held = m->device.held_bytes,
+                                  .busy_s = m->busy_s};
+}

@@ -1,0 +1,327 @@
+/* plan.c - chooses what exists in memory, and what each neighbour computes again.
+ *
+ * Input: the values to evaluate and all they need, down to what is in memory. Between a value and a shift of it
+ * there may be a *barrier*: the value is stored by one kernel and its neighbours' are loaded by a later one. Without
+ * a barrier the neighbour's value is computed again, at an offset, in the same kernel. A value's *stage* is the
+ * number of barriers before it; the stored values of one stage and VP set are one kernel.
+ *
+ *     water --shift--> ... flux ==barrier?== shift --> new water        stage 0 | stage 1
+ *
+ * The cost of a choice is estimated as
+ *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch,  c = op_ns * operations, b = byte_ns * bytes
+ * with operations counted for each (node, offset) pair that the kernel evaluates, and bytes for each array
+ * that it reads or writes. The search begins with a barrier at every shift of a computed value, and takes
+ * one after the other away if that is cheaper. Measured constants: device.c. */
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LIGHT = 8, EVALUATIONS_MAX = 1200, OFFSETS_MAX = 512 };
+
+struct visit {
+    uint32_t stamp;
+    int32_t node;
+    int32_t offset;
+};
+
+struct search {
+    struct plan_graph *g;
+    const struct vpset *sets;
+    const struct device_shape *shape;
+    bool *barrier;   /* of shift nodes */
+    bool *light;     /* never stored: computed wherever it is needed */
+    int *earliest;
+    int *loaded; /* stamp: counted in this kernel's bytes already */
+    struct visit *visits;
+    uint32_t visits_size, stamp, visits_count;
+    /* offsets met: vectors of rank numbers */
+    int (*offsets)[MACHINE_AXES_MAX];
+    int offsets_count;
+    bool first; /* the first plan must do, whatever it costs */
+    double operations, bytes;
+    bool too_much;
+};
+
+size_t type_bytes(struct machine_type type)
+{
+    return type.width <= 8 ? 1 : type.width <= 16 ? 2 : type.width <= 32 ? 4 : type.width <= 64 ? 8 : 16;
+}
+
+static int offset_moved(struct search *s, int from, int axis, int distance)
+{
+    int wanted[MACHINE_AXES_MAX];
+    memcpy(wanted, s->offsets[from], sizeof wanted);
+    wanted[axis] += distance;
+    for (int i = 0; i < s->offsets_count; i++)
+        if (!memcmp(s->offsets[i], wanted, sizeof wanted))
+            return i;
+    if (s->offsets_count == OFFSETS_MAX) {
+        s->too_much = true;
+        return 0;
+    }
+    memcpy(s->offsets[s->offsets_count], wanted, sizeof wanted);
+    return s->offsets_count++;
+}
+
+static bool visited(struct search *s, int node, int offset)
+{
+    uint32_t mask = s->visits_size - 1;
+    uint32_t h = ((uint32_t)node * 0x9e3779b1u ^ (uint32_t)offset * 0x85ebca6bu) & mask;
+    while (s->visits[h].stamp == s->stamp) {
+        if (s->visits[h].node == node && s->visits[h].offset == offset)
+            return true;
+        h = (h + 1) & mask;
+    }
+    if (s->visits_count * 2 > s->visits_size) {
+        s->too_much = true;
+        return true;
+    }
+    s->visits[h] = (struct visit){s->stamp, node, offset};
+    s->visits_count++;
+    return false;
+}
+
+static void expand(struct search *s, int index, int offset, int stage)
+{
+    const struct plan_node *n = &s->g->nodes[index];
+    if (n->constant || s->too_much || visited(s, index, offset))
+        return;
+    if (plan_loads(n, stage)) {
+        s->operations += 1;
+        if (s->loaded[index] != (int)s->stamp) {
+            s->loaded[index] = (int)s->stamp;
+            s->bytes += (double)type_bytes(n->type);
+        }
+        return;
+    }
+    s->operations += node_ops[n->op].cost;
+    if (n->op == NODE_SHIFT) {
+        const struct vpset *set = &s->sets[n->set];
+        int moved = offset_moved(s, offset, n->axis, n->detail);
+        if (n->axis == set->rank - 1 && set->halo && abs(s->offsets[moved][n->axis]) > set->halo)
+            s->too_much = true;
+        expand(s, n->in[0], moved, stage);
+        return;
+    }
+    for (int i = 0; i < node_ops[n->op].inputs; i++)
+        expand(s, plan_input(s->g, n, i, stage), offset, stage);
+}
+
+/* Stages and what is stored, for the barriers as they are. Returns the last stage. */
+static int assign(struct search *s)
+{
+    struct plan_graph *g = s->g;
+    int last = 0;
+    for (int i = 0; i < g->count; i++) {
+        struct plan_node *n = &g->nodes[i];
+        int earliest = 0;
+        if (!n->leaf && !n->constant)
+            for (int k = 0; k < node_ops[n->op].inputs; k++) {
+                int in = s->earliest[n->in[k]] + (s->barrier[i] ? 1 : 0);
+                earliest = in > earliest ? in : earliest;
+            }
+        s->earliest[i] = earliest;
+        last = earliest > last ? earliest : last;
+        n->stage = n->target ? earliest : last + 1; /* others: when first needed, see below */
+        n->stored = n->target;
+    }
+    for (int i = g->count - 1; i >= 0; i--) {
+        struct plan_node *n = &g->nodes[i];
+        if (n->leaf || n->constant)
+            continue;
+        if (n->stage > last)
+            n->stage = s->earliest[i];
+        for (int k = 0; k < node_ops[n->op].inputs; k++) {
+            struct plan_node *in = &g->nodes[n->in[k]];
+            int needed = n->stage - (s->barrier[i] ? 1 : 0);
+            if (!in->target && !in->leaf && !in->constant && needed < in->stage)
+                in->stage = needed;
+        }
+    }
+    /* Now that all stages are known: who is needed by a later kernel is stored. First what neighbours load; then
+     * the rest, unless something else that is stored will do instead. */
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = g->count - 1; i >= 0; i--) {
+            const struct plan_node *n = &g->nodes[i];
+            if (n->leaf || n->constant || (pass == 0) != s->barrier[i])
+                continue;
+            for (int k = 0; k < node_ops[n->op].inputs; k++) {
+                struct plan_node *in = &g->nodes[n->in[k]];
+                bool computed_anywhere =
+                    in->leaf || in->constant || s->light[n->in[k]] || s->barrier[n->in[k]];
+                const struct plan_node *other = n->instead[k] >= 0 ? &g->nodes[n->instead[k]] : NULL;
+                bool replaced = other && other->stored && other->stage < n->stage;
+                if (!computed_anywhere && n->stage > in->stage && !replaced)
+                    in->stored = true;
+            }
+        }
+    return last;
+}
+
+static double cost(struct search *s)
+{
+    struct plan_graph *g = s->g;
+    int last = assign(s);
+    double total = 0;
+    s->too_much = false;
+    for (int stage = 0; stage <= last; stage++) {
+        uint16_t sets_done[64];
+        int sets_count = 0;
+        for (int i = 0; i < g->count; i++) {
+            if (!g->nodes[i].stored || g->nodes[i].stage != stage)
+                continue;
+            bool done = false;
+            for (int k = 0; k < sets_count; k++)
+                done = done || sets_done[k] == g->nodes[i].set;
+            if (done || sets_count == 64)
+                continue;
+            uint16_t set = g->nodes[i].set;
+            sets_done[sets_count++] = set;
+            s->stamp++;
+            s->visits_count = 0;
+            s->offsets_count = 1;
+            s->operations = s->bytes = 0;
+            for (int k = i; k < g->count; k++)
+                if (g->nodes[k].stored && g->nodes[k].stage == stage && g->nodes[k].set == set) {
+                    s->bytes += (double)type_bytes(g->nodes[k].type);
+                    s->operations += 1;
+                    expand(s, k, 0, stage);
+                }
+            if (s->too_much || s->visits_count > EVALUATIONS_MAX)
+                return s->first ? 1e300 : HUGE_VAL;
+            double c = s->operations * s->shape->op_ns, b = s->bytes * s->shape->byte_ns;
+            total += (double)s->sets[set].count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
+        }
+    }
+    return total;
+}
+
+static void find_light(struct search *s, double *weight)
+{
+    for (int i = 0; i < s->g->count; i++) {
+        const struct plan_node *n = &s->g->nodes[i];
+        weight[i] = n->constant ? 0 : n->leaf ? 1 : node_ops[n->op].cost;
+        s->light[i] = n->constant || n->leaf;
+        if (s->light[i])
+            continue;
+        bool light = true;
+        for (int k = 0; k < node_ops[n->op].inputs; k++) {
+            weight[i] += weight[n->in[k]];
+            light = light && s->light[n->in[k]];
+        }
+        s->light[i] = (light && weight[i] <= LIGHT) || n->generator <= GENERATOR_CHEAP;
+    }
+}
+
+/* Where select(c, x, old) is stored, x itself need not be for those who look at it only where c holds. Looked at
+ * only where c holds is what is used only for the first branch of selects by c. */
+static void find_substitutes(struct plan_graph *g)
+{
+    enum { UNSEEN = -1, EVERYWHERE = -2 };
+    int32_t *where = malloc((size_t)g->count * sizeof *where);   /* a node is looked at: the condition */
+    int32_t *select = malloc((size_t)g->count * sizeof *select); /* of a node: its select */
+    INVARIANT(where && select);
+    for (int i = 0; i < g->count; i++) {
+        where[i] = g->nodes[i].target ? EVERYWHERE : UNSEEN;
+        select[i] = -1;
+        for (int k = 0; k < 3; k++)
+            g->nodes[i].instead[k] = -1;
+    }
+    for (int i = g->count - 1; i >= 0; i--) {
+        const struct plan_node *n = &g->nodes[i];
+        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++) {
+            int32_t here = n->op == NODE_SHIFT ? EVERYWHERE : where[i];
+            if (n->op == NODE_SELECT && k == 1 && here == EVERYWHERE)
+                here = n->in[0];
+            int32_t *w = &where[n->in[k]];
+            *w = *w == UNSEEN || *w == here ? here : EVERYWHERE;
+        }
+        if (n->op == NODE_SELECT && !n->leaf)
+            select[n->in[1]] = i;
+    }
+    for (int i = 0; i < g->count; i++) {
+        struct plan_node *n = &g->nodes[i];
+        for (int k = 0; !n->leaf && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
+            int32_t s = select[n->in[k]];
+            bool first = n->op == NODE_SELECT && k == 1; /* looked at where n's own condition holds */
+            int32_t here = first && where[i] == EVERYWHERE ? n->in[0] : where[i];
+            if (s >= 0 && s < i && g->nodes[s].in[0] == here)
+                n->instead[k] = s;
+        }
+    }
+    free(where);
+    free(select);
+}
+
+struct gain {
+    int node;
+    double cost;
+};
+
+static int by_cost(const void *a, const void *b)
+{
+    const struct gain *x = a, *y = b;
+    return x->cost < y->cost ? -1 : x->cost > y->cost ? 1 : x->node - y->node;
+}
+
+/* Twice: tries each barrier that is left, and takes them away in the order of what that seemed to gain. */
+static void descend(struct search *s, double best)
+{
+    struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
+    INVARIANT(gains != NULL);
+    s->first = false;
+    for (int round = 0; round < 2; round++) {
+        int count = 0;
+        for (int i = 0; i < s->g->count; i++) {
+            if (!s->barrier[i])
+                continue;
+            s->barrier[i] = false;
+            gains[count++] = (struct gain){i, cost(s)};
+            s->barrier[i] = true;
+        }
+        qsort(gains, (size_t)count, sizeof *gains, by_cost);
+        for (int i = 0; i < count; i++) {
+            s->barrier[gains[i].node] = false;
+            double c = cost(s);
+            if (c < best)
+                best = c;
+            else
+                s->barrier[gains[i].node] = true;
+        }
+    }
+    free(gains);
+}
+
+void plan_choose(struct plan_graph *g, const struct vpset *sets, const struct device_shape *shape)
+{
+    size_t count = (size_t)g->count;
+    struct search s = {.g = g, .sets = sets, .shape = shape, .first = true};
+    s.visits_size = 1024;
+    while (s.visits_size < 4 * count + 4 * EVALUATIONS_MAX)
+        s.visits_size *= 2;
+    s.barrier = calloc(count, sizeof *s.barrier);
+    s.light = calloc(count, sizeof *s.light);
+    s.earliest = calloc(count, sizeof *s.earliest);
+    s.loaded = calloc(count, sizeof *s.loaded);
+    s.visits = calloc(s.visits_size, sizeof *s.visits);
+    s.offsets = calloc(OFFSETS_MAX, sizeof *s.offsets);
+    double *weight = calloc(count, sizeof *weight);
+    INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets && weight);
+    s.offsets_count = 1;
+    find_light(&s, weight);
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].op == NODE_SHIFT && !g->nodes[i].leaf && !s.light[g->nodes[i].in[0]])
+            s.barrier[i] = true;
+    find_substitutes(g);
+    descend(&s, cost(&s));
+    cost(&s);
+    free(s.barrier);
+    free(s.light);
+    free(s.earliest);
+    free(s.loaded);
+    free(s.visits);
+    free(s.offsets);
+    free(weight);
+}

@@ -1,0 +1,506 @@
+/* run.c - evaluation: what to compute, the plan for it, the launches.
+ *
+ * An evaluation has targets: the values asked for, and the content of every live field and flag that is not
+ *  - in memory already, a number, or a cheap function of coordinates;
+ *  - a temporary just now: a slot that was overwritten before it was read since the last evaluation, whose present
+ *    value is shallow and all new. It stays an expression; most are overwritten again and never computed. If it, or
+ *    something made of it, is still there at the next evaluation it is computed then.
+ *
+ * Plans are kept by signature: a number for each node that is reached, in the order in which it is reached; numbers'
+ * values are no part of it. A step seen before is a walk over its nodes, a look-up, and its launches.
+ *
+ * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from then on whenever
+ * the trace of stores comes to the same place as then: once for each turn of a loop, always at the same point. */
+#include "internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "kernels.h"
+
+enum {
+    PENDING_MANY = 384,
+    PENDING_AGAIN = 48,
+    PENDING_MOST = 2048,
+    HEIGHT_DEFERRED = 96,
+    HEIGHT_MOST = 1500,
+    RUN_COLUMNS = 4096
+};
+
+#define TRACE_FACTOR 0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power */
+
+struct launch {
+    cl_kernel kernel;
+    int set, vector;
+    struct kernel_argument *arguments;
+    int arguments_count;
+};
+
+struct plan {
+    uint32_t *signature;
+    uint32_t signature_length;
+    uint64_t hash;
+    struct launch *launches;
+    int launches_count;
+    int *stored; /* nodes that get a buffer */
+    int stored_count;
+    struct plan *next;
+};
+
+/* ---- the nodes that are reached ---- */
+
+struct reach {
+    struct machine_value **nodes; /* inputs before users */
+    uint32_t *signature;
+    int count, capacity;
+    uint32_t length, signature_capacity;
+};
+
+static bool reach_room(struct reach *r)
+{
+    if (r->count == r->capacity) {
+        int capacity = r->capacity ? 2 * r->capacity : 512;
+        void *nodes = realloc(r->nodes, (size_t)capacity * sizeof *r->nodes);
+        if (!nodes)
+            return false;
+        r->nodes = nodes;
+        r->capacity = capacity;
+    }
+    if (r->length + 8 > r->signature_capacity) {
+        uint32_t capacity = r->signature_capacity ? 2 * r->signature_capacity : 4096;
+        void *signature = realloc(r->signature, (size_t)capacity * sizeof *r->signature);
+        if (!signature)
+            return false;
+        r->signature = signature;
+        r->signature_capacity = capacity;
+    }
+    return true;
+}
+
+/* Depth first; HEIGHT_MOST bounds the recursion. */
+static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
+{
+    if (v->mark == m->mark)
+        return true;
+    v->mark = m->mark;
+    int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
+    for (int i = 0; i < inputs; i++)
+        if (!reach_from(m, r, v->in[i]))
+            return false;
+    if (!reach_room(r))
+        return false;
+    v->local = (uint32_t)r->count;
+    r->nodes[r->count++] = v;
+    uint32_t *s = r->signature;
+    s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
+                     (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
+    if (v->op != NODE_CONSTANT)
+        s[r->length++] = v->set | (uint32_t)m->sets[v->set].generation << 16;
+    if (!v->buffer) {
+        s[r->length++] = (uint32_t)v->detail;
+        for (int i = 0; i < inputs; i++)
+            s[r->length++] = v->in[i]->local;
+    }
+    /* min and max with a number: whether that is a NaN is decided at recording */
+    s[r->length++] = v->maybe_nan;
+    return true;
+}
+
+/* ---- targets ---- */
+
+struct targets {
+    struct machine_value **values;
+    int count, capacity;
+};
+
+static bool targets_add(struct targets *t, struct machine_value *v)
+{
+    if (t->count == t->capacity) {
+        int capacity = t->capacity ? 2 * t->capacity : 64;
+        void *values = realloc(t->values, (size_t)capacity * sizeof *t->values);
+        if (!values)
+            return false;
+        t->values = values;
+        t->capacity = capacity;
+    }
+    t->values[t->count++] = v;
+    return true;
+}
+
+static bool slot_wants(const struct machine *m, const struct slot *slot, bool all)
+{
+    const struct machine_value *v = slot->value;
+    if (node_is_leaf(v) || node_is_cheap(v))
+        return false;
+    if (all || v->height > HEIGHT_DEFERRED)
+        return true;
+    return !(slot->overwritten_first && v->birth == m->epoch);
+}
+
+static bool targets_collect(struct machine *m, struct targets *t, bool all)
+{
+    for (int i = 1; i < m->sets_count; i++)
+        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
+            if (slot_wants(m, &m->sets[i].flags[flag], all) &&
+                !targets_add(t, m->sets[i].flags[flag].value))
+                return false;
+    for (int i = 0; i < m->fields_count; i++)
+        for (int k = 0; k < m->fields[i]->slots_count; k++)
+            if (slot_wants(m, &m->fields[i]->slots[k], all) &&
+                !targets_add(t, m->fields[i]->slots[k].value))
+                return false;
+    return true;
+}
+
+/* ---- plans ---- */
+
+static void plan_free(struct plan *p)
+{
+    if (!p)
+        return;
+    for (int i = 0; i < p->launches_count; i++)
+        free(p->launches[i].arguments);
+    free(p->launches);
+    free(p->stored);
+    free(p->signature);
+    free(p);
+}
+
+void run_init(struct machine *m)
+{
+    m->trace_power = 1;
+    for (int i = 0; i < TRACE_LENGTH; i++)
+        m->trace_power *= TRACE_FACTOR;
+}
+
+void run_finish(struct machine *m)
+{
+    for (int i = 0; i < m->plans_size; i++)
+        for (struct plan *p = m->plans[i], *next; p; p = next) {
+            next = p->next;
+            plan_free(p);
+        }
+    free(m->plans);
+}
+
+static void dump_text(struct machine *m, int number, const char *suffix, const char *options, const char *text)
+{
+    char path[600];
+    mkdir(m->dump_dir, 0777);
+    snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
+    FILE *f = fopen(path, "w");
+    if (!f)
+        return;
+    if (options)
+        fprintf(f, "/* %s */\n", options);
+    fputs(text, f);
+    fclose(f);
+}
+
+static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
+{
+    char path[600];
+    mkdir(m->dump_dir, 0777);
+    snprintf(path, sizeof path, "%s/%04d.graph", m->dump_dir, number);
+    FILE *f = fopen(path, "w");
+    if (!f)
+        return;
+    for (int i = 0; i < g->count; i++) {
+        const struct plan_node *n = &g->nodes[i];
+        fprintf(f, "%4d %-14s %s%d", i, n->leaf ? "buffer" : node_ops[n->op].name,
+                n->type.kind == MACHINE_FLOAT ? "f" : "u", n->type.width);
+        if (n->op == NODE_SHIFT && !n->leaf)
+            fprintf(f, " axis %d by %d", n->axis, n->detail);
+        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
+            fprintf(f, " %d", n->in[k]);
+        if (!n->leaf && !n->constant)
+            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "", n->target ? ", asked for" : "");
+        fprintf(f, "\n");
+    }
+    fclose(f);
+}
+
+static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g, const int *stores,
+                        int stores_count)
+{
+    int set = g->nodes[stores[0]].set;
+    struct kernel_text k;
+    if (!emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
+        return false;
+    }
+    if (m->dump_dir)
+        dump_text(m, m->dump_count++, ".cl", k.options, k.text);
+    struct launch *launches = realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
+    const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
+    cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
+    if (launches)
+        p->launches = launches;
+    if (!kernel) {
+        kernel_text_finish(&k);
+        return false;
+    }
+    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
+                                                       .set = set,
+                                                       .vector = k.vector,
+                                                       .arguments = k.arguments,
+                                                       .arguments_count = k.arguments_count};
+    k.arguments = NULL;
+    kernel_text_finish(&k);
+    return true;
+}
+
+static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t)
+{
+    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes), .count = r->count};
+    struct plan *p = calloc(1, sizeof *p);
+    int *stores = calloc((size_t)r->count, sizeof *stores);
+    bool good = g.nodes && p && stores;
+    if (!good)
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+    for (int i = 0; good && i < r->count; i++) {
+        const struct machine_value *v = r->nodes[i];
+        struct plan_node *n = &g.nodes[i];
+        *n = (struct plan_node){.op = v->buffer ? NODE_BUFFER : v->op,
+                                .type = v->type,
+                                .axis = v->axis,
+                                .generator = v->buffer ? GENERATOR_NONE : v->generator,
+                                .maybe_nan = v->maybe_nan,
+                                .leaf = v->buffer != NULL,
+                                .constant = v->op == NODE_CONSTANT && !v->buffer,
+                                .set = v->set,
+                                .detail = v->detail};
+        for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++)
+            n->in[k] = (int32_t)v->in[k]->local;
+    }
+    for (int i = 0; good && i < t->count; i++)
+        g.nodes[t->values[i]->local].target = true;
+    if (good) {
+        plan_choose(&g, m->sets, &m->device.shape);
+        p->stored = calloc((size_t)r->count, sizeof *p->stored);
+        good = p->stored != NULL;
+    }
+    if (good && m->dump_dir)
+        dump_graph(m, m->dump_count, &g);
+    int last = 0;
+    for (int i = 0; good && i < g.count; i++)
+        if (g.nodes[i].stored && g.nodes[i].stage > last)
+            last = g.nodes[i].stage;
+    for (int stage = 0; good && stage <= last; stage++)
+        for (int set = 1; good && set < m->sets_count; set++) {
+            int count = 0;
+            for (int i = 0; i < g.count; i++)
+                if (g.nodes[i].stored && g.nodes[i].stage == stage && g.nodes[i].set == set) {
+                    stores[count++] = i;
+                    p->stored[p->stored_count++] = i;
+                }
+            /* few enough arguments for any device */
+            for (int at = 0; good && at < count; at += 24)
+                good = plan_kernel(m, p, &g, stores + at, count - at < 24 ? count - at : 24);
+        }
+    free(g.nodes);
+    free(stores);
+    if (!good) {
+        plan_free(p);
+        return NULL;
+    }
+    m->plans_built++;
+    return p;
+}
+
+static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
+{
+    uint64_t h = 0xcbf29ce484222325u;
+    for (uint32_t i = 0; i < r->length; i++) {
+        h = (h ^ r->signature[i]) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 32;
+    }
+    if (!m->plans) {
+        m->plans_size = 1024;
+        m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
+        if (!m->plans) {
+            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
+            return NULL;
+        }
+    }
+    struct plan **bucket = &m->plans[h & (uint64_t)(m->plans_size - 1)];
+    for (struct plan *p = *bucket; p; p = p->next)
+        if (p->hash == h && p->signature_length == r->length &&
+            !memcmp(p->signature, r->signature, r->length * sizeof *r->signature))
+            return p;
+    struct plan *p = plan_make(m, r, t);
+    if (!p)
+        return NULL;
+    p->signature = malloc(r->length * sizeof *p->signature);
+    if (!p->signature) {
+        plan_free(p);
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+        return NULL;
+    }
+    memcpy(p->signature, r->signature, r->length * sizeof *p->signature);
+    p->signature_length = r->length;
+    p->hash = h;
+    p->next = *bucket;
+    *bucket = p;
+    return p;
+}
+
+/* ---- launches ---- */
+
+static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_value *v,
+                           const struct kernel_argument *a)
+{
+    uint64_t bits = a->kind == ARGUMENT_SECOND ? v->imm.hi : v->imm.lo;
+    if (a->size == 8)
+        return clSetKernelArg(kernel, at, 8, &bits);
+    uint32_t low = (uint32_t)bits;
+    if (v->type.kind == MACHINE_BITS && v->type.width == 1)
+        low = bits ? UINT32_MAX : 0;
+    return clSetKernelArg(kernel, at, 4, &low);
+}
+
+static enum machine_status launch(struct machine *m, const struct launch *l, const struct reach *r,
+                                  struct device_buffer *const *fresh)
+{
+    const struct vpset *s = &m->sets[l->set];
+    cl_int run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
+    cl_int fixed[5] = {s->width, (cl_int)s->pitch, run, m->processors_log2, (cl_int)s->ratio};
+    cl_uint at = 0;
+    cl_int error = CL_SUCCESS;
+    for (int i = 0; i < 5; i++)
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
+    for (int a = 0; a < s->rank - 1; a++)
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
+    for (int i = 0; i < l->arguments_count; i++, at++) {
+        const struct kernel_argument *a = &l->arguments[i];
+        const struct machine_value *v = r->nodes[a->node];
+        if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT) {
+            struct device_buffer *b = fresh[a->node] ? fresh[a->node] : v->buffer;
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &b->mem);
+        } else {
+            error |= set_constant(l->kernel, at, v, a);
+        }
+    }
+    size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
+    static const size_t one[2] = {1, 1};
+    error |= clEnqueueNDRangeKernel(m->device.queue, l->kernel, 2, NULL, global, m->device.is_cpu ? one : NULL, 0,
+                                    NULL, NULL);
+    m->device.kernels_run++;
+    return device_check(m, error, "a kernel cannot be started");
+}
+
+static enum machine_status execute(struct machine *m, const struct plan *p, const struct reach *r)
+{
+    enum machine_status status = MACHINE_OK;
+    struct device_buffer **fresh = calloc((size_t)r->count, sizeof *fresh);
+    if (!fresh)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
+    for (int i = 0; i < p->stored_count && !status; i++) {
+        const struct machine_value *v = r->nodes[p->stored[i]];
+        const struct vpset *s = &m->sets[v->set];
+        size_t bytes = (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(v->type);
+        fresh[p->stored[i]] = device_buffer_get(m, bytes);
+        if (!fresh[p->stored[i]])
+            status = m->status;
+    }
+    for (int i = 0; i < p->launches_count && !status; i++)
+        status = launch(m, &p->launches[i], r, fresh);
+    for (int i = 0; i < p->stored_count; i++) {
+        struct device_buffer *b = fresh[p->stored[i]];
+        if (b && status)
+            device_buffer_unref(m, b);
+    }
+    /* Users first: a node whose inputs are let go may be the last to hold them. */
+    for (int i = p->stored_count - 1; i >= 0 && !status; i--) {
+        struct machine_value *v = r->nodes[p->stored[i]];
+        graph_ref(v);
+    }
+    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
+        graph_materialised(m, r->nodes[p->stored[i]], fresh[p->stored[i]]);
+    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
+        graph_unref(m, r->nodes[p->stored[i]]);
+    free(fresh);
+    return status;
+}
+
+enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count, bool all)
+{
+    struct targets t = {0};
+    struct reach r = {0};
+    enum machine_status status = MACHINE_OK;
+    bool good = true;
+    for (int i = 0; i < count && good; i++)
+        if (!node_is_leaf(wanted[i]))
+            good = targets_add(&t, wanted[i]);
+    /* Reading one thing after another is one look: nothing has become older in between. */
+    if (all || m->stores != m->stores_evaluated)
+        good = good && targets_collect(m, &t, all);
+    m->stores_evaluated = m->stores;
+    m->flush_hash = 0; /* who observes says when */
+    if (good && t.count == 0) {
+        free(t.values);
+        return MACHINE_OK;
+    }
+    m->mark++;
+    for (int i = 0; i < t.count && good; i++)
+        good = reach_from(m, &r, t.values[i]);
+    for (int i = 0; i < t.count && good; i++) {
+        good = reach_room(&r);
+        if (good)
+            r.signature[r.length++] = UINT32_C(0x80000000) | t.values[i]->local;
+    }
+    if (!good)
+        status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    const struct plan *p = status ? NULL : plan_get(m, &r, &t);
+    if (p) {
+        status = execute(m, p, &r);
+        clFlush(m->device.queue);
+        m->flushes++;
+        m->epoch++;
+    } else if (!status) {
+        status = m->status;
+    }
+    free(t.values);
+    free(r.nodes);
+    free(r.signature);
+    return status;
+}
+
+/* ---- when ---- */
+
+enum machine_status run_after_store(struct machine *m, const struct machine_value *v)
+{
+    m->stores++;
+    if (m->eager)
+        return run_evaluate(m, NULL, 0, true);
+    /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they went. */
+    uint64_t what = ((uint64_t)v->op << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
+    const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
+    what = (what * 64 + (in ? in->op : 0)) * 0x9e3779b97f4a7c15u;
+    uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
+    m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
+    *oldest = what;
+    bool again = m->flush_hash && m->trace_hash == m->flush_hash && m->nodes_pending >= PENDING_AGAIN;
+    bool many = m->nodes_pending >= (m->flush_hash ? PENDING_MOST : PENDING_MANY);
+    if (!again && !many && v->height < HEIGHT_MOST)
+        return MACHINE_OK;
+    uint64_t here = m->trace_hash;
+    enum machine_status status = run_evaluate(m, NULL, 0, false);
+    m->flush_hash = here;
+    return status;
+}
+
+enum machine_status machine_flush(struct machine *m)
+{
+    return run_evaluate(m, NULL, 0, false);
+}
+
+enum machine_status machine_finish(struct machine *m)
+{
+    enum machine_status status = run_evaluate(m, NULL, 0, false);
+    double start = machine_clock_s();
+    cl_int error = clFinish(m->device.queue);
+    m->busy_s += machine_clock_s() - start;
+    return status ? status : device_check(m, error, "waiting for the device");
+}

@@ -1,0 +1,639 @@
+/* simplify.c - makes values, and keeps the graph small while it does.
+ *
+ * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never rearranged. No rule looks at
+ * the value of a number other than a bit's 0 or 1 (and widths of 128 at most fold where all operands are
+ * numbers), so that a program with other constants has the same graph and the same kernels.
+ *
+ * The rules that matter: a store under context c is select(c, new, old), and
+ *     select(c, new, select(c, x, old))       = select(c, new, old)
+ *     select(c & t, new, select(c, x, old))   = select(c, select(t, new, x), old)
+ *     x, asked for where c holds only         = x with each select(c, a, b) in it replaced by a
+ * so what is overwritten under the same context is gone, and a test that was stored under c and is and-ed into c
+ * forgets that it was. */
+#include "internal.h"
+
+#include <string.h>
+
+#define PUBLIC_OPS                                                                             \
+    X(NOT, 1, 1, 0) X(NEG, 1, 2, 0) X(AND, 2, 1, 0) X(OR, 2, 1, 0) X(XOR, 2, 1, 0)             \
+    X(ADD, 2, 2, 0) X(SUB, 2, 2, 0) X(MUL, 2, 3, 0) X(UMIN, 2, 2, 0) X(UMAX, 2, 2, 0)          \
+    X(SMIN, 2, 3, 0) X(SMAX, 2, 3, 0) X(EQ, 2, 1, 0) X(NE, 2, 1, 0) X(ULT, 2, 1, 0)            \
+    X(ULE, 2, 1, 0) X(SLT, 2, 2, 0) X(SLE, 2, 2, 0) X(FNEG, 1, 1, 1) X(FABS, 1, 1, 1)          \
+    X(FSQRT, 1, 8, 1) X(FFLOOR, 1, 2, 1) X(FCEIL, 1, 2, 1) X(FTRUNC, 1, 2, 1)                  \
+    X(FROUND, 1, 2, 1) X(FADD, 2, 1, 1) X(FSUB, 2, 1, 1) X(FMUL, 2, 1, 1) X(FDIV, 2, 6, 1)     \
+    X(FMIN, 2, 1, 1) X(FMAX, 2, 1, 1) X(FEQ, 2, 1, 0) X(FNE, 2, 1, 0) X(FLT, 2, 1, 0)          \
+    X(FLE, 2, 1, 0) X(FGT, 2, 1, 0) X(FGE, 2, 1, 0)
+
+const struct node_op_info node_ops[NODE_OP_COUNT] = {
+#define X(op, inputs, cost, nan) [MACHINE_##op] = {#op, inputs, cost, nan},
+    PUBLIC_OPS
+#undef X
+    [NODE_CONSTANT] = {"constant", 0, 0, 0},
+    [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
+    [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
+    [NODE_INDEX] = {"index", 0, 4, 0},
+    [NODE_SEND_ADDRESS] = {"send_address", 0, 8, 0},
+    [NODE_RANDOM] = {"random", 0, 40, 0},
+    [NODE_SELECT] = {"select", 3, 1, 0},
+    [NODE_SHIFT] = {"shift", 1, 0, 0},
+    [NODE_ZERO_EXTEND] = {"zero_extend", 1, 1, 0},
+    [NODE_SIGN_EXTEND] = {"sign_extend", 1, 2, 0},
+    [NODE_EXTRACT] = {"extract", 1, 2, 0},
+    [NODE_CONCAT] = {"concat", 2, 2, 0},
+    [NODE_REINTERPRET] = {"reinterpret", 1, 1, 0},
+    [NODE_U_TO_F] = {"u_to_f", 1, 2, 0},
+    [NODE_S_TO_F] = {"s_to_f", 1, 2, 0},
+    [NODE_F_TO_U] = {"f_to_u", 1, 6, 0},
+    [NODE_F_TO_S] = {"f_to_s", 1, 6, 0},
+    [NODE_F_TO_F] = {"f_to_f", 1, 2, 1},
+    [NODE_OVERFLOW_UADD] = {"overflow_uadd", 2, 2, 0},
+    [NODE_OVERFLOW_USUB] = {"overflow_usub", 2, 2, 0},
+    [NODE_OVERFLOW_UMUL] = {"overflow_umul", 2, 8, 0},
+    [NODE_OVERFLOW_SADD] = {"overflow_sadd", 2, 4, 0},
+    [NODE_OVERFLOW_SSUB] = {"overflow_ssub", 2, 4, 0},
+    [NODE_OVERFLOW_SMUL] = {"overflow_smul", 2, 12, 0},
+    [NODE_OVERFLOW_SNEG] = {"overflow_sneg", 1, 2, 0},
+    [NODE_OVERFLOW_FADD] = {"overflow_fadd", 2, 5, 0},
+    [NODE_OVERFLOW_FSUB] = {"overflow_fsub", 2, 5, 0},
+    [NODE_OVERFLOW_FMUL] = {"overflow_fmul", 2, 5, 0},
+    [NODE_OVERFLOW_FDIV] = {"overflow_fdiv", 2, 10, 0},
+};
+
+static const struct machine_type bit_type = {MACHINE_BITS, 1};
+
+static struct machine_value *bad(struct machine *m, const char *what)
+{
+    machine_fail(m, MACHINE_BAD_ARGUMENT, "%s", what);
+    return NULL;
+}
+
+static bool bits_type_ok(int width)
+{
+    return width >= 1 && width <= 128;
+}
+
+struct machine_type machine_value_type(const struct machine_value *v)
+{
+    return v->type;
+}
+
+/* ---- numbers ---- */
+
+static struct machine_scalar cut_to(struct machine_scalar x, int width)
+{
+    if (width < 64)
+        return (struct machine_scalar){x.lo & ((UINT64_C(1) << width) - 1), 0};
+    if (width < 128)
+        x.hi &= (UINT64_C(1) << (width - 64)) - 1;
+    if (width == 64)
+        x.hi = 0;
+    return x;
+}
+
+static unsigned __int128 wide(struct machine_scalar x)
+{
+    return (unsigned __int128)x.hi << 64 | x.lo;
+}
+
+static struct machine_scalar narrow(unsigned __int128 x)
+{
+    return (struct machine_scalar){(uint64_t)x, (uint64_t)(x >> 64)};
+}
+
+static struct machine_value *number(struct machine *m, struct machine_type type, struct machine_scalar x)
+{
+    struct machine_value key = {.op = NODE_CONSTANT, .type = type, .imm = cut_to(x, type.width)};
+    return graph_node(m, &key);
+}
+
+static struct machine_value *bit_number(struct machine *m, int x)
+{
+    return number(m, bit_type, (struct machine_scalar){(uint64_t)x, 0});
+}
+
+static bool is_number(const struct machine_value *v)
+{
+    return v->op == NODE_CONSTANT;
+}
+
+static bool is_zero_bit(const struct machine_value *v)
+{
+    return is_number(v) && v->type.width == 1 && v->imm.lo == 0;
+}
+
+static bool is_one_bit(const struct machine_value *v)
+{
+    return is_number(v) && v->type.width == 1 && v->imm.lo == 1;
+}
+
+struct machine_value *machine_constant(struct machine *m, struct machine_type type, struct machine_scalar bits)
+{
+    if (!bits_type_ok(type.width) || (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64))
+        return bad(m, "a value's width must be 1..128 bits, a float's 32 or 64");
+    return number(m, type, bits);
+}
+
+struct machine_value *machine_constant_float(struct machine *m, struct machine_type type, double x)
+{
+    struct machine_scalar bits = {0, 0};
+    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64))
+        return bad(m, "a float is 32 or 64 bits");
+    if (type.width == 32) {
+        float f = (float)x;
+        uint32_t u;
+        memcpy(&u, &f, sizeof u);
+        bits.lo = u;
+    } else {
+        memcpy(&bits.lo, &x, sizeof x);
+    }
+    return number(m, type, bits);
+}
+
+/* ---- building ---- */
+
+/* The VP set of a result; -1 if the operands' differ. */
+static int joint_set(struct machine *m, struct machine_value *const *in, int count)
+{
+    int set = 0;
+    for (int i = 0; i < count; i++) {
+        if (in[i]->set && set && in[i]->set != set)
+            return -1;
+        if (in[i]->set)
+            set = in[i]->set;
+    }
+    return set ? set : m->set_current;
+}
+
+static struct machine_value *build(struct machine *m, int op, struct machine_type type, int detail,
+                                   struct machine_value *a, struct machine_value *b, struct machine_value *c)
+{
+    struct machine_value key = {.op = (uint8_t)op, .type = type, .detail = detail, .in = {a, b, c}};
+    int set = joint_set(m, key.in, node_ops[op].inputs);
+    if (set < 0)
+        return bad(m, "operands belong to different VP sets");
+    if (set == 0)
+        return bad(m, "there is no current VP set");
+    key.set = (uint16_t)set;
+    return graph_node(m, &key);
+}
+
+/* a holds only where b holds: b is a, or is and-ed into it. */
+static bool implies(const struct machine_value *a, const struct machine_value *b, int depth)
+{
+    if (a == b)
+        return true;
+    if (depth > 0 && a->op == MACHINE_AND && a->type.width == 1)
+        return implies(a->in[0], b, depth - 1) || implies(a->in[1], b, depth - 1);
+    return false;
+}
+
+enum { DEPTH = 12 };
+
+static struct machine_value *bit_not(struct machine *m, struct machine_value *a);
+
+static struct machine_value *bit_and(struct machine *m, struct machine_value *a, struct machine_value *b)
+{
+    if (is_zero_bit(a) || is_one_bit(b))
+        return a;
+    if (is_zero_bit(b) || is_one_bit(a))
+        return b;
+    if (implies(a, b, DEPTH))
+        return a;
+    if (implies(b, a, DEPTH))
+        return b;
+    if ((a->op == MACHINE_NOT && a->in[0] == b) || (b->op == MACHINE_NOT && b->in[0] == a))
+        return bit_number(m, 0);
+    b = simplify_under(m, b, a, DEPTH);
+    if (is_one_bit(b))
+        return a;
+    if (is_zero_bit(b))
+        return b;
+    return build(m, MACHINE_AND, bit_type, 0, a, b, NULL);
+}
+
+static struct machine_value *bit_or(struct machine *m, struct machine_value *a, struct machine_value *b)
+{
+    if (is_one_bit(a) || is_zero_bit(b))
+        return a;
+    if (is_one_bit(b) || is_zero_bit(a) || a == b)
+        return b;
+    if (implies(a, b, DEPTH))
+        return b;
+    if (implies(b, a, DEPTH))
+        return a;
+    return build(m, MACHINE_OR, bit_type, 0, a, b, NULL);
+}
+
+static struct machine_value *bit_not(struct machine *m, struct machine_value *a)
+{
+    if (is_number(a))
+        return bit_number(m, !a->imm.lo);
+    if (a->op == MACHINE_NOT)
+        return a->in[0];
+    return build(m, MACHINE_NOT, bit_type, 0, a, NULL, NULL);
+}
+
+/* c, knowing that known holds; NULL: nothing is left to ask. */
+static struct machine_value *residual(struct machine *m, struct machine_value *c, struct machine_value *known,
+                                      int depth)
+{
+    if (c == known || implies(known, c, DEPTH))
+        return NULL;
+    if (depth > 0 && c->op == MACHINE_AND) {
+        struct machine_value *p = residual(m, c->in[0], known, depth - 1);
+        struct machine_value *q = residual(m, c->in[1], known, depth - 1);
+        if (p == c->in[0] && q == c->in[1])
+            return c;
+        return !p ? q : !q ? p : bit_and(m, p, q);
+    }
+    return c;
+}
+
+static struct machine_value *select_of(struct machine *m, struct machine_value *c, struct machine_value *a,
+                                       struct machine_value *b)
+{
+    for (;;) {
+        if (a == b || is_one_bit(c))
+            return a;
+        if (is_zero_bit(c))
+            return b;
+        if (a->op == NODE_SELECT && implies(c, a->in[0], DEPTH))
+            a = a->in[1];
+        else if (b->op == NODE_SELECT && implies(b->in[0], c, DEPTH))
+            b = b->in[2]; /* where c does not hold, neither does what implies it */
+        else
+            break;
+    }
+    if (b->op == NODE_SELECT && implies(c, b->in[0], DEPTH)) {
+        struct machine_value *outer = b->in[0], *rest = residual(m, c, outer, DEPTH);
+        struct machine_value *inner = rest ? select_of(m, rest, a, b->in[1]) : a;
+        return inner ? select_of(m, outer, inner, b->in[2]) : NULL;
+    }
+    if (a->type.width == 1 && a->type.kind == MACHINE_BITS) {
+        if (is_number(a) && is_number(b))
+            return a->imm.lo ? c : bit_not(m, c);
+        if (is_number(a))
+            return a->imm.lo ? bit_or(m, c, b) : bit_and(m, bit_not(m, c), b);
+        if (is_number(b))
+            return b->imm.lo ? bit_or(m, bit_not(m, c), a) : bit_and(m, c, a);
+    }
+    return build(m, NODE_SELECT, a->type, 0, c, a, b);
+}
+
+/* v, for somebody who looks at it only where context holds. */
+struct machine_value *simplify_under(struct machine *m, struct machine_value *v, struct machine_value *context,
+                                     int depth)
+{
+    if (depth <= 0 || node_is_leaf(v) || is_number(context))
+        return v;
+    if (v->op == NODE_SELECT) {
+        struct machine_value *c = residual(m, v->in[0], context, DEPTH);
+        struct machine_value *a = simplify_under(m, v->in[1], context, depth - 1);
+        if (!c)
+            return a;
+        if (c->op == MACHINE_NOT && implies(context, c->in[0], DEPTH))
+            return simplify_under(m, v->in[2], context, depth - 1);
+        struct machine_value *b = simplify_under(m, v->in[2], context, depth - 1);
+        if (c == v->in[0] && a == v->in[1] && b == v->in[2])
+            return v;
+        return select_of(m, c, a, b);
+    }
+    if (v->type.width == 1 && v->op == MACHINE_AND) {
+        struct machine_value *c = residual(m, v, context, DEPTH);
+        return c ? c : bit_number(m, 1);
+    }
+    if (v->op == NODE_REINTERPRET) {
+        struct machine_value *a = simplify_under(m, v->in[0], context, depth - 1);
+        return a == v->in[0] ? v : machine_reinterpret(m, a, v->type);
+    }
+    return v;
+}
+
+struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
+                                     struct machine_value *a, struct machine_value *b)
+{
+    if (!condition || !a || !b)
+        return NULL;
+    if (!type_equal(a->type, b->type) || !type_equal(condition->type, bit_type))
+        return bad(m, "select takes a bit and two values of one type");
+    return select_of(m, condition, a, b);
+}
+
+/* ---- arithmetic ---- */
+
+static bool fold_bits(enum machine_op op, int width, unsigned __int128 a, unsigned __int128 b,
+                      unsigned __int128 *out)
+{
+    (void)width;
+    switch ((int)op) {
+    case MACHINE_NOT:
+        *out = ~a;
+        return true;
+    case MACHINE_NEG:
+        *out = -a;
+        return true;
+    case MACHINE_AND:
+        *out = a & b;
+        return true;
+    case MACHINE_OR:
+        *out = a | b;
+        return true;
+    case MACHINE_XOR:
+        *out = a ^ b;
+        return true;
+    case MACHINE_ADD:
+        *out = a + b;
+        return true;
+    case MACHINE_SUB:
+        *out = a - b;
+        return true;
+    default:
+        return false;
+    }
+}
+
+struct machine_value *machine_unary(struct machine *m, enum machine_op op, struct machine_value *a)
+{
+    if (!a)
+        return NULL;
+    bool is_float = op >= MACHINE_FNEG && op <= MACHINE_FROUND;
+    if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 1 ||
+        is_float != (a->type.kind == MACHINE_FLOAT))
+        return bad(m, "this operation does not take one operand of this type");
+    unsigned __int128 folded;
+    if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
+        return number(m, a->type, narrow(folded));
+    if (op == MACHINE_NOT && a->type.width == 1)
+        return bit_not(m, a);
+    if (op == MACHINE_NEG && a->type.width == 1)
+        return a;
+    return build(m, (int)op, a->type, 0, a, NULL, NULL);
+}
+
+struct machine_value *machine_binary(struct machine *m, enum machine_op op, struct machine_value *a,
+                                     struct machine_value *b)
+{
+    if (!a || !b)
+        return NULL;
+    bool is_float = op >= MACHINE_FADD && op <= MACHINE_FGE;
+    if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 2 ||
+        !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
+        return bad(m, "this operation takes two operands of one type, which these are not");
+    bool compares = (op >= MACHINE_EQ && op <= MACHINE_SLE) || op >= MACHINE_FEQ;
+    unsigned __int128 folded;
+    if (is_number(a) && is_number(b) && !is_float && !compares &&
+        fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))
+        return number(m, a->type, narrow(folded));
+    if (a->type.width == 1) { /* bits have rules of their own */
+        switch ((int)op) {
+        case MACHINE_AND:
+        case MACHINE_MUL:
+        case MACHINE_UMIN:
+        case MACHINE_SMAX: /* -1 is the bit 1 */
+            return bit_and(m, a, b);
+        case MACHINE_OR:
+        case MACHINE_UMAX:
+        case MACHINE_SMIN:
+            return bit_or(m, a, b);
+        case MACHINE_ULT:
+            return bit_and(m, bit_not(m, a), b);
+        case MACHINE_ULE:
+            return bit_or(m, bit_not(m, a), b);
+        case MACHINE_SLT:
+            return bit_and(m, a, bit_not(m, b));
+        case MACHINE_SLE:
+            return bit_or(m, a, bit_not(m, b));
+        case MACHINE_EQ:
+            if (is_number(b))
+                return b->imm.lo ? a : bit_not(m, a);
+            if (is_number(a))
+                return a->imm.lo ? b : bit_not(m, b);
+            b = bit_not(m, b);
+            op = MACHINE_XOR;
+            break;
+        default:
+            op = MACHINE_XOR; /* XOR, ADD, SUB, NE */
+            break;
+        }
+        if (is_number(b))
+            return b->imm.lo ? bit_not(m, a) : a;
+        if (is_number(a))
+            return a->imm.lo ? bit_not(m, b) : b;
+        if (a == b)
+            return bit_number(m, 0);
+        return build(m, MACHINE_XOR, bit_type, 0, a, b, NULL);
+    }
+    if (a == b && (op == MACHINE_AND || op == MACHINE_OR))
+        return a;
+    return build(m, (int)op, compares ? bit_type : a->type, 0, a, b, NULL);
+}
+
+struct machine_value *node_overflow(struct machine *m, enum node_op op, struct machine_value *a,
+                                    struct machine_value *b)
+{
+    return build(m, (int)op, bit_type, 0, a, b, NULL);
+}
+
+/* ---- other shapes of the same bits ---- */
+
+struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a, struct machine_type type)
+{
+    if (!a)
+        return NULL;
+    if (a->type.width != type.width)
+        return bad(m, "the same bits have the same width");
+    if (a->op == NODE_REINTERPRET && !a->buffer)
+        a = a->in[0];
+    if (type_equal(a->type, type))
+        return a;
+    if (is_number(a))
+        return number(m, type, a->imm);
+    return build(m, NODE_REINTERPRET, type, 0, a, NULL, NULL);
+}
+
+static struct machine_value *as_bits(struct machine *m, struct machine_value *a)
+{
+    return machine_reinterpret(m, a, MACHINE_UINT(a->type.width));
+}
+
+struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width, bool is_signed)
+{
+    if (!a)
+        return NULL;
+    if (!bits_type_ok(width) || a->type.kind != MACHINE_BITS)
+        return bad(m, "only bits can be made wider or narrower, to 1..128 of them");
+    if (width == a->type.width)
+        return a;
+    if (width < a->type.width)
+        return machine_extract(m, a, 0, width);
+    if (is_number(a)) {
+        unsigned __int128 x = wide(a->imm);
+        if (is_signed && (x >> (a->type.width - 1) & 1))
+            x |= ~(unsigned __int128)0 << (a->type.width - 1);
+        return number(m, MACHINE_UINT(width), narrow(x));
+    }
+    return build(m, is_signed ? NODE_SIGN_EXTEND : NODE_ZERO_EXTEND, MACHINE_UINT(width), 0, a, NULL, NULL);
+}
+
+struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset, int width)
+{
+    if (!a)
+        return NULL;
+    if (offset < 0 || width < 1 || offset + width > a->type.width)
+        return bad(m, "the bits to extract are not all there");
+    a = as_bits(m, a);
+    if (width == a->type.width)
+        return a;
+    if (is_number(a))
+        return number(m, MACHINE_UINT(width), narrow(wide(a->imm) >> offset));
+    if (!a->buffer && a->op == NODE_EXTRACT)
+        return machine_extract(m, a->in[0], offset + a->detail, width);
+    if (!a->buffer && a->op == NODE_CONCAT) {
+        int low = a->in[0]->type.width;
+        if (offset + width <= low)
+            return machine_extract(m, a->in[0], offset, width);
+        if (offset >= low)
+            return machine_extract(m, a->in[1], offset - low, width);
+    }
+    if (!a->buffer && (a->op == NODE_ZERO_EXTEND || a->op == NODE_SIGN_EXTEND) &&
+        offset + width <= a->in[0]->type.width)
+        return machine_extract(m, a->in[0], offset, width);
+    return build(m, NODE_EXTRACT, MACHINE_UINT(width), offset, a, NULL, NULL);
+}
+
+struct machine_value *machine_concat(struct machine *m, struct machine_value *low, struct machine_value *high)
+{
+    if (!low || !high)
+        return NULL;
+    int width = low->type.width + high->type.width;
+    if (width > 128)
+        return bad(m, "a value has at most 128 bits");
+    low = as_bits(m, low);
+    high = as_bits(m, high);
+    if (is_number(low) && is_number(high))
+        return number(m, MACHINE_UINT(width), narrow(wide(high->imm) << low->type.width | wide(low->imm)));
+    if (!low->buffer && !high->buffer && low->op == NODE_EXTRACT && high->op == NODE_EXTRACT &&
+        low->in[0] == high->in[0] && low->detail + low->type.width == high->detail)
+        return machine_extract(m, low->in[0], low->detail, width);
+    return build(m, NODE_CONCAT, MACHINE_UINT(width), 0, low, high, NULL);
+}
+
+struct machine_value *machine_to_float(struct machine *m, struct machine_value *a, struct machine_type type,
+                                       bool is_signed)
+{
+    if (!a)
+        return NULL;
+    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64))
+        return bad(m, "a float is 32 or 64 bits");
+    if (type_equal(a->type, type))
+        return a;
+    int op = a->type.kind == MACHINE_FLOAT ? NODE_F_TO_F : is_signed ? NODE_S_TO_F : NODE_U_TO_F;
+    return build(m, op, type, 0, a, NULL, NULL);
+}
+
+struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width, bool is_signed)
+{
+    if (!a)
+        return NULL;
+    if (a->type.kind != MACHINE_FLOAT || !bits_type_ok(width))
+        return bad(m, "a float becomes 1..128 bits");
+    return build(m, is_signed ? NODE_F_TO_S : NODE_F_TO_U, MACHINE_UINT(width), 0, a, NULL, NULL);
+}
+
+/* ---- where processors are ---- */
+
+struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis, int distance)
+{
+    if (!a)
+        return NULL;
+    int set = a->set ? a->set : m->set_current;
+    const struct vpset *s = vpset_get(m, set);
+    if (!s)
+        return NULL;
+    if (axis < 0 || axis >= s->rank)
+        return bad(m, "there is no such axis");
+    int length = s->dimensions[axis];
+    distance %= length;
+    if (!a->buffer && a->op == NODE_SHIFT && a->axis == axis) {
+        distance = (distance + a->detail) % length;
+        a = a->in[0];
+    }
+    if (distance > length / 2)
+        distance -= length;
+    if (distance < -(length / 2))
+        distance += length;
+    if (distance == 0 || is_number(a))
+        return a;
+    if (!a->buffer && a->op == NODE_REINTERPRET) {
+        struct machine_value *moved = machine_shift(m, a->in[0], axis, distance);
+        return machine_reinterpret(m, moved, a->type);
+    }
+    struct machine_value key = {.op = NODE_SHIFT,
+                                .type = a->type,
+                                .axis = (uint8_t)axis,
+                                .set = (uint16_t)set,
+                                .detail = distance,
+                                .in = {a, NULL, NULL}};
+    return graph_node(m, &key);
+}
+
+static struct machine_value *generated(struct machine *m, int op, int axis, int detail, int width,
+                                       struct machine_scalar imm)
+{
+    const struct vpset *s = vpset_get(m, m->set_current);
+    if (!s)
+        return NULL;
+    if (!bits_type_ok(width))
+        return bad(m, "a value's width must be 1..128 bits");
+    if (axis < 0 || axis >= s->rank)
+        return bad(m, "there is no such axis");
+    struct machine_value key = {.op = (uint8_t)op,
+                                .type = MACHINE_UINT(width),
+                                .axis = (uint8_t)axis,
+                                .set = (uint16_t)m->set_current,
+                                .detail = detail,
+                                .imm = imm};
+    return graph_node(m, &key);
+}
+
+struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
+{
+    return generated(m, NODE_COORDINATE, axis, 0, width, (struct machine_scalar){0, 0});
+}
+
+struct machine_value *machine_self_address(struct machine *m, int width)
+{
+    return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
+}
+
+struct machine_value *machine_self_index(struct machine *m, int width)
+{
+    return generated(m, NODE_INDEX, 0, 0, width, (struct machine_scalar){0, 0});
+}
+
+static uint64_t mix(uint64_t z)
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+void machine_random_seed(struct machine *m, uint64_t seed)
+{
+    m->random_seed = seed;
+    m->random_draws = 0;
+}
+
+struct machine_value *machine_random(struct machine *m, int width, uint64_t limit)
+{
+    if (width > 64) {
+        struct machine_value *low = machine_random(m, 64, limit);
+        struct machine_value *high = limit ? number(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
+                                           : machine_random(m, width - 64, 0);
+        return machine_concat(m, low, high);
+    }
+    uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
+    int fits32 = limit != 0 && limit <= UINT32_MAX;
+    return generated(m, NODE_RANDOM, 0, limit == 0 ? 0 : fits32 ? 1 : 2, width,
+                     (struct machine_scalar){key, limit});
+}

@@ -1,0 +1,154 @@
+/* paper.h - wet paper: a sheet of fibers that hold water and pigment, as a program in C/Paris.
+ *
+ *     struct paper_config config = paper_config_default();
+ *     struct paper *sheet;
+ *     if (paper_create(&config, &sheet) != PAPER_OK)
+ *         die(paper_error());
+ *     paper_rectangle(sheet, 100, 100, 400, 50, &(struct paper_ink){.cyan = 0.8, .water = 1.0});
+ *     struct paper_weather weather = paper_weather_default();
+ *     for (int step = 0; step < 300; step++)
+ *         paper_disperse(sheet, &weather);
+ *     paper_view_read(sheet, PAPER_VIEW_COLOR, rgb);
+ *
+ * The model is that of David Small's thesis (MIT 1990), chapter 5: one fiber for each pixel and one virtual
+ * processor for each fiber; docs/paper.md describes it.  x grows to the right and y downwards, both in fibers.
+ *
+ * Errors. Functions that can fail return a status and leave one line in paper_error(); unless it says otherwise
+ * a failed call changes nothing.
+ * Threads. Paris has one machine: all papers belong to one thread at a time.
+ */
+#ifndef LUTETIA_PAPER_H
+#define LUTETIA_PAPER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum paper_status {
+    PAPER_OK = 0,
+    PAPER_BAD_ARGUMENT, /* a size, place, amount or rate that cannot be */
+    PAPER_NO_DEVICE,    /* no OpenCL device, or not the one asked for */
+    PAPER_NO_MEMORY,
+    PAPER_BAD_FONT,     /* not found, or not a font */
+    PAPER_BAD_TEXT,     /* not UTF-8, or nothing in it that leaves a mark */
+    PAPER_MACHINE_FAILED
+};
+
+/* Detail of the last failure, one line without a newline; "" if there was none.
+ * Owns: the library; valid until the next failure. */
+const char *paper_error(void);
+
+/* ---- the sheet ---- */
+
+#define PAPER_SIDE_MIN 8 /* the rim of two fibers on each side takes no part in the flow */
+#define PAPER_SIDE_MAX 16384
+/* Of water and pigment, at one face in one cycle; a fiber's two faces on an axis stay within what it has. */
+#define PAPER_ABSORBENCY_MAX 0.25
+#define PAPER_GRAVITY_MAX 2.0
+
+struct paper_config {
+    int width, height;            /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX each */
+    double color[3];              /* of dry fibers: red, green, blue, 0..1 */
+    double color_variation;       /* how far fibers differ in lightness, 0..1 */
+    double absorbency;            /* mean part of a gradient that flows, 0..PAPER_ABSORBENCY_MAX */
+    double absorbency_variation;  /* how far fibers differ, as a part of the mean, 0..1 */
+    int fiber_length;             /* over how many pixels, 1..64, neighbours are alike */
+    uint64_t seed;                /* same seed, same sheet, on every device */
+};
+struct paper_config paper_config_default(void);
+
+struct paper;
+
+/* Makes a dry sheet without pigment. The machine is attached by the first one.
+ * Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL.
+ * Owns: the caller destroys *out. */
+enum paper_status paper_create(const struct paper_config *config, struct paper **out);
+void paper_destroy(struct paper *p); /* NULL is fine */
+
+int paper_width(const struct paper *p);
+int paper_height(const struct paper *p);
+
+/* A sheet's fields in the order of allocation; false when there is no field of that number. */
+bool paper_field_describe(int width, int height, int number, const char **name, int *bits);
+/* Bits that one fiber takes in a sheet of that size: the sum over its fields. */
+int paper_bits_per_fiber(int width, int height);
+
+/* ---- water and pigment ---- */
+
+struct paper_ink { /* amounts that are added to a fiber; what it holds stays within 0..1 */
+    double cyan, magenta, yellow;
+    double water;
+};
+
+/* Shades of gray to screen ink through: 255 lets all of it pass, 0 none. */
+struct paper_screen {
+    int width_px, height_px;
+    uint8_t *gray;      /* rows from the top, no padding */
+    int origin_x_px;    /* type: where the line begins, from the left edge */
+    int baseline_y_px;  /* type: the baseline, from the top edge */
+    double advance_px;  /* type: the length of the line */
+};
+
+/* Adds ink to each fiber with x <= its x < x + width, and so in y; what lies off the sheet is ignored.
+ * Errors: BAD_ARGUMENT (amounts must be -1..1), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int height,
+                                  const struct paper_ink *ink);
+
+/* Adds ink through a screen whose upper left corner is at x, y; what lies off the sheet is ignored.
+ * Errors: as paper_rectangle(). */
+enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *screen, int x, int y,
+                                   const struct paper_ink *ink);
+
+/* ---- type ---- */
+
+struct paper_line {
+    const char *text;    /* UTF-8, one line */
+    const char *font;    /* a file, or a font file's name without its ending, found in the font folders */
+    double size_px;      /* of the em, 1..8192 */
+    double tracking_em;  /* added between letters */
+};
+
+/* Sets a line of type as a screen: anti-aliased, kerned (from the font's kern or GPOS table), as small as
+ * its ink.  A missing glyph is set as the font's own sign for it; *missing (may be NULL) gets the first
+ * code point without a glyph, or 0.
+ * Errors: BAD_ARGUMENT, BAD_FONT, BAD_TEXT, NO_MEMORY; *screen is then zeros.
+ * Owns: the caller destroys *screen. */
+enum paper_status paper_line_screen(const struct paper_line *line, struct paper_screen *screen,
+                                    uint32_t *missing);
+void paper_screen_destroy(struct paper_screen *screen);
+
+/* The file of a font that has the name, or NULL. Owns: the caller frees it. */
+char *paper_font_find(const char *name);
+
+/* ---- time ---- */
+
+struct paper_weather {
+    double gravity_x, gravity_y; /* 1 none; 2 flows twice as easily to the right (down), half as easily back */
+    double humidity;             /* water that every fiber loses in a cycle, 0..1 */
+    double molecular_weight[3];  /* how easily cyan, magenta and yellow move, 0..1 */
+};
+struct paper_weather paper_weather_default(void);
+
+/* One cycle: water and pigments spread along x, then along y; then fibers dry by the humidity.
+ * Nothing is computed before it is looked at; see paper_finish().
+ * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_disperse(struct paper *p, const struct paper_weather *weather);
+
+/* Waits until all cycles asked for have been computed. Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_finish(struct paper *p);
+
+/* ---- looking ---- */
+
+enum paper_view {
+    PAPER_VIEW_COLOR, /* the fiber's colour minus its pigments: red minus cyan, and so on */
+    PAPER_VIEW_WATER  /* gray: the wetter the lighter */
+};
+
+/* Shape: rgb holds height * width * 3 bytes, rows from the top. Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_view_read(struct paper *p, enum paper_view view, uint8_t *rgb);
+
+enum paper_amount { PAPER_WATER, PAPER_CYAN, PAPER_MAGENTA, PAPER_YELLOW };
+/* How much of it the whole sheet holds. Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_total(struct paper *p, enum paper_amount amount, double *total);
+
+#endif

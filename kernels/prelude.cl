@@ -1,0 +1,203 @@
+/* prelude.cl - what every generated kernel begins with.
+ *
+ * A kernel handles VECTOR neighbouring processors of a row at a time, and is written once for every VECTOR:
+ *     VI  a bit of each, as 0 or -1        VU, VL  up to 32 and 64 bits, unused high bits 0
+ *     VF, VD  float, double                VQ      up to 128 bits
+ * Rows are PITCH elements apart and begin and end with HALO columns that repeat the other end; so a neighbour is
+ * found without a question. Where WRAPS is 1, or a kernel looks further than the halo, columns are wrapped. */
+#pragma OPENCL FP_CONTRACT OFF
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+
+#if VECTOR == 1
+typedef int VI;
+typedef uint VU;
+typedef ulong VL;
+typedef long VM;
+typedef float VF;
+typedef double VD;
+#define CONVERT(type, v) ((type)(v))
+#define CMP_U(e) (-(e))
+#define CMP_L(e) (-(e))
+#define SEL_U(m, a, b) ((m) ? (a) : (b))
+#define SEL_L(m, a, b) ((m) ? (a) : (b))
+#define IOTA 0
+#define GET(type, p, i) ((p)[i])
+#define PUT(p, i, v) ((p)[i] = (v))
+#else
+typedef JOIN(int, VECTOR) VI;
+typedef JOIN(uint, VECTOR) VU;
+typedef JOIN(ulong, VECTOR) VL;
+typedef JOIN(long, VECTOR) VM;
+typedef JOIN(float, VECTOR) VF;
+typedef JOIN(double, VECTOR) VD;
+#define CONVERT(type, v) JOIN(convert_##type, VECTOR)(v)
+#define CMP_U(e) (e)
+#define CMP_L(e) CONVERT(int, e)
+#define SEL_U(m, a, b) ((m) ? (a) : (b))
+#define SEL_L(m, a, b) (CONVERT(long, m) ? (a) : (b))
+#if VECTOR == 16
+#define IOTA ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#elif VECTOR == 8
+#define IOTA ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+#else
+#define IOTA ((int4)(0, 1, 2, 3))
+#endif
+#define GET(type, p, i) JOIN(vload, VECTOR)(0, (p) + (i))
+#define PUT(p, i, v) JOIN(vstore, VECTOR)(v, 0, (p) + (i))
+#endif
+#define SEL_F SEL_U
+#define SEL_D SEL_L
+#define SEL_I(m, a, b) (((m) & (a)) | (~(m) & (b)))
+#define AS_U(v) JOIN_AS(uint, v)
+#define AS_S(v) JOIN_AS(int, v)
+#define AS_L(v) JOIN_AS(ulong, v)
+#define AS_M(v) JOIN_AS(long, v)
+#define AS_F(v) JOIN_AS(float, v)
+#define AS_D(v) JOIN_AS(double, v)
+#if VECTOR == 1
+#define JOIN_AS(type, v) as_##type(v)
+#else
+#define JOIN_AS(type, v) JOIN(as_##type, VECTOR)(v)
+#endif
+
+/* ---- columns and rows ---- */
+
+inline int wrap(int c, int length)
+{
+    c = c < 0 ? c + length : c >= length ? c - length : c;
+    if (c < 0 || c >= length) {
+        c %= length;
+        c = c < 0 ? c + length : c;
+    }
+    return c;
+}
+
+#if WRAPS
+#define AT(dx) wrap(x + (dx), W)
+#else
+#define AT(dx) (x + (dx))
+#endif
+
+inline VU column(int x, int W)
+{
+#if VECTOR == 1
+    return (VU)wrap(x, W);
+#else
+    VI c = (VI)(x) + IOTA;
+    c = c < 0 ? c + W : c;
+    c = c >= W ? c - W : c;
+    return AS_U(c);
+#endif
+}
+
+/* ---- memory ---- */
+
+#define LOAD_bit(p, i) CMP_U(CONVERT(int, GET(uchar, p, i)) != 0)
+#define LOAD_u8(p, i) CONVERT(uint, GET(uchar, p, i))
+#define LOAD_u16(p, i) CONVERT(uint, GET(ushort, p, i))
+#define LOAD_u32(p, i) GET(uint, p, i)
+#define LOAD_u64(p, i) GET(ulong, p, i)
+#define LOAD_f32(p, i) GET(float, p, i)
+#define LOAD_f64(p, i) GET(double, p, i)
+
+#define OUT_bit(p, i, v) PUT(p, i, CONVERT(uchar, (v) & 1))
+#define OUT_u8(p, i, v) PUT(p, i, CONVERT(uchar, v))
+#define OUT_u16(p, i, v) PUT(p, i, CONVERT(ushort, v))
+#define OUT_u32(p, i, v) PUT(p, i, v)
+#define OUT_u64(p, i, v) PUT(p, i, v)
+#define OUT_f32(p, i, v) PUT(p, i, v)
+#define OUT_f64(p, i, v) PUT(p, i, v)
+
+#if HALO == 0
+#define STORE(kind, p, v) OUT_##kind(p, x, v)
+#elif VECTOR == 1
+#define STORE(kind, p, v)                                                                      \
+    do {                                                                                       \
+        OUT_##kind(p, x, v);                                                                   \
+        if (x < HALO)                                                                          \
+            OUT_##kind(p, x + W, v);                                                           \
+        if (x >= W - HALO)                                                                     \
+            OUT_##kind(p, x - W, v);                                                           \
+    } while (0)
+#else /* VECTOR == HALO: the first vector is the right halo, the last one the left */
+#define STORE(kind, p, v)                                                                      \
+    do {                                                                                       \
+        OUT_##kind(p, x, v);                                                                   \
+        if (x == 0)                                                                            \
+            OUT_##kind(p, W, v);                                                               \
+        if (x == W - VECTOR)                                                                   \
+            OUT_##kind(p, -VECTOR, v);                                                         \
+    } while (0)
+#endif
+
+/* ---- NaN ---- */
+
+#define CANON_F(v) SEL_F(CMP_U((v) == (v)), v, (VF)(as_float(0x7fc00000)))
+#define CANON_D(v) SEL_D(CMP_L((v) == (v)), v, (VD)(as_double(0x7ff8000000000000L)))
+
+/* ---- integers in floats and back ---- */
+
+/* Toward zero, to width bits; beyond the range its nearest end, NaN 0. limit is 2^width, or 2^(width - 1) */
+inline VU f_to_u_small(VF v, float limit, uint top)
+{
+    VI inside = CMP_U(v > 0.0f) & CMP_U(v < limit);
+    VU r = AS_U(CONVERT(int, SEL_F(inside, v, (VF)(0.0f))));
+    return SEL_U(CMP_U(v >= limit), (VU)(top), r);
+}
+
+inline VU f_to_s_small(VF v, float limit, int top)
+{
+    VI inside = CMP_U(v > -limit) & CMP_U(v < limit);
+    VI r = CONVERT(int, SEL_F(inside, v, (VF)(0.0f)));
+    r = SEL_U(CMP_U(v >= limit), (VI)(top), r);
+    r = SEL_U(CMP_U(v <= -limit), (VI)(-top - 1), r);
+    return AS_U(r);
+}
+
+inline VL d_to_u(VD v, double limit, ulong top)
+{
+    VI inside = CMP_L(v > 0.0) & CMP_L(v < limit);
+    VL r = CONVERT(ulong, SEL_D(inside, v, (VD)(0.0)));
+    return SEL_L(CMP_L(v >= limit), (VL)(top), r);
+}
+
+inline VL d_to_s(VD v, double limit, long top)
+{
+    VI inside = CMP_L(v > -limit) & CMP_L(v < limit);
+    VM r = CONVERT(long, SEL_D(inside, v, (VD)(0.0)));
+    r = SEL_L(CMP_L(v >= limit), (VM)(top), r);
+    r = SEL_L(CMP_L(v <= -limit), (VM)(-top - 1), r);
+    return AS_L(r);
+}
+
+/* ---- random numbers: see machine_random() ---- */
+
+inline VL mix(VL z)
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9UL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebUL;
+    return z ^ (z >> 31);
+}
+
+inline VL random_bits(VU index, ulong key)
+{
+    return mix(CONVERT(ulong, index) * 0x9e3779b97f4a7c15UL + key);
+}
+
+/* ---- overflow of floats: infinite from finite ---- */
+
+#define FINITE_F(v) CMP_U((AS_U(v) & 0x7f800000u) != 0x7f800000u)
+#define INFINITE_F(v) CMP_U((AS_U(v) & 0x7fffffffu) == 0x7f800000u)
+#define FINITE_D(v) CMP_L((AS_L(v) & 0x7ff0000000000000UL) != 0x7ff0000000000000UL)
+#define INFINITE_D(v) CMP_L((AS_L(v) & 0x7fffffffffffffffUL) == 0x7ff0000000000000UL)
+
+/* ---- overflow of a product of two numbers of width bits (2..32), all of it known ---- */
+
+inline VI s_product_overflows(VM product, int width)
+{
+    VM top = (VM)(((long)1 << (width - 1)) - 1);
+    return CMP_L(product > top) | CMP_L(product < -top - 1L);
+}

@@ -1,0 +1,183 @@
+/* Arithmetic, comparisons and conversions: rows of the families binary, unary, compare, convert.
+ *
+ * Integers of several lengths. Sources are filled to the longest of the lengths with zeros or the sign, the
+ * operation is done there, and the result is cut off to dest's length; overflow says that the true result does
+ * not fit in dest. Constants are cut off to their length. */
+#include "paris_state.h"
+
+static unsigned int longest(unsigned int a, unsigned int b)
+{
+    return a > b ? a : b;
+}
+
+/* The float types of all operands of an instruction are the same; the entry points see to it. */
+static struct machine_value *resize(struct machine *m, struct machine_value *v, unsigned int width, bool is_signed)
+{
+    if (!v || machine_value_type(v).width == width)
+        return v;
+    return machine_resize(m, v, (int)width, is_signed);
+}
+
+/* The overflow flag is also 1 where the result, computed at a greater width, is not dest's. */
+static bool overflow_narrow(struct machine *m, struct machine_value *wide, unsigned int len, bool is_signed)
+{
+    if (!wide || machine_value_type(wide).width <= len)
+        return true;
+    struct machine_value *kept =
+        resize(m, resize(m, wide, len, is_signed), machine_value_type(wide).width, is_signed);
+    struct machine_value *so_far = machine_flag_value(m, MACHINE_OVERFLOW, MACHINE_WHERE_ACTIVE);
+    if (!kept || !so_far)
+        return false;
+    struct machine_value *lost = machine_binary(m, MACHINE_NE, wide, kept);
+    return paris_flag_put(m, MACHINE_OVERFLOW, lost ? machine_binary(m, MACHINE_OR, so_far, lost) : NULL,
+                          MACHINE_WHERE_ACTIVE);
+}
+
+void paris_binary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
+                  struct paris_operand b)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a) ||
+        !paris_check_overlap(dest, b))
+        return;
+    struct machine_value *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
+    struct machine_value *y = x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    if (!x || !y)
+        return;
+    if (self->swap) {
+        struct machine_value *t = x;
+        x = y;
+        y = t;
+    }
+    bool is_signed = dest.letter == 's';
+    if (dest.letter != 'f') {
+        unsigned int width = longest(dest.len, longest(a.len, b.len));
+        x = resize(m, x, width, is_signed);
+        y = resize(m, y, width, is_signed);
+        if (!x || !y) {
+            paris_fail_machine();
+            return;
+        }
+    }
+    struct machine_value *result = machine_binary(m, self->op, x, y);
+    if (self->overflow && (machine_overflow_record(m, self->op, is_signed, x, y) != MACHINE_OK ||
+                           (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
+        paris_fail_machine();
+        return;
+    }
+    if (dest.letter != 'f')
+        result = resize(m, result, dest.len, is_signed);
+    paris_store(m, dest, result, self->scope);
+}
+
+/* |x| of a signed number; the least one is its own. */
+static struct machine_value *absolute(struct machine *m, struct machine_value *x)
+{
+    int width = machine_value_type(x).width;
+    struct machine_value *sign = machine_extract(m, x, width - 1, 1);
+    struct machine_value *negated = machine_unary(m, MACHINE_NEG, x);
+    return sign && negated ? machine_select(m, sign, negated, x) : NULL;
+}
+
+void paris_unary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a))
+        return;
+    struct machine_value *x = paris_load(m, a, "source", self->scope);
+    if (!x)
+        return;
+    if (dest.letter == 'f') {
+        paris_store(m, dest, machine_unary(m, self->op, x), self->scope);
+        return;
+    }
+    bool is_signed = dest.letter == 's';
+    x = resize(m, x, longest(dest.len, a.len), is_signed);
+    if (!x) {
+        paris_fail_machine();
+        return;
+    }
+    struct machine_value *result =
+        self->op == PARIS_OP_ABS ? absolute(m, x) : machine_unary(m, self->op, x);
+    if (self->overflow && (machine_overflow_record(m, MACHINE_NEG, is_signed, x, NULL) != MACHINE_OK ||
+                           !overflow_narrow(m, result, dest.len, is_signed))) {
+        paris_fail_machine();
+        return;
+    }
+    paris_store(m, dest, resize(m, result, dest.len, is_signed), self->scope);
+}
+
+void paris_compare(const struct paris_instruction *self, struct paris_operand a, struct paris_operand b)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_value *x = paris_load(m, a, "source1", MACHINE_WHERE_ACTIVE);
+    struct machine_value *y =
+        x ? paris_load(m, b, b.is_constant ? "value" : "source2", MACHINE_WHERE_ACTIVE) : NULL;
+    if (!x || !y)
+        return;
+    if (a.letter != 'f') {
+        unsigned int width = longest(a.len, b.len);
+        x = resize(m, x, width, a.letter == 's');
+        y = resize(m, y, width, a.letter == 's');
+    }
+    struct machine_value *result = NULL;
+    if (x && y)
+        result = self->swap ? machine_binary(m, self->op, y, x) : machine_binary(m, self->op, x, y);
+    paris_flag_put(m, MACHINE_TEST, result, MACHINE_WHERE_ACTIVE);
+}
+
+/* ---- conversions ---- */
+
+void paris_to_float(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_overlap(dest, a))
+        return;
+    struct machine_value *x = paris_load(m, a, "source", self->scope);
+    if (x)
+        paris_store(m, dest, machine_to_float(m, x, type, a.letter == 's'), self->scope);
+}
+
+static double power_of_two(unsigned int n)
+{
+    double x = 1;
+    for (; n; n--)
+        x += x;
+    return x;
+}
+
+/* Overflow is 1 where x, which is whole, is not one of the numbers of len bits; NaN is none of them. */
+static bool overflow_range(struct machine *m, struct machine_value *x, unsigned int len, bool is_signed)
+{
+    struct machine_type type = machine_value_type(x);
+    struct machine_value *low = machine_constant_float(m, type, is_signed ? -power_of_two(len - 1) : 0);
+    struct machine_value *high = machine_constant_float(m, type, power_of_two(is_signed ? len - 1 : len));
+    if (!low || !high)
+        return false;
+    struct machine_value *above = machine_binary(m, MACHINE_FGE, x, low);
+    struct machine_value *below = machine_binary(m, MACHINE_FLT, x, high);
+    struct machine_value *fits = above && below ? machine_binary(m, MACHINE_AND, above, below) : NULL;
+    return paris_flag_put(m, MACHINE_OVERFLOW, fits ? machine_unary(m, MACHINE_NOT, fits) : NULL,
+                          MACHINE_WHERE_ACTIVE);
+}
+
+void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a))
+        return;
+    bool is_signed = dest.letter == 's';
+    struct machine_value *x = paris_load(m, a, "source", self->scope);
+    if (!x)
+        return;
+    x = machine_unary(m, self->op, x);
+    struct machine_value *result = x ? machine_to_bits(m, x, (int)dest.len, is_signed) : NULL;
+    if (result && overflow_range(m, x, dest.len, is_signed))
+        paris_store(m, dest, result, self->scope);
+    else if (!result)
+        paris_fail_machine();
+}

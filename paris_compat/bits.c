@@ -1,0 +1,143 @@
+/* Moves and logical operations, on fields of any length: what is longer than an integer may be goes in pieces. */
+#include "paris_state.h"
+
+struct machine_value *paris_boolean(struct machine *m, unsigned int truth, struct machine_value *a,
+                                    struct machine_value *b)
+{
+    static const struct {
+        uint8_t op, not_a, not_b, not_result;
+    } how[16] = {
+        [0x1] = {MACHINE_AND, 0, 0, 0}, [0x2] = {MACHINE_AND, 0, 1, 0}, [0x4] = {MACHINE_AND, 1, 0, 0},
+        [0x8] = {MACHINE_OR, 0, 0, 1},  [0x7] = {MACHINE_OR, 0, 0, 0},  [0xb] = {MACHINE_OR, 0, 1, 0},
+        [0xd] = {MACHINE_OR, 1, 0, 0},  [0xe] = {MACHINE_AND, 0, 0, 1}, [0x6] = {MACHINE_XOR, 0, 0, 0},
+        [0x9] = {MACHINE_XOR, 0, 0, 1},
+    };
+    if (!a || !b)
+        return NULL;
+    if (truth == 0xc)
+        return machine_unary(m, MACHINE_NOT, a);
+    if (how[truth].not_a)
+        a = machine_unary(m, MACHINE_NOT, a);
+    if (how[truth].not_b)
+        b = machine_unary(m, MACHINE_NOT, b);
+    struct machine_value *v = a && b ? machine_binary(m, how[truth].op, a, b) : NULL;
+    return v && how[truth].not_result ? machine_unary(m, MACHINE_NOT, v) : v;
+}
+
+/* The piece of an operand that begins offset bits on; a constant's is zero beyond its word, or its sign. */
+static struct paris_operand piece(struct paris_operand a, unsigned int offset, unsigned int len)
+{
+    a.len = len;
+    if (!a.is_constant)
+        a.field += offset;
+    else if (offset >= 64)
+        a.value.bits = a.letter == 's' && (long)a.value.bits < 0 ? ~0ul : 0;
+    else
+        a.value.bits >>= offset; /* pieces begin at multiples of 64 */
+    return a;
+}
+
+static void logical_piece(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
+                          struct paris_operand a, struct paris_operand b)
+{
+    struct machine_value *x = paris_load(m, a, "source1", self->scope);
+    struct machine_value *y = x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    if (x && y)
+        paris_store(m, dest, paris_boolean(m, self->op, x, y), self->scope);
+}
+
+/* A field of no bits is an empty loop's: nothing is done to it. */
+void paris_logical(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
+                   struct paris_operand b)
+{
+    struct machine *m = paris_begin(self->name);
+    if (dest.len == 0 || !paris_check_operand(dest, "dest") || !paris_check_operand(a, "source1") ||
+        !paris_check_operand(b, "source2") || !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
+        return;
+    if (dest.len <= PARIS_INTEGER_MAX) {
+        logical_piece(m, self, dest, a, b);
+        return;
+    }
+    for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
+        unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
+        logical_piece(m, self, piece(dest, at, len), piece(a, at, len), piece(b, at, len));
+    }
+}
+
+/* ---- moves ---- */
+
+static void move_float(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
+                       struct paris_operand a)
+{
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_overlap(dest, a))
+        return;
+    struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
+    if (!v)
+        return;
+    if (machine_value_type(v).width != type.width)
+        v = machine_to_float(m, v, type, false);
+    paris_store(m, dest, v, self->scope);
+}
+
+static void move_short(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
+                       struct paris_operand a)
+{
+    struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
+    if (!v)
+        return;
+    if (a.len != dest.len)
+        v = machine_resize(m, v, (int)dest.len, dest.letter == 's');
+    paris_store(m, dest, v, self->scope);
+}
+
+/* dest's bits beyond the source's: zero, or the source's last bit. */
+static struct machine_value *filling(struct machine *m, const struct paris_instruction *self,
+                                     struct paris_operand a, unsigned int len)
+{
+    if (a.letter != 's')
+        return machine_constant(m, MACHINE_UINT(len), (struct machine_scalar){0, 0});
+    struct machine_value *sign = paris_load(m, paris_b(a.field + a.len - 1, 1), "source", self->scope);
+    return sign ? machine_resize(m, sign, (int)len, true) : NULL;
+}
+
+static void move_long(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
+                      struct paris_operand a)
+{
+    for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
+        unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
+        struct machine_value *v;
+        if (a.is_constant || at + len <= a.len) {
+            v = paris_load(m, piece(a, at, len), "source", self->scope);
+        } else if (at >= a.len) {
+            v = filling(m, self, a, len);
+        } else {
+            v = paris_load(m, piece(a, at, a.len - at), "source", self->scope);
+            v = v ? machine_resize(m, v, (int)len, a.letter == 's') : NULL;
+        }
+        if (!v || !paris_store(m, piece(dest, at, len), v, self->scope))
+            return;
+    }
+}
+
+void paris_move(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    if (dest.letter == 'f') {
+        move_float(m, self, dest, a);
+        return;
+    }
+    if (dest.len == 0)
+        return;
+    if (!paris_check_operand(dest, "dest") || !paris_check_operand(a, a.is_constant ? "value" : "source") ||
+        !paris_check_overlap(dest, a))
+        return;
+    if (a.len == 0) {
+        paris_fail("source: length must be 1 or more bits (got 0)");
+        return;
+    }
+    if (dest.len <= PARIS_INTEGER_MAX && a.len <= PARIS_INTEGER_MAX)
+        move_short(m, self, dest, a);
+    else
+        move_long(m, self, dest, a);
+}

@@ -1,0 +1,267 @@
+/* Geometries, VP sets, and where processors are: Paris's send addresses are not the machine's row-major indices.
+ *
+ * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of row-major index i is
+ * virtual processor i div P of physical processor i mod P, and its send address is (i mod P) * R + i div P. Along
+ * a single axis in send order the coordinate is the send address. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "paris_state.h"
+
+/* ---- geometries ---- */
+
+static struct paris_geometry *geometry_find(CM_geometry_id_t id)
+{
+    if (id < 1 || id > paris_the.geometries_count || !paris_the.geometries[id - 1].rank)
+        return NULL;
+    return &paris_the.geometries[id - 1];
+}
+
+const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id)
+{
+    paris_machine();
+    const struct paris_geometry *g = geometry_find(id);
+    if (!g)
+        paris_fail("geometry: %d is not a geometry (any more): make it with CM_create_geometry", id);
+    return g;
+}
+
+const struct paris_geometry *paris_geometry_current(void)
+{
+    return &paris_the.geometries[CM_current_geometry - 1];
+}
+
+static const struct paris_geometry *geometry_axis(CM_geometry_id_t id, unsigned int axis)
+{
+    const struct paris_geometry *g = paris_geometry_of(id);
+    if (g && axis >= (unsigned int)g->rank) {
+        paris_fail("axis: must be 0..%d in this geometry (got %d)", g->rank - 1, (int)axis);
+        return NULL;
+    }
+    return g;
+}
+
+/* An id for g, or 0. */
+static CM_geometry_id_t geometry_add(const struct paris_geometry *g)
+{
+    int i = 0;
+    while (i < paris_the.geometries_count && paris_the.geometries[i].rank)
+        i++;
+    if (i == paris_the.geometries_count) {
+        int count = i ? 2 * i : 8;
+        struct paris_geometry *grown =
+            realloc(paris_the.geometries, (size_t)count * sizeof *paris_the.geometries);
+        if (!grown) {
+            paris_fail("not enough memory for another geometry");
+            return 0;
+        }
+        memset(grown + i, 0, (size_t)(count - i) * sizeof *grown);
+        paris_the.geometries = grown;
+        paris_the.geometries_count = count;
+    }
+    paris_the.geometries[i] = *g;
+    paris_the.pristine = false;
+    return i + 1;
+}
+
+/* The count and the VP ratio of g's dimensions. */
+static bool geometry_complete(struct paris_geometry *g)
+{
+    g->count = 1;
+    for (int axis = 0; axis < g->rank; axis++) {
+        if (g->dimensions[axis] < 1) {
+            paris_fail("dimensions: axis %d must have a length of 1 or more (got %d)", axis, g->dimensions[axis]);
+            return false;
+        }
+        g->count *= (uint64_t)g->dimensions[axis];
+        if (g->count > INT32_MAX) {
+            paris_fail("dimensions: more than %d virtual processors", INT32_MAX);
+            return false;
+        }
+    }
+    uint64_t physical = CM_physical_processors_limit;
+    g->ratio = (g->count + physical - 1) / physical;
+    return true;
+}
+
+static bool rank_good(unsigned int rank)
+{
+    if (rank >= 1 && rank <= MACHINE_AXES_MAX)
+        return true;
+    paris_fail("rank: must be 1..%d (got %d)", MACHINE_AXES_MAX, (int)rank);
+    return false;
+}
+
+static bool geometry_from_dimensions(struct paris_geometry *g, CM_vector_t dimensions, unsigned int rank)
+{
+    paris_machine();
+    memset(g, 0, sizeof *g);
+    if (!rank_good(rank))
+        return false;
+    if (!dimensions.ints) {
+        paris_fail("dimensions: is NULL");
+        return false;
+    }
+    g->rank = (int)rank;
+    for (int axis = 0; axis < g->rank; axis++) {
+        g->dimensions[axis] = dimensions.ints[axis];
+        g->weight[axis] = 1;
+        g->ordering[axis] = CM_news_order;
+    }
+    return geometry_complete(g);
+}
+
+static bool geometry_from_axes(struct paris_geometry *g, CM_axis_descriptor_t *axes, unsigned int rank)
+{
+    paris_machine();
+    memset(g, 0, sizeof *g);
+    if (!rank_good(rank))
+        return false;
+    g->rank = (int)rank;
+    for (int axis = 0; axis < g->rank; axis++) {
+        if (!axes || !axes[axis]) {
+            paris_fail("axis_descriptors: the descriptor of axis %d is NULL", axis);
+            return false;
+        }
+        if (axes[axis]->ordering != CM_news_order && axes[axis]->ordering != CM_send_order) {
+            paris_fail("axis_descriptors: ordering of axis %d must be CM_news_order or CM_send_order (got %d)",
+                       axis, axes[axis]->ordering);
+            return false;
+        }
+        g->dimensions[axis] = axes[axis]->length > INT32_MAX ? -1 : (int)axes[axis]->length;
+        g->weight[axis] = (int)axes[axis]->weight;
+        g->ordering[axis] = (uint8_t)axes[axis]->ordering;
+    }
+    return geometry_complete(g);
+}
+
+static CM_geometry_id_t geometry_intern(const struct paris_geometry *g)
+{
+    for (int i = 0; i < paris_the.geometries_count; i++) {
+        const struct paris_geometry *h = &paris_the.geometries[i];
+        if (h->rank == g->rank && !memcmp(h->dimensions, g->dimensions, sizeof g->dimensions) &&
+            !memcmp(h->weight, g->weight, sizeof g->weight) &&
+            !memcmp(h->ordering, g->ordering, sizeof g->ordering))
+            return i + 1;
+    }
+    return geometry_add(g);
+}
+
+CM_geometry_id_t CM_create_geometry(CM_vector_t dimensions, unsigned int rank)
+{
+    struct paris_geometry g;
+    paris_the.call = "CM_create_geometry";
+    return geometry_from_dimensions(&g, dimensions, rank) ? geometry_add(&g) : 0;
+}
+
+CM_geometry_id_t CM_intern_geometry(CM_vector_t dimensions, unsigned int rank)
+{
+    struct paris_geometry g;
+    paris_the.call = "CM_intern_geometry";
+    return geometry_from_dimensions(&g, dimensions, rank) ? geometry_intern(&g) : 0;
+}
+
+CM_geometry_id_t CM_create_detailed_geometry(CM_axis_descriptor_t *axis_descriptors, unsigned int rank)
+{
+    struct paris_geometry g;
+    paris_the.call = "CM_create_detailed_geometry";
+    return geometry_from_axes(&g, axis_descriptors, rank) ? geometry_add(&g) : 0;
+}
+
+CM_geometry_id_t CM_intern_detailed_geometry(CM_axis_descriptor_t *axis_descriptors, unsigned int rank)
+{
+    struct paris_geometry g;
+    paris_the.call = "CM_intern_detailed_geometry";
+    return geometry_from_axes(&g, axis_descriptors, rank) ? geometry_intern(&g) : 0;
+}
+
+void CM_deallocate_geometry(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_deallocate_geometry";
+    if (!paris_geometry_of(geometry))
+        return;
+    struct paris_geometry *g = geometry_find(geometry);
+    if (g->sets)
+        paris_fail("geometry: %d VP sets still have it: call CM_deallocate_vp_set first", g->sets);
+    else
+        memset(g, 0, sizeof *g);
+}
+
+/* ---- inquiries ---- */
+
+static unsigned int bits_for(uint64_t count)
+{
+    unsigned int bits = 1;
+    while (bits < 63 && (1ull << bits) < count)
+        bits++;
+    return bits;
+}
+
+unsigned int paris_address_bits(const struct paris_geometry *g)
+{
+    return bits_for(CM_physical_processors_limit * g->ratio);
+}
+
+int CM_geometry_rank(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_geometry_rank";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    return g ? g->rank : 0;
+}
+
+unsigned int CM_geometry_axis_length(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_length";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    return g ? (unsigned int)g->dimensions[axis] : 0;
+}
+
+unsigned int CM_geometry_coordinate_length(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_coordinate_length";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    return g ? bits_for((uint64_t)g->dimensions[axis]) : 0;
+}
+
+int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_ordering";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    return g ? g->ordering[axis] : CM_news_order;
+}
+
+/* A row-major array gives a processor's virtual ones to the first axis, and what that cannot hold to the next. */
+unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_vp_ratio";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    if (!g)
+        return 0;
+    uint64_t left = g->ratio;
+    for (unsigned int i = 0; i < axis; i++) {
+        uint64_t taken = left < (uint64_t)g->dimensions[i] ? left : (uint64_t)g->dimensions[i];
+        left = (left + taken - 1) / taken;
+    }
+    return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left : (uint64_t)g->dimensions[axis]);
+}
+
+unsigned int CM_geometry_send_address_length(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_geometry_send_address_length";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    return g ? paris_address_bits(g) : 0;
+}
+
+unsigned int CM_geometry_total_processors(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_geometry_total_processors";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    return g ? (unsigned int)g->count : 0;
+}
+
+unsigned int CM_geometry_total_vp_ratio(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_geometry_total_vp_ratio";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    return g ? (unsigned int)g->ratio : 0;
+}

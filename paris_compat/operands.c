@@ -1,0 +1,157 @@
+/* Operands to values and values to fields: the checks of safety mode are here. */
+#include "paris_state.h"
+
+/* ---- types ---- */
+
+bool paris_type(struct paris_operand a, const char *role, struct machine_type *type)
+{
+    if (a.letter == 'f') {
+        if (a.len == 23 && a.e == 8) {
+            *type = MACHINE_F32;
+            return true;
+        }
+        if (a.len == 52 && a.e == 11) {
+            *type = MACHINE_F64;
+            return true;
+        }
+        paris_fail("%s: floats with significand %u and exponent %u are not supported: use 23, 8 or 52, 11", role,
+                   a.len, a.e);
+        return false;
+    }
+    unsigned int least = a.letter == 's' && paris_the.safety ? 2 : 1;
+    if (a.len < least || a.len > PARIS_INTEGER_MAX) {
+        paris_fail("%s: length must be %u..%d bits (got %u)", role, least, PARIS_INTEGER_MAX, a.len);
+        return false;
+    }
+    *type = MACHINE_UINT(a.len);
+    return true;
+}
+
+/* ---- safety mode ---- */
+
+bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
+{
+    if (!paris_the.safety)
+        return true;
+    struct machine_field_info info;
+    if (field == CM_no_field) {
+        paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or CM_allocate_heap_field", role);
+        return false;
+    }
+    if (!machine_field_lookup(paris_the.machine, field, &info)) {
+        paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an offset led out of it",
+                   role, field);
+        return false;
+    }
+    if (info.vpset != machine_vpset_current(paris_the.machine)) {
+        paris_fail("%s: the field belongs to VP set %d, but %d is current: call CM_set_vp_set first", role,
+                   info.vpset, machine_vpset_current(paris_the.machine));
+        return false;
+    }
+    if (bits > info.bits - info.offset) {
+        paris_fail("%s: %u bits reach beyond its field, which has %u from here (%u in all): allocate a longer one",
+                   role, bits, info.bits - info.offset, info.bits);
+        return false;
+    }
+    return true;
+}
+
+static bool check_constant(struct paris_operand a, const char *role)
+{
+    long i = (long)a.value.bits;
+    if (a.letter == 'u' && a.len < 64 && a.value.bits >> a.len) {
+        paris_fail("%s: the constant %lu does not fit in %u bits", role, a.value.bits, a.len);
+        return false;
+    }
+    if (a.letter == 's' && a.len < 64 && (i >= 1L << (a.len - 1) || i < -(1L << (a.len - 1)))) {
+        paris_fail("%s: the constant %ld does not fit in %u bits with a sign", role, i, a.len);
+        return false;
+    }
+    return true;
+}
+
+bool paris_check_operand(struct paris_operand a, const char *role)
+{
+    if (!paris_the.safety)
+        return true;
+    return a.is_constant ? check_constant(a, role) : paris_check_field(a.field, paris_operand_bits(a), role);
+}
+
+bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
+{
+    if (!paris_the.safety || source.is_constant || dest.field == source.field)
+        return true;
+    unsigned int d = paris_operand_bits(dest), s = paris_operand_bits(source);
+    if (dest.field < source.field + s && source.field < dest.field + d) {
+        paris_fail("dest and source overlap in part: they must be the same field or share no bits");
+        return false;
+    }
+    return true;
+}
+
+bool paris_check_axis(unsigned int axis)
+{
+    int rank = machine_vpset_rank(paris_the.machine, machine_vpset_current(paris_the.machine));
+    if (axis < (unsigned int)rank)
+        return true;
+    paris_fail("axis: must be 0..%d in this VP set (got %d)", rank - 1, (int)axis);
+    return false;
+}
+
+/* ---- values ---- */
+
+struct machine_value *paris_load(struct machine *m, struct paris_operand a, const char *role,
+                                 enum machine_scope scope)
+{
+    struct machine_type type;
+    if (!paris_type(a, role, &type) || !paris_check_operand(a, role))
+        return NULL;
+    struct machine_value *v;
+    if (!a.is_constant) {
+        v = machine_field_value(m, a.field, type, scope);
+    } else if (a.letter == 'f') {
+        v = machine_constant_float(m, type, a.value.number);
+    } else {
+        uint64_t high = a.letter == 's' && (long)a.value.bits < 0 ? UINT64_MAX : 0;
+        v = machine_constant(m, type, (struct machine_scalar){a.value.bits, high});
+    }
+    if (!v)
+        paris_fail_machine();
+    return v;
+}
+
+bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
+                 enum machine_scope scope)
+{
+    if (!paris_check_operand(dest, "dest"))
+        return false;
+    if (!value || machine_field_store(m, dest.field, value, scope) != MACHINE_OK) {
+        paris_fail_machine();
+        return false;
+    }
+    return true;
+}
+
+struct machine_value *paris_load_bit(struct machine *m, CM_field_id_t field, const char *role,
+                                     enum machine_scope scope)
+{
+    if (!paris_check_field(field, 1, role))
+        return NULL;
+    struct machine_value *v = machine_field_value(m, field, MACHINE_BIT, scope);
+    if (!v)
+        paris_fail_machine();
+    return v;
+}
+
+bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value, enum machine_scope scope)
+{
+    return paris_store(m, paris_b(field, 1), value, scope);
+}
+
+bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value, enum machine_scope scope)
+{
+    if (value && machine_flag_store(m, flag, value, scope) == MACHINE_OK)
+        return true;
+    paris_fail_machine();
+    return false;
+}

@@ -1,0 +1,216 @@
+/* paris_state.h - what the files of the Paris library share: the state, operands, and the way an instruction goes.
+ *
+ * An entry point (generated from instructions.tab) describes its operands and calls the function of its family:
+ *
+ *     CM_f_add_2_1L (dest, source, s, e)
+ *         -> paris_binary (&self, paris_f (dest, s, e), paris_f (dest, s, e), paris_f (source, s, e))
+ *             paris_begin       names the call for messages and starts the machine's instruction
+ *             paris_load        checks an operand and gives its value; NULL: it is wrong, and that has been said
+ *             machine_...       values from values; NULL goes through
+ *             paris_store       checks dest and stores; says what is wrong where the value is NULL
+ *
+ * What is wrong is told to the error handler by paris_fail() once, and the call ends without effect. */
+#ifndef PARIS_STATE_H
+#define PARIS_STATE_H
+
+#if defined(__GNUC__)
+#define PARIS_COLD __attribute__((cold, noinline))
+#define PARIS_PRINTF(a, b) __attribute__((format(printf, a, b)))
+/* The public header has no visibility of its own: it is C of 1990. */
+#pragma GCC visibility push(default)
+#endif
+#include <cm/paris.h>
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+
+#include "paris_internal.h"
+
+/* One entry point. */
+struct paris_instruction {
+    const char *name;
+    uint8_t op;       /* enum machine_op, a truth table, ... as its family has it */
+    uint8_t overflow; /* 1: records overflow */
+    uint8_t swap;     /* 1: the sources change places */
+    uint8_t scope;    /* enum machine_scope of the store */
+};
+
+enum { PARIS_OP_ABS = 255 };
+enum paris_news { PARIS_NEWS_GET, PARIS_NEWS_SEND };
+
+#define PARIS_INTEGER_MAX CM_maximum_integer_length
+#define PARIS_PIECE 64 /* longer bit fields are moved in pieces of so many bits */
+
+/* ---- operands ---- */
+
+struct paris_operand {
+    char letter;      /* u, s, f, or b: plain bits */
+    bool is_constant;
+    CM_field_id_t field;
+    unsigned int len; /* of u, s, b; the significand of f */
+    unsigned int e;   /* the exponent of f */
+    union {
+        unsigned long bits;
+        double number;
+    } value;
+};
+
+#define PARIS_OPERAND(letter, type)                                                                                    \
+    static inline struct paris_operand paris_##letter(CM_field_id_t field, unsigned int len)                           \
+    {                                                                                                                  \
+        return (struct paris_operand){#letter[0], false, field, len, 0, {.bits = 0}};                                  \
+    }                                                                                                                  \
+    static inline struct paris_operand paris_##letter##_constant(type value, unsigned int len)                         \
+    {                                                                                                                  \
+        return (struct paris_operand){#letter[0], true, 0, len, 0, {.bits = (unsigned long)value}};                    \
+    }
+PARIS_OPERAND(u, unsigned long)
+PARIS_OPERAND(s, long)
+PARIS_OPERAND(b, unsigned long)
+
+static inline struct paris_operand paris_f(CM_field_id_t field, unsigned int s, unsigned int e)
+{
+    return (struct paris_operand){'f', false, field, s, e, {.bits = 0}};
+}
+
+static inline struct paris_operand paris_f_constant(double value, unsigned int s, unsigned int e)
+{
+    return (struct paris_operand){'f', true, 0, s, e, {.number = value}};
+}
+
+static inline unsigned int paris_operand_bits(struct paris_operand a)
+{
+    return a.letter == 'f' ? a.len + a.e + 1 : a.len;
+}
+
+/* False: there is no such type, and that has been said. */
+bool paris_type(struct paris_operand a, const char *role, struct machine_type *type);
+
+/* ---- the state ---- */
+
+struct paris_geometry {
+    int rank; /* 0: not in use */
+    int dimensions[MACHINE_AXES_MAX];
+    int weight[MACHINE_AXES_MAX];
+    uint8_t ordering[MACHINE_AXES_MAX];
+    uint64_t count; /* virtual processors */
+    uint64_t ratio;
+    int sets; /* VP sets that have it */
+};
+
+struct paris_state {
+    struct machine *machine;
+    const char *call; /* the name of the instruction under way, for messages */
+    unsigned int safety;
+    bool attached;
+    bool pristine;    /* nothing allocated since CM_init */
+    struct paris_geometry *geometries; /* by id - 1 */
+    int geometries_count;
+    int *set_geometry; /* geometry of each VP set, by the machine's id; 0: not in use */
+    int sets_count;
+    CM_field_id_t leds; /* hidden field of the VP set that latched last */
+};
+extern struct paris_state paris_the;
+
+/* ---- the way an instruction goes ---- */
+
+/* Tells the error handler "<call>: <message>". */
+void paris_fail(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
+/* The same with what the machine says. */
+void paris_fail_machine(void) PARIS_COLD;
+
+/* Starts the instruction of this name. */
+static inline struct machine *paris_begin(const char *name)
+{
+    struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
+    paris_the.call = name;
+    machine_begin(m);
+    return m;
+}
+
+/* The operand's value in the current VP set; NULL when it is wrong, which has been said. */
+struct machine_value *paris_load(struct machine *m, struct paris_operand a, const char *role,
+                                 enum machine_scope scope);
+/* value may be NULL. False: it was not stored, and why has been said. */
+bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
+                 enum machine_scope scope);
+/* The same for one bit. */
+struct machine_value *paris_load_bit(struct machine *m, CM_field_id_t field, const char *role,
+                                     enum machine_scope scope);
+bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value, enum machine_scope scope);
+/* A flag of all or of active processors. */
+bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value, enum machine_scope scope);
+
+/* Safety mode's checks; without it they say yes. False: it has been said. */
+bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
+bool paris_check_operand(struct paris_operand a, const char *role);
+bool paris_check_overlap(struct paris_operand dest, struct paris_operand source);
+/* These say no in either mode. */
+bool paris_check_axis(unsigned int axis);
+const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
+const struct paris_geometry *paris_geometry_current(void);
+
+/* The function of the two bits whose truth table this is, from (0,0) in bit 3 to (1,1) in bit 0. */
+struct machine_value *paris_boolean(struct machine *m, unsigned int truth, struct machine_value *a,
+                                    struct machine_value *b);
+
+/* ---- geometry: the machine's row-major index and Paris's send address ---- */
+
+uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);
+/* UINT64_MAX where there is no such processor. */
+uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address);
+unsigned int paris_address_bits(const struct paris_geometry *g);
+void paris_sets_reset(void); /* no geometries, no VP sets but the default one */
+void paris_sets_forget(void);
+
+/* ---- the families ---- */
+
+void paris_binary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
+                  struct paris_operand b);
+void paris_unary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
+void paris_compare(const struct paris_instruction *self, struct paris_operand a, struct paris_operand b);
+void paris_move(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
+void paris_to_float(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
+void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
+void paris_logical(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
+                   struct paris_operand b);
+void paris_flag_constant(const struct paris_instruction *self, enum machine_flag flag, unsigned int value);
+void paris_flag_load(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source);
+void paris_flag_store(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t dest);
+void paris_flag_logical_field(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source);
+void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_flag flag, enum machine_flag other);
+void paris_news(const struct paris_instruction *self, CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
+                unsigned int direction, unsigned int len);
+void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest, unsigned int axis,
+                         unsigned int len);
+void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t send_address,
+                           struct paris_operand dest, struct paris_operand value);
+/* self->op is 1 where the result is a long. */
+unsigned long paris_processor_read_u(const struct paris_instruction *self, CM_sendaddr_t send_address,
+                                     struct paris_operand source);
+long paris_processor_read_s(const struct paris_instruction *self, CM_sendaddr_t send_address,
+                            struct paris_operand source);
+double paris_processor_read_f(const struct paris_instruction *self, CM_sendaddr_t send_address,
+                              struct paris_operand source);
+unsigned long paris_global_u(const struct paris_instruction *self, struct paris_operand source);
+unsigned long paris_global_b(const struct paris_instruction *self, struct paris_operand source);
+long paris_global_s(const struct paris_instruction *self, struct paris_operand source);
+double paris_global_f(const struct paris_instruction *self, struct paris_operand source);
+unsigned int paris_global_count(const struct paris_instruction *self, enum machine_flag flag);
+int paris_global_any(const struct paris_instruction *self, enum machine_flag flag);
+int paris_global_all(const struct paris_instruction *self, enum machine_flag flag);
+
+/* A block of a front-end array, and where it is among the processors. */
+struct paris_block {
+    const int *offset, *start, *end, *axis, *dimensions;
+    unsigned int rank, format;
+};
+#define PARIS_BLOCK                                                                                                    \
+    ((struct paris_block){offset_vector.ints, start_vector.ints, end_vector.ints, axis_vector.ints,                    \
+                          dimension_vector.ints, rank, format})
+void paris_array_write(const struct paris_instruction *self, const void *array, struct paris_block block,
+                       struct paris_operand dest);
+void paris_array_read(const struct paris_instruction *self, void *array, struct paris_block block,
+                      struct paris_operand source);
+
+#endif

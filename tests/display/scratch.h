@@ -1,0 +1,59 @@
+/* scratch.h - a folder for one test program's files, gone when it ends.
+ *
+ *     const char *path = scratch_path("page.png");
+ */
+#ifndef LUTETIA_TEST_SCRATCH_H
+#define LUTETIA_TEST_SCRATCH_H
+
+#include <assert.h>
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char scratch_dir[256];
+
+/* How many files lie in the folder. */
+static inline int scratch_count(void)
+{
+    DIR *dir = opendir(scratch_dir);
+    int count = 0;
+    assert(dir);
+    for (struct dirent *entry; (entry = readdir(dir));)
+        count += entry->d_name[0] != '.';
+    closedir(dir);
+    return count;
+}
+
+static inline void scratch_remove(void)
+{
+    DIR *dir = opendir(scratch_dir);
+    for (struct dirent *entry; dir && (entry = readdir(dir));) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", scratch_dir, entry->d_name);
+        unlink(path);
+    }
+    if (dir)
+        closedir(dir);
+    rmdir(scratch_dir);
+}
+
+/* The name of a file in the folder; valid until the eighth next call. */
+static inline const char *scratch_path(const char *name)
+{
+    static char paths[8][512];
+    static int turn;
+    if (!scratch_dir[0]) {
+        const char *tmp = getenv("TMPDIR");
+        snprintf(scratch_dir, sizeof scratch_dir, "%s/lutetia-test-XXXXXX", tmp ? tmp : "/tmp");
+        char *made = mkdtemp(scratch_dir);
+        assert(made);
+        atexit(scratch_remove);
+    }
+    char *path = paths[turn++ % 8];
+    snprintf(path, sizeof paths[0], "%s/%s", scratch_dir, name);
+    return path;
+}
+
+#endif

@@ -1,0 +1,145 @@
+/* test_png.c - whole PNG files or none; what is written is read back. */
+#include <display.h>
+
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "scratch.h"
+
+static struct display_image image_make(int width, int height, int channels)
+{
+    struct display_image image = {.width_px = width, .height_px = height, .channels = channels};
+    assert_int_equal(display_image_create(&image), DISPLAY_OK);
+    size_t bytes = (size_t)width * (size_t)height * (size_t)channels;
+    uint32_t state = 1;
+    for (size_t i = 0; i < bytes; i++) {
+        state = state * 1664525u + 1013904223u;
+        image.pixels[i] = (uint8_t)(state >> 24);
+    }
+    return image;
+}
+
+static void gray_comes_back(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {7, 3}, {640, 2}, {3, 511}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct display_image out = image_make(sizes[i][0], sizes[i][1], 1), in;
+        const char *path = scratch_path("gray.png");
+        assert_int_equal(display_png_write(path, &out), DISPLAY_OK);
+        assert_int_equal(display_png_read_gray(path, &in), DISPLAY_OK);
+        assert_int_equal(in.width_px, out.width_px);
+        assert_int_equal(in.height_px, out.height_px);
+        assert_memory_equal(in.pixels, out.pixels, (size_t)out.width_px * (size_t)out.height_px);
+        display_image_destroy(&out);
+        display_image_destroy(&in);
+    }
+}
+
+static void color_reads_as_luminance(void **state)
+{
+    (void)state;
+    struct display_image out = image_make(3, 1, 3), in;
+    static const uint8_t pixels[9] = {255, 0, 0, 0, 255, 0, 200, 200, 200};
+    memcpy(out.pixels, pixels, sizeof pixels);
+    assert_int_equal(display_png_write(scratch_path("color.png"), &out), DISPLAY_OK);
+    assert_int_equal(display_png_read_gray(scratch_path("color.png"), &in), DISPLAY_OK);
+    assert_int_equal(in.pixels[0], 54);
+    assert_int_equal(in.pixels[1], 182);
+    assert_int_equal(in.pixels[2], 200);
+    display_image_destroy(&out);
+    display_image_destroy(&in);
+}
+
+static void write_leaves_nothing_beside(void **state)
+{
+    (void)state;
+    struct display_image image = image_make(64, 64, 3);
+    int before = scratch_count();
+    assert_int_equal(display_png_write(scratch_path("one.png"), &image), DISPLAY_OK);
+    assert_int_equal(display_png_write(scratch_path("one.png"), &image), DISPLAY_OK);
+    assert_int_equal(scratch_count(), before + 1);
+    display_image_destroy(&image);
+}
+
+static void full_device_is_reported(void **state)
+{
+    (void)state;
+    struct display_image image = image_make(256, 256, 3);
+    assert_int_equal(display_png_write("/dev/full", &image), DISPLAY_IO_FAILED);
+    assert_non_null(strstr(display_error(), "/dev/full"));
+    assert_non_null(strstr(display_error(), "space"));
+    display_image_destroy(&image);
+}
+
+/* A limit on a file's size is the disk that any test can fill. */
+static void full_disk_keeps_the_old_file(void **state)
+{
+    (void)state;
+    struct display_image small = image_make(4, 4, 1), large = image_make(400, 400, 3), in;
+    const char *path = scratch_path("kept.png");
+    assert_int_equal(display_png_write(path, &small), DISPLAY_OK);
+    int before = scratch_count();
+
+    struct rlimit old, limit;
+    getrlimit(RLIMIT_FSIZE, &old);
+    limit = old;
+    limit.rlim_cur = 10000;
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    enum display_status status = display_png_write(path, &large);
+    setrlimit(RLIMIT_FSIZE, &old);
+
+    assert_int_equal(status, DISPLAY_IO_FAILED);
+    assert_int_equal(scratch_count(), before);
+    assert_int_equal(display_png_read_gray(path, &in), DISPLAY_OK);
+    assert_int_equal(in.width_px, 4);
+    display_image_destroy(&small);
+    display_image_destroy(&large);
+    display_image_destroy(&in);
+}
+
+static void missing_places_are_named(void **state)
+{
+    (void)state;
+    struct display_image image = image_make(4, 4, 1), in;
+    assert_int_equal(display_png_write("/nowhere/at/all.png", &image), DISPLAY_IO_FAILED);
+    assert_non_null(strstr(display_error(), "/nowhere/at/all.png"));
+    assert_int_equal(display_png_write("/proc/lutetia.png", &image), DISPLAY_IO_FAILED);
+    assert_int_equal(display_png_write("/", &image), DISPLAY_IO_FAILED);
+    assert_int_equal(display_png_read_gray("/nowhere/at/all.png", &in), DISPLAY_IO_FAILED);
+    assert_null(in.pixels);
+    assert_int_equal(display_png_read_gray("/", &in), DISPLAY_IO_FAILED);
+    display_image_destroy(&image);
+}
+
+static void empty_images_are_refused(void **state)
+{
+    (void)state;
+    struct display_image none = {0}, odd = {.width_px = 2, .height_px = 2, .channels = 2};
+    assert_int_equal(display_png_write(scratch_path("none.png"), &none), DISPLAY_BAD_ARGUMENT);
+    assert_int_equal(display_image_create(&none), DISPLAY_BAD_ARGUMENT);
+    assert_int_equal(display_image_create(&odd), DISPLAY_BAD_ARGUMENT);
+    assert_null(odd.pixels);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gray_comes_back),
+        cmocka_unit_test(color_reads_as_luminance),
+        cmocka_unit_test(write_leaves_nothing_beside),
+        cmocka_unit_test(full_device_is_reported),
+        cmocka_unit_test(full_disk_keeps_the_old_file),
+        cmocka_unit_test(missing_places_are_named),
+        cmocka_unit_test(empty_images_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,148 @@
+/* test_dispersion.c - the thesis's dispersion listing, unchanged, gives the oracle's bits.
+ *
+ * The program runs in whatever mode the environment asks for (LUTETIA_EAGER, the device's thread count); meson
+ * runs it in four.  All fields and flags are compared, temporaries and inactive fibers included.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "oracle.h"
+#include "page.h"
+#include "variant.h"
+
+enum { STEPS = 200 };
+
+static uint64_t random_state;
+
+static uint32_t random_word(void)
+{
+    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (uint32_t)((z ^ (z >> 31)) >> 32);
+}
+
+/* A sheet that is wet in places, with pigment in spots; the temporaries hold leftovers of another program. */
+static float random_amount(enum page_field which)
+{
+    float unit = (float)(random_word() >> 8) * 0x1p-24f;
+
+    if (which == PAGE_ABSORBENCY)
+        return 0.05f + 0.2f * unit;
+    if (which >= PAGE_TEMP1)
+        return 4.0f * unit - 2.0f;
+    return random_word() % 3 ? unit : 0.0f;
+}
+
+static void fill(struct FiberStruct *page, struct oracle *o)
+{
+    size_t count = (size_t)o->width * (size_t)o->height;
+    unsigned int *words = malloc(count * sizeof *words);
+
+    assert_non_null(words);
+    for (int which = 0; which < PAGE_FLOAT_COUNT; which++) {
+        for (size_t n = 0; n < count; n++)
+            o->real[which][n] = random_amount((enum page_field)which);
+        memcpy(words, o->real[which], count * sizeof *words);
+        page_write(page, (enum page_field)which, words);
+    }
+    for (size_t n = 0; n < count; n++)
+        words[n] = o->test[n] = random_word() & 1;
+    page_write(page, PAGE_SEEN_TEST, words);
+    CM_load_test(page->seen_test);
+    /* the caller's own context: a band of fibers, and scattered ones, are off */
+    for (size_t n = 0; n < count; n++)
+        words[n] = o->context[n] = n % (size_t)o->width / 5 != 3 && random_word() % 16 != 0;
+    page_write(page, PAGE_SEEN_CONTEXT, words);
+    CM_load_context(page->seen_context);
+    free(words);
+}
+
+static void compare(struct FiberStruct *page, const struct oracle *o, int step)
+{
+    static const char *const names[PAGE_FIELD_COUNT] = {
+        "water",   "absorbency", "cyan",  "magenta",       "yellow",            "temp1",
+        "temp2",   "inward",     "outward", "inflow",      "outflow",           "image",
+        "context", "old_context_store", "context flag", "test flag", "overflow flag"};
+    int count = o->width * o->height;
+    unsigned int *words = malloc((size_t)count * sizeof *words);
+
+    assert_non_null(words);
+    page_look_at_flags(page);
+    for (int which = 0; which < PAGE_FIELD_COUNT; which++) {
+        page_read(page, (enum page_field)which, words);
+        for (int n = 0; n < count; n++)
+            if (words[n] != oracle_word(o, which, n))
+                fail_msg("%s at row %d column %d of %dx%d after step %d: %08x, the oracle has %08x",
+                         names[which], n / o->width, n % o->width, o->width, o->height, step, words[n],
+                         oracle_word(o, which, n));
+    }
+    free(words);
+}
+
+/* observed_every 0: at the end only. */
+static void disperse(int width, int height, int observed_every)
+{
+    struct FiberStruct page;
+    struct oracle o;
+
+    random_state = (uint64_t)(width * 1000 + height);
+    oracle_init(&o, width, height);
+    o.gravity = gravity;
+    memcpy(o.molecular_weight, molecular_weight, sizeof molecular_weight);
+    page_create(&page, width, height);
+    fill(&page, &o);
+    for (int step = 1; step <= STEPS; step++) {
+        variant_step(&page);
+        oracle_disperse(&o);
+        if (step == STEPS || (observed_every && step % observed_every == 0))
+            compare(&page, &o, step);
+    }
+    page_destroy(&page);
+    oracle_finish(&o);
+}
+
+static void dispersion_square_sheet_agrees(void **state)
+{
+    (void)state;
+    disperse(256, 256, 0);
+}
+
+static void dispersion_odd_sheet_agrees(void **state)
+{
+    (void)state;
+    disperse(131, 97, 0);
+}
+
+static void dispersion_observed_every_step_agrees(void **state)
+{
+    (void)state;
+    disperse(97, 61, 1);
+}
+
+static void dispersion_observed_every_seventh_step_agrees(void **state)
+{
+    (void)state;
+    disperse(131, 97, 7);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dispersion_square_sheet_agrees),
+        cmocka_unit_test(dispersion_odd_sheet_agrees),
+        cmocka_unit_test(dispersion_observed_every_step_agrees),
+        cmocka_unit_test(dispersion_observed_every_seventh_step_agrees),
+    };
+
+    CM_init();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

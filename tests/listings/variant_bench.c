@@ -1,0 +1,37 @@
+/* variant_bench.c - the step is the benchmark's own text of the same instructions. It is held to the same oracle,
+ * bit for bit, as the thesis's listing, so the two give the same bits. */
+#include "listing.h"
+#include "page.h"
+#include "variant.h"
+
+void variant_step(struct FiberStruct *page)
+{
+    struct listing sheet = {
+        .width = page->width,
+        .height = page->height,
+        .x0 = 2,
+        .y0 = 2,
+        .x1 = page->width - 1, /* the thesis's rectangle has its far edges in */
+        .y1 = page->height - 1,
+        .significand = (unsigned int)page->s,
+        .exponent = (unsigned int)page->e,
+        .axis_x = (unsigned int)X,
+        .axis_y = (unsigned int)Y,
+        .gravity = (double)gravity,
+        .molecular_weight = {(double)molecular_weight[0], (double)molecular_weight[1],
+                             (double)molecular_weight[2]},
+        .water = page->water,
+        .absorbency = page->absorbency,
+        .pigment = {page->cyan, page->magenta, page->yellow},
+        .inflow = page->inflow,
+        .inward = page->inward,
+        .outward = page->outward,
+        .x = page->x_coordinate,
+        .y = page->y_coordinate,
+        .coordinate_bits = 16,
+        .caller_context = page->context,
+        .kept_context = page->old_context_store,
+    };
+
+    listing_step(&sheet);
+}

@@ -1,0 +1,10 @@
+/* variant_thesis.c - the step is the thesis's. */
+#include "variant.h"
+
+/* As listing_dispersion.c defines it, in gnu89. */
+int disperse_pigment_and_water(struct FiberStruct *page);
+
+void variant_step(struct FiberStruct *page)
+{
+    disperse_pigment_and_water(page);
+}

@@ -1,0 +1,28 @@
+/* child.h - runs a command as a user would, and keeps what it said.
+ *
+ *     struct child child = {.arguments = {lutetia, "paint", "x", "-o", "/proc/x.png"}};
+ *     child_run(&child);
+ *     assert_int_equal(child.status, 1);
+ *     assert_non_null(strstr(child.errors, "/proc/x.png"));
+ */
+#ifndef LUTETIA_TEST_CHILD_H
+#define LUTETIA_TEST_CHILD_H
+
+#include <stdbool.h>
+
+enum { CHILD_ARGUMENTS_MAX = 32, CHILD_TEXT_MAX = 1 << 16 };
+
+struct child {
+    const char *arguments[CHILD_ARGUMENTS_MAX]; /* NULL ends them */
+    const char *variables[4];                   /* NAME=value, added to the environment; NULL ends them */
+    long file_bytes_max;                        /* 0: no limit; a disk that is soon full */
+    int interrupt_after_ms;                     /* 0: never */
+    bool output_full;                           /* the standard output is /dev/full */
+
+    int status; /* exit status, or 1000 + the signal that ended it */
+    char output[CHILD_TEXT_MAX], errors[CHILD_TEXT_MAX];
+};
+
+void child_run(struct child *child);
+
+#endif

@@ -1,0 +1,150 @@
+/* support.c - see support.h. */
+#include "support.h"
+
+struct machine *support_machine(int eager)
+{
+    struct machine_config config = machine_config_default();
+    struct machine *m = NULL;
+
+    config.processors_count = 16;
+    config.eager = eager;
+    assert_ok(machine_create(&config, &m), m);
+    return m;
+}
+
+int support_set(struct machine *m, int rank, ...)
+{
+    int dimensions[MACHINE_AXES_MAX], set;
+    va_list axes;
+
+    va_start(axes, rank);
+    for (int k = 0; k < rank; k++)
+        dimensions[k] = va_arg(axes, int);
+    va_end(axes);
+    set = machine_vpset_create(m, dimensions, rank);
+    if (set == 0)
+        fail_msg("%s", machine_error(m));
+    assert_ok(machine_vpset_select(m, set), m);
+    return set;
+}
+
+static uint64_t mixed(uint64_t z)
+{
+    z = (z + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static wide awkward_bits(int width, uint64_t which)
+{
+    wide top = (wide)1 << (width - 1);
+    const wide awkward[] = {0, 1, wide_mask(width), top, top - 1, top + 1, wide_mask(width) - 1, 3};
+
+    return awkward[which % 8] & wide_mask(width);
+}
+
+static uint64_t awkward_float(int bits, uint64_t which)
+{
+    static const double awkward[] = {0.0,   -0.0,  1.0,    -1.0,   0.5,       1.5,       2.5,   -2.5, 1e-45,
+                                     1e-310, 3e38, -3e38, 1.7e308, 4294967296.0, 1e300, -0.75, 255.0};
+    uint64_t count = sizeof awkward / sizeof awkward[0];
+
+    which %= count + 3;
+    if (which == count)
+        return number_nan(bits);
+    if (which > count)
+        return number_real(which == count + 1 ? __builtin_inf() : -__builtin_inf(), bits);
+    return number_real(awkward[which], bits);
+}
+
+wide support_word(struct machine_type type, uint64_t seed, uint64_t n)
+{
+    uint64_t z = mixed(seed * 1000003 + n);
+
+    if (type.kind == MACHINE_FLOAT) {
+        if (z % 3 == 0)
+            return awkward_float(type.width, z >> 8);
+        return number_real(((double)(z >> 40) * 0x1p-24 - 0.5) * (z % 3 == 1 ? 4 : 1e5), type.width);
+    }
+    if (z % 3 == 0)
+        return awkward_bits(type.width, z >> 8);
+    return ((wide)mixed(z) << 64 | z) & wide_mask(z % 3 == 1 || type.width < 8 ? type.width : 8);
+}
+
+wide support_element(const void *array, struct machine_type type, uint64_t n)
+{
+    size_t bytes = machine_element_bytes(type);
+    wide value = 0;
+
+    memcpy(&value, (const char *)array + n * bytes, bytes); /* little-endian hosts */
+    return value;
+}
+
+void support_element_set(void *array, struct machine_type type, uint64_t n, wide value)
+{
+    size_t bytes = machine_element_bytes(type);
+
+    memcpy((char *)array + n * bytes, &value, bytes);
+}
+
+static uint64_t count_of(struct machine *m)
+{
+    return machine_vpset_count(m, machine_vpset_current(m));
+}
+
+uint32_t support_field(struct machine *m, struct machine_type type, uint64_t seed)
+{
+    uint32_t field = machine_field_allocate(m, machine_vpset_current(m), type.width, MACHINE_HEAP);
+    void *array = calloc(count_of(m), 16);
+
+    assert_non_null(array);
+    if (field == MACHINE_NO_FIELD)
+        fail_msg("%s", machine_error(m));
+    for (uint64_t n = 0; n < count_of(m); n++)
+        support_element_set(array, type, n, support_word(type, seed, n));
+    assert_ok(machine_field_upload(m, field, type, array), m);
+    free(array);
+    return field;
+}
+
+struct machine_value *support_value(struct machine *m, uint32_t field, struct machine_type type)
+{
+    struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
+
+    if (!v)
+        fail_msg("%s", machine_error(m));
+    return v;
+}
+
+void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
+                          support_expected expected, const void *data, const char *what)
+{
+    void *array = calloc(count_of(m), 16);
+
+    assert_non_null(array);
+    assert_ok(machine_field_download(m, field, type, array), m);
+    for (uint64_t n = 0; n < count_of(m); n++) {
+        wide got = support_element(array, type, n), wanted = expected(data, n);
+
+        if (got != wanted)
+            fail_msg("%s, element %llu: %016llx%016llx, expected %016llx%016llx", what,
+                     (unsigned long long)n, (unsigned long long)(got >> 64), (unsigned long long)got,
+                     (unsigned long long)(wanted >> 64), (unsigned long long)wanted);
+    }
+    free(array);
+}
+
+void support_expect(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
+                    const char *what)
+{
+    struct machine_type type;
+    uint32_t field;
+
+    if (!value)
+        fail_msg("%s: %s", what, machine_error(m));
+    type = machine_value_type(value);
+    field = machine_field_allocate(m, machine_vpset_current(m), type.width, MACHINE_HEAP);
+    assert_ok(machine_field_store(m, field, value, MACHINE_EVERYWHERE), m);
+    support_expect_field(m, field, type, expected, data, what);
+    assert_ok(machine_field_deallocate(m, field), m);
+}

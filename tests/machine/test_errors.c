@@ -1,0 +1,234 @@
+/* test_errors.c - wrong calls: a status, one clear line, and a machine that goes on as if nothing had been said. */
+#include "support.h"
+
+static struct machine *machine;
+static int set;
+static uint32_t field;
+
+static int setup(void **state)
+{
+    (void)state;
+    machine = support_machine(0);
+    set = support_set(machine, 2, 3, 41);
+    field = support_field(machine, MACHINE_UINT(32), 1);
+    return 0;
+}
+
+static wide expected_untouched(const void *data, uint64_t n)
+{
+    (void)data;
+    return support_word(MACHINE_UINT(32), 1, n);
+}
+
+/* Whatever was tried, the field holds what it held, and the machine computes. */
+static int teardown(void **state)
+{
+    (void)state;
+    machine_error_clear(machine);
+    assert_ok(machine_vpset_select(machine, set), machine);
+    support_expect_field(machine, field, MACHINE_UINT(32), expected_untouched, NULL, "after a failed call");
+    machine_destroy(machine);
+    return 0;
+}
+
+/* The call failed with this status, and says so in one line. */
+static void expect_failure(enum machine_status status)
+{
+    const char *text = machine_error(machine);
+
+    assert_int_equal(machine_status_last(machine), status);
+    assert_true(strlen(text) > 8);
+    assert_null(strchr(text, '\n'));
+    machine_error_clear(machine);
+    assert_int_equal(machine_status_last(machine), MACHINE_OK);
+    assert_string_equal(machine_error(machine), "");
+}
+
+static void device_that_is_not_there_is_refused(void **state)
+{
+    struct machine_config config = machine_config_default();
+    struct machine *m = NULL;
+
+    (void)state;
+    config.device = "no such device";
+    assert_int_equal(machine_create(&config, &m), MACHINE_NO_DEVICE);
+    assert_non_null(strstr(machine_error(m), "no such device"));
+    machine_destroy(m);
+    config.device = "999";
+    assert_int_equal(machine_create(&config, &m), MACHINE_NO_DEVICE);
+    machine_destroy(m);
+    config = machine_config_default();
+    config.processors_count = 100; /* not a power of two */
+    assert_int_equal(machine_create(&config, &m), MACHINE_BAD_ARGUMENT);
+    machine_destroy(m);
+    machine_destroy(NULL);
+}
+
+static void count_device(void *context, int index, const char *platform, const char *device, const char *version,
+                         int compute_units, uint64_t memory_bytes)
+{
+    int *count = context;
+
+    assert_int_equal(index, *count);
+    assert_true(*platform && *device && *version && compute_units > 0 && memory_bytes > 0);
+    (*count)++;
+}
+
+static void devices_are_listed_in_order(void **state)
+{
+    int count = 0, listed = machine_devices_list(count_device, &count);
+
+    (void)state;
+    assert_int_equal(listed, count);
+    assert_true(count > 0);
+    assert_true(*machine_device_name(machine));
+}
+
+static void vpset_of_bad_shape_is_refused(void **state)
+{
+    int many[40];
+
+    (void)state;
+    for (int k = 0; k < 40; k++)
+        many[k] = 1;
+    assert_int_equal(machine_vpset_create(machine, (int[]){3, 0}, 2), 0);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_vpset_create(machine, (int[]){-4}, 1), 0);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_vpset_create(machine, many, 0), 0);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_vpset_create(machine, many, MACHINE_AXES_MAX + 1), 0);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_true(machine_vpset_create(machine, many, MACHINE_AXES_MAX) > 0);
+    assert_int_equal(machine_vpset_create(machine, (int[]){100000, 100000, 100000}, 3), 0);
+    assert_int_not_equal(machine_status_last(machine), MACHINE_OK);
+    machine_error_clear(machine);
+    assert_int_equal(machine_vpset_select(machine, 12345), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_vpset_destroy(machine, -1), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+static void field_of_no_bits_is_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(machine_field_allocate(machine, set, 0, MACHINE_HEAP), MACHINE_NO_FIELD);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_allocate(machine, 777, 8, MACHINE_HEAP), MACHINE_NO_FIELD);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+static void field_that_is_gone_is_refused(void **state)
+{
+    uint32_t gone = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    struct machine_scalar ignored;
+    uint32_t words[123];
+
+    (void)state;
+    assert_ok(machine_field_deallocate(machine, gone), machine);
+    assert_int_equal(machine_field_deallocate(machine, gone), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    machine_begin(machine);
+    assert_null(machine_field_value(machine, gone, MACHINE_UINT(32), MACHINE_EVERYWHERE));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_store(machine, gone, support_value(machine, field, MACHINE_UINT(32)),
+                                         MACHINE_WHERE_ACTIVE),
+                     MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_download(machine, gone, MACHINE_UINT(32), words), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_upload(machine, gone, MACHINE_UINT(32), words), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_read(machine, gone, MACHINE_UINT(32), 0, &ignored), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    /* a stack field is not given back as a heap field, nor a part as the whole */
+    assert_int_equal(machine_field_deallocate(machine, field + 8), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_deallocate_through(machine, field), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+static void access_beyond_the_field_is_refused(void **state)
+{
+    struct machine_scalar ignored;
+
+    (void)state;
+    machine_begin(machine);
+    assert_null(machine_field_value(machine, field + 1, MACHINE_UINT(32), MACHINE_EVERYWHERE));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_field_value(machine, field, MACHINE_UINT(129), MACHINE_EVERYWHERE));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_field_value(machine, field, MACHINE_UINT(0), MACHINE_EVERYWHERE));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_store(machine, field + 1, support_value(machine, field, MACHINE_UINT(32)),
+                                         MACHINE_EVERYWHERE),
+                     MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_read(machine, field, MACHINE_UINT(32), 123, &ignored), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+static void operation_on_wrong_types_is_refused(void **state)
+{
+    struct machine_value *word, *byte, *real;
+
+    (void)state;
+    machine_begin(machine);
+    word = support_value(machine, field, MACHINE_UINT(32));
+    byte = support_value(machine, field, MACHINE_UINT(8));
+    real = support_value(machine, field, MACHINE_F32);
+    assert_null(machine_binary(machine, MACHINE_ADD, word, byte));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_binary(machine, MACHINE_FADD, real, word));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_binary(machine, MACHINE_ADD, real, real));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_unary(machine, MACHINE_FNEG, word));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_select(machine, byte, word, word));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_extract(machine, byte, 4, 5));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_resize(machine, word, 0, false));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_reinterpret(machine, byte, MACHINE_F32));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_shift(machine, word, 2, 1));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_null(machine_coordinate(machine, -1, 8));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+static void values_of_two_sets_do_not_mix(void **state)
+{
+    struct machine_value *here, *there;
+    uint32_t other_field;
+
+    (void)state;
+    machine_begin(machine);
+    here = support_value(machine, field, MACHINE_UINT(32));
+    support_set(machine, 1, 123);
+    other_field = support_field(machine, MACHINE_UINT(32), 2);
+    there = support_value(machine, other_field, MACHINE_UINT(32));
+    assert_null(machine_binary(machine, MACHINE_ADD, here, there));
+    expect_failure(MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_store(machine, other_field, here, MACHINE_EVERYWHERE), MACHINE_BAD_ARGUMENT);
+    expect_failure(MACHINE_BAD_ARGUMENT);
+}
+
+int main(void)
+{
+#define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        CASE(device_that_is_not_there_is_refused),
+        CASE(devices_are_listed_in_order),
+        CASE(vpset_of_bad_shape_is_refused),
+        CASE(field_of_no_bits_is_refused),
+        CASE(field_that_is_gone_is_refused),
+        CASE(access_beyond_the_field_is_refused),
+        CASE(operation_on_wrong_types_is_refused),
+        CASE(values_of_two_sets_do_not_mix),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

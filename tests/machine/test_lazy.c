@@ -1,0 +1,252 @@
+/* test_lazy.c - what laziness promises: nobody pays for what nobody sees, a step seen before builds nothing, and the
+ * graph does not grow. Measured by machine_stats_get(), checked against the eager machine's values. */
+#include "support.h"
+
+enum { ROWS = 20, COLUMNS = 70, COUNT = ROWS * COLUMNS };
+
+struct sheet {
+    struct machine *m;
+    uint32_t water, flow, scratch;
+};
+
+static void sheet_open(struct sheet *s, int eager)
+{
+    int set;
+
+    s->m = support_machine(eager);
+    set = support_set(s->m, 2, ROWS, COLUMNS);
+    s->water = support_field(s->m, MACHINE_UINT(32), 1);
+    s->flow = machine_field_allocate(s->m, set, 32, MACHINE_HEAP);
+    s->scratch = machine_field_allocate(s->m, set, 32, MACHINE_STACK);
+}
+
+static struct machine_stats stats(struct machine *m)
+{
+    struct machine_stats now;
+
+    machine_stats_get(m, &now);
+    return now;
+}
+
+static struct machine_value *constant(struct machine *m, uint64_t x)
+{
+    return machine_constant(m, MACHINE_UINT(32), (struct machine_scalar){x, 0});
+}
+
+static void store(struct sheet *s, uint32_t field, struct machine_value *v)
+{
+    assert_ok(machine_field_store(s->m, field, v, MACHINE_WHERE_ACTIVE), s->m);
+    machine_begin(s->m);
+}
+
+/* water += (left neighbour's water - water) * k, by way of two temporaries and a nested context. */
+static void step(struct sheet *s, uint64_t k)
+{
+    struct machine *m = s->m;
+    const struct machine_type word = MACHINE_UINT(32);
+    struct machine_value *test;
+
+    machine_begin(m);
+    store(s, s->scratch, machine_shift(m, support_value(m, s->water, word), 1, -1));
+    store(s, s->flow, machine_binary(m, MACHINE_SUB, support_value(m, s->scratch, word),
+                                     support_value(m, s->water, word)));
+    test = machine_binary(m, MACHINE_SLT, support_value(m, s->flow, word), constant(m, 0));
+    assert_ok(machine_flag_store(m, MACHINE_TEST, test, MACHINE_WHERE_ACTIVE), m);
+    machine_begin(m);
+    assert_ok(machine_flag_store(m, MACHINE_CONTEXT, machine_flag_value(m, MACHINE_TEST, MACHINE_EVERYWHERE),
+                                 MACHINE_EVERYWHERE),
+              m);
+    machine_begin(m);
+    store(s, s->flow, machine_binary(m, MACHINE_MUL, support_value(m, s->flow, word), constant(m, k)));
+    assert_ok(machine_flag_store(m, MACHINE_CONTEXT,
+                                 machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0}),
+                                 MACHINE_EVERYWHERE),
+              m);
+    machine_begin(m);
+    store(s, s->water, machine_binary(m, MACHINE_ADD, support_value(m, s->water, word),
+                                      support_value(m, s->flow, word)));
+}
+
+static void look(struct sheet *s, uint32_t *out)
+{
+    machine_begin(s->m);
+    assert_ok(machine_field_download(s->m, s->water, MACHINE_UINT(32), out), s->m);
+}
+
+static void unobserved_values_are_never_computed(void **state)
+{
+    struct sheet s;
+    struct machine_stats before, after;
+
+    (void)state;
+    sheet_open(&s, 0);
+    assert_ok(machine_finish(s.m), s.m);
+    before = stats(s.m);
+    for (int n = 0; n < 100; n++) {
+        machine_begin(s.m);
+        store(&s, s.scratch, machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, MACHINE_UINT(32)),
+                                            constant(s.m, (uint64_t)n)));
+    }
+    store(&s, s.scratch, constant(s.m, 5)); /* what was there is gone, unseen */
+    after = stats(s.m);
+    assert_int_equal(after.kernels_run, before.kernels_run);
+    assert_int_equal(after.stores, before.stores + 101);
+    machine_destroy(s.m);
+}
+
+static void repeated_step_builds_nothing_new(void **state)
+{
+    struct sheet s;
+    struct machine_stats before, after;
+    uint32_t *out = malloc(COUNT * sizeof *out);
+
+    (void)state;
+    assert_non_null(out);
+    sheet_open(&s, 0);
+    for (int n = 0; n < 8; n++) {
+        step(&s, 3);
+        look(&s, out);
+    }
+    before = stats(s.m);
+    for (int n = 0; n < 50; n++) {
+        step(&s, 3);
+        look(&s, out);
+    }
+    after = stats(s.m);
+    assert_int_equal(after.plans_built, before.plans_built);
+    assert_int_equal(after.kernels_built, before.kernels_built);
+    assert_true(after.kernels_run >= before.kernels_run + 50);
+    for (uint64_t k = 4; k < 40; k++) { /* scalars are arguments */
+        step(&s, k * 1000003);
+        look(&s, out);
+    }
+    after = stats(s.m);
+    assert_int_equal(after.kernels_built, before.kernels_built);
+    assert_int_equal(after.plans_built, before.plans_built);
+    machine_destroy(s.m);
+    free(out);
+}
+
+static void unobserved_steps_stay_bounded(void **state)
+{
+    struct sheet s;
+    struct machine_stats early, late;
+
+    (void)state;
+    sheet_open(&s, 0);
+    for (int n = 0; n < 1000; n++)
+        step(&s, 3);
+    early = stats(s.m);
+    for (int n = 0; n < 9000; n++)
+        step(&s, 3);
+    late = stats(s.m);
+    assert_true(late.values_live < 2 * early.values_live + 1000);
+    assert_true(late.bytes_held <= 2 * early.bytes_held + 64 * COUNT);
+    assert_int_equal(late.kernels_built, early.kernels_built);
+    machine_destroy(s.m);
+}
+
+static void temporaries_rewritten_do_not_grow_the_graph(void **state)
+{
+    struct sheet s;
+    struct machine_stats early = {0}, late;
+
+    (void)state;
+    sheet_open(&s, 0);
+    for (int n = 0; n < 10000; n++) {
+        machine_begin(s.m);
+        store(&s, s.scratch, machine_binary(s.m, MACHINE_ADD, support_value(s.m, s.water, MACHINE_UINT(32)),
+                                            constant(s.m, (uint64_t)n)));
+        if (n == 100)
+            early = stats(s.m);
+    }
+    late = stats(s.m);
+    assert_true(late.values_live <= early.values_live + 10);
+    assert_int_equal(late.kernels_run, early.kernels_run);
+    machine_destroy(s.m);
+}
+
+static void fields_allocated_each_step_do_not_leak(void **state)
+{
+    struct sheet s;
+    struct machine_stats early = {0}, late;
+
+    (void)state;
+    sheet_open(&s, 0);
+    for (int n = 0; n < 2000; n++) {
+        uint32_t t = machine_field_allocate(s.m, machine_vpset_current(s.m), 32, MACHINE_STACK);
+
+        machine_begin(s.m);
+        store(&s, t, machine_shift(s.m, support_value(s.m, s.water, MACHINE_UINT(32)), 0, 1));
+        store(&s, s.water, machine_binary(s.m, MACHINE_XOR, support_value(s.m, t, MACHINE_UINT(32)),
+                                          constant(s.m, 1)));
+        assert_ok(machine_field_deallocate_through(s.m, t), s.m);
+        if (n == 500)
+            early = stats(s.m);
+    }
+    late = stats(s.m);
+    assert_true(late.values_live < 2 * early.values_live + 100);
+    assert_true(late.bytes_held <= 2 * early.bytes_held + 64 * COUNT);
+    machine_destroy(s.m);
+}
+
+/* The same program observed at other times, and eagerly, gives the same bits. */
+static void when_it_is_observed_makes_no_difference(void **state)
+{
+    enum { STEPS = 23 };
+    uint32_t *wanted = malloc(COUNT * sizeof *wanted), *got = malloc(COUNT * sizeof *got);
+
+    (void)state;
+    assert_true(wanted && got);
+    for (int way = 0; way < 5; way++) {
+        struct sheet s;
+
+        sheet_open(&s, way == 0);
+        for (int n = 0; n < STEPS; n++) {
+            step(&s, 3);
+            if (way == 2 || (way == 3 && n % 5 == 0))
+                look(&s, got);
+            if (way == 4 && n % 3 == 0)
+                assert_ok(n % 2 ? machine_flush(s.m) : machine_finish(s.m), s.m);
+        }
+        look(&s, way == 0 ? wanted : got);
+        if (way > 0)
+            assert_memory_equal(wanted, got, COUNT * sizeof *got);
+        machine_destroy(s.m);
+    }
+    free(wanted);
+    free(got);
+}
+
+static void finish_leaves_nothing_to_compute(void **state)
+{
+    struct sheet s;
+    struct machine_stats before;
+    uint32_t *out = malloc(COUNT * sizeof *out);
+
+    (void)state;
+    assert_non_null(out);
+    sheet_open(&s, 0);
+    step(&s, 7);
+    assert_ok(machine_finish(s.m), s.m);
+    before = stats(s.m);
+    look(&s, out);
+    assert_int_equal(stats(s.m).kernels_run, before.kernels_run);
+    machine_destroy(s.m);
+    free(out);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(unobserved_values_are_never_computed),
+        cmocka_unit_test(repeated_step_builds_nothing_new),
+        cmocka_unit_test(unobserved_steps_stay_bounded),
+        cmocka_unit_test(temporaries_rewritten_do_not_grow_the_graph),
+        cmocka_unit_test(fields_allocated_each_step_do_not_leak),
+        cmocka_unit_test(when_it_is_observed_makes_no_difference),
+        cmocka_unit_test(finish_leaves_nothing_to_compute),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,261 @@
+/* generate.c - draws a program from a seed.
+ *
+ * Most of what is drawn blindly could not run; so the generator keeps the list of fields and their VP sets, draws
+ * operands from it, and leaves the rest to program_normalise().  Kernels are compiled for each new shape of graph,
+ * which is what a run's time goes into: geometries and widths come from small pools.
+ */
+#include "program.h"
+
+#include <string.h>
+
+static const struct geometry geometries[] = {
+    {1, {7}},        {2, {5, 3}},       {2, {3, 43}},   {3, {2, 3, 5}}, {1, {1}},
+    {4, {3, 1, 2, 41}}, {2, {1, 2}},    {1, {97}},      {2, {9, 40}},   {3, {4, 2, 17}},
+};
+
+/* What a field may be: room for floats beside odd lengths. */
+static const uint8_t sizes[] = {32, 32, 64, 33, 1, 8, 24, 96, 128, 5, 160, 17, 65, 70};
+static const uint8_t widths[] = {1, 2, 5, 8, 16, 24, 31, 32, 33, 48, 63, 64, 65, 96, 127, 128};
+
+struct generator {
+    struct program *p;
+    uint64_t state;
+    struct {
+        int bits, set;
+    } slots[PROGRAM_SLOTS];
+    int set;
+};
+
+static uint32_t draw(struct generator *g, uint32_t below)
+{
+    uint64_t z = g->state += 0x9e3779b97f4a7c15u;
+
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (uint32_t)(((z ^ (z >> 31)) >> 32) % below);
+}
+
+/* A part of `bits` bits of some field of the current VP set; mostly from its first bit. */
+static bool draw_operand(struct generator *g, int bits, struct operand *out)
+{
+    for (int tries = 0; tries < 40; tries++) {
+        uint32_t slot = draw(g, PROGRAM_SLOTS);
+        int room = g->slots[slot].bits - bits;
+
+        if (g->slots[slot].bits == 0 || g->slots[slot].set != g->set || room < 0)
+            continue;
+        out->slot = (uint8_t)slot;
+        out->bits = (uint8_t)bits;
+        out->offset = (uint8_t)(room && draw(g, 4) == 0 ? draw(g, (uint32_t)room + 1) : 0);
+        return true;
+    }
+    return false;
+}
+
+static void emit(struct generator *g, const struct instruction *in)
+{
+    if (g->p->count < PROGRAM_LENGTH_MAX)
+        g->p->code[g->p->count++] = *in;
+}
+
+static void emit_allocate(struct generator *g)
+{
+    struct instruction in = {0};
+    uint32_t slot = draw(g, PROGRAM_SLOTS);
+
+    if (g->slots[slot].bits)
+        return;
+    in.row = (uint16_t)(draw(g, 3) ? ROW_CM_allocate_heap_field : ROW_CM_allocate_stack_field);
+    in.d.slot = (uint8_t)slot;
+    in.d.bits = sizes[draw(g, sizeof sizes)];
+    g->slots[slot].bits = in.d.bits;
+    g->slots[slot].set = g->set;
+    emit(g, &in);
+}
+
+static void emit_deallocate(struct generator *g)
+{
+    struct instruction in = {0};
+    uint32_t slot = draw(g, PROGRAM_SLOTS);
+
+    /* normalising keeps the one that fits the region; a field below in the stack is lost with it */
+    in.d.slot = (uint8_t)slot;
+    in.row = ROW_CM_deallocate_heap_field;
+    emit(g, &in);
+    if (draw(g, 4) == 0) {
+        in.row = ROW_CM_deallocate_stack_through;
+        emit(g, &in);
+    }
+    g->slots[slot].bits = 0;
+}
+
+static void emit_fill(struct generator *g)
+{
+    struct instruction in = {0};
+    bool floats = draw(g, 2);
+    int bits = floats ? (draw(g, 3) ? 32 : 64) : widths[draw(g, 8)];
+
+    in.row = floats ? ROW_CM_f_write_to_news_array_1L : ROW_CM_u_write_to_news_array_1L;
+    in.where = draw(g, 1u << 30);
+    if (draw_operand(g, bits, &in.d))
+        emit(g, &in);
+}
+
+static double draw_real(struct generator *g)
+{
+    static const double usual[] = {0.0, 1.0, 0.75, 0.5, -2.0, 3.5, 255.0, 0.1, -0.0, 1e30, 1e-40};
+
+    return usual[draw(g, sizeof usual / sizeof usual[0])];
+}
+
+static void emit_row(struct generator *g)
+{
+    struct instruction in = {0};
+    const struct row_info *info;
+    int bits = widths[draw(g, sizeof widths)], float_bits = draw(g, 3) ? 32 : 64;
+
+    in.row = (uint16_t)(ROW_CM_u_write_to_processor_1L +
+                        draw(g, ROW_COUNT - ROW_CM_u_write_to_processor_1L));
+    info = &row_table[in.row];
+    if (info->shape == FLAG && draw(g, 2))
+        return;
+    if (info->number == NUMBER_F)
+        bits = float_bits;
+    else if (info->shape == BIT_LOAD || info->shape == BIT_STORE)
+        bits = 1;
+    else if (info->shape == RANDOM || info->shape == INT_GLOBAL || info->shape == WRITE_PROCESSOR ||
+             info->shape == READ_PROCESSOR)
+        bits = widths[draw(g, 8)];
+    if (!draw_operand(g, bits, &in.d) || !draw_operand(g, bits, &in.a) || !draw_operand(g, bits, &in.b))
+        return;
+    switch ((int)info->shape) {
+    case INT_3_3L:
+    case INT_MOVE_2L:
+    case INT_COMPARE_2L:
+        if (!draw_operand(g, widths[draw(g, sizeof widths)], &in.a) ||
+            !draw_operand(g, widths[draw(g, sizeof widths)], &in.b))
+            return;
+        break;
+    case INT_TO_FLOAT:
+        if (!draw_operand(g, float_bits, &in.d))
+            return;
+        break;
+    case FLOAT_TO_INT:
+        if (!draw_operand(g, float_bits, &in.a))
+            return;
+        break;
+    case FLOAT_MOVE_2L:
+        if (!draw_operand(g, draw(g, 2) ? 32 : 64, &in.a))
+            return;
+        break;
+    default:
+        break;
+    }
+    in.constant = (int64_t)draw(g, draw(g, 2) ? 16 : 1u << 30);
+    in.real = draw_real(g);
+    in.axis = (uint8_t)draw(g, PROGRAM_AXES);
+    in.direction = (uint8_t)draw(g, 2);
+    in.where = draw(g, 1u << 30);
+    emit(g, &in);
+}
+
+/* store the context, narrow it, do things, load it again: how programs nest. */
+static void emit_nest(struct generator *g, int depth)
+{
+    struct instruction in = {0}, compare = {0};
+    struct operand saved;
+
+    if (!draw_operand(g, 1, &saved) || !draw_operand(g, 32, &compare.a))
+        return;
+    in.row = ROW_CM_store_context;
+    in.d = saved;
+    emit(g, &in);
+    compare.row = (uint16_t)(draw(g, 2) ? ROW_CM_f_gt_zero_1L : ROW_CM_s_gt_zero_1L);
+    emit(g, &compare);
+    in.row = ROW_CM_logand_context_with_test;
+    emit(g, &in);
+    for (uint32_t n = 2 + draw(g, 5); n > 0; n--)
+        emit_row(g);
+    if (depth < 2 && draw(g, 3) == 0)
+        emit_nest(g, depth + 1);
+    in.row = ROW_CM_load_context;
+    in.a = saved;
+    emit(g, &in);
+}
+
+static void emit_news(struct generator *g)
+{
+    struct instruction in = {0};
+    int bits = draw(g, 2) ? 32 : widths[draw(g, sizeof widths)];
+
+    in.row = (uint16_t)(draw(g, 3) ? ROW_CM_get_from_news_1L : ROW_CM_send_to_news_1L);
+    in.axis = (uint8_t)draw(g, PROGRAM_AXES);
+    in.direction = (uint8_t)draw(g, 2);
+    if (draw_operand(g, bits, &in.d) && draw_operand(g, bits, &in.a))
+        emit(g, &in);
+}
+
+static void emit_observe(struct generator *g)
+{
+    struct instruction in = {0};
+
+    in.row = ROW_CM_u_read_from_news_array_1L;
+    if (draw_operand(g, draw(g, 2) ? 32 : widths[draw(g, 8)], &in.a))
+        emit(g, &in);
+}
+
+static void emit_select(struct generator *g)
+{
+    struct instruction in = {0};
+
+    in.row = ROW_CM_set_vp_set;
+    in.set = (uint8_t)draw(g, (uint32_t)g->p->sets_count);
+    g->set = in.set;
+    emit(g, &in);
+}
+
+void program_generate(struct program *p, uint64_t seed, int length)
+{
+    struct generator g = {p, seed * 0x2545f4914f6cdd1du + 12345, {{0, 0}}, 0};
+    struct instruction in = {0};
+
+    memset(p, 0, sizeof *p);
+    p->seed = seed;
+    p->sets_count = draw(&g, 3) ? 1 : 1 + (int)draw(&g, PROGRAM_SETS);
+    for (int k = 0; k < p->sets_count; k++)
+        p->sets[k] = geometries[draw(&g, sizeof geometries / sizeof geometries[0])];
+    if (length > PROGRAM_LENGTH_MAX)
+        length = PROGRAM_LENGTH_MAX;
+
+    for (int set = 0; set < p->sets_count; set++) {
+        in.row = ROW_CM_set_vp_set;
+        in.set = (uint8_t)set;
+        g.set = set;
+        if (p->sets_count > 1)
+            emit(&g, &in);
+        for (int k = 0; k < 4; k++)
+            emit_allocate(&g);
+        emit_fill(&g);
+        emit_fill(&g);
+    }
+    while (p->count < length) {
+        uint32_t what = draw(&g, 100);
+
+        if (what < 62)
+            emit_row(&g);
+        else if (what < 72)
+            emit_news(&g);
+        else if (what < 80)
+            emit_fill(&g);
+        else if (what < 87)
+            emit_nest(&g, 0);
+        else if (what < 92)
+            emit_allocate(&g);
+        else if (what < 94)
+            emit_deallocate(&g);
+        else if (what < 96 && p->sets_count > 1)
+            emit_select(&g);
+        else if (what == 99)
+            emit_observe(&g);
+    }
+}

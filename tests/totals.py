@@ -1,0 +1,44 @@
+"""totals.py TESTLOG.json: reads what `meson test` logged and prints `N passed, N failed[, N skipped]`.
+
+Counts the cases of cmocka programs (of which one runs many); any other test, and a program that ended
+before it could count, is one. Ends with 1 if anything failed.
+"""
+import json
+import re
+import sys
+
+CASE = re.compile(r"^\[ *(OK|FAILED|SKIPPED|ERROR) *\] (\w+)$", re.MULTILINE)
+END = re.compile(r"^\[==========\].* (\d+) test\(s\) run\.", re.MULTILINE)
+
+
+def cases(test):
+    """The cases of one logged test: a list of (name, passed | failed | skipped)."""
+    text = test.get("stdout", "") + "\n" + test.get("stderr", "")
+    lines = CASE.findall(text)
+    found = [(name, "passed") for outcome, name in lines if outcome == "OK"]
+    # cmocka lists what failed or was skipped once more at the end: once is enough.
+    found += sorted({(name, "skipped" if outcome == "SKIPPED" else "failed")
+                     for outcome, name in lines if outcome != "OK"})
+    failed = any(outcome == "failed" for _, outcome in found)
+    if test["result"] not in ("OK", "EXPECTEDFAIL", "SKIP") and not (failed and END.search(text)):
+        found.append(("(%s)" % test["result"].lower(), "failed"))
+    elif not found:
+        found.append(("", "skipped" if test["result"] == "SKIP" else "passed"))
+    return found
+
+
+def main(path):
+    totals = {"passed": 0, "failed": 0, "skipped": 0}
+    with open(path, encoding="utf-8") as log:
+        for line in log:
+            test = json.loads(line)
+            for name, outcome in cases(test):
+                totals[outcome] += 1
+                if outcome == "failed":
+                    print("FAILED %s %s" % (test["name"], name))
+    skipped = ", %d skipped" % totals["skipped"] if totals["skipped"] else ""
+    print("%d passed, %d failed%s" % (totals["passed"], totals["failed"], skipped))
+    return 1 if totals["failed"] or not totals["passed"] else 0
+
+
+sys.exit(main(sys.argv[1]))
