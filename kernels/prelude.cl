@@ -1,10 +1,11 @@
 /* prelude.cl - what every generated kernel begins with.
  *
- * A kernel handles VECTOR neighbouring processors of a row at a time, and is written once for every VECTOR:
- *     VI  a bit of each, as 0 or -1        VU, VL  up to 32 and 64 bits, unused high bits 0
- *     VF, VD  float, double                VQ      up to 128 bits
- * Rows are PITCH elements apart and begin and end with HALO columns that repeat the other end; so a neighbour is
- * found without a question. Where WRAPS is 1, or a kernel looks further than the halo, columns are wrapped. */
+ * A kernel handles VECTOR neighbouring processors of a row at a time, and is written once for
+ * every VECTOR: VI  a bit of each, as 0 or -1        VU, VL  up to 32 and 64 bits, unused high
+ * bits 0 VF, VD  float, double                VQ      up to 128 bits Rows are PITCH elements
+ * apart and begin and end with HALO columns that repeat the other end; so a neighbour is found
+ * without a question. Where WRAPS is 1, or a kernel looks further than the halo, columns are
+ * wrapped. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -103,7 +104,7 @@ inline VU column(int x, int W)
 #define LOAD_f32(p, i) GET(float, p, i)
 #define LOAD_f64(p, i) GET(double, p, i)
 
-#define OUT_bit(p, i, v) PUT(p, i, CONVERT(uchar, (v) & 1))
+#define OUT_bit(p, i, v) PUT(p, i, CONVERT(uchar, (v)&1))
 #define OUT_u8(p, i, v) PUT(p, i, CONVERT(uchar, v))
 #define OUT_u16(p, i, v) PUT(p, i, CONVERT(ushort, v))
 #define OUT_u32(p, i, v) PUT(p, i, v)
@@ -140,7 +141,8 @@ inline VU column(int x, int W)
 
 /* ---- integers in floats and back ---- */
 
-/* Toward zero, to width bits; beyond the range its nearest end, NaN 0. limit is 2^width, or 2^(width - 1) */
+/* Toward zero, to width bits; beyond the range its nearest end, NaN 0. limit is 2^width, or
+ * 2^(width - 1) */
 inline VU f_to_u_small(VF v, float limit, uint top)
 {
     VI inside = CMP_U(v > 0.0f) & CMP_U(v < limit);

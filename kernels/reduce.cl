@@ -1,8 +1,9 @@
 /* reduce.cl - one number for each run of columns of a row; the front end joins the runs.
  *
- * -DKIND=0 bits (ELEMENT uchar .. ulong, ACC ulong)  1 float or double (ELEMENT = ACC)  2 bits in pairs of ulong
- * -DOP= 0 and, 1 or, 2 xor, 3 add, 4 min, 5 max.  Sixteen lanes, by column counted from the run's start; the order of
- * float additions is part of what the machine promises: see machine_reduce(). */
+ * -DKIND=0 bits (ELEMENT uchar .. ulong, ACC ulong)  1 float or double (ELEMENT = ACC)  2 bits
+ * in pairs of ulong -DOP= 0 and, 1 or, 2 xor, 3 add, 4 min, 5 max.  Sixteen lanes, by column
+ * counted from the run's start; the order of float additions is part of what the machine
+ * promises: see machine_reduce(). */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -47,8 +48,8 @@ inline ACC16 combine16(ACC16 a, ACC16 v)
 #endif
 }
 
-__kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ACC identity, const __global ELEMENT *in,
-                     __global ACC *out)
+__kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ACC identity,
+                     const __global ELEMENT *in, __global ACC *out)
 {
     const int row = get_global_id(1), begin = get_global_id(0) * RUN, end = min(begin + RUN, W);
     const __global ELEMENT *p = in + ((size_t)row * PITCH + HALO_COLUMNS);
@@ -66,8 +67,8 @@ __kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ACC identity, 
     out[(size_t)row * get_global_size(0) + get_global_id(0)] = lanes[0];
 }
 #else
-__kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ulong lo, ulong hi, const __global ulong *in,
-                     __global ulong *out)
+__kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ulong lo, ulong hi,
+                     const __global ulong *in, __global ulong *out)
 {
     const int row = get_global_id(1), begin = get_global_id(0) * RUN, end = min(begin + RUN, W);
     const __global ulong *p = in + 2 * ((size_t)row * PITCH + HALO_COLUMNS);

@@ -146,7 +146,8 @@ inline VI q_product_carries(VQ a, VQ b)
 {
     VL none = (VL)(0);
     VL m1 = a.hi * b.lo, m2 = a.lo * b.hi;
-    VL h1 = high_product(a.hi, b.lo), h2 = high_product(a.lo, b.hi), low = high_product(a.lo, b.lo);
+    VL h1 = high_product(a.hi, b.lo), h2 = high_product(a.lo, b.hi),
+       low = high_product(a.lo, b.lo);
     VL s = low + m1;
     VI carries = CMP_L(s < low);
     VL t = s + m2;
@@ -164,7 +165,8 @@ inline VI q_smul_overflows(VQ a, VQ b, int width)
 {
     VQ ma = q_magnitude(a, width), mb = q_magnitude(b, width), p = q_mul(ma, mb);
     VI negative = q_sign(a, width) ^ q_sign(b, width);
-    VQ limit = q_shl(q_of((VL)(1), (VL)(0)), width - 1); /* what a negative product may just reach */
+    VQ limit =
+        q_shl(q_of((VL)(1), (VL)(0)), width - 1); /* what a negative product may just reach */
     VI beyond = SEL_I(negative, q_ult(limit, p), ~q_ult(p, limit));
     return q_product_carries(ma, mb) | beyond;
 }
@@ -172,13 +174,15 @@ inline VI q_smul_overflows(VQ a, VQ b, int width)
 /* of numbers of 33..64 bits, extended to 64 */
 inline VI l_smul_overflows(VM a, VM b, int width)
 {
-    VQ product = q_mul(q_signed(a), q_signed(b)), top = q_of((VL)(((ulong)1 << (width - 1)) - 1), (VL)(0));
+    VQ product = q_mul(q_signed(a), q_signed(b)),
+       top = q_of((VL)(((ulong)1 << (width - 1)) - 1), (VL)(0));
     return q_slt(top, product, 128) | q_slt(product, q_not(top), 128);
 }
 
 /* ---- and floats ---- */
 
-/* Rounded once, to nearest even: shifted so that 64 bits hold it, what is lost kept as a sticky lowest bit. */
+/* Rounded once, to nearest even: shifted so that 64 bits hold it, what is lost kept as a sticky
+ * lowest bit. */
 inline VL q_leading(VQ a, VL *shift)
 {
     VL n = (VL)(64) - clz(a.hi); /* 0 where 64 bits suffice, else 1..64: how far right */

@@ -1,12 +1,14 @@
 /* device.c - OpenCL: which device, buffers, programs.
  *
- * Buffers. Versions of values come and go at every step, so released buffers are kept in a pool by size. The queue is
- * in order: a buffer may be used again as soon as nobody refers to it. Arrays that begin at the same offset
- * from a page disturb each other in the caches (1.5 to 2 times slower sweeps over large sheets), so each begins
- * at another multiple of 128 bytes, as a sub-buffer.
+ * Buffers. Versions of values come and go at every step, so released buffers are kept in a pool
+ * by size. The queue is in order: a buffer may be used again as soon as nobody refers to it.
+ * Arrays that begin at the same offset from a page disturb each other in the caches (1.5 to 2
+ * times slower sweeps over large sheets), so each begins at another multiple of 128 bytes, as a
+ * sub-buffer.
  *
- * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file in
- * $XDG_CACHE_HOME/lutetia named by a hash of text, options, device and driver, and compared as a whole. */
+ * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk
+ * by a file in $XDG_CACHE_HOME/lutetia named by a hash of text, options, device and driver, and
+ * compared as a whole. */
 #include "internal.h"
 
 #include <errno.h>
@@ -56,8 +58,9 @@ enum machine_status device_check(struct machine *m, cl_int error, const char *wh
         return MACHINE_OK;
     bool memory = error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY ||
                   error == CL_INVALID_BUFFER_SIZE;
-    return machine_fail(m, memory ? MACHINE_NO_MEMORY : MACHINE_DEVICE_FAILED, "%s: %s (OpenCL error %d on %s)", what,
-                        error_name(error), error, m->device.name);
+    return machine_fail(m, memory ? MACHINE_NO_MEMORY : MACHINE_DEVICE_FAILED,
+                        "%s: %s (OpenCL error %d on %s)", what, error_name(error), error,
+                        m->device.name);
 }
 
 /* ---- choice ---- */
@@ -81,23 +84,27 @@ static int find_devices(struct candidate *out)
     for (cl_uint p = 0; p < platforms_count; p++) {
         cl_device_id devices[DEVICES_MAX];
         cl_uint devices_count = 0;
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices, &devices_count) != CL_SUCCESS)
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices,
+                           &devices_count) != CL_SUCCESS)
             continue;
         for (cl_uint d = 0; d < devices_count && d < DEVICES_MAX && count < DEVICES_MAX; d++) {
             struct candidate *c = &out[count++];
             memset(c, 0, sizeof *c);
             c->platform = platforms[p];
             c->device = devices[d];
-            clGetPlatformInfo(c->platform, CL_PLATFORM_NAME, sizeof c->platform_name - 1, c->platform_name, NULL);
+            clGetPlatformInfo(c->platform, CL_PLATFORM_NAME, sizeof c->platform_name - 1,
+                              c->platform_name, NULL);
             clGetDeviceInfo(c->device, CL_DEVICE_NAME, sizeof c->name - 1, c->name, NULL);
-            clGetDeviceInfo(c->device, CL_DEVICE_VERSION, sizeof c->version - 1, c->version, NULL);
+            clGetDeviceInfo(c->device, CL_DEVICE_VERSION, sizeof c->version - 1, c->version,
+                            NULL);
         }
     }
     return count;
 }
 
-int machine_devices_list(void (*each)(void *context, int index, const char *platform, const char *device,
-                                      const char *version, int compute_units, uint64_t memory_bytes),
+int machine_devices_list(void (*each)(void *context, int index, const char *platform,
+                                      const char *device, const char *version,
+                                      int compute_units, uint64_t memory_bytes),
                          void *context)
 {
     struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
@@ -129,20 +136,24 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* What generated code should look like there. Costs measured with PoCL on two cores with AVX-512: see
- * docs/engine.md. */
+/* What generated code should look like there. Costs measured with PoCL on two cores with
+ * AVX-512: see docs/engine.md. */
 static struct device_shape shape_of(const struct device *d)
 {
     if (!d->is_cpu)
-        return (struct device_shape){.vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
+        return (struct device_shape){
+            .vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
     const char *forced = getenv("LUTETIA_VECTOR");
     if (forced && *forced)
         width = (cl_uint)strtoul(forced, NULL, 10);
     int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-    return (struct device_shape){
-        .vector = vector, .halo = vector > 1 ? vector : 0, .op_ns = 0.064 / vector, .byte_ns = 0.022, .launch_ns = 3000};
+    return (struct device_shape){.vector = vector,
+                                 .halo = vector > 1 ? vector : 0,
+                                 .op_ns = 0.064 / vector,
+                                 .byte_ns = 0.022,
+                                 .launch_ns = 3000};
 }
 
 enum machine_status device_open(struct machine *m, const char *choice)
@@ -154,11 +165,13 @@ enum machine_status device_open(struct machine *m, const char *choice)
     int count = find_devices(all), chosen = choose(all, count, choice);
     if (chosen < 0) {
         enum machine_status status =
-            count == 0 ? machine_fail(m, MACHINE_NO_DEVICE,
-                                      "no OpenCL device was found: install one (Debian: apt-get install "
-                                      "pocl-opencl-icd)")
+            count == 0 ? machine_fail(
+                             m, MACHINE_NO_DEVICE,
+                             "no OpenCL device was found: install one (Debian: apt-get install "
+                             "pocl-opencl-icd)")
                        : machine_fail(m, MACHINE_NO_DEVICE,
-                                      "no OpenCL device is called \"%s\": `lutetia info` lists the %d there are",
+                                      "no OpenCL device is called \"%s\": `lutetia info` lists "
+                                      "the %d there are",
                                       choice, count);
         free(all);
         return status;
@@ -181,8 +194,11 @@ enum machine_status device_open(struct machine *m, const char *choice)
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
     d->memory_max_alloc_bytes = max_alloc;
     if (!doubles)
-        return machine_fail(m, MACHINE_NO_DEVICE, "%s has no double precision, which the machine needs", d->name);
-    d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? "-cl-fp32-correctly-rounded-divide-sqrt" : "";
+        return machine_fail(m, MACHINE_NO_DEVICE,
+                            "%s has no double precision, which the machine needs", d->name);
+    d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+                     ? "-cl-fp32-correctly-rounded-divide-sqrt"
+                     : "";
     d->shape = shape_of(d);
     cl_int error;
     d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
@@ -193,7 +209,9 @@ enum machine_status device_open(struct machine *m, const char *choice)
     if (error)
         return device_check(m, error, "a command queue cannot be made");
     d->programs = calloc(PROGRAMS_SIZE, sizeof *d->programs);
-    return d->programs ? MACHINE_OK : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
+    return d->programs
+               ? MACHINE_OK
+               : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
 }
 
 static void pool_empty(struct device *d)
@@ -247,14 +265,17 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
     size_t whole = bytes + SKEW_BYTES * SKEWS;
     if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
         pool_empty(d);
-        machine_fail(m, MACHINE_NO_MEMORY,
-                     "%.1f MB more for one field do not fit in the memory of %s (%.0f MB, %.0f in use)",
-                     1e-6 * (double)whole, d->name, 1e-6 * (double)d->memory_bytes, 1e-6 * (double)d->held_bytes);
+        machine_fail(
+            m, MACHINE_NO_MEMORY,
+            "%.1f MB more for one field do not fit in the memory of %s (%.0f MB, %.0f in use)",
+            1e-6 * (double)whole, d->name, 1e-6 * (double)d->memory_bytes,
+            1e-6 * (double)d->held_bytes);
         return NULL;
     }
     struct device_buffer *b = calloc(1, sizeof *b);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    cl_mem parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
+    cl_mem parent =
+        b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
     if (error && d->pool_count) {
         clFinish(d->queue);
         pool_empty(d);
@@ -262,10 +283,12 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
     }
     if (!error) {
         cl_buffer_region region = {.origin = SKEW_BYTES * (skew++ % SKEWS), .size = bytes};
-        b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &error);
+        b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                                   &region, &error);
         if (error) { /* an alignment that the device does not like */
             region.origin = 0;
-            b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region, &error);
+            b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                                       &region, &error);
         }
         clReleaseMemObject(parent); /* lives as long as the part of it does */
     }
@@ -335,8 +358,10 @@ static bool cache_path(char *out, size_t size, const struct device *d, const cha
     }
     mkdir(folder, 0700);
     uint64_t a = hash_text(hash_text(hash_text(0xcbf29ce484222325u, key), d->name), d->driver);
-    uint64_t b = hash_text(hash_text(hash_text(0x84222325cbf29ce4u, d->platform_name), key), d->driver);
-    n = snprintf(out, size, "%s/%016llx%016llx.bin", folder, (unsigned long long)a, (unsigned long long)b);
+    uint64_t b =
+        hash_text(hash_text(hash_text(0x84222325cbf29ce4u, d->platform_name), key), d->driver);
+    n = snprintf(out, size, "%s/%016llx%016llx.bin", folder, (unsigned long long)a,
+                 (unsigned long long)b);
     return n > 0 && (size_t)n < size;
 }
 
@@ -359,9 +384,9 @@ static unsigned char *cache_read(const char *path, const char *key, size_t *size
     uint64_t length[2];
     size_t key_length = strlen(key);
     char *read_key = malloc(key_length + 1);
-    if (read_key && fread(length, sizeof length, 1, f) == 1 && length[0] == key_length && length[1] > 0 &&
-        length[1] < (64u << 20) && fread(read_key, 1, key_length, f) == key_length &&
-        !memcmp(read_key, key, key_length)) {
+    if (read_key && fread(length, sizeof length, 1, f) == 1 && length[0] == key_length &&
+        length[1] > 0 && length[1] < (64u << 20) &&
+        fread(read_key, 1, key_length, f) == key_length && !memcmp(read_key, key, key_length)) {
         *size = (size_t)length[1];
         binary = malloc(*size);
         if (binary && fread(binary, 1, *size, f) != *size) {
@@ -382,12 +407,14 @@ static void cache_write(const char *path, const char *key, cl_program program)
     unsigned char *binary = malloc(size);
     char temporary[600];
     snprintf(temporary, sizeof temporary, "%.560s.%ld", path, (long)getpid());
-    FILE *f = binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
-                  ? fopen(temporary, "wb")
-                  : NULL;
+    FILE *f =
+        binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
+            ? fopen(temporary, "wb")
+            : NULL;
     if (f) {
         uint64_t length[2] = {strlen(key), size};
-        bool good = fwrite(length, sizeof length, 1, f) == 1 && fwrite(key, 1, length[0], f) == length[0] &&
+        bool good = fwrite(length, sizeof length, 1, f) == 1 &&
+                    fwrite(key, 1, length[0], f) == length[0] &&
                     fwrite(binary, 1, size, f) == size;
         good = fclose(f) == 0 && good;
         if (!good || rename(temporary, path))
@@ -396,7 +423,8 @@ static void cache_write(const char *path, const char *key, cl_program program)
     free(binary);
 }
 
-static cl_program build(struct machine *m, const char *const parts[3], const char *options, const char *key)
+static cl_program build(struct machine *m, const char *const parts[3], const char *options,
+                        const char *key)
 {
     struct device *d = &m->device;
     char path[700];
@@ -408,9 +436,11 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
     cl_program program = NULL;
     if (binary) {
         const unsigned char *data = binary;
-        program = clCreateProgramWithBinary(d->context, 1, &d->id, &size, &data, &status, &error);
+        program =
+            clCreateProgramWithBinary(d->context, 1, &d->id, &size, &data, &status, &error);
         free(binary);
-        if (!error && !status && clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
+        if (!error && !status &&
+            clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
             free(whole);
             return program;
         }
@@ -431,7 +461,8 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
         for (char *c = log; *c; c++)
             if (*c == '\n')
                 *c = ' ';
-        machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s", d->name, error, log);
+        machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s",
+                     d->name, error, log);
         if (getenv("LUTETIA_DUMP"))
             fprintf(stderr, "%s\n%s\n", options, parts[2]);
         clReleaseProgram(program);
@@ -444,7 +475,8 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
     return program;
 }
 
-cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options, const char *name)
+cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
+                        const char *name)
 {
     struct device *d = &m->device;
     char all_options[256];
@@ -456,8 +488,10 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[3], const cha
         return NULL;
     }
     uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
-    snprintf(key, size, "%s\n%s %llx\n%s", all_options, name, (unsigned long long)library, parts[2]);
-    struct program_entry *bucket = &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
+    snprintf(key, size, "%s\n%s %llx\n%s", all_options, name, (unsigned long long)library,
+             parts[2]);
+    struct program_entry *bucket =
+        &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
     for (struct program_entry *p = bucket->next; p; p = p->next)
         if (!strcmp(p->key, key)) {
             free(key);

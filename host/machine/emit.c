@@ -1,17 +1,23 @@
 /* emit.c - the text of one kernel.
  *
- * The text follows from the graph alone: numbers are arguments, lengths of axes too. Each (node, offset) is
- * one variable; offsets along the last axis are columns, along the others another row. The shape is
+ * The text follows from the graph alone: numbers are arguments, lengths of axes too. Each
+ * (node, offset) is one variable; offsets along the last axis are columns, along the others
+ * another row. The shape is
  *
  *     row = get_global_id(1); rows at other offsets; a pointer for each array and row
- *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
- *         variables, stores
+ *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one
+ * before it variables, stores
  *
- * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of this kind); with
- * VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants. */
+ * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of this
+ * kind); with VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants.
+ *
+ * Comparing a coordinate with a number says that a processor is on one side of a line, and a
+ * context made of such comparisons is a box. They are written BOX(...), and the body stands
+ * there twice: for vectors that are inside on all lines at every offset, where BOX(...) is true
+ * and the compiler drops what only the outside needs, and for the others. */
 #include "internal.h"
+#include "spell.h"
 
-#include <inttypes.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,6 +71,7 @@ struct emitter {
     const struct vpset *set;
     int stage;
     struct text body, rows, pointers, constants;
+    struct text row_tests, column_tests; /* whether a vector is inside all boxes */
     struct variable *variables;
     uint32_t variables_count, variables_capacity, chains[1024];
     struct row_offset *row_offsets;
@@ -79,18 +86,6 @@ struct emitter {
     bool wide, axes_used, failed;
     int ops, loads;
 };
-
-static const char *container(struct machine_type t)
-{
-    if (t.kind == MACHINE_FLOAT)
-        return t.width == 32 ? "VF" : "VD";
-    return t.width == 1 ? "VI" : t.width <= 32 ? "VU" : t.width <= 64 ? "VL" : "VQ";
-}
-
-static char letter(struct machine_type t)
-{
-    return container(t)[1];
-}
 
 static const char *memory_kind(struct machine_type t)
 {
@@ -173,13 +168,15 @@ static int pointer_of(struct emitter *e, int node, int row)
         if (e->seen_pointers[i].node == node && e->seen_pointers[i].row == row)
             return i;
     if (e->pointers_count == e->pointers_capacity)
-        e->seen_pointers = more(e, e->seen_pointers, &e->pointers_capacity, sizeof *e->seen_pointers);
+        e->seen_pointers =
+            more(e, e->seen_pointers, &e->pointers_capacity, sizeof *e->seen_pointers);
     if (e->failed)
         return 0;
     struct machine_type type = e->g->nodes[node].type;
     e->seen_pointers[e->pointers_count] = (struct pointer){node, row};
     put(&e->pointers, "    const __global %s *p%d = b%d + ((size_t)r%d * PITCH + HALO)%s;\n",
-        memory_type(type), e->pointers_count, input_of(e, node), row, type.width > 64 ? " * 2" : "");
+        memory_type(type), e->pointers_count, input_of(e, node), row,
+        type.width > 64 ? " * 2" : "");
     return e->pointers_count++;
 }
 
@@ -187,7 +184,8 @@ static int pointer_of(struct emitter *e, int node, int row)
 
 static uint32_t chain_of(int node, int row, int dx)
 {
-    uint32_t h = (uint32_t)node * 0x9e3779b1u ^ (uint32_t)row * 0x85ebca6bu ^ (uint32_t)dx * 0xc2b2ae35u;
+    uint32_t h =
+        (uint32_t)node * 0x9e3779b1u ^ (uint32_t)row * 0x85ebca6bu ^ (uint32_t)dx * 0xc2b2ae35u;
     return h >> 22;
 }
 
@@ -211,7 +209,8 @@ static int variable_add(struct emitter *e, int node, int row, int dx, bool canon
     if (e->failed)
         return 0;
     uint32_t h = chain_of(node, row, dx);
-    e->variables[e->variables_count] = (struct variable){node, row, dx, canonical, e->names, e->chains[h]};
+    e->variables[e->variables_count] =
+        (struct variable){node, row, dx, canonical, e->names, e->chains[h]};
     e->chains[h] = ++e->variables_count;
     return e->names++;
 }
@@ -223,7 +222,7 @@ static int constant_of(struct emitter *e, int node)
         return e->constant_number[node] - 1;
     struct machine_type t = e->g->nodes[node].type;
     int k = e->constants_count++;
-    switch (letter(t)) {
+    switch (spell_letter(t)) {
     case 'I':
     case 'U':
     case 'F':
@@ -233,12 +232,13 @@ static int constant_of(struct emitter *e, int node)
         add_argument(e, ARGUMENT_CONSTANT, node, 8);
         break;
     }
-    if (letter(t) == 'Q') {
+    if (spell_letter(t) == 'Q') {
         add_argument(e, ARGUMENT_SECOND, node, 8);
         put(&e->constants, "    const VQ k%d = q_of((VL)(a%d), (VL)(h%d));\n", k, k, k);
         e->wide = true;
     } else {
-        put(&e->constants, "    const %s k%d = (%s)(a%d);\n", container(t), k, container(t), k);
+        put(&e->constants, "    const %s k%d = (%s)(a%d);\n", spell_container(t), k,
+            spell_container(t), k);
     }
     e->constant_number[node] = k + 1;
     return k;
@@ -250,323 +250,53 @@ struct operand {
 
 static struct operand value_at(struct emitter *e, int node, int row, int dx, bool canonical);
 
-/* An expression of container U, L or Q (want) from bits in another container; zero-extends. */
-static void widened(char *out, size_t size, const char *from, struct machine_type type, char want)
+/* A comparison of a coordinate with a number: writes the scalar test that it holds for a whole
+ * vector, which, since it holds on one side of a line, is that it holds at both ends. */
+static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
 {
-    char have = letter(type);
-    if (have == 'I') {
-        snprintf(out, size, "AS_U(%s & 1)", from);
-        have = 'U';
+    static const char *const symbols[] = {
+        [MACHINE_ULT] = "<", [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
+    if (n->op < MACHINE_ULT || n->op > MACHINE_SLE)
+        return false;
+    const struct plan_node *a = &e->g->nodes[n->in[0]], *b = &e->g->nodes[n->in[1]];
+    const struct plan_node *place = a->constant ? b : a;
+    int width = place->type.width;
+    if (a->constant == b->constant || place->op != NODE_COORDINATE || place->leaf || width > 32)
+        return false;
+    bool is_signed = n->op == MACHINE_SLT || n->op == MACHINE_SLE;
+    int k = constant_of(e, a->constant ? n->in[0] : n->in[1]),
+        bits = is_signed ? width - 1 : width;
+    char number[64], ends[2][64];
+    if (is_signed)
+        snprintf(number, sizeof number, "((int)(a%d << %d) >> %d)", k, 32 - width, 32 - width);
+    else
+        snprintf(number, sizeof number, "a%d", k);
+    bool column = place->axis == e->set->rank - 1;
+    struct text *t = column ? &e->column_tests : &e->row_tests;
+    if (column) {
+        snprintf(ends[0], sizeof ends[0], "(x + (%d))", dx);
+        put(t, " && %s >= 0 && %s + VECTOR <= W", ends[0], ends[0]);
+        snprintf(ends[1], sizeof ends[1], "(x + (%d) + VECTOR - 1)", dx);
     } else {
-        snprintf(out, size, "%s", from);
+        e->axes_used = true;
+        for (int i = 0; i < 2; i++)
+            snprintf(ends[i], sizeof ends[i], "wrap(c%d + (%d), D%d)", place->axis,
+                     e->row_offsets[row].d[place->axis], place->axis);
     }
-    if (have == want)
-        return;
-    char inner[600];
-    snprintf(inner, sizeof inner, "%s", out);
-    if (have == 'U' && want == 'L')
-        snprintf(out, size, "CONVERT(ulong, %s)", inner);
-    else if (have == 'U' && want == 'Q')
-        snprintf(out, size, "q_of(CONVERT(ulong, %s), (VL)(0))", inner);
-    else if (have == 'L' && want == 'Q')
-        snprintf(out, size, "q_of(%s, (VL)(0))", inner);
-    else if (have == 'L' && want == 'U')
-        snprintf(out, size, "CONVERT(uint, %s)", inner);
-    else if (have == 'Q' && want == 'L')
-        snprintf(out, size, "(%s).lo", inner);
-    else if (have == 'Q' && want == 'U')
-        snprintf(out, size, "CONVERT(uint, (%s).lo)", inner);
+    if (bits < 31)
+        put(t, " && %s >> %d == 0", ends[1], bits);
+    for (int i = 0; i < (column ? 2 : 1); i++) {
+        const char *sign = is_signed ? "" : "(uint)";
+        if (a->constant)
+            put(t, " && %s %s %s%s", number, symbols[n->op], sign, ends[i]);
+        else
+            put(t, " && %s%s %s %s", sign, ends[i], symbols[n->op], number);
+    }
+    return true;
 }
 
-/* All but the low width bits cleared. */
-static void cut(char *out, size_t size, const char *from, int width)
-{
-    if (width == 32 || width == 64 || width == 128)
-        snprintf(out, size, "%s", from);
-    else if (width < 32)
-        snprintf(out, size, "((%s) & 0x%xu)", from, (1u << width) - 1);
-    else if (width < 64)
-        snprintf(out, size, "((%s) & 0x%" PRIx64 "UL)", from, (UINT64_C(1) << width) - 1);
-    else
-        snprintf(out, size, "q_cut(%s, %d)", from, width);
-}
-
-/* A signed number in its whole container, as a signed vector (U, L) or VQ. */
-static void extended(char *out, size_t size, const char *a, struct machine_type t)
-{
-    switch (letter(t)) {
-    case 'I':
-        snprintf(out, size, "%s", a);
-        break;
-    case 'U':
-        snprintf(out, size, "(AS_S(%s << %d) >> %d)", a, 32 - t.width, 32 - t.width);
-        break;
-    case 'L':
-        snprintf(out, size, "(AS_M(%s << %dUL) >> %dL)", a, 64 - t.width, 64 - t.width);
-        break;
-    default:
-        snprintf(out, size, "q_extended(%s, %d)", a, t.width);
-        break;
-    }
-}
-
-static void emit_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
-{
-    static const char *const symbols[] = {
-        [MACHINE_AND] = "&", [MACHINE_OR] = "|",  [MACHINE_XOR] = "^", [MACHINE_ADD] = "+", [MACHINE_SUB] = "-",
-        [MACHINE_MUL] = "*", [MACHINE_EQ] = "==", [MACHINE_NE] = "!=", [MACHINE_ULT] = "<", [MACHINE_ULE] = "<="};
-    static const char *const functions[] = {
-        [MACHINE_AND] = "q_and", [MACHINE_OR] = "q_or",   [MACHINE_XOR] = "q_xor",
-        [MACHINE_ADD] = "q_add", [MACHINE_SUB] = "q_sub", [MACHINE_MUL] = "q_mul"};
-    char c = letter(t), raw[192], x[96], y[96];
-    switch (op) {
-    case MACHINE_AND:
-    case MACHINE_OR:
-    case MACHINE_XOR:
-    case MACHINE_ADD:
-    case MACHINE_SUB:
-    case MACHINE_MUL:
-        if (c == 'Q')
-            snprintf(raw, sizeof raw, "%s(%s, %s)", functions[op], a, b);
-        else
-            snprintf(raw, sizeof raw, "%s %s %s", a, symbols[op], b);
-        if (op >= MACHINE_ADD && c != 'I')
-            cut(out, size, raw, t.width);
-        else
-            snprintf(out, size, "%s", raw);
-        break;
-    case MACHINE_EQ:
-    case MACHINE_NE:
-    case MACHINE_ULT:
-    case MACHINE_ULE:
-        if (c != 'Q')
-            snprintf(out, size, "CMP_%c(%s %s %s)", c, a, symbols[op], b);
-        else if (op == MACHINE_ULE)
-            snprintf(out, size, "~q_ult(%s, %s)", b, a);
-        else
-            snprintf(out, size, "%s(%s, %s)",
-                     op == MACHINE_EQ ? "q_eq" : op == MACHINE_NE ? "~q_eq" : "q_ult", a, b);
-        break;
-    case MACHINE_SLT:
-    case MACHINE_SLE:
-        if (c == 'Q' && op == MACHINE_SLT)
-            snprintf(out, size, "q_slt(%s, %s, %d)", a, b, t.width);
-        else if (c == 'Q')
-            snprintf(out, size, "~q_slt(%s, %s, %d)", b, a, t.width);
-        else {
-            extended(x, sizeof x, a, t);
-            extended(y, sizeof y, b, t);
-            snprintf(out, size, "CMP_%c(%s %s %s)", c, x, op == MACHINE_SLT ? "<" : "<=", y);
-        }
-        break;
-    case MACHINE_UMIN:
-    case MACHINE_UMAX:
-        if (c == 'Q')
-            snprintf(out, size, "q_select(q_ult(%s, %s), %s, %s)", a, b, op == MACHINE_UMIN ? a : b,
-                     op == MACHINE_UMIN ? b : a);
-        else
-            snprintf(out, size, "%s(%s, %s)", op == MACHINE_UMIN ? "min" : "max", a, b);
-        break;
-    default: /* SMIN, SMAX */
-        emit_bits_binary(raw, sizeof raw, MACHINE_SLT, t, a, b);
-        snprintf(out, size, "SEL_%c(%s, %s, %s)", c, raw, op == MACHINE_SMIN ? a : b,
-                 op == MACHINE_SMIN ? b : a);
-        break;
-    }
-}
-
-static void emit_float(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
-{
-    static const char *const symbols[] = {
-        [MACHINE_FADD] = "+", [MACHINE_FSUB] = "-", [MACHINE_FMUL] = "*", [MACHINE_FDIV] = "/",
-        [MACHINE_FMIN] = "<", [MACHINE_FMAX] = ">", [MACHINE_FEQ] = "==", [MACHINE_FNE] = "!=",
-        [MACHINE_FLT] = "<",  [MACHINE_FLE] = "<=", [MACHINE_FGT] = ">",  [MACHINE_FGE] = ">="};
-    static const char *const functions[] = {
-        [MACHINE_FNEG] = "-",      [MACHINE_FABS] = "fabs",    [MACHINE_FSQRT] = "sqrt",
-        [MACHINE_FFLOOR] = "floor", [MACHINE_FCEIL] = "ceil", [MACHINE_FTRUNC] = "trunc",
-        [MACHINE_FROUND] = "rint"};
-    const char *compare = t.width == 32 ? "CMP_U" : "CMP_L";
-    if (op <= MACHINE_FROUND)
-        snprintf(out, size, "%s(%s)", functions[op], a);
-    else if (op <= MACHINE_FDIV)
-        snprintf(out, size, "%s %s %s", a, symbols[op], b);
-    else if (op <= MACHINE_FMAX)
-        snprintf(out, size, "SEL_%c(%s(%s %s %s), %s, %s)", letter(t), compare, a, symbols[op], b, a, b);
-    else
-        snprintf(out, size, "%s(%s %s %s)", compare, a, symbols[op], b);
-}
-
-static void emit_overflow(char *out, size_t size, int op, struct machine_type t, const char *a, const char *b)
-{
-    char c = letter(t), raw[256], r[300], x[100], y[100];
-    int w = t.width;
-    switch (op) {
-    case NODE_OVERFLOW_UADD:
-        emit_bits_binary(raw, sizeof raw, MACHINE_ADD, t, a, b);
-        if (c == 'I')
-            snprintf(out, size, "%s & %s", a, b);
-        else if (c == 'Q')
-            snprintf(out, size, "q_ult(%s, %s)", raw, a);
-        else
-            snprintf(out, size, "CMP_%c((%s) < %s)", c, raw, a);
-        return;
-    case NODE_OVERFLOW_USUB:
-        if (c == 'I')
-            snprintf(out, size, "~%s & %s", a, b);
-        else
-            emit_bits_binary(out, size, MACHINE_ULT, t, a, b);
-        return;
-    case NODE_OVERFLOW_UMUL:
-        if (c == 'I')
-            snprintf(out, size, "(VI)(0)");
-        else if (c == 'U')
-            snprintf(out, size, "CMP_L((CONVERT(ulong, %s) * CONVERT(ulong, %s)) >> %dUL != (VL)(0))", a, b, w);
-        else if (c == 'Q')
-            snprintf(out, size, "q_umul_overflows(%s, %s, %d)", a, b, w);
-        else if (w == 64)
-            snprintf(out, size, "CMP_L(high_product(%s, %s) != (VL)(0))", a, b);
-        else
-            snprintf(out, size, "CMP_L(high_product(%s, %s) != (VL)(0)) | CMP_L((%s * %s) >> %dUL != (VL)(0))",
-                     a, b, a, b, w);
-        return;
-    case NODE_OVERFLOW_SADD:
-    case NODE_OVERFLOW_SSUB:
-        if (c == 'I') { /* a bit is 0 or -1: -1 + -1 and 0 - -1 do not fit */
-            snprintf(out, size, op == NODE_OVERFLOW_SADD ? "%s & %s" : "~%s & %s", a, b);
-            return;
-        }
-        emit_bits_binary(r, sizeof r, op == NODE_OVERFLOW_SADD ? MACHINE_ADD : MACHINE_SUB, t, a, b);
-        if (c == 'Q')
-            snprintf(out, size, "(q_sign(%s, %d) ^ q_sign(%s, %d)) & (q_sign(%s, %d) ^ q_sign(%s, %d))", a, w, r, w,
-                     op == NODE_OVERFLOW_SADD ? r : a, w, b, w);
-        else
-            snprintf(out, size, "CMP_%c((((%s ^ (%s)) & (%s ^ %s)) >> %d%s & 1) != 0)", c, a, r, b,
-                     op == NODE_OVERFLOW_SADD ? r : a, w - 1, c == 'L' ? "UL" : "");
-        return;
-    case NODE_OVERFLOW_SNEG:
-        if (c == 'I')
-            snprintf(out, size, "%s", a);
-        else if (c == 'Q')
-            snprintf(out, size, "q_eq(%s, q_shl(q_of((VL)(1), (VL)(0)), %d))", a, w - 1);
-        else
-            snprintf(out, size, "CMP_%c(%s == (V%c)(1) << %d%s)", c, a, c, w - 1, c == 'L' ? "UL" : "");
-        return;
-    case NODE_OVERFLOW_SMUL:
-        extended(x, sizeof x, a, t);
-        extended(y, sizeof y, b, t);
-        if (c == 'I')
-            snprintf(out, size, "%s & %s", a, b);
-        else if (c == 'U')
-            snprintf(out, size, "s_product_overflows(CONVERT(long, %s) * CONVERT(long, %s), %d)", x, y, w);
-        else if (c == 'L')
-            snprintf(out, size, "l_smul_overflows(%s, %s, %d)", x, y, w);
-        else
-            snprintf(out, size, "q_smul_overflows(%s, %s, %d)", a, b, w);
-        return;
-    default: {
-        static const char symbols[] = {'+', '-', '*', '/'};
-        snprintf(out, size, "INFINITE_%c(%s %c %s) & FINITE_%c(%s) & FINITE_%c(%s)", c, a,
-                 symbols[op - NODE_OVERFLOW_FADD], b, c, a, c, b);
-        return;
-    }
-    }
-}
-
-static void emit_conversion(char *out, size_t size, const struct plan_node *n, struct machine_type from,
-                            const char *a)
-{
-    char raw[460], inner[200];
-    char have = letter(from), want = letter(n->type);
-    int w = n->type.width;
-    switch (n->op) {
-    case NODE_ZERO_EXTEND:
-        widened(out, size, a, from, want);
-        return;
-    case NODE_SIGN_EXTEND:
-        extended(inner, sizeof inner, a, from);
-        if (have == 'I' || have == 'U') {
-            if (want == 'U')
-                snprintf(raw, sizeof raw, "AS_U(%s)", inner);
-            else if (want == 'L')
-                snprintf(raw, sizeof raw, "AS_L(CONVERT(long, %s))", inner);
-            else
-                snprintf(raw, sizeof raw, "q_signed(CONVERT(long, %s))", inner);
-        } else if (have == 'L') {
-            snprintf(raw, sizeof raw, want == 'L' ? "AS_L(%s)" : "q_signed(%s)", inner);
-        } else {
-            snprintf(raw, sizeof raw, "%s", inner);
-        }
-        cut(out, size, raw, w);
-        return;
-    case NODE_EXTRACT:
-        if (have == 'I')
-            snprintf(raw, sizeof raw, "AS_U(%s & 1)", a);
-        else if (have == 'Q')
-            snprintf(raw, sizeof raw, "q_shr(%s, %d)", a, n->detail);
-        else
-            snprintf(raw, sizeof raw, "(%s >> %d%s)", a, n->detail, have == 'L' ? "UL" : "");
-        if (want == 'I') {
-            widened(inner, sizeof inner, raw, MACHINE_UINT(from.width), have == 'U' || have == 'I' ? 'U' : 'L');
-            snprintf(out, size, "CMP_%c((%s & 1) != 0)", have == 'U' || have == 'I' ? 'U' : 'L',
-                     have == 'I' ? raw : inner);
-            return;
-        }
-        widened(inner, sizeof inner, raw, MACHINE_UINT(from.width), want);
-        cut(out, size, inner, w);
-        return;
-    case NODE_U_TO_F:
-        if (have == 'Q')
-            snprintf(out, size, "q_to_%c(%s)", want == 'F' ? 'f' : 'd', a);
-        else {
-            widened(inner, sizeof inner, a, from, have == 'L' ? 'L' : 'U');
-            snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
-        }
-        return;
-    case NODE_S_TO_F:
-        if (have == 'Q')
-            snprintf(out, size, "SEL_%c(q_sign(%s, %d), -q_to_%c(q_magnitude(%s, %d)), q_to_%c(%s))", want, a,
-                     from.width, want == 'F' ? 'f' : 'd', a, from.width, want == 'F' ? 'f' : 'd', a);
-        else {
-            extended(inner, sizeof inner, a, from);
-            snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", inner);
-        }
-        return;
-    case NODE_F_TO_U:
-    case NODE_F_TO_S: {
-        bool is_signed = n->op == NODE_F_TO_S;
-        int e = is_signed ? w - 1 : w;
-        if (have == 'F' && w <= (is_signed ? 32 : 31)) {
-            snprintf(raw, sizeof raw, "f_to_%c_small(%s, 0x1p%df, 0x%x)", is_signed ? 's' : 'u', a, e,
-                     (unsigned)((UINT64_C(1) << e) - 1));
-        } else {
-            snprintf(inner, sizeof inner, have == 'F' ? "CONVERT(double, %s)" : "%s", a);
-            if (want == 'Q')
-                snprintf(raw, sizeof raw, "d_to_%cq(%s, 0x1p%d, %d)", is_signed ? 's' : 'u', inner, e, w);
-            else
-                snprintf(raw, sizeof raw, "d_to_%c(%s, 0x1p%d, 0x%" PRIx64 "%s)", is_signed ? 's' : 'u', inner, e,
-                         e == 64 ? UINT64_MAX : (UINT64_C(1) << e) - 1, is_signed ? "L" : "UL");
-            if (want == 'U' || want == 'I') {
-                snprintf(inner, sizeof inner, "%s", raw);
-                snprintf(raw, sizeof raw, "CONVERT(uint, %s)", inner);
-            }
-        }
-        if (want == 'I')
-            snprintf(out, size, "CMP_U((%s & 1) != 0)", raw);
-        else
-            cut(out, size, raw, w);
-        return;
-    }
-    case NODE_F_TO_F:
-        snprintf(out, size, "CONVERT(%s, %s)", want == 'F' ? "float" : "double", a);
-        return;
-    default: /* REINTERPRET */
-        snprintf(out, size, "AS_%c(%s)", want, a);
-        return;
-    }
-}
-
-static void emit_generated(struct emitter *e, char *out, size_t size, const struct plan_node *n, int node, int row,
-                           int dx)
+static void emit_generated(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                           int node, int row, int dx)
 {
     char index[96], raw[300];
     int last = e->set->rank - 1;
@@ -587,31 +317,34 @@ static void emit_generated(struct emitter *e, char *out, size_t size, const stru
         add_argument(e, ARGUMENT_SECOND, node, 8);
         put(&e->constants, "    /* draw: key a%d, limit h%d */\n", k, k);
         if (n->detail == 0)
-            snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k, 64 - n->type.width);
+            snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k,
+                     64 - n->type.width);
         else if (n->detail == 1)
-            snprintf(raw, sizeof raw, "(((random_bits(%s, a%d) >> 32UL) * h%d) >> 32UL)", index, k, k);
+            snprintf(raw, sizeof raw, "(((random_bits(%s, a%d) >> 32UL) * h%d) >> 32UL)", index,
+                     k, k);
         else
             snprintf(raw, sizeof raw, "mul_hi(random_bits(%s, a%d), (VL)(h%d))", index, k, k);
         if (n->type.width == 1)
             snprintf(out, size, "CMP_L((%s & 1UL) != 0UL)", raw);
         else {
             char w[340];
-            widened(w, sizeof w, raw, MACHINE_UINT(64), letter(n->type));
-            cut(out, size, w, n->type.width);
+            spell_widened(w, sizeof w, raw, MACHINE_UINT(64), spell_letter(n->type));
+            spell_cut(out, size, w, n->type.width);
         }
         return;
     }
     if (n->op == NODE_SEND_ADDRESS)
-        snprintf(raw, sizeof raw, "((%s & ((1u << PLOG2) - 1u)) * (uint)RATIO + (%s >> PLOG2))", index, index);
+        snprintf(raw, sizeof raw, "((%s & ((1u << PLOG2) - 1u)) * (uint)RATIO + (%s >> PLOG2))",
+                 index, index);
     else
         snprintf(raw, sizeof raw, "%s", index);
     if (n->type.width == 1)
         snprintf(out, size, "CMP_U((%s & 1u) != 0u)", raw);
     else {
         char w[340];
-        widened(w, sizeof w, raw, MACHINE_UINT(32), letter(n->type));
+        spell_widened(w, sizeof w, raw, MACHINE_UINT(32), spell_letter(n->type));
         if (n->type.width < 32)
-            cut(out, size, w, n->type.width);
+            spell_cut(out, size, w, n->type.width);
         else
             snprintf(out, size, "%s", w);
     }
@@ -651,12 +384,13 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
     if (known >= 0)
         return named(known);
     char expression[1200];
-    const char *type = container(n->type);
+    const char *type = spell_container(n->type);
     e->wide = e->wide || type[1] == 'Q';
     if (loads) {
         int p = pointer_of(e, node, row);
         e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
-        snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p, dx);
+        snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p,
+                 dx);
         e->loads++;
     } else if (n->op == NODE_SHIFT) {
         bool along_row = n->axis == e->set->rank - 1;
@@ -676,42 +410,47 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
         struct machine_type from = e->g->nodes[n->in[0]].type;
         const char *a = in[0].text, *b = in[1].text;
         e->ops++;
-        e->wide = e->wide || letter(from) == 'Q';
+        e->wide = e->wide || spell_letter(from) == 'Q';
         if (n->op == NODE_SELECT)
-            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b, in[2].text);
+            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
+                     in[2].text);
         else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG) {
             char raw[100];
             if (type[1] == 'Q')
-                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg", a);
+                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg",
+                         a);
             else
                 snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
             if (type[1] == 'I')
                 snprintf(expression, sizeof expression, "%s", raw);
             else
-                cut(expression, sizeof expression, raw, n->type.width);
+                spell_cut(expression, sizeof expression, raw, n->type.width);
         } else if (n->op < MACHINE_FNEG)
-            emit_bits_binary(expression, sizeof expression, n->op, from, a, b);
+            spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
         else if (n->op < MACHINE_OP_COUNT_PUBLIC)
-            emit_float(expression, sizeof expression, n->op, from, a, b);
+            spell_float(expression, sizeof expression, n->op, from, a, b);
         else if (n->op >= NODE_OVERFLOW_UADD) {
-            emit_overflow(expression, sizeof expression, n->op, from, a, b);
+            spell_overflow(expression, sizeof expression, n->op, from, a, b);
             e->wide = e->wide || from.width > 32;
         } else if (n->op == NODE_CONCAT) {
             char low[120], high[120];
             struct machine_type to = e->g->nodes[n->in[1]].type;
-            widened(low, sizeof low, a, from, type[1]);
-            widened(high, sizeof high, b, to, type[1]);
+            spell_widened(low, sizeof low, a, from, type[1]);
+            spell_widened(high, sizeof high, b, to, type[1]);
             if (type[1] == 'Q')
-                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high, from.width);
+                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high,
+                         from.width);
             else
-                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high, from.width,
-                         type[1] == 'L' ? "UL" : "");
+                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high,
+                         from.width, type[1] == 'L' ? "UL" : "");
         } else {
-            emit_conversion(expression, sizeof expression, n, from, a);
+            spell_conversion(expression, sizeof expression, n, from, a);
         }
     }
     int name = variable_add(e, node, row, dx, canonical);
-    put(&e->body, "        const %s v%d = %s;\n", type, name, expression);
+    bool box = !loads && note_box(e, n, row, dx);
+    put(&e->body, box ? "        const %s v%d = BOX(%s);\n" : "        const %s v%d = %s;\n",
+        type, name, expression);
     return named(name);
 }
 
@@ -735,10 +474,11 @@ static void header(struct emitter *e, struct text *t)
             break;
         case ARGUMENT_CONSTANT: {
             static const char letters[] = "IUFDLQ";
-            static const char *const names[] = {"int", "uint", "float", "double", "ulong", "ulong"};
+            static const char *const names[] = {"int",    "uint",  "float",
+                                                "double", "ulong", "ulong"};
             const char *name = e->g->nodes[arg->node].op == NODE_RANDOM
                                    ? "ulong"
-                                   : names[strchr(letters, letter(type)) - letters];
+                                   : names[strchr(letters, spell_letter(type)) - letters];
             put(t, ", %s a%d", name, constant++);
             break;
         }
@@ -757,8 +497,9 @@ void kernel_text_finish(struct kernel_text *k)
     memset(k, 0, sizeof *k);
 }
 
-bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count, const struct vpset *set,
-                 const struct device_shape *shape, struct kernel_text *out)
+bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out)
 {
     struct emitter *e = calloc(1, sizeof *e);
     memset(out, 0, sizeof *out);
@@ -777,12 +518,13 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
         struct operand v = value_at(e, stores[i], 0, 0, true);
         struct machine_type type = g->nodes[stores[i]].type;
         add_argument(e, ARGUMENT_OUTPUT, stores[i], 0);
-        put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n", memory_type(type), i,
-            i, type.width > 64 ? " * 2" : "");
+        put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n",
+            memory_type(type), i, i, type.width > 64 ? " * 2" : "");
         put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
     }
     bool wraps = set->halo == 0 || e->reach > set->halo;
-    out->vector = wraps || set->width < shape->vector || set->halo < shape->vector ? 1 : shape->vector;
+    out->vector =
+        wraps || set->width < shape->vector || set->halo < shape->vector ? 1 : shape->vector;
     out->wraps = wraps;
     out->wide = e->wide;
     struct text t = {0};
@@ -795,26 +537,38 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
         for (int a = 0; a < set->rank - 1; a++)
             put(&t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
     }
-    put(&t, "%s%s%s", e->rows.data ? e->rows.data : "", e->pointers.data ? e->pointers.data : "",
-        e->constants.data ? e->constants.data : "");
-    put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n"
-            "    for (int at = begin; at < end; at += VECTOR) {\n"
-            "        const int x = min(at, W - VECTOR);\n"
-            "%s    }\n}\n",
-        e->body.data ? e->body.data : "");
+    put(&t, "%s%s%s", e->rows.data ? e->rows.data : "",
+        e->pointers.data ? e->pointers.data : "", e->constants.data ? e->constants.data : "");
+    put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
+    bool boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
+    const char *body = e->body.data ? e->body.data : "";
+    if (boxes)
+        put(&t, "    const int row_inside = 1%s;\n",
+            e->row_tests.data ? e->row_tests.data : "");
+    put(&t, "    for (int at = begin; at < end; at += VECTOR) {\n"
+            "        const int x = min(at, W - VECTOR);\n");
+    if (boxes)
+        put(&t,
+            "        if (row_inside%s) {\n#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        "
+            "continue;\n        }\n",
+            e->column_tests.data ? e->column_tests.data : "", body);
+    put(&t, "#define BOX(e) (e)\n%s    }\n}\n", body);
     out->text = t.data;
     out->arguments = e->arguments;
     out->arguments_count = e->arguments_count;
     out->ops = e->ops;
     out->loads = e->loads;
-    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d", out->vector, set->halo,
-             wraps ? 1 : 0);
-    bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed && !e->pointers.failed &&
-                !e->constants.failed;
+    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d", out->vector,
+             set->halo, wraps ? 1 : 0);
+    bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed &&
+                !e->pointers.failed && !e->constants.failed && !e->row_tests.failed &&
+                !e->column_tests.failed;
     free(e->body.data);
     free(e->rows.data);
     free(e->pointers.data);
     free(e->constants.data);
+    free(e->row_tests.data);
+    free(e->column_tests.data);
     free(e->variables);
     free(e->row_offsets);
     free(e->seen_pointers);

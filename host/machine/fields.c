@@ -1,9 +1,10 @@
 /* fields.c - VP sets, their flags, and fields: which value is where.
  *
- * A field is a row of bits in each processor. What is stored in it is kept as slots, each the bits [offset,
- * offset + bits) with one value; bits in no slot are 0. An access of just a slot's bits gives its value; any other is
- * put together from pieces. Ids are addresses in a space of 2^31 bits that is not used again until it has been
- * gone through, so an id that has died stays dead for long. */
+ * A field is a row of bits in each processor. What is stored in it is kept as slots, each the
+ * bits [offset, offset + bits) with one value; bits in no slot are 0. An access of just a
+ * slot's bits gives its value; any other is put together from pieces. Ids are addresses in a
+ * space of 2^31 bits that is not used again until it has been gone through, so an id that has
+ * died stays dead for long. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -49,14 +50,15 @@ static struct machine_value *zero(struct machine *m, int width)
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
 {
     if (rank < 1 || rank > MACHINE_AXES_MAX) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)", MACHINE_AXES_MAX, rank);
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)",
+                     MACHINE_AXES_MAX, rank);
         return 0;
     }
     uint64_t count = 1;
     for (int i = 0; i < rank; i++) {
         if (dimensions[i] < 1) {
-            machine_fail(m, MACHINE_BAD_ARGUMENT, "axis %d must have a length of 1 or more (got %d)", i,
-                         dimensions[i]);
+            machine_fail(m, MACHINE_BAD_ARGUMENT,
+                         "axis %d must have a length of 1 or more (got %d)", i, dimensions[i]);
             return 0;
         }
         count *= (uint64_t)dimensions[i];
@@ -100,8 +102,8 @@ int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
         s->pitch = (s->pitch + 15) / 16 * 16;
     for (int flag = 0; flag < 3; flag++) {
         s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
-        struct machine_value *one =
-            machine_constant(m, MACHINE_BIT, (struct machine_scalar){flag == MACHINE_CONTEXT, 0});
+        struct machine_value *one = machine_constant(
+            m, MACHINE_BIT, (struct machine_scalar){flag == MACHINE_CONTEXT, 0});
         slot_set(m, &s->flags[flag], one);
     }
     return id;
@@ -228,10 +230,12 @@ static int fields_above(const struct machine *m, uint32_t id)
     return low;
 }
 
-/* Where a new field of that many bits goes: on from the last one, and round once the space is used up. */
+/* Where a new field of that many bits goes: on from the last one, and round once the space is
+ * used up. */
 static uint32_t find_room(struct machine *m, uint32_t bits)
 {
-    uint32_t room = (bits + 127) / 64 * 64; /* a gap between fields: an id never runs into the next one */
+    uint32_t room =
+        (bits + 127) / 64 * 64; /* a gap between fields: an id never runs into the next one */
     for (int round = 0; round < 2; round++) {
         uint32_t base = m->field_next_base;
         for (int i = fields_above(m, base); base <= ID_SPACE - room; i++) {
@@ -249,12 +253,14 @@ static uint32_t find_room(struct machine *m, uint32_t bits)
     return MACHINE_NO_FIELD;
 }
 
-uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits, enum machine_region region)
+uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
+                                enum machine_region region)
 {
     if (!vpset_get(m, vpset))
         return MACHINE_NO_FIELD;
     if (bits < 1 || bits > ID_SPACE / 4) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "a field has 1..%u bits (got %u)", ID_SPACE / 4, bits);
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a field has 1..%u bits (got %u)", ID_SPACE / 4,
+                     bits);
         return MACHINE_NO_FIELD;
     }
     uint32_t base = find_room(m, bits);
@@ -271,13 +277,18 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits, enu
         }
     }
     if (!f) {
-        machine_fail(m, MACHINE_NO_MEMORY, "there is no room for another field of %u bits", bits);
+        machine_fail(m, MACHINE_NO_MEMORY, "there is no room for another field of %u bits",
+                     bits);
         return MACHINE_NO_FIELD;
     }
-    *f = (struct field){.base = base, .bits = bits, .vpset = vpset, .region = region,
-                         .serial = m->field_serial++};
+    *f = (struct field){.base = base,
+                        .bits = bits,
+                        .vpset = vpset,
+                        .region = region,
+                        .serial = m->field_serial++};
     int at = fields_above(m, base);
-    memmove(&m->fields[at + 1], &m->fields[at], (size_t)(m->fields_count - at) * sizeof *m->fields);
+    memmove(&m->fields[at + 1], &m->fields[at],
+            (size_t)(m->fields_count - at) * sizeof *m->fields);
     m->fields[at] = f;
     m->fields_count++;
     return base;
@@ -286,7 +297,8 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits, enu
 struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
 {
     int i = m->field_last;
-    if (!(i < m->fields_count && m->fields[i]->base <= id && id - m->fields[i]->base < m->fields[i]->bits))
+    if (!(i < m->fields_count && m->fields[i]->base <= id &&
+          id - m->fields[i]->base < m->fields[i]->bits))
         i = fields_above(m, id) - 1;
     if (i < 0 || id - m->fields[i]->base >= m->fields[i]->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", id);
@@ -297,14 +309,18 @@ struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
     return m->fields[i];
 }
 
-bool machine_field_lookup(const struct machine *m, uint32_t field, struct machine_field_info *out)
+bool machine_field_lookup(const struct machine *m, uint32_t field,
+                          struct machine_field_info *out)
 {
     int i = fields_above(m, field) - 1;
     if (i < 0 || field - m->fields[i]->base >= m->fields[i]->bits)
         return false;
     const struct field *f = m->fields[i];
-    *out = (struct machine_field_info){
-        .base = f->base, .bits = f->bits, .offset = field - f->base, .vpset = f->vpset, .region = f->region};
+    *out = (struct machine_field_info){.base = f->base,
+                                       .bits = f->bits,
+                                       .offset = field - f->base,
+                                       .vpset = f->vpset,
+                                       .region = f->region};
     return true;
 }
 
@@ -366,11 +382,13 @@ static void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
 static struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits)
 {
     int i = slot_at(f, offset);
-    return i < f->slots_count && f->slots[i].offset == offset && f->slots[i].bits == bits ? &f->slots[i]
-                                                                                          : NULL;
+    return i < f->slots_count && f->slots[i].offset == offset && f->slots[i].bits == bits
+               ? &f->slots[i]
+               : NULL;
 }
 
-struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
+struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset,
+                                    uint32_t bits)
 {
     struct slot *slot = slot_exact(f, offset, bits);
     if (slot)
@@ -378,7 +396,8 @@ struct machine_value *field_content(struct machine *m, struct field *f, uint32_t
     struct machine_value *sum = NULL;
     uint32_t at = offset, end = offset + bits;
     for (int i = slot_at(f, offset); at < end; i++) {
-        uint32_t next = i < f->slots_count && f->slots[i].offset < end ? f->slots[i].offset : end;
+        uint32_t next =
+            i < f->slots_count && f->slots[i].offset < end ? f->slots[i].offset : end;
         struct machine_value *piece;
         if (next > at) {
             piece = zero(m, (int)(next - at));
@@ -398,7 +417,8 @@ struct machine_value *field_content(struct machine *m, struct field *f, uint32_t
     return sum;
 }
 
-static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
+static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t offset,
+                                uint32_t bits)
 {
     if (f->slots_count == f->slots_capacity) {
         int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
@@ -421,15 +441,18 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
     for (int i = slot_at(f, offset); i < f->slots_count && f->slots[i].offset < end;) {
         struct slot old = f->slots[i];
         f->slots_count--;
-        memmove(&f->slots[i], &f->slots[i + 1], (size_t)(f->slots_count - i) * sizeof *f->slots);
+        memmove(&f->slots[i], &f->slots[i + 1],
+                (size_t)(f->slots_count - i) * sizeof *f->slots);
         if (old.offset < offset) {
-            struct machine_value *v = machine_extract(m, old.value, 0, (int)(offset - old.offset));
+            struct machine_value *v =
+                machine_extract(m, old.value, 0, (int)(offset - old.offset));
             slot_set(m, slot_insert(m, f, old.offset, offset - old.offset), v);
             i++;
         }
         if (old.offset + old.bits > end) {
             uint32_t rest = old.offset + old.bits - end;
-            struct machine_value *v = machine_extract(m, old.value, (int)(end - old.offset), (int)rest);
+            struct machine_value *v =
+                machine_extract(m, old.value, (int)(end - old.offset), (int)rest);
             slot_set(m, slot_insert(m, f, end, rest), v);
             i++;
         }
@@ -437,7 +460,8 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
     }
 }
 
-enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset, struct machine_value *v)
+enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset,
+                                  struct machine_value *v)
 {
     struct slot *slot = slot_exact(f, offset, v->type.width);
     if (!slot) {
@@ -448,32 +472,36 @@ enum machine_status field_replace(struct machine *m, struct field *f, uint32_t o
     return MACHINE_OK;
 }
 
-static struct field *field_part(struct machine *m, uint32_t id, struct machine_type type, uint32_t *offset)
+static struct field *field_part(struct machine *m, uint32_t id, struct machine_type type,
+                                uint32_t *offset)
 {
     struct field *f = field_find(m, id, offset);
     if (!f)
         return NULL;
     if (type.width < 1 || type.width > 128 ||
         (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64)) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "a value's width must be 1..128 bits, a float's 32 or 64");
+        machine_fail(m, MACHINE_BAD_ARGUMENT,
+                     "a value's width must be 1..128 bits, a float's 32 or 64");
         return NULL;
     }
     if (*offset + type.width > f->bits) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "%d bits from bit %u on run over the end of a field of %u bits",
+        machine_fail(m, MACHINE_BAD_ARGUMENT,
+                     "%d bits from bit %u on run over the end of a field of %u bits",
                      type.width, *offset, f->bits);
         return NULL;
     }
     return f;
 }
 
-struct machine_value *machine_field_value(struct machine *m, uint32_t field, struct machine_type type,
-                                          enum machine_scope scope)
+struct machine_value *machine_field_value(struct machine *m, uint32_t field,
+                                          struct machine_type type, enum machine_scope scope)
 {
     uint32_t offset;
     struct field *f = field_part(m, field, type, &offset);
     if (!f)
         return NULL;
-    for (int i = slot_at(f, offset); i < f->slots_count && f->slots[i].offset < offset + type.width; i++)
+    for (int i = slot_at(f, offset);
+         i < f->slots_count && f->slots[i].offset < offset + type.width; i++)
         slot_accessed(m, &f->slots[i], false);
     struct machine_value *v = field_content(m, f, offset, type.width);
     if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->set_current)
@@ -481,8 +509,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field, str
     return machine_reinterpret(m, v, type);
 }
 
-enum machine_status machine_field_store(struct machine *m, uint32_t field, struct machine_value *value,
-                                        enum machine_scope scope)
+enum machine_status machine_field_store(struct machine *m, uint32_t field,
+                                        struct machine_value *value, enum machine_scope scope)
 {
     if (!value)
         return m->status;
@@ -491,7 +519,8 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field, struc
     if (!f)
         return m->status;
     if (value->set && value->set != f->vpset)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value and the field belong to different VP sets");
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "the value and the field belong to different VP sets");
     if (value->op == NODE_REINTERPRET && !value->buffer)
         value = value->in[0]; /* the same bits; a float that is moved as bits stays a float */
     struct slot *slot = slot_exact(f, offset, value->type.width);
@@ -524,7 +553,8 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
     return s->flags[flag].value;
 }
 
-struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag, enum machine_scope scope)
+struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag,
+                                         enum machine_scope scope)
 {
     struct vpset *s = vpset_get(m, m->set_current);
     if (!s)
@@ -536,8 +566,8 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
     return v;
 }
 
-enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag, struct machine_value *value,
-                                       enum machine_scope scope)
+enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
+                                       struct machine_value *value, enum machine_scope scope)
 {
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s)
@@ -586,8 +616,9 @@ static int overflow_op(enum machine_op op, bool is_signed)
     }
 }
 
-enum machine_status machine_overflow_record(struct machine *m, enum machine_op op, bool is_signed,
-                                            struct machine_value *a, struct machine_value *b)
+enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
+                                            bool is_signed, struct machine_value *a,
+                                            struct machine_value *b)
 {
     struct vpset *s = vpset_get(m, m->set_current);
     int node = overflow_op(op, is_signed);
@@ -602,6 +633,7 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
         graph_ref(b);
     graph_ref(context);
     overflow_clear(m, &s->overflow);
-    s->overflow = (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
+    s->overflow =
+        (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
     return MACHINE_OK;
 }

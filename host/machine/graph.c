@@ -1,7 +1,8 @@
 /* graph.c - the value graph: nodes made once (hash-consing), counted references, release.
  *
- * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out of the table and
- * lets its inputs go. Nodes live in blocks that are kept until the machine goes. */
+ * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out
+ * of the table and lets its inputs go. Nodes live in blocks that are kept until the machine
+ * goes. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -27,8 +28,8 @@ void graph_finish(struct machine *m)
     free(m->release_stack);
 }
 
-/* Memory for the graph itself is small beside the fields' and is not expected to run out: when it does there is
- * no state to return to. */
+/* Memory for the graph itself is small beside the fields' and is not expected to run out: when
+ * it does there is no state to return to. */
 static void *grown(void *old, int *capacity, size_t element)
 {
     int wanted = *capacity ? *capacity * 2 : 64;
@@ -42,7 +43,8 @@ static struct machine_value *node_new(struct machine *m)
 {
     if (!m->free_nodes) {
         if (m->node_blocks_count == m->node_blocks_capacity)
-            m->node_blocks = grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
+            m->node_blocks =
+                grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
         struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
         INVARIANT(block != NULL);
         m->node_blocks[m->node_blocks_count++] = block;
@@ -76,6 +78,7 @@ void machine_begin(struct machine *m)
     for (int i = 0; i < m->borrowed_count; i++)
         graph_unref(m, m->borrowed[i]);
     m->borrowed_count = 0;
+    m->simplify_budget = 256;
 }
 
 static uint32_t hash_of(const struct machine_value *k)
@@ -92,9 +95,10 @@ static uint32_t hash_of(const struct machine_value *k)
 
 static bool same_key(const struct machine_value *v, const struct machine_value *k)
 {
-    return v->op == k->op && type_equal(v->type, k->type) && v->axis == k->axis && v->set == k->set &&
-           v->detail == k->detail && v->in[0] == k->in[0] && v->in[1] == k->in[1] &&
-           v->in[2] == k->in[2] && v->imm.lo == k->imm.lo && v->imm.hi == k->imm.hi;
+    return v->op == k->op && type_equal(v->type, k->type) && v->axis == k->axis &&
+           v->set == k->set && v->detail == k->detail && v->in[0] == k->in[0] &&
+           v->in[1] == k->in[1] && v->in[2] == k->in[2] && v->imm.lo == k->imm.lo &&
+           v->imm.hi == k->imm.hi;
 }
 
 static void table_grow(struct machine *m)
@@ -218,7 +222,8 @@ void graph_unref(struct machine *m, struct machine_value *v)
     }
 }
 
-void graph_materialised(struct machine *m, struct machine_value *v, struct device_buffer *buffer)
+void graph_materialised(struct machine *m, struct machine_value *v,
+                        struct device_buffer *buffer)
 {
     INVARIANT(!v->buffer && v->interned);
     v->buffer = buffer;

@@ -5,6 +5,7 @@
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
  *   emit.c      the text of one kernel                                (pure; no OpenCL)
+ *   spell.c     the text of one operation                             (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   device.c    OpenCL: devices, buffers, programs and their cache
@@ -18,7 +19,7 @@
 
 #include "machine.h"
 
-/* An assertion that stays in release builds: a broken invariant of ours, never of the caller. */
+/* Stays in release builds: a broken invariant of ours, never of the caller. */
 #define INVARIANT(condition)                                                                   \
     ((condition) ? (void)0 : machine_invariant_failed(#condition, __FILE__, __LINE__))
 _Noreturn void machine_invariant_failed(const char *what, const char *file, int line);
@@ -74,7 +75,8 @@ struct device_buffer {
 };
 
 #define GENERATOR_NONE 255 /* reads memory, or is dear: stored like any value */
-#define GENERATOR_CHEAP 24 /* a function of coordinates and constants this cheap is never stored */
+#define GENERATOR_CHEAP                                                                        \
+    24 /* a function of coordinates and constants this cheap is never stored */
 
 struct machine_value {
     uint8_t op;
@@ -89,7 +91,8 @@ struct machine_value {
     uint32_t refs;
     uint32_t hash;
     uint32_t mark;  /* visit stamp of run.c */
-    uint32_t birth; /* the evaluation before which the oldest thing in it still to compute was made */
+    uint32_t birth; /* the evaluation before which the oldest thing in it still to compute was
+                       made */
     uint32_t local; /* index in the evaluation at hand */
     struct machine_value *next; /* in its hash chain, or in the free list */
     struct machine_value *in[3];
@@ -102,8 +105,9 @@ struct slot {
     struct machine_value *value;
     uint32_t offset, bits;   /* within the field; a flag: 0, 1 */
     uint32_t epoch_created;  /* evaluations so far when it was first stored */
-    uint32_t epoch_accessed; /* ... when it was last accessed for the first time since an evaluation */
-    bool overwritten_first; /* that first access overwrote it: a temporary */
+    uint32_t epoch_accessed; /* ... when it was last accessed for the first time since an
+                                evaluation */
+    bool overwritten_first;  /* that first access overwrote it: a temporary */
 };
 
 struct field {
@@ -111,7 +115,7 @@ struct field {
     uint32_t bits;
     int vpset;
     enum machine_region region;
-    uint64_t serial; /* order of allocation */
+    uint64_t serial;    /* order of allocation */
     struct slot *slots; /* ascending offsets, no overlap; what is missing is 0 */
     int slots_count, slots_capacity;
 };
@@ -190,6 +194,8 @@ struct machine {
     struct machine_value **release_stack;
     int release_count, release_capacity;
 
+    int simplify_budget; /* nodes that simplify_under() may still look at in this instruction */
+
     /* fields.c */
     struct vpset *sets; /* 1 .. sets_count - 1 */
     int sets_count, set_current;
@@ -213,8 +219,8 @@ struct machine {
 };
 
 /* machine.c */
-enum machine_status machine_fail(struct machine *m, enum machine_status status, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+enum machine_status machine_fail(struct machine *m, enum machine_status status,
+                                 const char *format, ...) __attribute__((format(printf, 3, 4)));
 double machine_clock_s(void);
 
 /* graph.c */
@@ -227,8 +233,10 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
 void graph_ref(struct machine_value *v);
 void graph_unref(struct machine *m, struct machine_value *v);
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
-/* The node now has its values in buffer, and forgets how they came about (unless it is a cheap generator). */
-void graph_materialised(struct machine *m, struct machine_value *v, struct device_buffer *buffer);
+/* The node now has its values in buffer, and forgets how they came about (unless it is a cheap
+ * generator). */
+void graph_materialised(struct machine *m, struct machine_value *v,
+                        struct device_buffer *buffer);
 static inline bool node_is_leaf(const struct machine_value *v)
 {
     return v->buffer || v->op == NODE_CONSTANT;
@@ -243,8 +251,8 @@ static inline bool type_equal(struct machine_type a, struct machine_type b)
 }
 
 /* simplify.c */
-struct machine_value *simplify_under(struct machine *m, struct machine_value *v, struct machine_value *context,
-                                     int depth);
+struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
+                                     struct machine_value *context, int depth);
 struct machine_value *node_overflow(struct machine *m, enum node_op op, struct machine_value *a,
                                     struct machine_value *b);
 
@@ -253,9 +261,11 @@ struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if t
 void fields_finish(struct machine *m);
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
 /* The whole content of [offset, offset + type.width) of a field, as it is. */
-struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset, uint32_t bits);
+struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset,
+                                    uint32_t bits);
 struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset);
-enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset, struct machine_value *v);
+enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset,
+                                  struct machine_value *v);
 
 /* plan.c: see there */
 struct plan_node {
@@ -270,7 +280,8 @@ struct plan_node {
     uint16_t set;
     int32_t detail;
     int32_t in[3];
-    int32_t instead[3]; /* another node that may stand for in[k] here, if it is in memory; else -1 */
+    int32_t instead[3]; /* another node that may stand for in[k] here, if it is in memory; else
+                           -1 */
     /* decided */
     int stage;
     bool stored;
@@ -279,7 +290,8 @@ struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
 };
-void plan_choose(struct plan_graph *g, const struct vpset *sets, const struct device_shape *shape);
+void plan_choose(struct plan_graph *g, const struct vpset *sets,
+                 const struct device_shape *shape);
 /* What a kernel finds in memory: leaves, and what an earlier stage stored. */
 static inline bool plan_loads(const struct plan_node *n, int stage)
 {
@@ -287,16 +299,23 @@ static inline bool plan_loads(const struct plan_node *n, int stage)
 }
 
 /* What node n, evaluated in a kernel of that stage, takes as its operand k. */
-static inline int plan_input(const struct plan_graph *g, const struct plan_node *n, int k, int stage)
+static inline int plan_input(const struct plan_graph *g, const struct plan_node *n, int k,
+                             int stage)
 {
     int instead = n->instead[k];
-    return instead >= 0 && plan_loads(&g->nodes[instead], stage) && !plan_loads(&g->nodes[n->in[k]], stage)
+    return instead >= 0 && plan_loads(&g->nodes[instead], stage) &&
+                   !plan_loads(&g->nodes[n->in[k]], stage)
                ? instead
                : n->in[k];
 }
 
 /* emit.c */
-enum kernel_argument_kind { ARGUMENT_INPUT, ARGUMENT_OUTPUT, ARGUMENT_CONSTANT, ARGUMENT_SECOND };
+enum kernel_argument_kind {
+    ARGUMENT_INPUT,
+    ARGUMENT_OUTPUT,
+    ARGUMENT_CONSTANT,
+    ARGUMENT_SECOND
+};
 struct kernel_argument {
     uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
     uint8_t size; /* of a constant, bytes */
@@ -312,14 +331,16 @@ struct kernel_text {
     int ops, loads; /* emitted */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
-bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count, const struct vpset *set,
-                 const struct device_shape *shape, struct kernel_text *out);
+bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out);
 void kernel_text_finish(struct kernel_text *k);
 size_t type_bytes(struct machine_type type); /* in a buffer */
 
 /* run.c */
 /* Evaluates targets (may be none) and whatever else should be: all: everything that is live. */
-enum machine_status run_evaluate(struct machine *m, struct machine_value **targets, int count, bool all);
+enum machine_status run_evaluate(struct machine *m, struct machine_value **targets, int count,
+                                 bool all);
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
 void run_init(struct machine *m);
 void run_finish(struct machine *m);
@@ -327,12 +348,14 @@ void run_finish(struct machine *m);
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);
 void device_close(struct machine *m);
-struct device_buffer *device_buffer_get(struct machine *m, size_t bytes); /* refs 1; NULL: error set */
+struct device_buffer *device_buffer_get(struct machine *m,
+                                        size_t bytes); /* refs 1; NULL: error set */
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
-/* The kernel of that name in a program of three parts, the first two the same for many; from memory, from disk, or
- * built. Belongs to the device. NULL: error set. */
-cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options, const char *name);
+/* The kernel of that name in a program of three parts, the first two the same for many; from
+ * memory, from disk, or built. Belongs to the device. NULL: error set. */
+cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
+                        const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
 
 #endif

@@ -12,7 +12,8 @@ _Noreturn void machine_invariant_failed(const char *what, const char *file, int 
     abort();
 }
 
-enum machine_status machine_fail(struct machine *m, enum machine_status status, const char *format, ...)
+enum machine_status machine_fail(struct machine *m, enum machine_status status,
+                                 const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -31,7 +32,8 @@ double machine_clock_s(void)
 
 struct machine_config machine_config_default(void)
 {
-    return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1, .dump_dir = NULL};
+    return (struct machine_config){
+        .device = NULL, .processors_count = 0, .eager = -1, .dump_dir = NULL};
 }
 
 static enum machine_status set_processors(struct machine *m, int wanted)
@@ -42,15 +44,17 @@ static enum machine_status set_processors(struct machine *m, int wanted)
         char *end;
         count = strtol(from_environment, &end, 10);
         if (*end || count < 1)
-            return machine_fail(m, MACHINE_BAD_ARGUMENT,
-                                "LUTETIA_PROCESSORS must be a power of two from 1 to 2^30 (is \"%s\")",
-                                from_environment);
+            return machine_fail(
+                m, MACHINE_BAD_ARGUMENT,
+                "LUTETIA_PROCESSORS must be a power of two from 1 to 2^30 (is \"%s\")",
+                from_environment);
     }
     if (count == 0)
         count = 65536;
     if (count < 1 || count > (1L << 30) || (count & (count - 1)))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT,
-                            "the number of processors must be a power of two from 1 to 2^30 (is %ld)", count);
+        return machine_fail(
+            m, MACHINE_BAD_ARGUMENT,
+            "the number of processors must be a power of two from 1 to 2^30 (is %ld)", count);
     m->processors_count = (int)count;
     m->processors_log2 = __builtin_ctzl((unsigned long)count);
     return MACHINE_OK;

@@ -1,4 +1,5 @@
-/* machine.h - a Connection Machine: virtual processors, bit-addressed fields, and a lazy value graph.
+/* machine.h - a Connection Machine: virtual processors, bit-addressed fields, and a lazy value
+ * graph.
  *
  *     struct machine *m;
  *     struct machine_config config = machine_config_default();
@@ -12,19 +13,22 @@
  *     machine_field_store(m, f, machine_binary(m, MACHINE_FADD, x, x), MACHINE_WHERE_ACTIVE);
  *     machine_field_download(m, f, MACHINE_F32, host_array);
  *
- * Nothing between create and download computes: each call says what a value now is, and what is observed is
- * computed by as few generated kernels as the cost model allows.  See docs/engine.md.
+ * Nothing between create and download computes: each call says what a value now is, and what is
+ * observed is computed by as few generated kernels as the cost model allows.  See
+ * docs/engine.md.
  *
- * Values. A `struct machine_value *` is one number for each virtual processor of a VP set, or one number for
- * all of them (a constant). It is immutable and borrowed: valid until the next machine_begin(), and longer only
- * as the content of a field or flag. Whoever drives the machine calls machine_begin() before each instruction.
+ * Values. A `struct machine_value *` is one number for each virtual processor of a VP set, or
+ * one number for all of them (a constant). It is immutable and borrowed: valid until the next
+ * machine_begin(), and longer only as the content of a field or flag. Whoever drives the
+ * machine calls machine_begin() before each instruction.
  *
- * Types. Bits of width 1..128 (signedness belongs to the operations) and IEEE single and double. Reading a
- * field with another type or width than it was written with reinterprets its bits; bit 0 is the lowest.
- * Every float operation that gives a NaN gives the quiet NaN with sign 0 and payload 0; moves keep NaNs' bits.
+ * Types. Bits of width 1..128 (signedness belongs to the operations) and IEEE single and
+ * double. Reading a field with another type or width than it was written with reinterprets its
+ * bits; bit 0 is the lowest. Every float operation that gives a NaN gives the quiet NaN with
+ * sign 0 and payload 0; moves keep NaNs' bits.
  *
- * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set; the detail is in
- * machine_error(). A failed call changes nothing.
+ * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
+ * the detail is in machine_error(). A failed call changes nothing.
  *
  * Threads. One machine belongs to one thread at a time.
  */
@@ -59,7 +63,8 @@ struct machine_type {
 #define MACHINE_F32 ((struct machine_type){MACHINE_FLOAT, 32})
 #define MACHINE_F64 ((struct machine_type){MACHINE_FLOAT, 64})
 
-/* A number on the front end: bits (lo, then hi from bit 64 on), or a float as its bits in lo. */
+/* A number on the front end: bits (lo, then hi from bit 64 on), or a float as its bits in lo.
+ */
 struct machine_scalar {
     uint64_t lo, hi;
 };
@@ -67,14 +72,18 @@ struct machine_scalar {
 /* ---- the machine ---- */
 
 struct machine_config {
-    const char *device;        /* part of a platform's or device's name, an index, or NULL: LUTETIA_DEVICE, else first */
-    int processors_count;      /* physical processors, a power of two; 0: LUTETIA_PROCESSORS, else 65536 */
-    int eager;                 /* evaluate after every store; -1: LUTETIA_EAGER */
-    const char *dump_dir;      /* graphs and kernels are written here; NULL: LUTETIA_DUMP, else nowhere */
+    const char *device;   /* part of a platform's or device's name, an index, or NULL:
+                             LUTETIA_DEVICE, else first */
+    int processors_count; /* physical processors, a power of two; 0: LUTETIA_PROCESSORS, else
+                             65536 */
+    int eager;            /* evaluate after every store; -1: LUTETIA_EAGER */
+    const char
+        *dump_dir; /* graphs and kernels are written here; NULL: LUTETIA_DUMP, else nowhere */
 };
 struct machine_config machine_config_default(void);
 
-/* Owns: *out is set even on failure when there is an error text to read; machine_destroy() takes it then too. */
+/* Owns: *out is set even on failure when there is an error text to read; machine_destroy()
+ * takes it then too. */
 enum machine_status machine_create(const struct machine_config *config, struct machine **out);
 void machine_destroy(struct machine *m); /* NULL is fine */
 
@@ -85,8 +94,8 @@ void machine_error_clear(struct machine *m);
 /* Starts an instruction: values handed out before are released. */
 void machine_begin(struct machine *m);
 
-/* Computes what is pending, live and expected to be read again (not temporaries); does not wait. Never needed
- * for the right result. */
+/* Computes what is pending, live and expected to be read again (not temporaries); does not
+ * wait. Never needed for the right result. */
 enum machine_status machine_flush(struct machine *m);
 /* The same, and waits for the device. */
 enum machine_status machine_finish(struct machine *m);
@@ -95,37 +104,41 @@ int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
 struct machine_stats {
-    uint64_t stores;          /* values stored into fields and flags */
-    uint64_t values_live;     /* nodes in the graph now */
-    uint64_t flushes;         /* evaluations */
-    uint64_t plans_built;     /* evaluations whose shape had not been seen */
-    uint64_t kernels_built;   /* compiled, or loaded from the disk cache */
+    uint64_t stores;        /* values stored into fields and flags */
+    uint64_t values_live;   /* nodes in the graph now */
+    uint64_t flushes;       /* evaluations */
+    uint64_t plans_built;   /* evaluations whose shape had not been seen */
+    uint64_t kernels_built; /* compiled, or loaded from the disk cache */
     uint64_t kernels_run;
-    uint64_t bytes_held;      /* device memory in use by values */
-    double busy_s;            /* time in which the front end waited for the device */
+    uint64_t bytes_held; /* device memory in use by values */
+    double busy_s;       /* time in which the front end waited for the device */
 };
 void machine_stats_get(const struct machine *m, struct machine_stats *out);
 
 /* For `lutetia info`: calls back for each OpenCL device there is; returns how many. */
-int machine_devices_list(void (*each)(void *context, int index, const char *platform, const char *device,
-                                      const char *version, int compute_units, uint64_t memory_bytes),
+int machine_devices_list(void (*each)(void *context, int index, const char *platform,
+                                      const char *device, const char *version,
+                                      int compute_units, uint64_t memory_bytes),
                          void *context);
 
 /* ---- VP sets ---- */
 
 #define MACHINE_AXES_MAX 31
 
-/* Shape: dimensions[0..rank-1], each 1 or more, axis 0 varies slowest in memory (row-major). Returns an id from
- * 1 on, or 0. A VP set starts with context 1 and test and overflow 0 everywhere. */
+/* Shape: dimensions[0..rank-1], each 1 or more, axis 0 varies slowest in memory (row-major).
+ * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
+ * everywhere. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
 enum machine_status machine_vpset_destroy(struct machine *m, int vpset); /* its fields go too */
-enum machine_status machine_vpset_select(struct machine *m, int vpset);  /* values are built in this set */
+enum machine_status machine_vpset_select(struct machine *m,
+                                         int vpset); /* values are built in this set */
 int machine_vpset_current(const struct machine *m);
 int machine_vpset_rank(const struct machine *m, int vpset);
 int machine_vpset_length(const struct machine *m, int vpset, int axis);
 uint64_t machine_vpset_count(const struct machine *m, int vpset); /* virtual processors */
-/* NEWS-ordered: row-major index n is VP n div P of processor n mod P; its send address is (n mod P)*R + n div P,
- * with R the VP ratio, ceil(count / P). A set smaller than the machine has R = 1. */
+/* NEWS-ordered: row-major index n is VP n div P of processor n mod P; its send address is (n
+ * mod P)*R + n div P, with R the VP ratio, ceil(count / P). A set smaller than the machine has
+ * R = 1. */
 uint64_t machine_vpset_ratio(const struct machine *m, int vpset);
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index);
 /* The row-major index of a send address; UINT64_MAX if there is no such processor. */
@@ -136,10 +149,13 @@ uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address
 enum machine_region { MACHINE_STACK, MACHINE_HEAP };
 #define MACHINE_NO_FIELD 0u
 
-/* A field id is a bit address in a space of its own: id + k names the part that begins k bits further on, so
- * long as that is inside. New fields are zero. Returns MACHINE_NO_FIELD on failure. */
-uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits, enum machine_region region);
-enum machine_status machine_field_deallocate(struct machine *m, uint32_t field); /* heap fields; exact id */
+/* A field id is a bit address in a space of its own: id + k names the part that begins k bits
+ * further on, so long as that is inside. New fields are zero. Returns MACHINE_NO_FIELD on
+ * failure. */
+uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
+                                enum machine_region region);
+enum machine_status machine_field_deallocate(struct machine *m,
+                                             uint32_t field); /* heap fields; exact id */
 /* The stack field and every stack field allocated after it (in any VP set). */
 enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t field);
 
@@ -151,43 +167,51 @@ struct machine_field_info {
     enum machine_region region;
 };
 /* false: there is no such field (any more). Does not set the error. */
-bool machine_field_lookup(const struct machine *m, uint32_t field, struct machine_field_info *out);
+bool machine_field_lookup(const struct machine *m, uint32_t field,
+                          struct machine_field_info *out);
 
 /* ---- values ---- */
 
-/* WHERE_ACTIVE: the caller stores what it makes of this value under the present context, so what inactive
- * processors hold does not matter. EVERYWHERE: it does (neighbours will read it; a store ignores the context). */
+/* WHERE_ACTIVE: the caller stores what it makes of this value under the present context, so
+ * what inactive processors hold does not matter. EVERYWHERE: it does (neighbours will read it;
+ * a store ignores the context). */
 enum machine_scope { MACHINE_WHERE_ACTIVE, MACHINE_EVERYWHERE };
 
-struct machine_value *machine_field_value(struct machine *m, uint32_t field, struct machine_type type,
-                                          enum machine_scope scope);
-/* WHERE_ACTIVE stores under the context, EVERYWHERE ignores it. The value's type gives the width. */
-enum machine_status machine_field_store(struct machine *m, uint32_t field, struct machine_value *value,
-                                        enum machine_scope scope);
+struct machine_value *machine_field_value(struct machine *m, uint32_t field,
+                                          struct machine_type type, enum machine_scope scope);
+/* WHERE_ACTIVE stores under the context, EVERYWHERE ignores it. The value's type gives the
+ * width. */
+enum machine_status machine_field_store(struct machine *m, uint32_t field,
+                                        struct machine_value *value, enum machine_scope scope);
 
 enum machine_flag { MACHINE_CONTEXT, MACHINE_TEST, MACHINE_OVERFLOW };
 /* Of the current VP set. */
-struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag, enum machine_scope scope);
-enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag, struct machine_value *value,
-                                       enum machine_scope scope);
+struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag,
+                                         enum machine_scope scope);
+enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
+                                       struct machine_value *value, enum machine_scope scope);
 
 struct machine_type machine_value_type(const struct machine_value *v);
 
 /* Constants: bits above the width are ignored. */
-struct machine_value *machine_constant(struct machine *m, struct machine_type type, struct machine_scalar bits);
+struct machine_value *machine_constant(struct machine *m, struct machine_type type,
+                                       struct machine_scalar bits);
 /* Rounded to the type. */
-struct machine_value *machine_constant_float(struct machine *m, struct machine_type type, double x);
+struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
+                                             double x);
 
-/* Numbers that processors know: NEWS coordinate, send address, row-major index; cut off to the width. */
+/* Numbers that processors know: NEWS coordinate, send address, row-major index; cut off to the
+ * width. */
 struct machine_value *machine_coordinate(struct machine *m, int axis, int width);
 struct machine_value *machine_self_address(struct machine *m, int width);
 struct machine_value *machine_self_index(struct machine *m, int width);
 
-/* Uniform on 0..limit-1 (limit 0: on all of 2^width); another draw at each call. A function of the seed, the
- * number of the draw and the row-major index alone, the same on every device: with mix() the finaliser of
- * splitmix64 and g = 0x9e3779b97f4a7c15, draw k (from 1) of index n is z = mix(mix(mix(seed) + k*g) + n*g), and
- * the result the high width bits of z, or (z >> 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of
- * z*limit. Wider than 64 bits: two draws, the low 64 bits first; with a limit the high part is 0. */
+/* Uniform on 0..limit-1 (limit 0: on all of 2^width); another draw at each call. A function of
+ * the seed, the number of the draw and the row-major index alone, the same on every device:
+ * with mix() the finaliser of splitmix64 and g = 0x9e3779b97f4a7c15, draw k (from 1) of index n
+ * is z = mix(mix(mix(seed) + k*g) + n*g), and the result the high width bits of z, or (z >>
+ * 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of z*limit. Wider than 64 bits:
+ * two draws, the low 64 bits first; with a limit the high part is 0. */
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 
@@ -221,7 +245,8 @@ enum machine_op {
     MACHINE_FCEIL,
     MACHINE_FTRUNC,
     MACHINE_FROUND, /* to nearest, halves to even */
-    /* float, float -> float; min is a < b ? a : b and max is a > b ? a : b: b where either is NaN */
+    /* float, float -> float; min is a < b ? a : b and max is a > b ? a : b: b where either is
+       NaN */
     MACHINE_FADD,
     MACHINE_FSUB,
     MACHINE_FMUL,
@@ -237,35 +262,44 @@ enum machine_op {
     MACHINE_FGE,
     MACHINE_OP_COUNT_PUBLIC
 };
-struct machine_value *machine_unary(struct machine *m, enum machine_op op, struct machine_value *a);
-struct machine_value *machine_binary(struct machine *m, enum machine_op op, struct machine_value *a,
-                                     struct machine_value *b);
+struct machine_value *machine_unary(struct machine *m, enum machine_op op,
+                                    struct machine_value *a);
+struct machine_value *machine_binary(struct machine *m, enum machine_op op,
+                                     struct machine_value *a, struct machine_value *b);
 /* condition ? a : b for each processor; a and b have one type. */
 struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
                                      struct machine_value *a, struct machine_value *b);
 
 /* Bits to bits of another width. */
-struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width, bool is_signed);
+struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width,
+                                     bool is_signed);
 /* The width bits of a that begin at offset. */
-struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset, int width);
+struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset,
+                                      int width);
 /* (high : low), low's width + high's width at most 128. */
-struct machine_value *machine_concat(struct machine *m, struct machine_value *low, struct machine_value *high);
+struct machine_value *machine_concat(struct machine *m, struct machine_value *low,
+                                     struct machine_value *high);
 /* The same bits with another type of the same width. */
-struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a, struct machine_type type);
+struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a,
+                                          struct machine_type type);
 /* Bits to float, rounded to nearest even; float to float. */
-struct machine_value *machine_to_float(struct machine *m, struct machine_value *a, struct machine_type type,
-                                       bool is_signed);
+struct machine_value *machine_to_float(struct machine *m, struct machine_value *a,
+                                       struct machine_type type, bool is_signed);
 /* Float to bits, toward zero; beyond the range the nearest end of it, NaN gives 0. */
-struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width, bool is_signed);
+struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width,
+                                      bool is_signed);
 
-/* Each processor has the value of the one whose coordinate on the axis is greater by distance (any sign); wraps
- * round. Take the operand EVERYWHERE. */
-struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis, int distance);
+/* Each processor has the value of the one whose coordinate on the axis is greater by distance
+ * (any sign); wraps round. Take the operand EVERYWHERE. */
+struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis,
+                                    int distance);
 
-/* The overflow flag of active processors becomes "op(a, b) does not fit"; recorded, and computed only if it is
- * ever looked at. op: ADD, SUB, MUL, NEG (b NULL) on bits; FADD, FSUB, FMUL, FDIV (infinite from finite). */
-enum machine_status machine_overflow_record(struct machine *m, enum machine_op op, bool is_signed,
-                                            struct machine_value *a, struct machine_value *b);
+/* The overflow flag of active processors becomes "op(a, b) does not fit"; recorded, and
+ * computed only if it is ever looked at. op: ADD, SUB, MUL, NEG (b NULL) on bits; FADD, FSUB,
+ * FMUL, FDIV (infinite from finite). */
+enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
+                                            bool is_signed, struct machine_value *a,
+                                            struct machine_value *b);
 
 /* ---- observation ---- */
 
@@ -282,25 +316,30 @@ enum machine_reduction {
     MACHINE_REDUCE_FMIN,
     MACHINE_REDUCE_FMAX
 };
-/* Over the active processors; the identity where none is (FMIN +inf, FMAX -inf, UMIN all ones, ...). The order of
- * float addition is fixed: in each run of up to 4096 along the last axis, sixteen partial sums by column mod 16
- * (columns counted from the run's start), each in column order from +0, inactive skipped; these are added
- * pairwise, i with i+8, then i+4, i+2, i+1; then the runs' sums, in row-major order of the runs, pairwise: while
- * more than one is left, sum 2i and 2i+1 become sum i, an odd last one stays as it is.
- * FMIN and FMAX go the same way, pass over NaNs, and of equal numbers (0 and -0) keep the one met first. */
-enum machine_status machine_reduce(struct machine *m, enum machine_reduction op, struct machine_value *value,
-                                   struct machine_scalar *out);
+/* Over the active processors; the identity where none is (FMIN +inf, FMAX -inf, UMIN all ones,
+ * ...). The order of float addition is fixed: in each run of up to 4096 along the last axis,
+ * sixteen partial sums by column mod 16 (columns counted from the run's start), each in column
+ * order from +0, inactive skipped; these are added pairwise, i with i+8, then i+4, i+2, i+1;
+ * then the runs' sums, in row-major order of the runs, pairwise: while more than one is left,
+ * sum 2i and 2i+1 become sum i, an odd last one stays as it is. FMIN and FMAX go the same way,
+ * pass over NaNs, and of equal numbers (0 and -0) keep the one met first. */
+enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
+                                   struct machine_value *value, struct machine_scalar *out);
 
-/* Whole fields, as dense row-major arrays. Shape: one element a processor: 1, 2, 4, 8 or 16 bytes (the smallest
- * that holds the width), host byte order, unused high bits 0. Upload ignores the context and copies at once. */
+/* Whole fields, as dense row-major arrays. Shape: one element a processor: 1, 2, 4, 8 or 16
+ * bytes (the smallest that holds the width), host byte order, unused high bits 0. Upload
+ * ignores the context and copies at once. */
 size_t machine_element_bytes(struct machine_type type);
-enum machine_status machine_field_download(struct machine *m, uint32_t field, struct machine_type type, void *out);
-enum machine_status machine_field_upload(struct machine *m, uint32_t field, struct machine_type type,
-                                         const void *in);
+enum machine_status machine_field_download(struct machine *m, uint32_t field,
+                                           struct machine_type type, void *out);
+enum machine_status machine_field_upload(struct machine *m, uint32_t field,
+                                         struct machine_type type, const void *in);
 /* One processor, by row-major index; writing ignores the context. */
-enum machine_status machine_field_read(struct machine *m, uint32_t field, struct machine_type type, uint64_t index,
+enum machine_status machine_field_read(struct machine *m, uint32_t field,
+                                       struct machine_type type, uint64_t index,
                                        struct machine_scalar *out);
-enum machine_status machine_field_write(struct machine *m, uint32_t field, struct machine_type type,
-                                        uint64_t index, struct machine_scalar value);
+enum machine_status machine_field_write(struct machine *m, uint32_t field,
+                                        struct machine_type type, uint64_t index,
+                                        struct machine_scalar value);
 
 #endif

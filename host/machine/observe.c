@@ -7,7 +7,9 @@
 
 #include "kernels.h"
 
-enum { REDUCE_RUN = 4096 }; /* columns: part of the order of float addition, see machine_reduce() */
+enum {
+    REDUCE_RUN = 4096
+}; /* columns: part of the order of float addition, see machine_reduce() */
 
 size_t machine_element_bytes(struct machine_type type)
 {
@@ -19,7 +21,8 @@ static size_t buffer_bytes(const struct vpset *s, struct machine_type type)
     return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
 }
 
-static enum machine_status wait_for(struct machine *m, cl_int error, double start, const char *what)
+static enum machine_status wait_for(struct machine *m, cl_int error, double start,
+                                    const char *what)
 {
     m->busy_s += machine_clock_s() - start;
     return device_check(m, error, what);
@@ -31,7 +34,8 @@ static size_t place(const struct vpset *s, uint64_t index)
     return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
 }
 
-static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type, const void *in)
+static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type,
+                                          const void *in)
 {
     const struct vpset *s = &m->sets[set];
     size_t element = type_bytes(type), bytes = buffer_bytes(s, type);
@@ -40,7 +44,8 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
     if (!b) {
         free(image);
         if (!m->status)
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a field of %zu bytes", bytes);
+            machine_fail(m, MACHINE_NO_MEMORY,
+                         "not enough memory to write a field of %zu bytes", bytes);
         return NULL;
     }
     size_t width = (size_t)s->width * element, halo = (size_t)s->halo * element;
@@ -51,7 +56,8 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
         memcpy(to + width, to, halo);
     }
     double start = machine_clock_s();
-    cl_int error = clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+    cl_int error =
+        clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
     free(image);
     if (wait_for(m, error, start, "writing a field")) {
         device_buffer_unref(m, b);
@@ -85,7 +91,8 @@ static struct machine_value *materialise(struct machine *m, int set, struct mach
         size_t element = type_bytes(v->type);
         unsigned char *all = malloc(s->count * element);
         if (!all) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for %llu numbers", (unsigned long long)s->count);
+            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for %llu numbers",
+                         (unsigned long long)s->count);
             return NULL;
         }
         for (uint64_t i = 0; i < s->count; i++)
@@ -99,22 +106,26 @@ static struct machine_value *materialise(struct machine *m, int set, struct mach
     return v;
 }
 
-static struct field *part(struct machine *m, uint32_t id, struct machine_type type, uint32_t *offset)
+static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
+                          uint32_t *offset)
 {
     struct field *f = field_find(m, id, offset);
     if (f && *offset + type.width > f->bits) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "%d bits from bit %u on run over the end of a field of %u bits",
+        machine_fail(m, MACHINE_BAD_ARGUMENT,
+                     "%d bits from bit %u on run over the end of a field of %u bits",
                      type.width, *offset, f->bits);
         return NULL;
     }
     return f;
 }
 
-enum machine_status machine_field_download(struct machine *m, uint32_t field, struct machine_type type, void *out)
+enum machine_status machine_field_download(struct machine *m, uint32_t field,
+                                           struct machine_type type, void *out)
 {
     uint32_t offset;
     struct field *f = part(m, field, type, &offset);
-    struct machine_value *v = f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    struct machine_value *v =
+        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
     if (!v)
         return m->status;
     const struct vpset *s = &m->sets[f->vpset];
@@ -131,10 +142,11 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field, st
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
     double start = machine_clock_s();
     cl_int error = s->pitch == (size_t)s->width
-                       ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0, s->count * element, out, 0,
-                                             NULL, NULL)
-                       : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from, to, region,
-                                                 s->pitch * element, 0, region[0], 0, out, 0, NULL, NULL);
+                       ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0,
+                                             s->count * element, out, 0, NULL, NULL)
+                       : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from,
+                                                 to, region, s->pitch * element, 0, region[0],
+                                                 0, out, 0, NULL, NULL);
     return wait_for(m, error, start, "reading a field");
 }
 
@@ -154,8 +166,8 @@ static void mask_elements(void *data, uint64_t count, struct machine_type type)
     }
 }
 
-enum machine_status machine_field_upload(struct machine *m, uint32_t field, struct machine_type type,
-                                         const void *in)
+enum machine_status machine_field_upload(struct machine *m, uint32_t field,
+                                         struct machine_type type, const void *in)
 {
     uint32_t offset;
     struct field *f = part(m, field, type, &offset);
@@ -164,7 +176,8 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field, stru
     size_t bytes = m->sets[f->vpset].count * type_bytes(type);
     void *copy = malloc(bytes);
     if (!copy)
-        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a field of %zu bytes", bytes);
+        return machine_fail(m, MACHINE_NO_MEMORY,
+                            "not enough memory to write a field of %zu bytes", bytes);
     memcpy(copy, in, bytes);
     mask_elements(copy, m->sets[f->vpset].count, type);
     struct machine_value *v = upload_value(m, f->vpset, type, copy);
@@ -172,7 +185,8 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field, stru
     return v ? machine_field_store(m, field, v, MACHINE_EVERYWHERE) : m->status;
 }
 
-enum machine_status machine_field_read(struct machine *m, uint32_t field, struct machine_type type, uint64_t index,
+enum machine_status machine_field_read(struct machine *m, uint32_t field,
+                                       struct machine_type type, uint64_t index,
                                        struct machine_scalar *out)
 {
     uint32_t offset;
@@ -180,7 +194,8 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field, struct
     if (!f)
         return m->status;
     if (index >= m->sets[f->vpset].count)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu", (unsigned long long)index);
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
+                            (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
     *out = (struct machine_scalar){0, 0};
     if (!v)
@@ -196,7 +211,8 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field, struct
     unsigned char raw[16] = {0};
     double start = machine_clock_s();
     cl_int error = clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
-                                       place(&m->sets[f->vpset], index) * element, element, raw, 0, NULL, NULL);
+                                       place(&m->sets[f->vpset], index) * element, element, raw,
+                                       0, NULL, NULL);
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
     return wait_for(m, error, start, "reading a processor");
@@ -209,7 +225,8 @@ static struct machine_value *own_copy(struct machine *m, int set, struct machine
     struct device_buffer *b = device_buffer_get(m, bytes);
     if (!b)
         return NULL;
-    cl_int error = clEnqueueCopyBuffer(m->device.queue, v->buffer->mem, b->mem, 0, 0, bytes, 0, NULL, NULL);
+    cl_int error = clEnqueueCopyBuffer(m->device.queue, v->buffer->mem, b->mem, 0, 0, bytes, 0,
+                                       NULL, NULL);
     if (device_check(m, error, "copying a field")) {
         device_buffer_unref(m, b);
         return NULL;
@@ -217,7 +234,8 @@ static struct machine_value *own_copy(struct machine *m, int set, struct machine
     return graph_buffer_node(m, v->type, set, b);
 }
 
-enum machine_status machine_field_write(struct machine *m, uint32_t field, struct machine_type type, uint64_t index,
+enum machine_status machine_field_write(struct machine *m, uint32_t field,
+                                        struct machine_type type, uint64_t index,
                                         struct machine_scalar value)
 {
     uint32_t offset;
@@ -226,12 +244,14 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field, struc
         return m->status;
     const struct vpset *s = &m->sets[f->vpset];
     if (index >= s->count)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu", (unsigned long long)index);
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
+                            (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
     v = v ? materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
-    /* In place where this field alone holds the buffer: the slot's reference, and those of this call. */
+    /* In place where this field alone holds the buffer: the slot's reference, and those of this
+     * call. */
     uint32_t held = 0;
     for (int i = 0; i < m->borrowed_count; i++)
         held += m->borrowed[i] == v;
@@ -253,8 +273,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field, struc
     double start = machine_clock_s();
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < count && !error; i++)
-        error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE, places[i] * element, element, raw, 0,
-                                     NULL, NULL);
+        error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
+                                     places[i] * element, element, raw, 0, NULL, NULL);
     if (wait_for(m, error, start, "writing a processor"))
         return m->status;
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
@@ -270,15 +290,21 @@ struct reduction_info {
 };
 
 static const struct reduction_info reductions[] = {
-    [MACHINE_REDUCE_AND] = {AND, false, false},       [MACHINE_REDUCE_OR] = {OR, false, false},
-    [MACHINE_REDUCE_XOR] = {XOR, false, false},       [MACHINE_REDUCE_ADD] = {ADD, false, false},
-    [MACHINE_REDUCE_UMIN] = {LEAST, false, false},    [MACHINE_REDUCE_UMAX] = {GREATEST, false, false},
-    [MACHINE_REDUCE_SMIN] = {LEAST, false, true},     [MACHINE_REDUCE_SMAX] = {GREATEST, false, true},
-    [MACHINE_REDUCE_FADD] = {ADD, true, false},       [MACHINE_REDUCE_FMIN] = {LEAST, true, false},
+    [MACHINE_REDUCE_AND] = {AND, false, false},
+    [MACHINE_REDUCE_OR] = {OR, false, false},
+    [MACHINE_REDUCE_XOR] = {XOR, false, false},
+    [MACHINE_REDUCE_ADD] = {ADD, false, false},
+    [MACHINE_REDUCE_UMIN] = {LEAST, false, false},
+    [MACHINE_REDUCE_UMAX] = {GREATEST, false, false},
+    [MACHINE_REDUCE_SMIN] = {LEAST, false, true},
+    [MACHINE_REDUCE_SMAX] = {GREATEST, false, true},
+    [MACHINE_REDUCE_FADD] = {ADD, true, false},
+    [MACHINE_REDUCE_FMIN] = {LEAST, true, false},
     [MACHINE_REDUCE_FMAX] = {GREATEST, true, false},
 };
 
-static struct machine_scalar identity_of(const struct reduction_info *info, struct machine_type type)
+static struct machine_scalar identity_of(const struct reduction_info *info,
+                                         struct machine_type type)
 {
     struct machine_scalar x = {0, 0};
     if (info->is_float && info->op != ADD) {
@@ -309,7 +335,8 @@ static double as_double(uint64_t bits)
 }
 
 #define COMBINE_FLOATS(type, from, to)                                                         \
-    static struct machine_scalar combine_##type(int op, struct machine_scalar a, struct machine_scalar b)            \
+    static struct machine_scalar combine_##type(int op, struct machine_scalar a,               \
+                                                struct machine_scalar b)                       \
     {                                                                                          \
         type x = from(a.lo), y = from(b.lo);                                                   \
         type r = op == ADD ? x + y : op == LEAST ? (y < x ? y : x) : (y > x ? y : x);          \
@@ -320,7 +347,8 @@ static double as_double(uint64_t bits)
 COMBINE_FLOATS(float, as_float, uint32_t)
 COMBINE_FLOATS(double, as_double, uint64_t)
 
-static struct machine_scalar combine_bits(int op, struct machine_scalar a, struct machine_scalar b)
+static struct machine_scalar combine_bits(int op, struct machine_scalar a,
+                                          struct machine_scalar b)
 {
     bool less = a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
     switch (op) {
@@ -347,15 +375,22 @@ static struct machine_scalar combine(int op, struct machine_type type, struct ma
     return type.width == 32 ? combine_float(op, a, b) : combine_double(op, a, b);
 }
 
-static enum machine_status reduce_buffer(struct machine *m, const struct vpset *s, struct machine_value *v, int op,
-                                         struct machine_scalar identity, struct machine_scalar *out)
+static enum machine_status reduce_buffer(struct machine *m, const struct vpset *s,
+                                         struct machine_value *v, int op,
+                                         struct machine_scalar identity,
+                                         struct machine_scalar *out)
 {
-    static const char *const elements[] = {[1] = "uchar", [2] = "ushort", [4] = "uint", [8] = "ulong"};
+    static const char *const elements[] = {
+        [1] = "uchar", [2] = "ushort", [4] = "uint", [8] = "ulong"};
     bool is_float = v->type.kind == MACHINE_FLOAT, wide = type_bytes(v->type) == 16;
     const char *real = v->type.width == 32 ? "float" : "double";
     char options[96];
-    snprintf(options, sizeof options, "-DKIND=%d -DOP=%d -DELEMENT=%s -DACC=%s", wide ? 2 : is_float, op,
-             is_float ? real : wide ? "ulong" : elements[type_bytes(v->type)], is_float ? real : "ulong");
+    snprintf(options, sizeof options, "-DKIND=%d -DOP=%d -DELEMENT=%s -DACC=%s",
+             wide ? 2 : is_float, op,
+             is_float ? real
+             : wide   ? "ulong"
+                      : elements[type_bytes(v->type)],
+             is_float ? real : "ulong");
     const char *parts[3] = {"", "", kernel_reduce_cl};
     cl_kernel kernel = device_kernel(m, parts, options, "reduce");
     size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
@@ -367,7 +402,8 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
         if (b)
             device_buffer_unref(m, b);
         free(raw);
-        return m->status ? m->status : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reduce");
+        return m->status ? m->status
+                         : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reduce");
     }
     cl_int fixed[4] = {s->width, (cl_int)s->pitch, s->halo, REDUCE_RUN};
     cl_uint at = 0;
@@ -383,11 +419,12 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     static const size_t one[2] = {1, 1};
     double start = machine_clock_s();
     if (!error)
-        error = clEnqueueNDRangeKernel(m->device.queue, kernel, 2, NULL, global, m->device.is_cpu ? one : NULL, 0,
-                                       NULL, NULL);
+        error = clEnqueueNDRangeKernel(m->device.queue, kernel, 2, NULL, global,
+                                       m->device.is_cpu ? one : NULL, 0, NULL, NULL);
     m->device.kernels_run++;
     if (!error)
-        error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0, count * element, raw, 0, NULL, NULL);
+        error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0, count * element, raw,
+                                    0, NULL, NULL);
     enum machine_status status = wait_for(m, error, start, "reducing");
     for (size_t i = 0; i < count && !status; i++) {
         sums[i] = (struct machine_scalar){0, 0};
@@ -409,15 +446,16 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     return status;
 }
 
-enum machine_status machine_reduce(struct machine *m, enum machine_reduction op, struct machine_value *value,
-                                   struct machine_scalar *out)
+enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
+                                   struct machine_value *value, struct machine_scalar *out)
 {
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s)
         return m->status;
     if ((unsigned)op >= sizeof reductions / sizeof *reductions ||
         reductions[op].is_float != (value->type.kind == MACHINE_FLOAT))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "this reduction does not take values of this type");
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "this reduction does not take values of this type");
     if (value->set && value->set != m->set_current)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
     const struct reduction_info *info = &reductions[op];

@@ -1,17 +1,22 @@
 /* plan.c - chooses what exists in memory, and what each neighbour computes again.
  *
- * Input: the values to evaluate and all they need, down to what is in memory. Between a value and a shift of it
- * there may be a *barrier*: the value is stored by one kernel and its neighbours' are loaded by a later one. Without
- * a barrier the neighbour's value is computed again, at an offset, in the same kernel. A value's *stage* is the
- * number of barriers before it; the stored values of one stage and VP set are one kernel.
+ * Input: the values to evaluate and all they need, down to what is in memory. Between a value
+ * and a shift of it there may be a *barrier*: the value is stored by one kernel and its
+ * neighbours' are loaded by a later one. Without a barrier the neighbour's value is computed
+ * again, at an offset, in the same kernel. A value's *stage* is the number of barriers before
+ * it; the stored values of one stage and VP set are one kernel.
  *
  *     water --shift--> ... flux ==barrier?== shift --> new water        stage 0 | stage 1
  *
  * The cost of a choice is estimated as
- *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch,  c = op_ns * operations, b = byte_ns * bytes
- * with operations counted for each (node, offset) pair that the kernel evaluates, and bytes for each array
- * that it reads or writes. The search begins with a barrier at every shift of a computed value, and takes
- * one after the other away if that is cheaper. Measured constants: device.c. */
+ *
+ *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch
+ *     c = op_ns * operations, b = byte_ns * bytes
+ *
+ * with operations counted for each (node, offset) pair that the kernel evaluates, and bytes for
+ * each array that it reads or writes. The search begins with a barrier at every shift of a
+ * computed value, and takes one after the other away if that is cheaper. Measured constants:
+ * device.c. */
 #include "internal.h"
 
 #include <math.h>
@@ -30,8 +35,8 @@ struct search {
     struct plan_graph *g;
     const struct vpset *sets;
     const struct device_shape *shape;
-    bool *barrier;   /* of shift nodes */
-    bool *light;     /* never stored: computed wherever it is needed */
+    bool *barrier; /* of shift nodes */
+    bool *light;   /* never stored: computed wherever it is needed */
     int *earliest;
     int *loaded; /* stamp: counted in this kernel's bytes already */
     struct visit *visits;
@@ -46,7 +51,11 @@ struct search {
 
 size_t type_bytes(struct machine_type type)
 {
-    return type.width <= 8 ? 1 : type.width <= 16 ? 2 : type.width <= 32 ? 4 : type.width <= 64 ? 8 : 16;
+    return type.width <= 8    ? 1
+           : type.width <= 16 ? 2
+           : type.width <= 32 ? 4
+           : type.width <= 64 ? 8
+                              : 16;
 }
 
 static int offset_moved(struct search *s, int from, int axis, int distance)
@@ -100,7 +109,8 @@ static void expand(struct search *s, int index, int offset, int stage)
     if (n->op == NODE_SHIFT) {
         const struct vpset *set = &s->sets[n->set];
         int moved = offset_moved(s, offset, n->axis, n->detail);
-        if (n->axis == set->rank - 1 && set->halo && abs(s->offsets[moved][n->axis]) > set->halo)
+        if (n->axis == set->rank - 1 && set->halo &&
+            abs(s->offsets[moved][n->axis]) > set->halo)
             s->too_much = true;
         expand(s, n->in[0], moved, stage);
         return;
@@ -140,8 +150,8 @@ static int assign(struct search *s)
                 in->stage = needed;
         }
     }
-    /* Now that all stages are known: who is needed by a later kernel is stored. First what neighbours load; then
-     * the rest, unless something else that is stored will do instead. */
+    /* Now that all stages are known: who is needed by a later kernel is stored. First what
+     * neighbours load; then the rest, unless something else that is stored will do instead. */
     for (int pass = 0; pass < 2; pass++)
         for (int i = g->count - 1; i >= 0; i--) {
             const struct plan_node *n = &g->nodes[i];
@@ -151,7 +161,8 @@ static int assign(struct search *s)
                 struct plan_node *in = &g->nodes[n->in[k]];
                 bool computed_anywhere =
                     in->leaf || in->constant || s->light[n->in[k]] || s->barrier[n->in[k]];
-                const struct plan_node *other = n->instead[k] >= 0 ? &g->nodes[n->instead[k]] : NULL;
+                const struct plan_node *other =
+                    n->instead[k] >= 0 ? &g->nodes[n->instead[k]] : NULL;
                 bool replaced = other && other->stored && other->stage < n->stage;
                 if (!computed_anywhere && n->stage > in->stage && !replaced)
                     in->stored = true;
@@ -184,7 +195,8 @@ static double cost(struct search *s)
             s->offsets_count = 1;
             s->operations = s->bytes = 0;
             for (int k = i; k < g->count; k++)
-                if (g->nodes[k].stored && g->nodes[k].stage == stage && g->nodes[k].set == set) {
+                if (g->nodes[k].stored && g->nodes[k].stage == stage &&
+                    g->nodes[k].set == set) {
                     s->bytes += (double)type_bytes(g->nodes[k].type);
                     s->operations += 1;
                     expand(s, k, 0, stage);
@@ -192,7 +204,8 @@ static double cost(struct search *s)
             if (s->too_much || s->visits_count > EVALUATIONS_MAX)
                 return s->first ? 1e300 : HUGE_VAL;
             double c = s->operations * s->shape->op_ns, b = s->bytes * s->shape->byte_ns;
-            total += (double)s->sets[set].count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
+            total += (double)s->sets[set].count * (fmax(c, b) + fmin(c, b) / 4) +
+                     s->shape->launch_ns;
         }
     }
     return total;
@@ -215,12 +228,14 @@ static void find_light(struct search *s, double *weight)
     }
 }
 
-/* Where select(c, x, old) is stored, x itself need not be for those who look at it only where c holds. Looked at
- * only where c holds is what is used only for the first branch of selects by c. */
+/* Where select(c, x, old) is stored, x itself need not be for those who look at it only where c
+ * holds. Looked at only where c holds is what is used only for the first branch of selects by
+ * c. */
 static void find_substitutes(struct plan_graph *g)
 {
     enum { UNSEEN = -1, EVERYWHERE = -2 };
-    int32_t *where = malloc((size_t)g->count * sizeof *where);   /* a node is looked at: the condition */
+    int32_t *where =
+        malloc((size_t)g->count * sizeof *where); /* a node is looked at: the condition */
     int32_t *select = malloc((size_t)g->count * sizeof *select); /* of a node: its select */
     INVARIANT(where && select);
     for (int i = 0; i < g->count; i++) {
@@ -245,7 +260,8 @@ static void find_substitutes(struct plan_graph *g)
         struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
             int32_t s = select[n->in[k]];
-            bool first = n->op == NODE_SELECT && k == 1; /* looked at where n's own condition holds */
+            bool first =
+                n->op == NODE_SELECT && k == 1; /* looked at where n's own condition holds */
             int32_t here = first && where[i] == EVERYWHERE ? n->in[0] : where[i];
             if (s >= 0 && s < i && g->nodes[s].in[0] == here)
                 n->instead[k] = s;
@@ -266,7 +282,8 @@ static int by_cost(const void *a, const void *b)
     return x->cost < y->cost ? -1 : x->cost > y->cost ? 1 : x->node - y->node;
 }
 
-/* Twice: tries each barrier that is left, and takes them away in the order of what that seemed to gain. */
+/* Twice: tries each barrier that is left, and takes them away in the order of what that seemed
+ * to gain. */
 static void descend(struct search *s, double best)
 {
     struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
@@ -294,7 +311,8 @@ static void descend(struct search *s, double best)
     free(gains);
 }
 
-void plan_choose(struct plan_graph *g, const struct vpset *sets, const struct device_shape *shape)
+void plan_choose(struct plan_graph *g, const struct vpset *sets,
+                 const struct device_shape *shape)
 {
     size_t count = (size_t)g->count;
     struct search s = {.g = g, .sets = sets, .shape = shape, .first = true};
@@ -308,7 +326,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets, const struct de
     s.visits = calloc(s.visits_size, sizeof *s.visits);
     s.offsets = calloc(OFFSETS_MAX, sizeof *s.offsets);
     double *weight = calloc(count, sizeof *weight);
-    INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets && weight);
+    INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets &&
+              weight);
     s.offsets_count = 1;
     find_light(&s, weight);
     for (int i = 0; i < g->count; i++)

@@ -1,16 +1,20 @@
 /* run.c - evaluation: what to compute, the plan for it, the launches.
  *
- * An evaluation has targets: the values asked for, and the content of every live field and flag that is not
+ * An evaluation has targets: the values asked for, and the content of every live field and flag
+ * that is not
  *  - in memory already, a number, or a cheap function of coordinates;
- *  - a temporary just now: a slot that was overwritten before it was read since the last evaluation, whose present
- *    value is shallow and all new. It stays an expression; most are overwritten again and never computed. If it, or
- *    something made of it, is still there at the next evaluation it is computed then.
+ *  - a temporary just now: a slot that was overwritten before it was read since the last
+ * evaluation, whose present value is shallow and all new. It stays an expression; most are
+ * overwritten again and never computed. If it, or something made of it, is still there at the
+ * next evaluation it is computed then.
  *
- * Plans are kept by signature: a number for each node that is reached, in the order in which it is reached; numbers'
- * values are no part of it. A step seen before is a walk over its nodes, a look-up, and its launches.
+ * Plans are kept by signature: a number for each node that is reached, in the order in which it
+ * is reached; numbers' values are no part of it. A step seen before is a walk over its nodes, a
+ * look-up, and its launches.
  *
- * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from then on whenever
- * the trace of stores comes to the same place as then: once for each turn of a loop, always at the same point. */
+ * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from
+ * then on whenever the trace of stores comes to the same place as then: once for each turn of a
+ * loop, always at the same point. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -28,7 +32,9 @@ enum {
     RUN_COLUMNS = 4096
 };
 
-#define TRACE_FACTOR 0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power */
+#define TRACE_FACTOR                                                                           \
+    0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power   \
+                                          */
 
 struct launch {
     cl_kernel kernel;
@@ -184,7 +190,8 @@ void run_finish(struct machine *m)
     free(m->plans);
 }
 
-static void dump_text(struct machine *m, int number, const char *suffix, const char *options, const char *text)
+static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
+                      const char *text)
 {
     char path[600];
     mkdir(m->dump_dir, 0777);
@@ -215,14 +222,25 @@ static void dump_graph(struct machine *m, int number, const struct plan_graph *g
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
             fprintf(f, " %d", n->in[k]);
         if (!n->leaf && !n->constant)
-            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "", n->target ? ", asked for" : "");
+            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "",
+                    n->target ? ", asked for" : "");
         fprintf(f, "\n");
     }
     fclose(f);
 }
 
-static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g, const int *stores,
-                        int stores_count)
+/* What a device is sure to take: 1024 bytes. Reserved: the fixed arguments and lengths of axes.
+ */
+static bool too_many_arguments(const struct kernel_text *k)
+{
+    size_t bytes = (5 + MACHINE_AXES_MAX) * sizeof(cl_int);
+    for (int i = 0; i < k->arguments_count; i++)
+        bytes += k->arguments[i].size ? k->arguments[i].size : sizeof(cl_mem);
+    return bytes > 1024;
+}
+
+static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
+                        const int *stores, int stores_count)
 {
     int set = g->nodes[stores[0]].set;
     struct kernel_text k;
@@ -230,9 +248,16 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
         return false;
     }
+    if (stores_count > 1 && too_many_arguments(&k)) { /* two kernels, each with what it needs */
+        int half = stores_count / 2;
+        kernel_text_finish(&k);
+        return plan_kernel(m, p, g, stores, half) &&
+               plan_kernel(m, p, g, stores + half, stores_count - half);
+    }
     if (m->dump_dir)
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
-    struct launch *launches = realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
+    struct launch *launches =
+        realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
     const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
     if (launches)
@@ -253,7 +278,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
 
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t)
 {
-    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes), .count = r->count};
+    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes),
+                           .count = r->count};
     struct plan *p = calloc(1, sizeof *p);
     int *stores = calloc((size_t)r->count, sizeof *stores);
     bool good = g.nodes && p && stores;
@@ -295,9 +321,7 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
                     stores[count++] = i;
                     p->stored[p->stored_count++] = i;
                 }
-            /* few enough arguments for any device */
-            for (int at = 0; good && at < count; at += 24)
-                good = plan_kernel(m, p, &g, stores + at, count - at < 24 ? count - at : 24);
+            good = count == 0 || plan_kernel(m, p, &g, stores, count);
         }
     free(g.nodes);
     free(stores);
@@ -360,8 +384,8 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
-static enum machine_status launch(struct machine *m, const struct launch *l, const struct reach *r,
-                                  struct device_buffer *const *fresh)
+static enum machine_status launch(struct machine *m, const struct launch *l,
+                                  const struct reach *r, struct device_buffer *const *fresh)
 {
     const struct vpset *s = &m->sets[l->set];
     cl_int run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
@@ -384,13 +408,14 @@ static enum machine_status launch(struct machine *m, const struct launch *l, con
     }
     size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
     static const size_t one[2] = {1, 1};
-    error |= clEnqueueNDRangeKernel(m->device.queue, l->kernel, 2, NULL, global, m->device.is_cpu ? one : NULL, 0,
-                                    NULL, NULL);
+    error |= clEnqueueNDRangeKernel(m->device.queue, l->kernel, 2, NULL, global,
+                                    m->device.is_cpu ? one : NULL, 0, NULL, NULL);
     m->device.kernels_run++;
     return device_check(m, error, "a kernel cannot be started");
 }
 
-static enum machine_status execute(struct machine *m, const struct plan *p, const struct reach *r)
+static enum machine_status execute(struct machine *m, const struct plan *p,
+                                   const struct reach *r)
 {
     enum machine_status status = MACHINE_OK;
     struct device_buffer **fresh = calloc((size_t)r->count, sizeof *fresh);
@@ -424,7 +449,8 @@ static enum machine_status execute(struct machine *m, const struct plan *p, cons
     return status;
 }
 
-enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count, bool all)
+enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
+                                 bool all)
 {
     struct targets t = {0};
     struct reach r = {0};
@@ -474,14 +500,16 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     m->stores++;
     if (m->eager)
         return run_evaluate(m, NULL, 0, true);
-    /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they went. */
+    /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they
+     * went. */
     uint64_t what = ((uint64_t)v->op << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
     const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
     what = (what * 64 + (in ? in->op : 0)) * 0x9e3779b97f4a7c15u;
     uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
     m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
     *oldest = what;
-    bool again = m->flush_hash && m->trace_hash == m->flush_hash && m->nodes_pending >= PENDING_AGAIN;
+    bool again =
+        m->flush_hash && m->trace_hash == m->flush_hash && m->nodes_pending >= PENDING_AGAIN;
     bool many = m->nodes_pending >= (m->flush_hash ? PENDING_MOST : PENDING_MANY);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;

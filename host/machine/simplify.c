@@ -1,34 +1,39 @@
 /* simplify.c - makes values, and keeps the graph small while it does.
  *
- * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never rearranged. No rule looks at
- * the value of a number other than a bit's 0 or 1 (and widths of 128 at most fold where all operands are
- * numbers), so that a program with other constants has the same graph and the same kernels.
+ * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never
+ * rearranged. No rule looks at the value of a number other than a bit's 0 or 1 (and widths of
+ * 128 at most fold where all operands are numbers), so that a program with other constants has
+ * the same graph and the same kernels.
  *
  * The rules that matter: a store under context c is select(c, new, old), and
  *     select(c, new, select(c, x, old))       = select(c, new, old)
  *     select(c & t, new, select(c, x, old))   = select(c, select(t, new, x), old)
  *     x, asked for where c holds only         = x with each select(c, a, b) in it replaced by a
- * so what is overwritten under the same context is gone, and a test that was stored under c and is and-ed into c
- * forgets that it was. */
+ * so what is overwritten under the same context is gone, and a test that was stored under c and
+ * is and-ed into c forgets that it was. */
 #include "internal.h"
 
 #include <string.h>
 
 #define PUBLIC_OPS                                                                             \
-    X(NOT, 1, 1, 0) X(NEG, 1, 2, 0) X(AND, 2, 1, 0) X(OR, 2, 1, 0) X(XOR, 2, 1, 0)             \
-    X(ADD, 2, 2, 0) X(SUB, 2, 2, 0) X(MUL, 2, 3, 0) X(UMIN, 2, 2, 0) X(UMAX, 2, 2, 0)          \
-    X(SMIN, 2, 3, 0) X(SMAX, 2, 3, 0) X(EQ, 2, 1, 0) X(NE, 2, 1, 0) X(ULT, 2, 1, 0)            \
-    X(ULE, 2, 1, 0) X(SLT, 2, 2, 0) X(SLE, 2, 2, 0) X(FNEG, 1, 1, 1) X(FABS, 1, 1, 1)          \
-    X(FSQRT, 1, 8, 1) X(FFLOOR, 1, 2, 1) X(FCEIL, 1, 2, 1) X(FTRUNC, 1, 2, 1)                  \
-    X(FROUND, 1, 2, 1) X(FADD, 2, 1, 1) X(FSUB, 2, 1, 1) X(FMUL, 2, 1, 1) X(FDIV, 2, 6, 1)     \
-    X(FMIN, 2, 1, 1) X(FMAX, 2, 1, 1) X(FEQ, 2, 1, 0) X(FNE, 2, 1, 0) X(FLT, 2, 1, 0)          \
-    X(FLE, 2, 1, 0) X(FGT, 2, 1, 0) X(FGE, 2, 1, 0)
+    X(NOT, 1, 1, 0)                                                                            \
+    X(NEG, 1, 2, 0)                                                                            \
+    X(AND, 2, 1, 0)                                                                            \
+    X(OR, 2, 1, 0)                                                                             \
+    X(XOR, 2, 1, 0) X(ADD, 2, 2, 0) X(SUB, 2, 2, 0) X(MUL, 2, 3, 0) X(UMIN, 2, 2, 0)           \
+        X(UMAX, 2, 2, 0) X(SMIN, 2, 3, 0) X(SMAX, 2, 3, 0) X(EQ, 2, 1, 0) X(NE, 2, 1, 0)       \
+            X(ULT, 2, 1, 0) X(ULE, 2, 1, 0) X(SLT, 2, 2, 0) X(SLE, 2, 2, 0) X(FNEG, 1, 1, 1)   \
+                X(FABS, 1, 1, 1) X(FSQRT, 1, 8, 1) X(FFLOOR, 1, 2, 1) X(FCEIL, 1, 2, 1)        \
+                    X(FTRUNC, 1, 2, 1) X(FROUND, 1, 2, 1) X(FADD, 2, 1, 1) X(FSUB, 2, 1, 1)    \
+                        X(FMUL, 2, 1, 1) X(FDIV, 2, 6, 1) X(FMIN, 2, 1, 1) X(FMAX, 2, 1, 1)    \
+                            X(FEQ, 2, 1, 0) X(FNE, 2, 1, 0) X(FLT, 2, 1, 0) X(FLE, 2, 1, 0)    \
+                                X(FGT, 2, 1, 0) X(FGE, 2, 1, 0)
 
 const struct node_op_info node_ops[NODE_OP_COUNT] = {
 #define X(op, inputs, cost, nan) [MACHINE_##op] = {#op, inputs, cost, nan},
     PUBLIC_OPS
 #undef X
-    [NODE_CONSTANT] = {"constant", 0, 0, 0},
+        [NODE_CONSTANT] = {"constant", 0, 0, 0},
     [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
     [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
     [NODE_INDEX] = {"index", 0, 4, 0},
@@ -100,9 +105,11 @@ static struct machine_scalar narrow(unsigned __int128 x)
     return (struct machine_scalar){(uint64_t)x, (uint64_t)(x >> 64)};
 }
 
-static struct machine_value *number(struct machine *m, struct machine_type type, struct machine_scalar x)
+static struct machine_value *number(struct machine *m, struct machine_type type,
+                                    struct machine_scalar x)
 {
-    struct machine_value key = {.op = NODE_CONSTANT, .type = type, .imm = cut_to(x, type.width)};
+    struct machine_value key = {
+        .op = NODE_CONSTANT, .type = type, .imm = cut_to(x, type.width)};
     return graph_node(m, &key);
 }
 
@@ -126,14 +133,17 @@ static bool is_one_bit(const struct machine_value *v)
     return is_number(v) && v->type.width == 1 && v->imm.lo == 1;
 }
 
-struct machine_value *machine_constant(struct machine *m, struct machine_type type, struct machine_scalar bits)
+struct machine_value *machine_constant(struct machine *m, struct machine_type type,
+                                       struct machine_scalar bits)
 {
-    if (!bits_type_ok(type.width) || (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64))
+    if (!bits_type_ok(type.width) ||
+        (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64))
         return bad(m, "a value's width must be 1..128 bits, a float's 32 or 64");
     return number(m, type, bits);
 }
 
-struct machine_value *machine_constant_float(struct machine *m, struct machine_type type, double x)
+struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
+                                             double x)
 {
     struct machine_scalar bits = {0, 0};
     if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64))
@@ -164,10 +174,12 @@ static int joint_set(struct machine *m, struct machine_value *const *in, int cou
     return set ? set : m->set_current;
 }
 
-static struct machine_value *build(struct machine *m, int op, struct machine_type type, int detail,
-                                   struct machine_value *a, struct machine_value *b, struct machine_value *c)
+static struct machine_value *build(struct machine *m, int op, struct machine_type type,
+                                   int detail, struct machine_value *a, struct machine_value *b,
+                                   struct machine_value *c)
 {
-    struct machine_value key = {.op = (uint8_t)op, .type = type, .detail = detail, .in = {a, b, c}};
+    struct machine_value key = {
+        .op = (uint8_t)op, .type = type, .detail = detail, .in = {a, b, c}};
     int set = joint_set(m, key.in, node_ops[op].inputs);
     if (set < 0)
         return bad(m, "operands belong to different VP sets");
@@ -191,7 +203,8 @@ enum { DEPTH = 12 };
 
 static struct machine_value *bit_not(struct machine *m, struct machine_value *a);
 
-static struct machine_value *bit_and(struct machine *m, struct machine_value *a, struct machine_value *b)
+static struct machine_value *bit_and(struct machine *m, struct machine_value *a,
+                                     struct machine_value *b)
 {
     if (is_zero_bit(a) || is_one_bit(b))
         return a;
@@ -211,7 +224,8 @@ static struct machine_value *bit_and(struct machine *m, struct machine_value *a,
     return build(m, MACHINE_AND, bit_type, 0, a, b, NULL);
 }
 
-static struct machine_value *bit_or(struct machine *m, struct machine_value *a, struct machine_value *b)
+static struct machine_value *bit_or(struct machine *m, struct machine_value *a,
+                                    struct machine_value *b)
 {
     if (is_one_bit(a) || is_zero_bit(b))
         return a;
@@ -234,8 +248,8 @@ static struct machine_value *bit_not(struct machine *m, struct machine_value *a)
 }
 
 /* c, knowing that known holds; NULL: nothing is left to ask. */
-static struct machine_value *residual(struct machine *m, struct machine_value *c, struct machine_value *known,
-                                      int depth)
+static struct machine_value *residual(struct machine *m, struct machine_value *c,
+                                      struct machine_value *known, int depth)
 {
     if (c == known || implies(known, c, DEPTH))
         return NULL;
@@ -249,8 +263,8 @@ static struct machine_value *residual(struct machine *m, struct machine_value *c
     return c;
 }
 
-static struct machine_value *select_of(struct machine *m, struct machine_value *c, struct machine_value *a,
-                                       struct machine_value *b)
+static struct machine_value *select_of(struct machine *m, struct machine_value *c,
+                                       struct machine_value *a, struct machine_value *b)
 {
     for (;;) {
         if (a == b || is_one_bit(c))
@@ -281,10 +295,10 @@ static struct machine_value *select_of(struct machine *m, struct machine_value *
 }
 
 /* v, for somebody who looks at it only where context holds. */
-struct machine_value *simplify_under(struct machine *m, struct machine_value *v, struct machine_value *context,
-                                     int depth)
+struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
+                                     struct machine_value *context, int depth)
 {
-    if (depth <= 0 || node_is_leaf(v) || is_number(context))
+    if (depth <= 0 || node_is_leaf(v) || is_number(context) || m->simplify_budget-- <= 0)
         return v;
     if (v->op == NODE_SELECT) {
         struct machine_value *c = residual(m, v->in[0], context, DEPTH);
@@ -352,7 +366,8 @@ static bool fold_bits(enum machine_op op, int width, unsigned __int128 a, unsign
     }
 }
 
-struct machine_value *machine_unary(struct machine *m, enum machine_op op, struct machine_value *a)
+struct machine_value *machine_unary(struct machine *m, enum machine_op op,
+                                    struct machine_value *a)
 {
     if (!a)
         return NULL;
@@ -370,8 +385,8 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op, struc
     return build(m, (int)op, a->type, 0, a, NULL, NULL);
 }
 
-struct machine_value *machine_binary(struct machine *m, enum machine_op op, struct machine_value *a,
-                                     struct machine_value *b)
+struct machine_value *machine_binary(struct machine *m, enum machine_op op,
+                                     struct machine_value *a, struct machine_value *b)
 {
     if (!a || !b)
         return NULL;
@@ -436,7 +451,8 @@ struct machine_value *node_overflow(struct machine *m, enum node_op op, struct m
 
 /* ---- other shapes of the same bits ---- */
 
-struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a, struct machine_type type)
+struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a,
+                                          struct machine_type type)
 {
     if (!a)
         return NULL;
@@ -456,7 +472,8 @@ static struct machine_value *as_bits(struct machine *m, struct machine_value *a)
     return machine_reinterpret(m, a, MACHINE_UINT(a->type.width));
 }
 
-struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width, bool is_signed)
+struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width,
+                                     bool is_signed)
 {
     if (!a)
         return NULL;
@@ -472,10 +489,12 @@ struct machine_value *machine_resize(struct machine *m, struct machine_value *a,
             x |= ~(unsigned __int128)0 << (a->type.width - 1);
         return number(m, MACHINE_UINT(width), narrow(x));
     }
-    return build(m, is_signed ? NODE_SIGN_EXTEND : NODE_ZERO_EXTEND, MACHINE_UINT(width), 0, a, NULL, NULL);
+    return build(m, is_signed ? NODE_SIGN_EXTEND : NODE_ZERO_EXTEND, MACHINE_UINT(width), 0, a,
+                 NULL, NULL);
 }
 
-struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset, int width)
+struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset,
+                                      int width)
 {
     if (!a)
         return NULL;
@@ -501,7 +520,8 @@ struct machine_value *machine_extract(struct machine *m, struct machine_value *a
     return build(m, NODE_EXTRACT, MACHINE_UINT(width), offset, a, NULL, NULL);
 }
 
-struct machine_value *machine_concat(struct machine *m, struct machine_value *low, struct machine_value *high)
+struct machine_value *machine_concat(struct machine *m, struct machine_value *low,
+                                     struct machine_value *high)
 {
     if (!low || !high)
         return NULL;
@@ -511,15 +531,16 @@ struct machine_value *machine_concat(struct machine *m, struct machine_value *lo
     low = as_bits(m, low);
     high = as_bits(m, high);
     if (is_number(low) && is_number(high))
-        return number(m, MACHINE_UINT(width), narrow(wide(high->imm) << low->type.width | wide(low->imm)));
+        return number(m, MACHINE_UINT(width),
+                      narrow(wide(high->imm) << low->type.width | wide(low->imm)));
     if (!low->buffer && !high->buffer && low->op == NODE_EXTRACT && high->op == NODE_EXTRACT &&
         low->in[0] == high->in[0] && low->detail + low->type.width == high->detail)
         return machine_extract(m, low->in[0], low->detail, width);
     return build(m, NODE_CONCAT, MACHINE_UINT(width), 0, low, high, NULL);
 }
 
-struct machine_value *machine_to_float(struct machine *m, struct machine_value *a, struct machine_type type,
-                                       bool is_signed)
+struct machine_value *machine_to_float(struct machine *m, struct machine_value *a,
+                                       struct machine_type type, bool is_signed)
 {
     if (!a)
         return NULL;
@@ -527,22 +548,27 @@ struct machine_value *machine_to_float(struct machine *m, struct machine_value *
         return bad(m, "a float is 32 or 64 bits");
     if (type_equal(a->type, type))
         return a;
-    int op = a->type.kind == MACHINE_FLOAT ? NODE_F_TO_F : is_signed ? NODE_S_TO_F : NODE_U_TO_F;
+    int op = a->type.kind == MACHINE_FLOAT ? NODE_F_TO_F
+             : is_signed                   ? NODE_S_TO_F
+                                           : NODE_U_TO_F;
     return build(m, op, type, 0, a, NULL, NULL);
 }
 
-struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width, bool is_signed)
+struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width,
+                                      bool is_signed)
 {
     if (!a)
         return NULL;
     if (a->type.kind != MACHINE_FLOAT || !bits_type_ok(width))
         return bad(m, "a float becomes 1..128 bits");
-    return build(m, is_signed ? NODE_F_TO_S : NODE_F_TO_U, MACHINE_UINT(width), 0, a, NULL, NULL);
+    return build(m, is_signed ? NODE_F_TO_S : NODE_F_TO_U, MACHINE_UINT(width), 0, a, NULL,
+                 NULL);
 }
 
 /* ---- where processors are ---- */
 
-struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis, int distance)
+struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis,
+                                    int distance)
 {
     if (!a)
         return NULL;
@@ -577,8 +603,8 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
     return graph_node(m, &key);
 }
 
-static struct machine_value *generated(struct machine *m, int op, int axis, int detail, int width,
-                                       struct machine_scalar imm)
+static struct machine_value *generated(struct machine *m, int op, int axis, int detail,
+                                       int width, struct machine_scalar imm)
 {
     const struct vpset *s = vpset_get(m, m->set_current);
     if (!s)
@@ -628,12 +654,16 @@ struct machine_value *machine_random(struct machine *m, int width, uint64_t limi
 {
     if (width > 64) {
         struct machine_value *low = machine_random(m, 64, limit);
-        struct machine_value *high = limit ? number(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
-                                           : machine_random(m, width - 64, 0);
+        struct machine_value *high =
+            limit ? number(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
+                  : machine_random(m, width - 64, 0);
         return machine_concat(m, low, high);
     }
     uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
     int fits32 = limit != 0 && limit <= UINT32_MAX;
-    return generated(m, NODE_RANDOM, 0, limit == 0 ? 0 : fits32 ? 1 : 2, width,
-                     (struct machine_scalar){key, limit});
+    return generated(m, NODE_RANDOM, 0,
+                     limit == 0 ? 0
+                     : fits32   ? 1
+                                : 2,
+                     width, (struct machine_scalar){key, limit});
 }

@@ -1,2 +1,0 @@
-#include "bench.h"
-int main(int c,char**v){return bench_diffusion_main(c,v);}

@@ -1,0 +1,32 @@
+/* spell.h - operations in the words of kernels/prelude.cl and wide.cl. */
+#ifndef LUTETIA_MACHINE_SPELL_H
+#define LUTETIA_MACHINE_SPELL_H
+
+#include "internal.h"
+
+/* The vector type that holds values of a type: "VI", "VU", "VL", "VQ", "VF", "VD"; and its
+ * letter. */
+const char *spell_container(struct machine_type t);
+char spell_letter(struct machine_type t);
+
+/* Each writes an expression to out. Operands are names or expressions in parentheses. */
+
+/* Bits of type, zero-extended or cut to the container with the letter want (U, L, Q). */
+void spell_widened(char *out, size_t size, const char *from, struct machine_type type,
+                   char want);
+/* All but the low width bits cleared. */
+void spell_cut(char *out, size_t size, const char *from, int width);
+/* MACHINE_AND .. MACHINE_SLE on two operands of type t. */
+void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a,
+                       const char *b);
+/* MACHINE_FNEG .. MACHINE_FGE. */
+void spell_float(char *out, size_t size, int op, struct machine_type t, const char *a,
+                 const char *b);
+/* NODE_OVERFLOW_*. */
+void spell_overflow(char *out, size_t size, int op, struct machine_type t, const char *a,
+                    const char *b);
+/* Extensions, extraction, conversions, reinterpretation: node n of an operand of type from. */
+void spell_conversion(char *out, size_t size, const struct plan_node *n,
+                      struct machine_type from, const char *a);
+
+#endif
