@@ -15,25 +15,46 @@
 
 #include <string.h>
 
-#define PUBLIC_OPS                                                                             \
-    X(NOT, 1, 1, 0)                                                                            \
-    X(NEG, 1, 2, 0)                                                                            \
-    X(AND, 2, 1, 0)                                                                            \
-    X(OR, 2, 1, 0)                                                                             \
-    X(XOR, 2, 1, 0) X(ADD, 2, 2, 0) X(SUB, 2, 2, 0) X(MUL, 2, 3, 0) X(UMIN, 2, 2, 0)           \
-        X(UMAX, 2, 2, 0) X(SMIN, 2, 3, 0) X(SMAX, 2, 3, 0) X(EQ, 2, 1, 0) X(NE, 2, 1, 0)       \
-            X(ULT, 2, 1, 0) X(ULE, 2, 1, 0) X(SLT, 2, 2, 0) X(SLE, 2, 2, 0) X(FNEG, 1, 1, 1)   \
-                X(FABS, 1, 1, 1) X(FSQRT, 1, 8, 1) X(FFLOOR, 1, 2, 1) X(FCEIL, 1, 2, 1)        \
-                    X(FTRUNC, 1, 2, 1) X(FROUND, 1, 2, 1) X(FADD, 2, 1, 1) X(FSUB, 2, 1, 1)    \
-                        X(FMUL, 2, 1, 1) X(FDIV, 2, 6, 1) X(FMIN, 2, 1, 1) X(FMAX, 2, 1, 1)    \
-                            X(FEQ, 2, 1, 0) X(FNE, 2, 1, 0) X(FLT, 2, 1, 0) X(FLE, 2, 1, 0)    \
-                                X(FGT, 2, 1, 0) X(FGE, 2, 1, 0)
-
+/* name, operands, cost, may be a NaN */
 const struct node_op_info node_ops[NODE_OP_COUNT] = {
-#define X(op, inputs, cost, nan) [MACHINE_##op] = {#op, inputs, cost, nan},
-    PUBLIC_OPS
-#undef X
-        [NODE_CONSTANT] = {"constant", 0, 0, 0},
+    [MACHINE_NOT] = {"NOT", 1, 1, 0},
+    [MACHINE_NEG] = {"NEG", 1, 2, 0},
+    [MACHINE_AND] = {"AND", 2, 1, 0},
+    [MACHINE_OR] = {"OR", 2, 1, 0},
+    [MACHINE_XOR] = {"XOR", 2, 1, 0},
+    [MACHINE_ADD] = {"ADD", 2, 2, 0},
+    [MACHINE_SUB] = {"SUB", 2, 2, 0},
+    [MACHINE_MUL] = {"MUL", 2, 3, 0},
+    [MACHINE_UMIN] = {"UMIN", 2, 2, 0},
+    [MACHINE_UMAX] = {"UMAX", 2, 2, 0},
+    [MACHINE_SMIN] = {"SMIN", 2, 3, 0},
+    [MACHINE_SMAX] = {"SMAX", 2, 3, 0},
+    [MACHINE_EQ] = {"EQ", 2, 1, 0},
+    [MACHINE_NE] = {"NE", 2, 1, 0},
+    [MACHINE_ULT] = {"ULT", 2, 1, 0},
+    [MACHINE_ULE] = {"ULE", 2, 1, 0},
+    [MACHINE_SLT] = {"SLT", 2, 2, 0},
+    [MACHINE_SLE] = {"SLE", 2, 2, 0},
+    [MACHINE_FNEG] = {"FNEG", 1, 1, 1},
+    [MACHINE_FABS] = {"FABS", 1, 1, 1},
+    [MACHINE_FSQRT] = {"FSQRT", 1, 8, 1},
+    [MACHINE_FFLOOR] = {"FFLOOR", 1, 2, 1},
+    [MACHINE_FCEIL] = {"FCEIL", 1, 2, 1},
+    [MACHINE_FTRUNC] = {"FTRUNC", 1, 2, 1},
+    [MACHINE_FROUND] = {"FROUND", 1, 2, 1},
+    [MACHINE_FADD] = {"FADD", 2, 1, 1},
+    [MACHINE_FSUB] = {"FSUB", 2, 1, 1},
+    [MACHINE_FMUL] = {"FMUL", 2, 1, 1},
+    [MACHINE_FDIV] = {"FDIV", 2, 6, 1},
+    [MACHINE_FMIN] = {"FMIN", 2, 1, 1},
+    [MACHINE_FMAX] = {"FMAX", 2, 1, 1},
+    [MACHINE_FEQ] = {"FEQ", 2, 1, 0},
+    [MACHINE_FNE] = {"FNE", 2, 1, 0},
+    [MACHINE_FLT] = {"FLT", 2, 1, 0},
+    [MACHINE_FLE] = {"FLE", 2, 1, 0},
+    [MACHINE_FGT] = {"FGT", 2, 1, 0},
+    [MACHINE_FGE] = {"FGE", 2, 1, 0},
+    [NODE_CONSTANT] = {"constant", 0, 0, 0},
     [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
     [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
     [NODE_INDEX] = {"index", 0, 4, 0},
