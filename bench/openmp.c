@@ -92,7 +92,7 @@ static inline float moved(float amount, float in, float out)
     return t > 0.0f ? t : 0.0f;
 }
 
-/* What flows into fibers x0..x1-1 of a row from those step before them, and the new water, which
+/* What flows into fibers x0..x1-1 of a row from those step before, and the new water, which
  * the pigments' flows need. below: the water's flow out of each; NULL: out of each flows what
  * flows into the next of the row, and that is computed again. */
 static inline __attribute__((always_inline)) void

@@ -104,6 +104,27 @@ inline VU column(int x, int W)
 #define LOAD_f32(p, i) GET(float, p, i)
 #define LOAD_f64(p, i) GET(double, p, i)
 
+/* Past the caches: where arrays are larger than those, and every vector is aligned. */
+#ifdef __has_builtin
+#if STREAMS && VECTOR > 1 && __has_builtin(__builtin_nontemporal_store)
+#define STREAM(type, p, i, v) __builtin_nontemporal_store(v, (__global type *)((p) + (i)))
+#define PASS_u32(p, i, v) STREAM(VU, p, i, v)
+#define PASS_u64(p, i, v) STREAM(VL, p, i, v)
+#define PASS_f32(p, i, v) STREAM(VF, p, i, v)
+#define PASS_f64(p, i, v) STREAM(VD, p, i, v)
+#endif
+#endif
+#ifndef PASS_u32
+#define PASS_u32 OUT_u32
+#define PASS_u64 OUT_u64
+#define PASS_f32 OUT_f32
+#define PASS_f64 OUT_f64
+#endif
+#define PASS_bit OUT_bit
+#define PASS_u8 OUT_u8
+#define PASS_u16 OUT_u16
+#define PASS_u128 OUT_u128
+
 #define OUT_bit(p, i, v) PUT(p, i, CONVERT(uchar, (v)&1))
 #define OUT_u8(p, i, v) PUT(p, i, CONVERT(uchar, v))
 #define OUT_u16(p, i, v) PUT(p, i, CONVERT(ushort, v))
@@ -126,7 +147,7 @@ inline VU column(int x, int W)
 #else /* VECTOR == HALO: the first vector is the right halo, the last one the left */
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
-        OUT_##kind(p, x, v);                                                                   \
+        PASS_##kind(p, x, v);                                                                  \
         if (x == 0)                                                                            \
             OUT_##kind(p, W, v);                                                               \
         if (x == W - VECTOR)                                                                   \

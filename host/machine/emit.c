@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { STREAM_BYTES = 48 << 20 };
+
 struct text {
     char *data;
     size_t length, capacity;
@@ -497,6 +499,17 @@ void kernel_text_finish(struct kernel_text *k)
     memset(k, 0, sizeof *k);
 }
 
+/* Stores that pass the caches by pay where the arrays do not fit anyway. */
+static bool streams(const struct emitter *e, int vector)
+{
+    double bytes = 0;
+    for (int i = 0; i < e->arguments_count; i++)
+        if (e->arguments[i].kind == ARGUMENT_INPUT || e->arguments[i].kind == ARGUMENT_OUTPUT)
+            bytes += (double)(e->set->pitch * e->set->rows) *
+                     (double)type_bytes(e->g->nodes[e->arguments[i].node].type);
+    return vector > 1 && e->set->width % vector == 0 && bytes > (double)STREAM_BYTES;
+}
+
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out)
@@ -558,8 +571,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->arguments_count = e->arguments_count;
     out->ops = e->ops;
     out->loads = e->loads;
-    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d", out->vector,
-             set->halo, wraps ? 1 : 0);
+    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
+             out->vector, set->halo, wraps ? 1 : 0, streams(e, out->vector) ? 1 : 0);
     bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed &&
                 !e->pointers.failed && !e->constants.failed && !e->row_tests.failed &&
                 !e->column_tests.failed;
