@@ -15,8 +15,9 @@ uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index)
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address)
 {
     uint64_t physical = CM_physical_processors_limit;
-    uint64_t index =
-        in_send_order(g) ? send_address : send_address % g->ratio * physical + send_address / g->ratio;
+    uint64_t index = in_send_order(g)
+                         ? send_address
+                         : send_address % g->ratio * physical + send_address / g->ratio;
     return send_address < physical * g->ratio && index < g->count ? index : UINT64_MAX;
 }
 
@@ -37,15 +38,18 @@ static bool axis_good(const struct paris_geometry *g, unsigned int axis)
     return false;
 }
 
-static bool coordinate_good(const struct paris_geometry *g, unsigned int axis, unsigned int coordinate)
+static bool coordinate_good(const struct paris_geometry *g, unsigned int axis,
+                            unsigned int coordinate)
 {
     if (coordinate < (unsigned int)g->dimensions[axis])
         return true;
-    paris_fail("coordinate: must be 0..%d on axis %u (got %d)", g->dimensions[axis] - 1, axis, (int)coordinate);
+    paris_fail("coordinate: must be 0..%d on axis %u (got %d)", g->dimensions[axis] - 1, axis,
+               (int)coordinate);
     return false;
 }
 
-static bool address_index(const struct paris_geometry *g, unsigned int send_address, uint64_t *index)
+static bool address_index(const struct paris_geometry *g, unsigned int send_address,
+                          uint64_t *index)
 {
     *index = paris_index_of_address(g, send_address);
     if (*index != UINT64_MAX)
@@ -55,7 +59,8 @@ static bool address_index(const struct paris_geometry *g, unsigned int send_addr
     return false;
 }
 
-unsigned int CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int axis, unsigned int coordinate)
+unsigned int CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int axis,
+                                        unsigned int coordinate)
 {
     paris_the.call = "CM_fe_make_news_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
@@ -64,20 +69,22 @@ unsigned int CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int 
     return (unsigned int)paris_address_of_index(g, coordinate * axis_stride(g, axis));
 }
 
-unsigned int CM_fe_deposit_news_coordinate(CM_geometry_id_t geometry, unsigned int send_address, unsigned int axis,
-                                           unsigned int coordinate)
+unsigned int CM_fe_deposit_news_coordinate(CM_geometry_id_t geometry, unsigned int send_address,
+                                           unsigned int axis, unsigned int coordinate)
 {
     paris_the.call = "CM_fe_deposit_news_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
     uint64_t index;
-    if (!axis_good(g, axis) || !coordinate_good(g, axis, coordinate) || !address_index(g, send_address, &index))
+    if (!axis_good(g, axis) || !coordinate_good(g, axis, coordinate) ||
+        !address_index(g, send_address, &index))
         return 0;
     uint64_t stride = axis_stride(g, axis);
     uint64_t old = index / stride % (uint64_t)g->dimensions[axis];
     return (unsigned int)paris_address_of_index(g, index - old * stride + coordinate * stride);
 }
 
-unsigned int CM_fe_extract_news_coordinate(CM_geometry_id_t geometry, unsigned int axis, unsigned int send_address)
+unsigned int CM_fe_extract_news_coordinate(CM_geometry_id_t geometry, unsigned int axis,
+                                           unsigned int send_address)
 {
     paris_the.call = "CM_fe_extract_news_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
@@ -106,8 +113,8 @@ static void my_send_address(const char *name, CM_field_id_t dest, enum machine_s
     struct machine *m = paris_begin(name);
     const struct paris_geometry *g = paris_geometry_current();
     unsigned int bits = paris_address_bits(g);
-    struct machine_value *v =
-        in_send_order(g) ? machine_self_index(m, (int)bits) : machine_self_address(m, (int)bits);
+    struct machine_value *v = in_send_order(g) ? machine_self_index(m, (int)bits)
+                                               : machine_self_address(m, (int)bits);
     paris_store(m, paris_u(dest, bits), v, scope);
 }
 
@@ -121,11 +128,12 @@ void CM_my_send_address_always(CM_field_id_t dest)
     my_send_address("CM_my_send_address_always", dest, MACHINE_EVERYWHERE);
 }
 
-void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest, unsigned int axis,
-                         unsigned int len)
+void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest,
+                         unsigned int axis, unsigned int len)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
     if (paris_check_axis(axis) && paris_type(paris_u(dest, len), "dest", &type))
-        paris_store(m, paris_u(dest, len), machine_coordinate(m, (int)axis, (int)len), self->scope);
+        paris_store(m, paris_u(dest, len), machine_coordinate(m, (int)axis, (int)len),
+                    self->scope);
 }

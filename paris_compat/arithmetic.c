@@ -1,8 +1,9 @@
-/* Arithmetic, comparisons and conversions: rows of the families binary, unary, compare, convert.
+/* Arithmetic, comparisons and conversions: rows of the families binary, unary, compare,
+ * convert.
  *
- * Integers of several lengths. Sources are filled to the longest of the lengths with zeros or the sign, the
- * operation is done there, and the result is cut off to dest's length; overflow says that the true result does
- * not fit in dest. Constants are cut off to their length. */
+ * Integers of several lengths. Sources are filled to the longest of the lengths with zeros or
+ * the sign, the operation is done there, and the result is cut off to dest's length; overflow
+ * says that the true result does not fit in dest. Constants are cut off to their length. */
 #include "paris_state.h"
 
 static unsigned int longest(unsigned int a, unsigned int b)
@@ -10,8 +11,10 @@ static unsigned int longest(unsigned int a, unsigned int b)
     return a > b ? a : b;
 }
 
-/* The float types of all operands of an instruction are the same; the entry points see to it. */
-static struct machine_value *resize(struct machine *m, struct machine_value *v, unsigned int width, bool is_signed)
+/* The float types of all operands of an instruction are the same; the entry points see to it.
+ * */
+static struct machine_value *resize(struct machine *m, struct machine_value *v,
+                                    unsigned int width, bool is_signed)
 {
     if (!v || machine_value_type(v).width == width)
         return v;
@@ -19,30 +22,35 @@ static struct machine_value *resize(struct machine *m, struct machine_value *v, 
 }
 
 /* The overflow flag is also 1 where the result, computed at a greater width, is not dest's. */
-static bool overflow_narrow(struct machine *m, struct machine_value *wide, unsigned int len, bool is_signed)
+static bool overflow_narrow(struct machine *m, struct machine_value *wide, unsigned int len,
+                            bool is_signed)
 {
     if (!wide || machine_value_type(wide).width <= len)
         return true;
     struct machine_value *kept =
         resize(m, resize(m, wide, len, is_signed), machine_value_type(wide).width, is_signed);
-    struct machine_value *so_far = machine_flag_value(m, MACHINE_OVERFLOW, MACHINE_WHERE_ACTIVE);
+    struct machine_value *so_far =
+        machine_flag_value(m, MACHINE_OVERFLOW, MACHINE_WHERE_ACTIVE);
     if (!kept || !so_far)
         return false;
     struct machine_value *lost = machine_binary(m, MACHINE_NE, wide, kept);
-    return paris_flag_put(m, MACHINE_OVERFLOW, lost ? machine_binary(m, MACHINE_OR, so_far, lost) : NULL,
+    return paris_flag_put(m, MACHINE_OVERFLOW,
+                          lost ? machine_binary(m, MACHINE_OR, so_far, lost) : NULL,
                           MACHINE_WHERE_ACTIVE);
 }
 
-void paris_binary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
-                  struct paris_operand b)
+void paris_binary(const struct paris_instruction *self, struct paris_operand dest,
+                  struct paris_operand a, struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a) ||
-        !paris_check_overlap(dest, b))
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
+        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
         return;
-    struct machine_value *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
-    struct machine_value *y = x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    struct machine_value *x =
+        paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
+    struct machine_value *y =
+        x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
     if (!x || !y)
         return;
     if (self->swap) {
@@ -61,8 +69,9 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
         }
     }
     struct machine_value *result = machine_binary(m, self->op, x, y);
-    if (self->overflow && (machine_overflow_record(m, self->op, is_signed, x, y) != MACHINE_OK ||
-                           (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
+    if (self->overflow &&
+        (machine_overflow_record(m, self->op, is_signed, x, y) != MACHINE_OK ||
+         (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
         paris_fail_machine();
         return;
     }
@@ -80,11 +89,23 @@ static struct machine_value *absolute(struct machine *m, struct machine_value *x
     return sign && negated ? machine_select(m, sign, negated, x) : NULL;
 }
 
-void paris_unary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+/* Without a sign only the negative of zero fits. */
+static bool overflow_negated(struct machine *m, struct machine_value *x, bool is_signed)
+{
+    if (is_signed)
+        return machine_overflow_record(m, MACHINE_NEG, true, x, NULL) == MACHINE_OK;
+    struct machine_value *zero =
+        machine_constant(m, machine_value_type(x), (struct machine_scalar){0, 0});
+    return zero && machine_overflow_record(m, MACHINE_SUB, false, zero, x) == MACHINE_OK;
+}
+
+void paris_unary(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a))
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
+        !paris_check_overlap(dest, a))
         return;
     struct machine_value *x = paris_load(m, a, "source", self->scope);
     if (!x)
@@ -101,7 +122,7 @@ void paris_unary(const struct paris_instruction *self, struct paris_operand dest
     }
     struct machine_value *result =
         self->op == PARIS_OP_ABS ? absolute(m, x) : machine_unary(m, self->op, x);
-    if (self->overflow && (machine_overflow_record(m, MACHINE_NEG, is_signed, x, NULL) != MACHINE_OK ||
+    if (self->overflow && (!overflow_negated(m, x, is_signed) ||
                            !overflow_narrow(m, result, dest.len, is_signed))) {
         paris_fail_machine();
         return;
@@ -109,7 +130,8 @@ void paris_unary(const struct paris_instruction *self, struct paris_operand dest
     paris_store(m, dest, resize(m, result, dest.len, is_signed), self->scope);
 }
 
-void paris_compare(const struct paris_instruction *self, struct paris_operand a, struct paris_operand b)
+void paris_compare(const struct paris_instruction *self, struct paris_operand a,
+                   struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *x = paris_load(m, a, "source1", MACHINE_WHERE_ACTIVE);
@@ -124,13 +146,15 @@ void paris_compare(const struct paris_instruction *self, struct paris_operand a,
     }
     struct machine_value *result = NULL;
     if (x && y)
-        result = self->swap ? machine_binary(m, self->op, y, x) : machine_binary(m, self->op, x, y);
+        result =
+            self->swap ? machine_binary(m, self->op, y, x) : machine_binary(m, self->op, x, y);
     paris_flag_put(m, MACHINE_TEST, result, MACHINE_WHERE_ACTIVE);
 }
 
 /* ---- conversions ---- */
 
-void paris_to_float(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+void paris_to_float(const struct paris_instruction *self, struct paris_operand dest,
+                    struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
@@ -149,26 +173,34 @@ static double power_of_two(unsigned int n)
     return x;
 }
 
-/* Overflow is 1 where x, which is whole, is not one of the numbers of len bits; NaN is none of them. */
-static bool overflow_range(struct machine *m, struct machine_value *x, unsigned int len, bool is_signed)
+/* Overflow is 1 where x, which is whole, is not one of the numbers of len bits; NaN is none of
+ * them. */
+static bool overflow_range(struct machine *m, struct machine_value *x, unsigned int len,
+                           bool is_signed)
 {
     struct machine_type type = machine_value_type(x);
-    struct machine_value *low = machine_constant_float(m, type, is_signed ? -power_of_two(len - 1) : 0);
-    struct machine_value *high = machine_constant_float(m, type, power_of_two(is_signed ? len - 1 : len));
+    struct machine_value *low =
+        machine_constant_float(m, type, is_signed ? -power_of_two(len - 1) : 0);
+    struct machine_value *high =
+        machine_constant_float(m, type, power_of_two(is_signed ? len - 1 : len));
     if (!low || !high)
         return false;
     struct machine_value *above = machine_binary(m, MACHINE_FGE, x, low);
     struct machine_value *below = machine_binary(m, MACHINE_FLT, x, high);
-    struct machine_value *fits = above && below ? machine_binary(m, MACHINE_AND, above, below) : NULL;
-    return paris_flag_put(m, MACHINE_OVERFLOW, fits ? machine_unary(m, MACHINE_NOT, fits) : NULL,
+    struct machine_value *fits =
+        above && below ? machine_binary(m, MACHINE_AND, above, below) : NULL;
+    return paris_flag_put(m, MACHINE_OVERFLOW,
+                          fits ? machine_unary(m, MACHINE_NOT, fits) : NULL,
                           MACHINE_WHERE_ACTIVE);
 }
 
-void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, a))
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
+        !paris_check_overlap(dest, a))
         return;
     bool is_signed = dest.letter == 's';
     struct machine_value *x = paris_load(m, a, "source", self->scope);

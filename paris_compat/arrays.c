@@ -1,8 +1,8 @@
 /* Front-end arrays: blocks of them to and from blocks of processors.
  *
- * The array has block.rank dimensions and is row-major. Its element (offset + k), for each k of the block, belongs
- * to the processor whose coordinate on axis[j] is start[j] + k[j]; end is exclusive; on axes that are not named
- * the coordinate is 0. The context does not matter. */
+ * The array has block.rank dimensions and is row-major. Its element (offset + k), for each k of
+ * the block, belongs to the processor whose coordinate on axis[j] is start[j] + k[j]; end is
+ * exclusive; on axes that are not named the coordinate is 0. The context does not matter. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,17 +24,20 @@ struct walk {
 
 static bool format_element(unsigned int format, char letter, struct element *e)
 {
-    static const uint8_t bytes[] = {[CM_8_bit] = 1,        [CM_16_bit] = 2,       [CM_32_bit] = 4,
-                                    [CM_float_single] = 4, [CM_float_double] = 8, [CM_64_bit] = 8};
+    static const uint8_t bytes[] = {
+        [CM_8_bit] = 1,        [CM_16_bit] = 2,       [CM_32_bit] = 4,
+        [CM_float_single] = 4, [CM_float_double] = 8, [CM_64_bit] = 8};
     bool is_float = format == CM_float_single || format == CM_float_double;
     if (format < CM_8_bit || format > CM_64_bit) {
         paris_fail("format: must be CM_8_bit (1) .. CM_64_bit (6) (got %d)", (int)format);
         return false;
     }
     if (is_float != (letter == 'f')) {
-        paris_fail(letter == 'f' ? "format: floats want CM_float_single or CM_float_double (got %u)"
-                                 : "format: integers want CM_8_bit, CM_16_bit, CM_32_bit or CM_64_bit (got %u)",
-                   format);
+        paris_fail(
+            letter == 'f'
+                ? "format: floats want CM_float_single or CM_float_double (got %u)"
+                : "format: integers want CM_8_bit, CM_16_bit, CM_32_bit or CM_64_bit (got %u)",
+            format);
         return false;
     }
     *e = (struct element){bytes[format], letter, 8u * bytes[format]};
@@ -47,8 +50,8 @@ static bool axes_good(const struct paris_geometry *g, struct paris_block block)
     for (unsigned int j = 0; j < block.rank; j++) {
         unsigned int axis = (unsigned int)block.axis[j];
         if (axis >= (unsigned int)g->rank || seen >> axis & 1) {
-            paris_fail("axis_vector[%u]: must be 0..%d, and each axis once (got %d)", j, g->rank - 1,
-                       block.axis[j]);
+            paris_fail("axis_vector[%u]: must be 0..%d, and each axis once (got %d)", j,
+                       g->rank - 1, block.axis[j]);
             return false;
         }
         seen |= 1u << axis;
@@ -56,18 +59,22 @@ static bool axes_good(const struct paris_geometry *g, struct paris_block block)
     return true;
 }
 
-static bool extent_good(const struct paris_geometry *g, struct paris_block block, unsigned int j)
+static bool extent_good(const struct paris_geometry *g, struct paris_block block,
+                        unsigned int j)
 {
     int length = g->dimensions[block.axis[j]];
     if (block.start[j] < 0 || block.end[j] > length || block.start[j] > block.end[j]) {
-        paris_fail("start_vector[%u], end_vector[%u]: must be within 0..%d and in order (got %d, %d)", j, j,
-                   length, block.start[j], block.end[j]);
+        paris_fail(
+            "start_vector[%u], end_vector[%u]: must be within 0..%d and in order (got %d, %d)",
+            j, j, length, block.start[j], block.end[j]);
         return false;
     }
     int extent = block.end[j] - block.start[j];
-    if (block.offset[j] < 0 || block.dimensions[j] < 0 || block.offset[j] > block.dimensions[j] - extent) {
-        paris_fail("offset_vector[%u]: %d and the block's %d elements reach out of the array's dimension of %d", j,
-                   block.offset[j], extent, block.dimensions[j]);
+    if (block.offset[j] < 0 || block.dimensions[j] < 0 ||
+        block.offset[j] > block.dimensions[j] - extent) {
+        paris_fail("offset_vector[%u]: %d and the block's %d elements reach out of the array's "
+                   "dimension of %d",
+                   j, block.offset[j], extent, block.dimensions[j]);
         return false;
     }
     return true;
@@ -133,7 +140,8 @@ static void element_put(struct element e, unsigned char *at, struct machine_scal
     memcpy(at, &x, e.bytes);
 }
 
-static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes, const unsigned char *from)
+static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes,
+                       const unsigned char *from)
 {
     float single;
     double number;
@@ -155,7 +163,7 @@ static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes, co
 static void row_copy(struct element to, unsigned char *t, size_t to_step, struct element from,
                      const unsigned char *f, size_t from_step, uint64_t count)
 {
-    /* The same bits on both sides; what is not whole bytes wants its unused bits cleared or filled. */
+    /* The same bits on both sides; else unused bits want to be cleared or filled. */
     bool same = to.bytes == from.bytes && (to.letter == 'f' || to.width == from.width);
     if (same && to_step == to.bytes && from_step == from.bytes) {
         memcpy(t, f, count * to.bytes);
@@ -173,7 +181,8 @@ static void row_copy(struct element to, unsigned char *t, size_t to_step, struct
 
 /* to_array: from processors into the array. */
 static void block_copy(const struct walk *w, struct element array_element, unsigned char *array,
-                       struct element processor_element, unsigned char *processors, bool to_array)
+                       struct element processor_element, unsigned char *processors,
+                       bool to_array)
 {
     uint64_t at[MACHINE_AXES_MAX] = {0};
     unsigned int last = w->rank - 1;
@@ -181,7 +190,8 @@ static void block_copy(const struct walk *w, struct element array_element, unsig
     if (w->count == 0)
         return;
     for (;;) {
-        unsigned char *x = array + a * array_element.bytes, *y = processors + p * processor_element.bytes;
+        unsigned char *x = array + a * array_element.bytes,
+                      *y = processors + p * processor_element.bytes;
         size_t x_step = w->array_step[last] * array_element.bytes;
         size_t y_step = w->processor_step[last] * processor_element.bytes;
         if (to_array)
@@ -218,34 +228,39 @@ struct transfer {
 };
 
 /* Checks all and allocates the dense array of the processors' elements. */
-static bool transfer_begin(struct transfer *t, const struct paris_instruction *self, const void *array,
-                           struct paris_block block, struct paris_operand field, const char *role)
+static bool transfer_begin(struct transfer *t, const struct paris_instruction *self,
+                           const void *array, struct paris_block block,
+                           struct paris_operand field, const char *role)
 {
     t->m = paris_begin(self->name);
     const struct paris_geometry *g = paris_geometry_current();
     if (!paris_type(field, role, &t->type) || !paris_check_operand(field, role) ||
-        !format_element(block.format, field.letter, &t->array) || !walk_make(g, block, &t->walk))
+        !format_element(block.format, field.letter, &t->array) ||
+        !walk_make(g, block, &t->walk))
         return false;
     struct machine_field_info info;
     if (machine_field_lookup(t->m, field.field, &info) && info.vpset != CM_current_vp_set) {
-        paris_fail("%s: the field belongs to VP set %d, but %d is current: call CM_set_vp_set first", role,
-                   info.vpset, CM_current_vp_set);
+        paris_fail(
+            "%s: the field belongs to VP set %d, but %d is current: call CM_set_vp_set first",
+            role, info.vpset, CM_current_vp_set);
         return false;
     }
     if (!array && t->walk.count) {
         paris_fail("array: is NULL");
         return false;
     }
-    t->processor = (struct element){machine_element_bytes(t->type), field.letter, t->type.width};
+    t->processor =
+        (struct element){machine_element_bytes(t->type), field.letter, t->type.width};
     t->processors_count = g->count;
     t->processors = malloc(g->count * t->processor.bytes);
     if (!t->processors)
-        paris_fail("not enough memory for an array of %llu elements", (unsigned long long)g->count);
+        paris_fail("not enough memory for an array of %llu elements",
+                   (unsigned long long)g->count);
     return t->processors != NULL;
 }
 
-void paris_array_write(const struct paris_instruction *self, const void *array, struct paris_block block,
-                       struct paris_operand dest)
+void paris_array_write(const struct paris_instruction *self, const void *array,
+                       struct paris_block block, struct paris_operand dest)
 {
     struct transfer t;
     if (!transfer_begin(&t, self, array, block, dest, "dest"))
@@ -265,8 +280,8 @@ void paris_array_write(const struct paris_instruction *self, const void *array, 
     free(t.processors);
 }
 
-void paris_array_read(const struct paris_instruction *self, void *array, struct paris_block block,
-                      struct paris_operand source)
+void paris_array_read(const struct paris_instruction *self, void *array,
+                      struct paris_block block, struct paris_operand source)
 {
     struct transfer t;
     if (!transfer_begin(&t, self, array, block, source, "source"))

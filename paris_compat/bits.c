@@ -1,16 +1,18 @@
-/* Moves and logical operations, on fields of any length: what is longer than an integer may be goes in pieces. */
+/* Moves and logical operations, on fields of any length: what is longer than an integer may be
+ * goes in pieces. */
 #include "paris_state.h"
 
-struct machine_value *paris_boolean(struct machine *m, unsigned int truth, struct machine_value *a,
-                                    struct machine_value *b)
+struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
+                                    struct machine_value *a, struct machine_value *b)
 {
     static const struct {
         uint8_t op, not_a, not_b, not_result;
     } how[16] = {
-        [0x1] = {MACHINE_AND, 0, 0, 0}, [0x2] = {MACHINE_AND, 0, 1, 0}, [0x4] = {MACHINE_AND, 1, 0, 0},
-        [0x8] = {MACHINE_OR, 0, 0, 1},  [0x7] = {MACHINE_OR, 0, 0, 0},  [0xb] = {MACHINE_OR, 0, 1, 0},
-        [0xd] = {MACHINE_OR, 1, 0, 0},  [0xe] = {MACHINE_AND, 0, 0, 1}, [0x6] = {MACHINE_XOR, 0, 0, 0},
-        [0x9] = {MACHINE_XOR, 0, 0, 1},
+        [0x1] = {MACHINE_AND, 0, 0, 0}, [0x2] = {MACHINE_AND, 0, 1, 0},
+        [0x4] = {MACHINE_AND, 1, 0, 0}, [0x8] = {MACHINE_OR, 0, 0, 1},
+        [0x7] = {MACHINE_OR, 0, 0, 0},  [0xb] = {MACHINE_OR, 0, 1, 0},
+        [0xd] = {MACHINE_OR, 1, 0, 0},  [0xe] = {MACHINE_AND, 0, 0, 1},
+        [0x6] = {MACHINE_XOR, 0, 0, 0}, [0x9] = {MACHINE_XOR, 0, 0, 1},
     };
     if (!a || !b)
         return NULL;
@@ -24,7 +26,8 @@ struct machine_value *paris_boolean(struct machine *m, unsigned int truth, struc
     return v && how[truth].not_result ? machine_unary(m, MACHINE_NOT, v) : v;
 }
 
-/* The piece of an operand that begins offset bits on; a constant's is zero beyond its word, or its sign. */
+/* The piece of an operand that begins offset bits on; a constant's is zero beyond its word, or
+ * its sign. */
 static struct paris_operand piece(struct paris_operand a, unsigned int offset, unsigned int len)
 {
     a.len = len;
@@ -37,22 +40,25 @@ static struct paris_operand piece(struct paris_operand a, unsigned int offset, u
     return a;
 }
 
-static void logical_piece(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
-                          struct paris_operand a, struct paris_operand b)
+static void logical_piece(struct machine *m, const struct paris_instruction *self,
+                          struct paris_operand dest, struct paris_operand a,
+                          struct paris_operand b)
 {
     struct machine_value *x = paris_load(m, a, "source1", self->scope);
-    struct machine_value *y = x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    struct machine_value *y =
+        x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
     if (x && y)
         paris_store(m, dest, paris_boolean(m, self->op, x, y), self->scope);
 }
 
 /* A field of no bits is an empty loop's: nothing is done to it. */
-void paris_logical(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
-                   struct paris_operand b)
+void paris_logical(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a, struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
-    if (dest.len == 0 || !paris_check_operand(dest, "dest") || !paris_check_operand(a, "source1") ||
-        !paris_check_operand(b, "source2") || !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
+    if (dest.len == 0 || !paris_check_operand(dest, "dest") ||
+        !paris_check_operand(a, "source1") || !paris_check_operand(b, "source2") ||
+        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
         return;
     if (dest.len <= PARIS_INTEGER_MAX) {
         logical_piece(m, self, dest, a, b);
@@ -66,8 +72,8 @@ void paris_logical(const struct paris_instruction *self, struct paris_operand de
 
 /* ---- moves ---- */
 
-static void move_float(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
-                       struct paris_operand a)
+static void move_float(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a)
 {
     struct machine_type type;
     if (!paris_type(dest, "dest", &type) || !paris_check_overlap(dest, a))
@@ -80,8 +86,8 @@ static void move_float(struct machine *m, const struct paris_instruction *self, 
     paris_store(m, dest, v, self->scope);
 }
 
-static void move_short(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
-                       struct paris_operand a)
+static void move_short(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a)
 {
     struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
     if (!v)
@@ -97,12 +103,13 @@ static struct machine_value *filling(struct machine *m, const struct paris_instr
 {
     if (a.letter != 's')
         return machine_constant(m, MACHINE_UINT(len), (struct machine_scalar){0, 0});
-    struct machine_value *sign = paris_load(m, paris_b(a.field + a.len - 1, 1), "source", self->scope);
+    struct machine_value *sign =
+        paris_load(m, paris_b(a.field + a.len - 1, 1), "source", self->scope);
     return sign ? machine_resize(m, sign, (int)len, true) : NULL;
 }
 
-static void move_long(struct machine *m, const struct paris_instruction *self, struct paris_operand dest,
-                      struct paris_operand a)
+static void move_long(struct machine *m, const struct paris_instruction *self,
+                      struct paris_operand dest, struct paris_operand a)
 {
     for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
         unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
@@ -120,7 +127,8 @@ static void move_long(struct machine *m, const struct paris_instruction *self, s
     }
 }
 
-void paris_move(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a)
+void paris_move(const struct paris_instruction *self, struct paris_operand dest,
+                struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
     if (dest.letter == 'f') {
@@ -129,7 +137,8 @@ void paris_move(const struct paris_instruction *self, struct paris_operand dest,
     }
     if (dest.len == 0)
         return;
-    if (!paris_check_operand(dest, "dest") || !paris_check_operand(a, a.is_constant ? "value" : "source") ||
+    if (!paris_check_operand(dest, "dest") ||
+        !paris_check_operand(a, a.is_constant ? "value" : "source") ||
         !paris_check_overlap(dest, a))
         return;
     if (a.len == 0) {

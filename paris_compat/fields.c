@@ -1,14 +1,16 @@
 /* Fields: allocation, parts, and what may be asked of them. */
 #include "paris_state.h"
 
-static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t vp_set, enum machine_region region)
+static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t vp_set,
+                              enum machine_region region)
 {
     struct machine *m = paris_begin(name);
     if (len == 0) {
         paris_fail("len: a field has 1 or more bits (got 0)");
         return CM_no_field;
     }
-    uint32_t field = machine_field_allocate(m, vp_set ? vp_set : machine_vpset_current(m), len, region);
+    uint32_t field =
+        machine_field_allocate(m, vp_set ? vp_set : machine_vpset_current(m), len, region);
     if (field == MACHINE_NO_FIELD)
         paris_fail_machine();
     paris_the.pristine = false;
@@ -21,7 +23,8 @@ static bool set_good(const char *name, CM_vp_set_id_t vp_set)
     paris_the.call = name;
     if (CM_is_vp_set_valid(vp_set))
         return true;
-    paris_fail("vp_set: %d is not a VP set (any more): make it with CM_allocate_vp_set", vp_set);
+    paris_fail("vp_set: %d is not a VP set (any more): make it with CM_allocate_vp_set",
+               vp_set);
     return false;
 }
 
@@ -69,12 +72,14 @@ static bool field_info(const char *name, CM_field_id_t field, struct machine_fie
     paris_the.call = name;
     if (machine_field_lookup(m, field, info))
         return true;
-    paris_fail("field: %u is not a field: it was never allocated, has been deallocated, or an offset led out of it",
+    paris_fail("field: %u is not a field: it was never allocated, has been deallocated, or an "
+               "offset led out of it",
                field);
     return false;
 }
 
-/* Programs step through a field and take one step too many at its end, so only the start must be a field. */
+/* Programs step through a field and take one step too many at its end, so only the start must
+ * be a field. */
 CM_field_id_t CM_add_offset_to_field_id(CM_field_id_t field, int offset)
 {
     struct machine_field_info info;

@@ -1,5 +1,5 @@
-/* The flags, and single bits. What is done to the context is done in all processors: a generated row of the
- * context has the scope EVERYWHERE. */
+/* The flags, and single bits. What is done to the context is done in all processors: a
+ * generated row of the context has the scope EVERYWHERE. */
 #include "paris_state.h"
 
 static struct machine_value *bit_constant(struct machine *m, unsigned int value)
@@ -7,13 +7,15 @@ static struct machine_value *bit_constant(struct machine *m, unsigned int value)
     return machine_constant(m, MACHINE_BIT, (struct machine_scalar){value, 0});
 }
 
-void paris_flag_constant(const struct paris_instruction *self, enum machine_flag flag, unsigned int value)
+void paris_flag_constant(const struct paris_instruction *self, enum machine_flag flag,
+                         unsigned int value)
 {
     struct machine *m = paris_begin(self->name);
     paris_flag_put(m, flag, bit_constant(m, value), self->scope);
 }
 
-void paris_flag_load(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source)
+void paris_flag_load(const struct paris_instruction *self, enum machine_flag flag,
+                     CM_field_id_t source)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *v = paris_load_bit(m, source, "source", self->scope);
@@ -21,13 +23,15 @@ void paris_flag_load(const struct paris_instruction *self, enum machine_flag fla
         paris_flag_put(m, flag, v, self->scope);
 }
 
-void paris_flag_store(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t dest)
+void paris_flag_store(const struct paris_instruction *self, enum machine_flag flag,
+                      CM_field_id_t dest)
 {
     struct machine *m = paris_begin(self->name);
     paris_store_bit(m, dest, machine_flag_value(m, flag, self->scope), self->scope);
 }
 
-void paris_flag_logical_field(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source)
+void paris_flag_logical_field(const struct paris_instruction *self, enum machine_flag flag,
+                              CM_field_id_t source)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *b = paris_load_bit(m, source, "source", self->scope);
@@ -37,7 +41,8 @@ void paris_flag_logical_field(const struct paris_instruction *self, enum machine
     paris_flag_put(m, flag, paris_boolean(m, self->op, a, b), self->scope);
 }
 
-void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_flag flag, enum machine_flag other)
+void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_flag flag,
+                             enum machine_flag other)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *a = machine_flag_value(m, flag, self->scope);
@@ -47,7 +52,8 @@ void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_
 
 /* ---- single bits ---- */
 
-static void bit_put(const char *name, CM_field_id_t dest, unsigned int value, enum machine_scope scope)
+static void bit_put(const char *name, CM_field_id_t dest, unsigned int value,
+                    enum machine_scope scope)
 {
     struct machine *m = paris_begin(name);
     paris_store_bit(m, dest, bit_constant(m, value), scope);

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 
 FIELD = "CM_field_id_t"
 LEN = "unsigned int"
+DEST, SOURCE, SOURCE1, SOURCE2 = ((FIELD, n) for n in ("dest", "source", "source1", "source2"))
+DLEN, SLEN, SLEN1, SLEN2, AXIS = ((LEN, n) for n in ("dlen", "slen", "slen1", "slen2", "axis"))
 SCALAR = {"u": "unsigned long", "s": "long", "f": "double", "": "unsigned long"}
 RESULT = {"u": "unsigned int", "s": "int", "f": "double", "": "unsigned int"}
 SIGNED = {"MIN": ("UMIN", "SMIN"), "MAX": ("UMAX", "SMAX"), "LT": ("ULT", "SLT"), "LE": ("ULE", "SLE")}
@@ -37,6 +39,10 @@ def lengths(letter, *names):
     if len(names) == 1:
         return [(LEN, "s"), (LEN, "e")]
     return [(LEN, n[0] + x) for n in names for x in "se"]
+
+
+def value(letter):
+    return (SCALAR[letter], "value")
 
 
 def operand(letter, name, *length):
@@ -88,27 +94,27 @@ def binary(types, name, op, flags, doc):
                                    args, row, flags, always, shape="BINARY", type=T, op=name, **test)
 
             d = operand(T, "dest", *L)
-            yield make("2_1L", "", [(FIELD, "dest"), (FIELD, "source")] + lengths(T, "len"),
+            yield make("2_1L", "", [DEST, SOURCE] + lengths(T, "len"),
                        [d, d, operand(T, "source", *L)], operands=2, lengths=1)
-            yield make("3_1L", "", [(FIELD, "dest"), (FIELD, "source1"), (FIELD, "source2")] + lengths(T, "len"),
+            yield make("3_1L", "", [DEST, SOURCE1, SOURCE2] + lengths(T, "len"),
                        [d, operand(T, "source1", *L), operand(T, "source2", *L)], operands=3, lengths=1)
             for const in CONSTANTS:
                 c = constant(T, "value", *L)
-                yield make("2_1L", const, [(FIELD, "dest"), (SCALAR[T], "value")] + lengths(T, "len"),
+                yield make("2_1L", const, [DEST, value(T)] + lengths(T, "len"),
                            [d, d, c], operands=2, lengths=1, constant=1)
-                yield make("3_1L", const, [(FIELD, "dest"), (FIELD, "source"), (SCALAR[T], "value")]
+                yield make("3_1L", const, [DEST, SOURCE, value(T)]
                            + lengths(T, "len"), [d, operand(T, "source", *L), c], operands=3, lengths=1, constant=1)
                 if T != "f":
-                    yield make("3_2L", const, [(FIELD, "dest"), (FIELD, "source"), (SCALAR[T], "value"),
-                                               (LEN, "dlen"), (LEN, "slen")],
+                    yield make("3_2L", const, [DEST, SOURCE, value(T),
+                                               DLEN, SLEN],
                                [operand(T, "dest", "dlen"), operand(T, "source", "slen"),
                                 constant(T, "value", "slen")], operands=3, lengths=2, constant=1)
             if T != "f":
                 d = operand(T, "dest", "dlen")
-                yield make("2_2L", "", [(FIELD, "dest"), (FIELD, "source"), (LEN, "dlen"), (LEN, "slen")],
+                yield make("2_2L", "", [DEST, SOURCE, DLEN, SLEN],
                            [d, d, operand(T, "source", "slen")], operands=2, lengths=2)
-                yield make("3_3L", "", [(FIELD, "dest"), (FIELD, "source1"), (FIELD, "source2"), (LEN, "dlen"),
-                                        (LEN, "slen1"), (LEN, "slen2")],
+                yield make("3_3L", "", [DEST, SOURCE1, SOURCE2, DLEN,
+                                        SLEN1, SLEN2],
                            [d, operand(T, "source1", "slen1"), operand(T, "source2", "slen2")],
                            operands=3, lengths=3)
 
@@ -123,11 +129,11 @@ def unary(types, name, op, flags, doc):
                                    flags, always, shape="UNARY", type=T, op=name, **test)
 
             d = operand(T, "dest", *L)
-            yield make("1_1L", [(FIELD, "dest")] + lengths(T, "len"), [d, d], operands=1, lengths=1)
-            yield make("2_1L", [(FIELD, "dest"), (FIELD, "source")] + lengths(T, "len"),
+            yield make("1_1L", [DEST] + lengths(T, "len"), [d, d], operands=1, lengths=1)
+            yield make("2_1L", [DEST, SOURCE] + lengths(T, "len"),
                        [d, operand(T, "source", *L)], operands=2, lengths=1)
             if T != "f":
-                yield make("2_2L", [(FIELD, "dest"), (FIELD, "source"), (LEN, "dlen"), (LEN, "slen")],
+                yield make("2_2L", [DEST, SOURCE, DLEN, SLEN],
                            [operand(T, "dest", "dlen"), operand(T, "source", "slen")], operands=2, lengths=2)
 
 
@@ -141,15 +147,15 @@ def compare(types, name, op, flags, doc):
                                shape="COMPARE", type=T, op=name, **test)
 
         a = operand(T, "source1", *L)
-        yield make("1L", [(FIELD, "source1"), (FIELD, "source2")] + lengths(T, "len"),
+        yield make("1L", [SOURCE1, SOURCE2] + lengths(T, "len"),
                    [a, operand(T, "source2", *L)], operands=2, lengths=1)
         if T != "f":
-            yield make("2L", [(FIELD, "source1"), (FIELD, "source2"), (LEN, "slen1"), (LEN, "slen2")],
+            yield make("2L", [SOURCE1, SOURCE2, SLEN1, SLEN2],
                        [operand(T, "source1", "slen1"), operand(T, "source2", "slen2")], operands=2, lengths=2)
         for const in ("constant", "const"):
-            yield make(f"{const}_1L", [(FIELD, "source"), (SCALAR[T], "value")] + lengths(T, "len"),
+            yield make(f"{const}_1L", [SOURCE, value(T)] + lengths(T, "len"),
                        [operand(T, "source", *L), constant(T, "value", *L)], operands=2, lengths=1, constant=1)
-        yield make("zero_1L", [(FIELD, "source")] + lengths(T, "len"),
+        yield make("zero_1L", [SOURCE] + lengths(T, "len"),
                    [operand(T, "source", *L), constant(T, "0", *L)], operands=2, lengths=1, zero=1)
 
 
@@ -163,15 +169,15 @@ def move(types, name, op, flags, doc):
 
             a = mid(always)
             d = operand(T, "dest", *L)
-            yield make(f"{a}_1L", [(FIELD, "dest"), (FIELD, "source")] + lengths(T, "len"),
+            yield make(f"{a}_1L", [DEST, SOURCE] + lengths(T, "len"),
                        [d, operand(T, "source", *L)], operands=2, lengths=1)
-            yield make(f"{a}_2L", [(FIELD, "dest"), (FIELD, "source")] + lengths(T, "dlen", "slen"),
+            yield make(f"{a}_2L", [DEST, SOURCE] + lengths(T, "dlen", "slen"),
                        [operand(T, "dest", *length_names(T, "dlen", "slen")[:len(L)]),
                         operand(T, "source", *length_names(T, "dlen", "slen")[len(L):])], operands=2, lengths=2)
             for const in CONSTANTS:
-                yield make(f"{const}{a}_1L", [(FIELD, "dest"), (SCALAR[T], "value")] + lengths(T, "len"),
+                yield make(f"{const}{a}_1L", [DEST, value(T)] + lengths(T, "len"),
                            [d, constant(T, "value", *L)], operands=2, lengths=1, constant=1)
-            yield make(f"_zero{a}_1L", [(FIELD, "dest")] + lengths(T, "len"), [d, constant(T, "0", *L)],
+            yield make(f"_zero{a}_1L", [DEST] + lengths(T, "len"), [d, constant(T, "0", *L)],
                        operands=2, lengths=1, zero=1)
 
 
@@ -180,7 +186,7 @@ def convert(types, name, op, flags, doc):
     row = "0" if op == "FLOAT" else f"MACHINE_{op}"
     dl = ["s", "e"] if D == "f" else ["dlen"]
     sl = ["s", "e"] if S == "f" else ["slen"]
-    params = [(FIELD, "dest"), (FIELD, "source")] + [(LEN, n) for n in (sl + dl if D == "f" else dl + sl)]
+    params = [DEST, SOURCE] + [(LEN, n) for n in (sl + dl if D == "f" else dl + sl)]
     for always in (False, True):
         yield instruction(f"CM_{name}{mid(always)}_2_2L", params, doc,
                           "paris_to_float" if D == "f" else "paris_to_bits",
@@ -199,15 +205,15 @@ def logical(_, name, op, flags, doc):
                                f"0x{int(op, 2):x}", flags, always, shape="LOGICAL", type="b", op=name, **test)
 
         d = operand("b", "dest", "len")
-        yield make("2_1L", "", [(FIELD, "dest"), (FIELD, "source"), (LEN, "len")],
+        yield make("2_1L", "", [DEST, SOURCE, (LEN, "len")],
                    [d, d, operand("b", "source", "len")], operands=2, lengths=1)
-        yield make("3_1L", "", [(FIELD, "dest"), (FIELD, "source1"), (FIELD, "source2"), (LEN, "len")],
+        yield make("3_1L", "", [DEST, SOURCE1, SOURCE2, (LEN, "len")],
                    [d, operand("b", "source1", "len"), operand("b", "source2", "len")], operands=3, lengths=1)
         for const in CONSTANTS:
             c = constant("b", "value", "len")
-            yield make("2_1L", const, [(FIELD, "dest"), (SCALAR["u"], "value"), (LEN, "len")], [d, d, c],
+            yield make("2_1L", const, [DEST, value("u"), (LEN, "len")], [d, d, c],
                        operands=2, lengths=1, constant=1)
-            yield make("3_1L", const, [(FIELD, "dest"), (FIELD, "source"), (SCALAR["u"], "value"), (LEN, "len")],
+            yield make("3_1L", const, [DEST, SOURCE, value("u"), (LEN, "len")],
                        [d, operand("b", "source", "len"), c], operands=3, lengths=1, constant=1)
 
 
@@ -216,7 +222,7 @@ def complement(_, name, op, flags, doc):
         for n, source in ((1, "dest"), (2, "source")):
             s = operand("b", source, "len")
             yield instruction(f"CM_{name}{mid(always)}_{n}_1L",
-                              [(FIELD, "dest"), (FIELD, "source")][:n] + [(LEN, "len")], doc, "paris_logical",
+                              [DEST, SOURCE][:n] + [(LEN, "len")], doc, "paris_logical",
                               [operand("b", "dest", "len"), s, s], "0xc", flags, always, shape="LOGICAL",
                               type="b", op=name, operands=n, lengths=1)
 
@@ -234,18 +240,18 @@ def flag(_, name, op, flags, doc):
             return instruction(fname, params, what, action, [F] + args, row, flags, always, shape="FLAG",
                                type=name[0], **test)
 
-        for verb, value in (("set", 1), ("clear", 0)):
-            yield make(f"CM_{verb}_{name}{a}", [], f"{name} = {value}", "paris_flag_constant", [str(value)],
+        for verb, bit in (("set", 1), ("clear", 0)):
+            yield make(f"CM_{verb}_{name}{a}", [], f"{name} = {bit}", "paris_flag_constant", [str(bit)],
                        op=verb)
         yield make(f"CM_invert_{name}{a}", [], f"{name} = not {name}", "paris_flag_logical_flag", [F], "0xc",
                    op="invert")
-        yield make(f"CM_load_{name}{a}", [(FIELD, "source")], f"{name} = source, one bit", "paris_flag_load",
+        yield make(f"CM_load_{name}{a}", [SOURCE], f"{name} = source, one bit", "paris_flag_load",
                    ["source"], op="load", operands=1)
-        yield make(f"CM_store_{name}{a}", [(FIELD, "dest")], f"dest, one bit, = {name}", "paris_flag_store",
+        yield make(f"CM_store_{name}{a}", [DEST], f"dest, one bit, = {name}", "paris_flag_store",
                    ["dest"], op="store", operands=1)
         for lop, truth in TRUTH.items():
             row = f"0x{int(truth, 2):x}"
-            yield make(f"CM_{lop}_{name}{a}", [(FIELD, "source")], f"{name} = {name} {lop} source, one bit",
+            yield make(f"CM_{lop}_{name}{a}", [SOURCE], f"{name} = {name} {lop} source, one bit",
                        "paris_flag_logical_field", ["source"], row, op=lop, operands=1)
             for other in FLAGS:
                 if other != name:
@@ -262,7 +268,7 @@ def spellings(name):
 def news(_, name, op, flags, doc):
     for always in (False, True):
         for fname in spellings(f"CM_{name}{mid(always)}_1L"):
-            yield instruction(fname, [(FIELD, "dest"), (FIELD, "source"), (LEN, "axis"), (LEN, "direction"),
+            yield instruction(fname, [DEST, SOURCE, AXIS, (LEN, "direction"),
                                       (LEN, "len")], doc, "paris_news",
                               ["dest", "source", "axis", "direction", "len"], f"PARIS_NEWS_{op}", flags, always,
                               shape="NEWS", op=name, operands=2)
@@ -271,7 +277,7 @@ def news(_, name, op, flags, doc):
 def own(_, name, op, flags, doc):
     for always in (False, True):
         for fname in spellings(f"CM_{name}{mid(always)}_1L"):
-            yield instruction(fname, [(FIELD, "dest"), (LEN, "axis"), (LEN, "len")], doc, "paris_my_coordinate",
+            yield instruction(fname, [DEST, AXIS, (LEN, "len")], doc, "paris_my_coordinate",
                               ["dest", "axis", "len"], "0", flags, always, shape="OWN", op=name, operands=1)
 
 
@@ -280,7 +286,7 @@ def processor(types, name, op, flags, doc):
     for T in types:
         L = length_names(T, "len")
         for fname in spellings(f"CM_{T}_write_to_processor_1L"):
-            yield instruction(fname, [address, (FIELD, "dest"), (SCALAR[T], "value")] + lengths(T, "len"), doc,
+            yield instruction(fname, [address, DEST, value(T)] + lengths(T, "len"), doc,
                               "paris_processor_write",
                               ["send_address", operand(T, "dest", *L), constant(T, "value", *L)], "0", flags,
                               shape="PROCESSOR", type=T, op="write")
@@ -288,7 +294,7 @@ def processor(types, name, op, flags, doc):
         if T != "f":
             reads.append((f"CM_{T}_read_from_processor_long_1L", SCALAR[T]))
         for fname, result in reads:
-            yield instruction(fname, [address, (FIELD, "source")] + lengths(T, "len"), doc,
+            yield instruction(fname, [address, SOURCE] + lengths(T, "len"), doc,
                               f"({result}) paris_processor_read_{T}",
                               ["send_address", operand(T, "source", *L)], str(int("long" in result)), flags,
                               result=result, shape="PROCESSOR", type=T, op="read")
@@ -319,7 +325,7 @@ def reduction(types, name, op, flags, doc):
         if T != "f":
             forms.append((f"{prefix}_long_1L", SCALAR[letter]))
         for fname, result in forms:
-            yield instruction(fname, [(FIELD, "source")] + lengths(kind, "len"), doc,
+            yield instruction(fname, [SOURCE] + lengths(kind, "len"), doc,
                               f"({result}) paris_global_{kind}", [operand(kind, "source", *L)], row, flags,
                               result=result, shape="GLOBAL", type=kind, op=name, operands=1,
                               lengths=2 if "long" in result else 1)
@@ -412,9 +418,9 @@ def tests(sections):
                 t = f.test
                 T = t.get("type", "u")
 
-                def value(name):
+                def member(name):
                     return f"t->value_{T if T in 'usf' else 'u'}" if name == "value" else f"t->{name}"
-                args = ", ".join(value(n) for _, n in f.params)
+                args = ", ".join(member(n) for _, n in f.params)
                 result = f"t->result_{'f' if T == 'f' else 'u'} = " if f.result != "void" else ""
                 if f.result in ("int", "long"):
                     result += "(uint64_t)"
@@ -426,7 +432,11 @@ def tests(sections):
                     f'"{t["op"]}", {t.get("operands", 0)}, {t.get("lengths", 0)}, {t.get("constant", 0)}, '
                     f'{t.get("zero", 0)}, {int(t["always"])}, \'{t.get("other", "-")}\', call_{f.name}}},')
     return "\n".join(["/* Generated from instructions.tab: every instruction and how to call it. */", *calls, "",
-                      "static const struct paris_test_row paris_test_rows[] = {", *rows_out, "};", ""])
+                      "static const struct paris_test_row paris_test_rows[] = {", *rows_out, "};", "",
+                      "/* All there are, so that none is declared and not written. */",
+                      "static void (*const paris_test_functions[])(void) = {",
+                      *(f"    (void (*)(void)){f.name}," for _, rows in sections for _, functions in rows
+                        for f in functions), "};", ""])
 
 
 def reference(sections):

@@ -1,8 +1,10 @@
-/* Geometries, VP sets, and where processors are: Paris's send addresses are not the machine's row-major indices.
+/* Geometries, VP sets, and where processors are: Paris's send addresses are not the machine's
+ * row-major indices.
  *
- * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of row-major index i is
- * virtual processor i div P of physical processor i mod P, and its send address is (i mod P) * R + i div P. Along
- * a single axis in send order the coordinate is the send address. */
+ * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of
+ * row-major index i is virtual processor i div P of physical processor i mod P, and its send
+ * address is (i mod P) * R + i div P. Along a single axis in send order the coordinate is the
+ * send address. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +24,8 @@ const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id)
     paris_machine();
     const struct paris_geometry *g = geometry_find(id);
     if (!g)
-        paris_fail("geometry: %d is not a geometry (any more): make it with CM_create_geometry", id);
+        paris_fail("geometry: %d is not a geometry (any more): make it with CM_create_geometry",
+                   id);
     return g;
 }
 
@@ -70,7 +73,8 @@ static bool geometry_complete(struct paris_geometry *g)
     g->count = 1;
     for (int axis = 0; axis < g->rank; axis++) {
         if (g->dimensions[axis] < 1) {
-            paris_fail("dimensions: axis %d must have a length of 1 or more (got %d)", axis, g->dimensions[axis]);
+            paris_fail("dimensions: axis %d must have a length of 1 or more (got %d)", axis,
+                       g->dimensions[axis]);
             return false;
         }
         g->count *= (uint64_t)g->dimensions[axis];
@@ -92,7 +96,8 @@ static bool rank_good(unsigned int rank)
     return false;
 }
 
-static bool geometry_from_dimensions(struct paris_geometry *g, CM_vector_t dimensions, unsigned int rank)
+static bool geometry_from_dimensions(struct paris_geometry *g, CM_vector_t dimensions,
+                                     unsigned int rank)
 {
     paris_machine();
     memset(g, 0, sizeof *g);
@@ -111,7 +116,8 @@ static bool geometry_from_dimensions(struct paris_geometry *g, CM_vector_t dimen
     return geometry_complete(g);
 }
 
-static bool geometry_from_axes(struct paris_geometry *g, CM_axis_descriptor_t *axes, unsigned int rank)
+static bool geometry_from_axes(struct paris_geometry *g, CM_axis_descriptor_t *axes,
+                               unsigned int rank)
 {
     paris_machine();
     memset(g, 0, sizeof *g);
@@ -124,7 +130,8 @@ static bool geometry_from_axes(struct paris_geometry *g, CM_axis_descriptor_t *a
             return false;
         }
         if (axes[axis]->ordering != CM_news_order && axes[axis]->ordering != CM_send_order) {
-            paris_fail("axis_descriptors: ordering of axis %d must be CM_news_order or CM_send_order (got %d)",
+            paris_fail("axis_descriptors: ordering of axis %d must be CM_news_order or "
+                       "CM_send_order (got %d)",
                        axis, axes[axis]->ordering);
             return false;
         }
@@ -161,14 +168,16 @@ CM_geometry_id_t CM_intern_geometry(CM_vector_t dimensions, unsigned int rank)
     return geometry_from_dimensions(&g, dimensions, rank) ? geometry_intern(&g) : 0;
 }
 
-CM_geometry_id_t CM_create_detailed_geometry(CM_axis_descriptor_t *axis_descriptors, unsigned int rank)
+CM_geometry_id_t CM_create_detailed_geometry(CM_axis_descriptor_t *axis_descriptors,
+                                             unsigned int rank)
 {
     struct paris_geometry g;
     paris_the.call = "CM_create_detailed_geometry";
     return geometry_from_axes(&g, axis_descriptors, rank) ? geometry_add(&g) : 0;
 }
 
-CM_geometry_id_t CM_intern_detailed_geometry(CM_axis_descriptor_t *axis_descriptors, unsigned int rank)
+CM_geometry_id_t CM_intern_detailed_geometry(CM_axis_descriptor_t *axis_descriptors,
+                                             unsigned int rank)
 {
     struct paris_geometry g;
     paris_the.call = "CM_intern_detailed_geometry";
@@ -182,7 +191,8 @@ void CM_deallocate_geometry(CM_geometry_id_t geometry)
         return;
     struct paris_geometry *g = geometry_find(geometry);
     if (g->sets)
-        paris_fail("geometry: %d VP sets still have it: call CM_deallocate_vp_set first", g->sets);
+        paris_fail("geometry: %d VP sets still have it: call CM_deallocate_vp_set first",
+                   g->sets);
     else
         memset(g, 0, sizeof *g);
 }
@@ -230,7 +240,8 @@ int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
     return g ? g->ordering[axis] : CM_news_order;
 }
 
-/* A row-major array gives a processor's virtual ones to the first axis, and what that cannot hold to the next. */
+/* A row-major array gives a processor's virtual ones to the first axis, and what that cannot
+ * hold to the next. */
 unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
 {
     paris_the.call = "CM_geometry_axis_vp_ratio";
@@ -242,7 +253,8 @@ unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int a
         uint64_t taken = left < (uint64_t)g->dimensions[i] ? left : (uint64_t)g->dimensions[i];
         left = (left + taken - 1) / taken;
     }
-    return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left : (uint64_t)g->dimensions[axis]);
+    return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left
+                                                               : (uint64_t)g->dimensions[axis]);
 }
 
 unsigned int CM_geometry_send_address_length(CM_geometry_id_t geometry)

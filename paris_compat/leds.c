@@ -1,4 +1,5 @@
-/* The lights on the machine's front: a hidden field of the VP set that latched last holds their pattern. */
+/* The lights on the machine's front: a hidden field of the VP set that latched last holds their
+ * pattern. */
 #include <stdlib.h>
 
 #include "paris_state.h"
@@ -44,7 +45,8 @@ uint64_t paris_leds_read(uint8_t *out, uint64_t limit)
         return 0;
     uint64_t count = machine_vpset_count(paris_the.machine, info.vpset);
     uint8_t *all = malloc(count);
-    if (!all || machine_field_download(paris_the.machine, paris_the.leds, MACHINE_BIT, all) != MACHINE_OK)
+    if (!all || machine_field_download(paris_the.machine, paris_the.leds, MACHINE_BIT, all) !=
+                    MACHINE_OK)
         count = 0;
     for (uint64_t i = 0; i < count && i < limit; i++)
         out[i] = all[i];

@@ -14,13 +14,15 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
             *type = MACHINE_F64;
             return true;
         }
-        paris_fail("%s: floats with significand %u and exponent %u are not supported: use 23, 8 or 52, 11", role,
-                   a.len, a.e);
+        paris_fail("%s: floats with significand %u and exponent %u are not supported: use 23, "
+                   "8 or 52, 11",
+                   role, a.len, a.e);
         return false;
     }
     unsigned int least = a.letter == 's' && paris_the.safety ? 2 : 1;
     if (a.len < least || a.len > PARIS_INTEGER_MAX) {
-        paris_fail("%s: length must be %u..%d bits (got %u)", role, least, PARIS_INTEGER_MAX, a.len);
+        paris_fail("%s: length must be %u..%d bits (got %u)", role, least, PARIS_INTEGER_MAX,
+                   a.len);
         return false;
     }
     *type = MACHINE_UINT(a.len);
@@ -35,21 +37,26 @@ bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
         return true;
     struct machine_field_info info;
     if (field == CM_no_field) {
-        paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or CM_allocate_heap_field", role);
+        paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or "
+                   "CM_allocate_heap_field",
+                   role);
         return false;
     }
     if (!machine_field_lookup(paris_the.machine, field, &info)) {
-        paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an offset led out of it",
+        paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an "
+                   "offset led out of it",
                    role, field);
         return false;
     }
     if (info.vpset != machine_vpset_current(paris_the.machine)) {
-        paris_fail("%s: the field belongs to VP set %d, but %d is current: call CM_set_vp_set first", role,
-                   info.vpset, machine_vpset_current(paris_the.machine));
+        paris_fail(
+            "%s: the field belongs to VP set %d, but %d is current: call CM_set_vp_set first",
+            role, info.vpset, machine_vpset_current(paris_the.machine));
         return false;
     }
     if (bits > info.bits - info.offset) {
-        paris_fail("%s: %u bits reach beyond its field, which has %u from here (%u in all): allocate a longer one",
+        paris_fail("%s: %u bits reach beyond its field, which has %u from here (%u in all): "
+                   "allocate a longer one",
                    role, bits, info.bits - info.offset, info.bits);
         return false;
     }
@@ -74,7 +81,8 @@ bool paris_check_operand(struct paris_operand a, const char *role)
 {
     if (!paris_the.safety)
         return true;
-    return a.is_constant ? check_constant(a, role) : paris_check_field(a.field, paris_operand_bits(a), role);
+    return a.is_constant ? check_constant(a, role)
+                         : paris_check_field(a.field, paris_operand_bits(a), role);
 }
 
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
@@ -83,7 +91,8 @@ bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
         return true;
     unsigned int d = paris_operand_bits(dest), s = paris_operand_bits(source);
     if (dest.field < source.field + s && source.field < dest.field + d) {
-        paris_fail("dest and source overlap in part: they must be the same field or share no bits");
+        paris_fail(
+            "dest and source overlap in part: they must be the same field or share no bits");
         return false;
     }
     return true;
@@ -143,12 +152,14 @@ struct machine_value *paris_load_bit(struct machine *m, CM_field_id_t field, con
     return v;
 }
 
-bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value, enum machine_scope scope)
+bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value,
+                     enum machine_scope scope)
 {
     return paris_store(m, paris_b(field, 1), value, scope);
 }
 
-bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value, enum machine_scope scope)
+bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value,
+                    enum machine_scope scope)
 {
     if (value && machine_flag_store(m, flag, value, scope) == MACHINE_OK)
         return true;

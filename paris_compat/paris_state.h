@@ -1,15 +1,18 @@
-/* paris_state.h - what the files of the Paris library share: the state, operands, and the way an instruction goes.
+/* paris_state.h - what the files of the Paris library share: the state, operands, and the way
+ * an instruction goes.
  *
- * An entry point (generated from instructions.tab) describes its operands and calls the function of its family:
+ * An entry point (generated from instructions.tab) describes its operands and calls the
+ * function of its family:
  *
  *     CM_f_add_2_1L (dest, source, s, e)
- *         -> paris_binary (&self, paris_f (dest, s, e), paris_f (dest, s, e), paris_f (source, s, e))
- *             paris_begin       names the call for messages and starts the machine's instruction
- *             paris_load        checks an operand and gives its value; NULL: it is wrong, and that has been said
- *             machine_...       values from values; NULL goes through
- *             paris_store       checks dest and stores; says what is wrong where the value is NULL
+ *     -> paris_binary (&self, paris_f (dest, ...), paris_f (dest, ...), paris_f (source, ...))
+ *             paris_begin   names the call for messages and starts the machine's instruction
+ *             paris_load    checks an operand and gives its value; NULL: it is wrong, and said
+ *             machine_...   values from values; NULL goes through
+ *             paris_store   checks dest and stores; says what is wrong where the value is NULL
  *
- * What is wrong is told to the error handler by paris_fail() once, and the call ends without effect. */
+ * What is wrong is told to the error handler by paris_fail() once, and the call ends without
+ * effect. */
 #ifndef PARIS_STATE_H
 #define PARIS_STATE_H
 
@@ -44,7 +47,7 @@ enum paris_news { PARIS_NEWS_GET, PARIS_NEWS_SEND };
 /* ---- operands ---- */
 
 struct paris_operand {
-    char letter;      /* u, s, f, or b: plain bits */
+    char letter; /* u, s, f, or b: plain bits */
     bool is_constant;
     CM_field_id_t field;
     unsigned int len; /* of u, s, b; the significand of f */
@@ -55,14 +58,15 @@ struct paris_operand {
     } value;
 };
 
-#define PARIS_OPERAND(letter, type)                                                                                    \
-    static inline struct paris_operand paris_##letter(CM_field_id_t field, unsigned int len)                           \
-    {                                                                                                                  \
-        return (struct paris_operand){#letter[0], false, field, len, 0, {.bits = 0}};                                  \
-    }                                                                                                                  \
-    static inline struct paris_operand paris_##letter##_constant(type value, unsigned int len)                         \
-    {                                                                                                                  \
-        return (struct paris_operand){#letter[0], true, 0, len, 0, {.bits = (unsigned long)value}};                    \
+#define PARIS_OPERAND(letter, type)                                                            \
+    static inline struct paris_operand paris_##letter(CM_field_id_t field, unsigned int len)   \
+    {                                                                                          \
+        return (struct paris_operand){#letter[0], false, field, len, 0, {.bits = 0}};          \
+    }                                                                                          \
+    static inline struct paris_operand paris_##letter##_constant(type value, unsigned int len) \
+    {                                                                                          \
+        return (struct paris_operand){#letter[0], true, 0,                                     \
+                                      len,        0,    {.bits = (unsigned long)value}};       \
     }
 PARIS_OPERAND(u, unsigned long)
 PARIS_OPERAND(s, long)
@@ -73,7 +77,8 @@ static inline struct paris_operand paris_f(CM_field_id_t field, unsigned int s, 
     return (struct paris_operand){'f', false, field, s, e, {.bits = 0}};
 }
 
-static inline struct paris_operand paris_f_constant(double value, unsigned int s, unsigned int e)
+static inline struct paris_operand paris_f_constant(double value, unsigned int s,
+                                                    unsigned int e)
 {
     return (struct paris_operand){'f', true, 0, s, e, {.number = value}};
 }
@@ -103,7 +108,7 @@ struct paris_state {
     const char *call; /* the name of the instruction under way, for messages */
     unsigned int safety;
     bool attached;
-    bool pristine;    /* nothing allocated since CM_init */
+    bool pristine;                     /* nothing allocated since CM_init */
     struct paris_geometry *geometries; /* by id - 1 */
     int geometries_count;
     int *set_geometry; /* geometry of each VP set, by the machine's id; 0: not in use */
@@ -137,9 +142,11 @@ bool paris_store(struct machine *m, struct paris_operand dest, struct machine_va
 /* The same for one bit. */
 struct machine_value *paris_load_bit(struct machine *m, CM_field_id_t field, const char *role,
                                      enum machine_scope scope);
-bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value, enum machine_scope scope);
+bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value,
+                     enum machine_scope scope);
 /* A flag of all or of active processors. */
-bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value, enum machine_scope scope);
+bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value,
+                    enum machine_scope scope);
 
 /* Safety mode's checks; without it they say yes. False: it has been said. */
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
@@ -150,9 +157,10 @@ bool paris_check_axis(unsigned int axis);
 const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
 const struct paris_geometry *paris_geometry_current(void);
 
-/* The function of the two bits whose truth table this is, from (0,0) in bit 3 to (1,1) in bit 0. */
-struct machine_value *paris_boolean(struct machine *m, unsigned int truth, struct machine_value *a,
-                                    struct machine_value *b);
+/* The function of the two bits whose truth table this is, from (0,0) in bit 3 to (1,1) in bit
+ * 0. */
+struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
+                                    struct machine_value *a, struct machine_value *b);
 
 /* ---- geometry: the machine's row-major index and Paris's send address ---- */
 
@@ -165,29 +173,39 @@ void paris_sets_forget(void);
 
 /* ---- the families ---- */
 
-void paris_binary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
-                  struct paris_operand b);
-void paris_unary(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
-void paris_compare(const struct paris_instruction *self, struct paris_operand a, struct paris_operand b);
-void paris_move(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
-void paris_to_float(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
-void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a);
-void paris_logical(const struct paris_instruction *self, struct paris_operand dest, struct paris_operand a,
+void paris_binary(const struct paris_instruction *self, struct paris_operand dest,
+                  struct paris_operand a, struct paris_operand b);
+void paris_unary(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a);
+void paris_compare(const struct paris_instruction *self, struct paris_operand a,
                    struct paris_operand b);
-void paris_flag_constant(const struct paris_instruction *self, enum machine_flag flag, unsigned int value);
-void paris_flag_load(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source);
-void paris_flag_store(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t dest);
-void paris_flag_logical_field(const struct paris_instruction *self, enum machine_flag flag, CM_field_id_t source);
-void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_flag flag, enum machine_flag other);
-void paris_news(const struct paris_instruction *self, CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
-                unsigned int direction, unsigned int len);
-void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest, unsigned int axis,
-                         unsigned int len);
+void paris_move(const struct paris_instruction *self, struct paris_operand dest,
+                struct paris_operand a);
+void paris_to_float(const struct paris_instruction *self, struct paris_operand dest,
+                    struct paris_operand a);
+void paris_to_bits(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a);
+void paris_logical(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a, struct paris_operand b);
+void paris_flag_constant(const struct paris_instruction *self, enum machine_flag flag,
+                         unsigned int value);
+void paris_flag_load(const struct paris_instruction *self, enum machine_flag flag,
+                     CM_field_id_t source);
+void paris_flag_store(const struct paris_instruction *self, enum machine_flag flag,
+                      CM_field_id_t dest);
+void paris_flag_logical_field(const struct paris_instruction *self, enum machine_flag flag,
+                              CM_field_id_t source);
+void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_flag flag,
+                             enum machine_flag other);
+void paris_news(const struct paris_instruction *self, CM_field_id_t dest, CM_field_id_t source,
+                unsigned int axis, unsigned int direction, unsigned int len);
+void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest,
+                         unsigned int axis, unsigned int len);
 void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t send_address,
                            struct paris_operand dest, struct paris_operand value);
 /* self->op is 1 where the result is a long. */
-unsigned long paris_processor_read_u(const struct paris_instruction *self, CM_sendaddr_t send_address,
-                                     struct paris_operand source);
+unsigned long paris_processor_read_u(const struct paris_instruction *self,
+                                     CM_sendaddr_t send_address, struct paris_operand source);
 long paris_processor_read_s(const struct paris_instruction *self, CM_sendaddr_t send_address,
                             struct paris_operand source);
 double paris_processor_read_f(const struct paris_instruction *self, CM_sendaddr_t send_address,
@@ -205,12 +223,12 @@ struct paris_block {
     const int *offset, *start, *end, *axis, *dimensions;
     unsigned int rank, format;
 };
-#define PARIS_BLOCK                                                                                                    \
-    ((struct paris_block){offset_vector.ints, start_vector.ints, end_vector.ints, axis_vector.ints,                    \
-                          dimension_vector.ints, rank, format})
-void paris_array_write(const struct paris_instruction *self, const void *array, struct paris_block block,
-                       struct paris_operand dest);
-void paris_array_read(const struct paris_instruction *self, void *array, struct paris_block block,
-                      struct paris_operand source);
+#define PARIS_BLOCK                                                                            \
+    ((struct paris_block){offset_vector.ints, start_vector.ints, end_vector.ints,              \
+                          axis_vector.ints, dimension_vector.ints, rank, format})
+void paris_array_write(const struct paris_instruction *self, const void *array,
+                       struct paris_block block, struct paris_operand dest);
+void paris_array_read(const struct paris_instruction *self, void *array,
+                      struct paris_block block, struct paris_operand source);
 
 #endif

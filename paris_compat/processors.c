@@ -1,4 +1,5 @@
-/* Reading and writing one processor, and reductions: numbers that go between the machine and the front end. */
+/* Reading and writing one processor, and reductions: numbers that go between the machine and
+ * the front end. */
 #include <string.h>
 
 #include "paris_state.h"
@@ -48,22 +49,25 @@ static bool result_fits(const struct paris_instruction *self, bool fits)
 /* ---- one processor ---- */
 
 /* The field's own VP set says where the processor is. */
-static bool processor_index(struct machine *m, CM_sendaddr_t send_address, struct paris_operand field,
-                            const char *role, struct machine_type *type, uint64_t *index)
+static bool processor_index(struct machine *m, CM_sendaddr_t send_address,
+                            struct paris_operand field, const char *role,
+                            struct machine_type *type, uint64_t *index)
 {
     struct machine_field_info info;
     if (!paris_type(field, role, type) || !paris_check_operand(field, role))
         return false;
     if (!machine_field_lookup(m, field.field, &info)) {
-        paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an offset led out of it",
+        paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an "
+                   "offset led out of it",
                    role, field.field);
         return false;
     }
-    const struct paris_geometry *g = &paris_the.geometries[paris_the.set_geometry[info.vpset] - 1];
+    const struct paris_geometry *g =
+        &paris_the.geometries[paris_the.set_geometry[info.vpset] - 1];
     *index = paris_index_of_address(g, send_address);
     if (*index == UINT64_MAX) {
-        paris_fail("send_address: there is no processor %u in this VP set of %llu", send_address,
-                   (unsigned long long)g->count);
+        paris_fail("send_address: there is no processor %u in this VP set of %llu",
+                   send_address, (unsigned long long)g->count);
         return false;
     }
     return true;
@@ -75,7 +79,8 @@ void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t s
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
     uint64_t index;
-    if (!processor_index(m, send_address, dest, "dest", &type, &index) || !paris_check_operand(value, "value"))
+    if (!processor_index(m, send_address, dest, "dest", &type, &index) ||
+        !paris_check_operand(value, "value"))
         return;
     struct machine_scalar bits;
     if (value.letter == 'f') {
@@ -88,8 +93,10 @@ void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t s
         paris_fail_machine();
 }
 
-static struct machine_scalar processor_read(const struct paris_instruction *self, CM_sendaddr_t send_address,
-                                            struct paris_operand source, struct machine_type *type)
+static struct machine_scalar processor_read(const struct paris_instruction *self,
+                                            CM_sendaddr_t send_address,
+                                            struct paris_operand source,
+                                            struct machine_type *type)
 {
     struct machine *m = paris_begin(self->name);
     struct machine_scalar bits = {0, 0};
@@ -100,8 +107,8 @@ static struct machine_scalar processor_read(const struct paris_instruction *self
     return bits;
 }
 
-unsigned long paris_processor_read_u(const struct paris_instruction *self, CM_sendaddr_t send_address,
-                                     struct paris_operand source)
+unsigned long paris_processor_read_u(const struct paris_instruction *self,
+                                     CM_sendaddr_t send_address, struct paris_operand source)
 {
     struct machine_type type;
     uint64_t bits = processor_read(self, send_address, source, &type).lo;
@@ -126,9 +133,10 @@ double paris_processor_read_f(const struct paris_instruction *self, CM_sendaddr_
 
 /* ---- reductions ---- */
 
-/* The sum of integers is not cut off to their length: a sum of 8-bit pixels is one of 64 bits. */
-static bool reduce(const struct paris_instruction *self, struct paris_operand source, struct machine_type *type,
-                   struct machine_scalar *out)
+/* The sum of integers is not cut off to their length: a sum of 8-bit pixels is one of 64 bits.
+ * */
+static bool reduce(const struct paris_instruction *self, struct paris_operand source,
+                   struct machine_type *type, struct machine_scalar *out)
 {
     struct machine *m = paris_begin(self->name);
     out->lo = out->hi = 0;
@@ -149,7 +157,8 @@ unsigned long paris_global_u(const struct paris_instruction *self, struct paris_
 {
     struct machine_type type;
     struct machine_scalar out;
-    return reduce(self, source, &type, &out) && result_fits(self, out.lo <= UINT32_MAX) ? out.lo : 0;
+    return reduce(self, source, &type, &out) && result_fits(self, out.lo <= UINT32_MAX) ? out.lo
+                                                                                        : 0;
 }
 
 unsigned long paris_global_b(const struct paris_instruction *self, struct paris_operand source)
@@ -193,8 +202,9 @@ static uint64_t count_active(struct machine *m)
 
 static uint64_t count_flag(struct machine *m, enum machine_flag flag)
 {
-    return flag == MACHINE_CONTEXT ? count_active(m)
-                                   : count_ones(m, machine_flag_value(m, flag, MACHINE_WHERE_ACTIVE));
+    return flag == MACHINE_CONTEXT
+               ? count_active(m)
+               : count_ones(m, machine_flag_value(m, flag, MACHINE_WHERE_ACTIVE));
 }
 
 unsigned int paris_global_count(const struct paris_instruction *self, enum machine_flag flag)
@@ -210,7 +220,8 @@ int paris_global_any(const struct paris_instruction *self, enum machine_flag fla
 int paris_global_all(const struct paris_instruction *self, enum machine_flag flag)
 {
     struct machine *m = paris_begin(self->name);
-    uint64_t among = flag == MACHINE_CONTEXT ? paris_geometry_current()->count : count_active(m);
+    uint64_t among =
+        flag == MACHINE_CONTEXT ? paris_geometry_current()->count : count_active(m);
     return count_flag(m, flag) == among;
 }
 
@@ -268,5 +279,6 @@ int CM_global_logand_bit(CM_field_id_t source)
 
 int CM_global_logand_bit_always(CM_field_id_t source)
 {
-    return count_bit_always("CM_global_logand_bit_always", source) == paris_geometry_current()->count;
+    return count_bit_always("CM_global_logand_bit_always", source) ==
+           paris_geometry_current()->count;
 }

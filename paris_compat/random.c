@@ -6,7 +6,8 @@ void CM_initialize_random_generator(unsigned int seed)
     machine_random_seed(paris_begin("CM_initialize_random_generator"), seed);
 }
 
-static void random_bits(const char *name, CM_field_id_t dest, unsigned int len, unsigned long limit)
+static void random_bits(const char *name, CM_field_id_t dest, unsigned int len,
+                        unsigned long limit)
 {
     struct machine *m = paris_begin(name);
     struct machine_type type;
@@ -14,12 +15,14 @@ static void random_bits(const char *name, CM_field_id_t dest, unsigned int len, 
         return;
     if (len < 64 && limit > 1ul << len) {
         if (paris_the.safety) {
-            paris_fail("limit: %lu is more than 2^%u: numbers of %u bits do not reach it", limit, len, len);
+            paris_fail("limit: %lu is more than 2^%u: numbers of %u bits do not reach it",
+                       limit, len, len);
             return;
         }
         limit = 0;
     }
-    paris_store(m, paris_u(dest, len), machine_random(m, (int)len, limit), MACHINE_WHERE_ACTIVE);
+    paris_store(m, paris_u(dest, len), machine_random(m, (int)len, limit),
+                MACHINE_WHERE_ACTIVE);
 }
 
 void CM_u_random_1L(CM_field_id_t dest, unsigned int len, unsigned long limit)
@@ -41,8 +44,10 @@ static void random_float(const char *name, CM_field_id_t dest, unsigned int s, u
         return;
     struct machine_value *whole = machine_random(m, (int)s + 1, 0);
     struct machine_value *x = whole ? machine_to_float(m, whole, type, false) : NULL;
-    struct machine_value *unit = machine_constant_float(m, type, 1.0 / (double)(1ull << (s + 1)));
-    paris_store(m, paris_f(dest, s, e), x && unit ? machine_binary(m, MACHINE_FMUL, x, unit) : NULL,
+    struct machine_value *unit =
+        machine_constant_float(m, type, 1.0 / (double)(1ull << (s + 1)));
+    paris_store(m, paris_f(dest, s, e),
+                x && unit ? machine_binary(m, MACHINE_FMUL, x, unit) : NULL,
                 MACHINE_WHERE_ACTIVE);
 }
 

@@ -1,4 +1,5 @@
-/* The implicit machine: made when first needed, given back by CM_detach, and the one place where errors end. */
+/* The implicit machine: made when first needed, given back by CM_detach, and the one place
+ * where errors end. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +38,8 @@ void paris_fail(const char *format, ...)
 
 void paris_fail_machine(void)
 {
-    const char *said = paris_the.machine ? machine_error(paris_the.machine) : "there is no machine";
+    const char *said =
+        paris_the.machine ? machine_error(paris_the.machine) : "there is no machine";
     paris_fail("%s", *said ? said : "the machine could not do it");
     if (paris_the.machine)
         machine_error_clear(paris_the.machine);
@@ -122,8 +124,10 @@ bool paris_reset(const struct machine_config *config)
 unsigned int CM_attach(void)
 {
     paris_the.call = "CM_attach";
-    if (!paris_the.machine && !machine_make())
+    if (!paris_the.machine && !machine_make()) {
+        fprintf(stderr, "%s\n", error_text);
         return 0;
+    }
     paris_the.attached = true;
     return CM_physical_processors_limit;
 }

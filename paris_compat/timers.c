@@ -1,4 +1,5 @@
-/* Timers: what is pending when one starts or stops is finished first, so that each second falls on its side. */
+/* Timers: what is pending when one starts or stops is finished first, so that each second falls
+ * on its side. */
 #include <stdio.h>
 #include <time.h>
 
@@ -116,5 +117,6 @@ void CM_timer_print(unsigned int timer)
 {
     const struct timer *t = timer_of("CM_timer_print", timer);
     if (t)
-        printf("timer %u: %d starts, %.6f s elapsed, %.6f s CM busy\n", timer, t->starts, elapsed_s(t), busy_s(t));
+        printf("timer %u: %d starts, %.6f s elapsed, %.6f s CM busy\n", timer, t->starts,
+               elapsed_s(t), busy_s(t));
 }

@@ -58,7 +58,8 @@ CM_vp_set_id_t CM_allocate_vp_set(CM_geometry_id_t geometry)
             paris_fail("not enough memory for another VP set");
             return 0;
         }
-        memset(grown + paris_the.sets_count, 0, (size_t)(count - paris_the.sets_count) * sizeof *grown);
+        memset(grown + paris_the.sets_count, 0,
+               (size_t)(count - paris_the.sets_count) * sizeof *grown);
         paris_the.set_geometry = grown;
         paris_the.sets_count = count;
     }
@@ -127,7 +128,8 @@ void paris_sets_forget(void)
     CM_current_geometry = 0;
 }
 
-/* The default VP set: one virtual processor for each physical one, on two axes as equal as can be. */
+/* The default VP set: one virtual processor for each physical one, on two axes as equal as can
+ * be. */
 void paris_sets_reset(void)
 {
     struct machine *m = paris_the.machine;

@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+__attribute__((format(printf, 3, 0)))
 static int fail_as(int status, const char *verb, const char *format, va_list arguments)
 {
     char text[1200];

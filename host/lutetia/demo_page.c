@@ -38,8 +38,8 @@ static const struct paper_ink caption_ink = {.cyan = 0.82, .magenta = 0.76, .yel
 
 /* A reflection is a little paler than what it reflects, and brings water of its own. */
 static const double reflection_strength = 0.95, reflection_water = 0.6;
-/* The last band is put on when so much of the time has passed. */
-static const double reflection_end = 0.85;
+/* Steps from one band to the next: four fifths of the time for all. */
+enum { BAND_STEPS = 5 * DEMO_MOMENT };
 
 static const struct {
     enum demo_mask_kind kind;
@@ -167,7 +167,7 @@ enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet)
         status = letter_screen(sheet, &page->letters[i], &inks[syllable_of[i]]);
     if (status == PAPER_OK)
         status = letter_screen(sheet, &page->caption, &caption_ink);
-    return status;
+    return status == PAPER_OK ? paper_finish(sheet) : status;
 }
 
 static enum paper_status reflection_screen(struct demo_page *page, struct paper *sheet, int band)
@@ -187,6 +187,8 @@ static enum paper_status reflection_screen(struct demo_page *page, struct paper 
                                 .yellow = inks[syllable].yellow * reflection_strength,
                                 .water = reflection_water};
         status = paper_screen_ink(sheet, &screen, 0, 0, &ink);
+        if (status == PAPER_OK)
+            status = paper_finish(sheet);
     }
     paper_screen_destroy(&screen);
     return status;
@@ -194,12 +196,12 @@ static enum paper_status reflection_screen(struct demo_page *page, struct paper 
 
 enum paper_status demo_page_step(struct demo_page *page, struct paper *sheet, int step)
 {
-    for (int band = 0; band < DEMO_BANDS; band++) {
-        if (step != (int)(DEMO_STEPS * reflection_end * band / DEMO_BANDS))
-            continue;
-        enum paper_status status = reflection_screen(page, sheet, band);
-        if (status != PAPER_OK)
-            return status;
-    }
-    return paper_disperse(sheet, &page->weather);
+    enum paper_status status = PAPER_OK;
+    if (step % BAND_STEPS == 0 && step / BAND_STEPS < DEMO_BANDS)
+        status = reflection_screen(page, sheet, step / BAND_STEPS);
+    if (status == PAPER_OK)
+        status = paper_disperse(sheet, &page->weather);
+    if (status == PAPER_OK && (step + 1) % STEPS_AT_ONCE == 0)
+        status = paper_finish(sheet);
+    return status;
 }

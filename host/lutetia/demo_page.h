@@ -15,7 +15,9 @@
 
 #include <paper.h>
 
-enum { DEMO_WIDTH = 1600, DEMO_HEIGHT = 1200, DEMO_STEPS = 900 };
+/* What happens at a moment happens at a multiple of DEMO_MOMENT steps, so that the machine, which looks at all that
+ * is asked of it between two moments at once, meets the same work again. */
+enum { DEMO_WIDTH = 1600, DEMO_HEIGHT = 1200, DEMO_MOMENT = 16, DEMO_STEPS = 56 * DEMO_MOMENT };
 
 struct paper_config demo_page_config(void);
 
@@ -26,7 +28,8 @@ void demo_page_destroy(struct demo_page *page); /* NULL is fine */
 
 /* The dry letters, and the marsh. Errors: as paper_screen_ink(). */
 enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet);
-/* One cycle of time, with what is put on before it. Errors: as paper_screen_ink() and paper_disperse(). */
+/* One cycle of time, with what is put on before it; every STEPS_AT_ONCE of them it waits for the machine.
+ * Errors: as paper_screen_ink(), paper_disperse() and paper_finish(). */
 enum paper_status demo_page_step(struct demo_page *page, struct paper *sheet, int step);
 
 #endif

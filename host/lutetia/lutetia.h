@@ -52,8 +52,8 @@ double clock_s(void); /* seconds since some moment */
 int machine_prepare(const char *verb, int width, int height);
 
 /* How many steps are asked of the machine before it is waited for: what Ctrl-C and the progress line wait at most.
- * Always the same, so that the machine meets the same steps again. */
-enum { STEPS_AT_ONCE = 16 };
+ * Always the same, so that the machine meets the same work again; few, so that it is soon compiled. */
+enum { STEPS_AT_ONCE = 2 };
 
 /* Reads the sheet and writes it as PNG. EXIT_SUCCESS, or says why not. */
 int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, const char *path);

@@ -49,10 +49,9 @@ static int demo_run(struct demo *demo)
             status = stage_take(demo);
         if (step == DEMO_STEPS || status != EXIT_SUCCESS)
             break;
-        if (demo_page_step(demo->page, demo->sheet, step) != PAPER_OK ||
-            ((step + 1) % STEPS_AT_ONCE == 0 && paper_finish(demo->sheet) != PAPER_OK))
+        if (demo_page_step(demo->page, demo->sheet, step) != PAPER_OK)
             status = fail("demo", "%s", paper_error());
-        if ((step + 1) % STEPS_AT_ONCE == 0)
+        if ((step + 1) % DEMO_MOMENT == 0)
             progress_show(&progress, step + 1);
     }
     progress_end(&progress);

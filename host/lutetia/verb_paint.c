@@ -179,7 +179,7 @@ static int paint_run(const struct paint *paint, struct paper *sheet)
         .gravity_y = paint->gravity,
         .humidity = paint->humidity,
         .molecular_weight = {paint->weights[0], paint->weights[1], paint->weights[2]}};
-    if (paint_apply(paint, sheet) != PAPER_OK)
+    if (paint_apply(paint, sheet) != PAPER_OK || paper_finish(sheet) != PAPER_OK)
         return fail("paint", "%s", paper_error());
 
     int status = EXIT_SUCCESS;

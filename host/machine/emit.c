@@ -536,8 +536,9 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
         put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
     }
     bool wraps = set->halo == 0 || e->reach > set->halo;
-    out->vector =
-        wraps || set->width < shape->vector || set->halo < shape->vector ? 1 : shape->vector;
+    /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
+    bool one = wraps || e->wide || set->width < shape->vector || set->halo < shape->vector;
+    out->vector = one ? 1 : shape->vector;
     out->wraps = wraps;
     out->wide = e->wide;
     struct text t = {0};

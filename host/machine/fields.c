@@ -624,6 +624,11 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
     int node = overflow_op(op, is_signed);
     if (!s || !a || !node || (node_ops[node].inputs == 2 && !b))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
+    if (op == MACHINE_NEG && !is_signed) { /* 0 - a */
+        b = a;
+        a = zero(m, a->type.width);
+        node = NODE_OVERFLOW_USUB;
+    }
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
     if (s->overflow.op && s->overflow.context != context)
         flag_resolved(m, s, MACHINE_OVERFLOW);

@@ -140,7 +140,7 @@ enum paper_status paper_create(const struct paper_config *config, struct paper *
     CM_my_news_coordinate_1L(p->x_coord, PAPER_AXIS_X, (unsigned)p->x_bits);
     CM_my_news_coordinate_1L(p->y_coord, PAPER_AXIS_Y, (unsigned)p->y_bits);
     paper_fibers_make(p, config);
-    status = paper_leave(p);
+    status = paper_finish(p); /* sheets begin alike, so the machine meets the same work again */
     if (status != PAPER_OK) {
         paper_destroy(p);
         return status;

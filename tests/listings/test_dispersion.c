@@ -15,6 +15,7 @@
 
 #include "oracle.h"
 #include "page.h"
+#include "paris_internal.h"
 #include "variant.h"
 
 enum { STEPS = 200 };
@@ -88,6 +89,17 @@ static void compare(struct FiberStruct *page, const struct oracle *o, int step)
     free(words);
 }
 
+/* What it took, for whoever reads the log. */
+static void report(void)
+{
+    struct machine_stats now;
+
+    machine_stats_get(paris_machine(), &now);
+    print_message("%llu plans and %llu kernels built so far, %llu kernels run, %.1f s waited\n",
+                  (unsigned long long)now.plans_built, (unsigned long long)now.kernels_built,
+                  (unsigned long long)now.kernels_run, now.busy_s);
+}
+
 /* observed_every 0: at the end only. */
 static void disperse(int width, int height, int observed_every)
 {
@@ -108,6 +120,7 @@ static void disperse(int width, int height, int observed_every)
     }
     page_destroy(&page);
     oracle_finish(&o);
+    report();
 }
 
 static void dispersion_square_sheet_agrees(void **state)

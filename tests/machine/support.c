@@ -134,6 +134,46 @@ void support_expect_field(struct machine *m, uint32_t field, struct machine_type
     free(array);
 }
 
+enum { LATER_MAX = 64 };
+
+static struct {
+    uint32_t field;
+    struct machine_type type;
+    support_expected expected;
+    _Alignas(16) char data[64];
+    char what[64];
+} later[LATER_MAX];
+static int later_count;
+
+void support_later(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
+                   size_t data_bytes, const char *what)
+{
+    uint32_t field;
+
+    assert_true(data_bytes <= sizeof later[0].data && later_count < LATER_MAX);
+    if (!value)
+        fail_msg("%s: %s", what, machine_error(m));
+    later[later_count].type = machine_value_type(value);
+    field = machine_field_allocate(m, machine_vpset_current(m), later[later_count].type.width, MACHINE_HEAP);
+    assert_ok(machine_field_store(m, field, value, MACHINE_EVERYWHERE), m);
+    later[later_count].field = field;
+    later[later_count].expected = expected;
+    memcpy(later[later_count].data, data, data_bytes);
+    snprintf(later[later_count++].what, sizeof later[0].what, "%s", what);
+}
+
+void support_check(struct machine *m)
+{
+    int count = later_count;
+
+    later_count = 0; /* a failure below leaves the rest alone */
+    assert_ok(machine_finish(m), m);
+    for (int k = 0; k < count; k++) {
+        support_expect_field(m, later[k].field, later[k].type, later[k].expected, later[k].data, later[k].what);
+        assert_ok(machine_field_deallocate(m, later[k].field), m);
+    }
+}
+
 void support_expect(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
                     const char *what)
 {

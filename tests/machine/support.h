@@ -48,6 +48,11 @@ void support_element_set(void *array, struct machine_type type, uint64_t n, wide
 typedef wide (*support_expected)(const void *data, uint64_t n);
 void support_expect(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
                     const char *what);
+/* The same, but only at the next support_check(): one evaluation, so few kernels to compile. data_bytes of data are
+ * copied, at most 64. */
+void support_later(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
+                   size_t data_bytes, const char *what);
+void support_check(struct machine *m);
 /* The same for a field as it is. */
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what);

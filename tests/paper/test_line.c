@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #define FONT "DejaVuSerif"         /* kerned by its kern table */
-#define FONT_GPOS "P052-Roman.otf" /* kerned by GPOS only */
+#define FONT_GPOS "EBGaramond12-Regular" /* kerned by GPOS only */
 
 static struct paper_screen line_make(const char *text, const char *font, double size_px)
 {

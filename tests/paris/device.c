@@ -48,7 +48,8 @@ void device_get(CM_field_id_t field, int width, number *numbers)
 {
     size_t bytes = machine_element_bytes(MACHINE_UINT(width));
     unsigned char dense[COUNT * sizeof(number)];
-    if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) != MACHINE_OK)
+    if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) !=
+        MACHINE_OK)
         stop("download");
     for (size_t i = 0; i < COUNT; i++) {
         numbers[i] = 0;
@@ -109,14 +110,15 @@ void device_integers(number *numbers, int width)
 
 void device_floats(number *numbers, int width)
 {
-    static const double plain[] = {0,    -0.0, 1,    -1,   0.5,  -0.5, 1.5,   2.5,  -2.5, 0.1,
-                                   3e38, 1e-3, 255,  1e9,  -7,   127.5, -128, 65536, 4e18, 0.3333};
-    static const uint64_t bits32[] = {0x7f800000, 0xff800000, 0x7fc00000, 0xffc01234, 0x7f800001, 0x00000001,
-                                      0x807fffff, 0x00800000, 0x7f7fffff, 0xff7fffff, 0x4b000001, 0xcf000000};
-    static const uint64_t bits64[] = {0x7ff0000000000000, 0xfff0000000000000, 0x7ff8000000000000,
-                                      0xfff8000000001234, 0x7ff0000000000001, 0x0000000000000001,
-                                      0x800fffffffffffff, 0x0010000000000000, 0x7fefffffffffffff,
-                                      0xffefffffffffffff, 0x4330000000000001, 0xc3e0000000000000};
+    static const double plain[] = {0,    -0.0, 1,   -1,  0.5, -0.5,  1.5,  2.5,   -2.5, 0.1,
+                                   3e38, 1e-3, 255, 1e9, -7,  127.5, -128, 65536, 4e18, 0.3333};
+    static const uint64_t bits32[] = {0x7f800000, 0xff800000, 0x7fc00000, 0xffc01234,
+                                      0x7f800001, 0x00000001, 0x807fffff, 0x00800000,
+                                      0x7f7fffff, 0xff7fffff, 0x4b000001, 0xcf000000};
+    static const uint64_t bits64[] = {
+        0x7ff0000000000000, 0xfff0000000000000, 0x7ff8000000000000, 0xfff8000000001234,
+        0x7ff0000000000001, 0x0000000000000001, 0x800fffffffffffff, 0x0010000000000000,
+        0x7fefffffffffffff, 0xffefffffffffffff, 0x4330000000000001, 0xc3e0000000000000};
     for (int i = 0; i < COUNT; i++) {
         uint64_t r = device_random();
         switch (device_random() % 4) {

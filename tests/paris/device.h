@@ -1,4 +1,5 @@
-/* device.h - what the tests of C/Paris share: a VP set of an odd size, numbers in it, and masks. */
+/* device.h - what the tests of C/Paris share: a VP set of an odd size, numbers in it, and
+ * masks. */
 #ifndef PARIS_TESTS_DEVICE_H
 #define PARIS_TESTS_DEVICE_H
 
@@ -10,8 +11,9 @@
 
 enum { ROWS = 5, COLUMNS = 13, COUNT = ROWS * COLUMNS };
 
-/* A machine of 16 processors with a VP set of ROWS x COLUMNS current: VP ratio 5, the last ones missing. eager as
- * in struct machine_config. Exits with 77 (skipped) where there is no device. */
+/* A machine of 16 processors with a VP set of ROWS x COLUMNS current: VP ratio 5, the last ones
+ * missing. eager as in struct machine_config. Exits with 77 (skipped) where there is no device.
+ * */
 void device_start(int eager);
 
 /* COUNT numbers of width bits to and from a field, whatever the context. */
@@ -23,8 +25,8 @@ uint64_t device_random(void);
 void device_seed(uint64_t seed);
 /* COUNT numbers of width bits, half of them special: 0, 1, -1, the ends, single bits. */
 void device_integers(number *numbers, int width);
-/* COUNT floats (width 32 or 64): zeros of both signs, denormals, infinities, NaNs, the ends, whole numbers and
- * halves, others. */
+/* COUNT floats (width 32 or 64): zeros of both signs, denormals, infinities, NaNs, the ends,
+ * whole numbers and halves, others. */
 void device_floats(number *numbers, int width);
 
 /* which % 3: none, all, random */

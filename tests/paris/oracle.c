@@ -32,7 +32,8 @@ number oracle_extend(number bits, int width, bool is_signed)
     return bits;
 }
 
-static bool arithmetic_overflows(const char *op, bool is_signed, number a, number b, number *result)
+static bool arithmetic_overflows(const char *op, bool is_signed, number a, number b,
+                                 number *result)
 {
     if (is(op, "subfrom")) {
         number t = a;
@@ -43,11 +44,14 @@ static bool arithmetic_overflows(const char *op, bool is_signed, number a, numbe
     signed_number x = (signed_number)a, y = (signed_number)b, r = 0;
     bool overflow = false;
     if (is(op, "add"))
-        overflow = is_signed ? __builtin_add_overflow(x, y, &r) : __builtin_add_overflow(a, b, result);
+        overflow =
+            is_signed ? __builtin_add_overflow(x, y, &r) : __builtin_add_overflow(a, b, result);
     else if (is(op, "subtract"))
-        overflow = is_signed ? __builtin_sub_overflow(x, y, &r) : __builtin_sub_overflow(a, b, result);
+        overflow =
+            is_signed ? __builtin_sub_overflow(x, y, &r) : __builtin_sub_overflow(a, b, result);
     else if (is(op, "multiply"))
-        overflow = is_signed ? __builtin_mul_overflow(x, y, &r) : __builtin_mul_overflow(a, b, result);
+        overflow =
+            is_signed ? __builtin_mul_overflow(x, y, &r) : __builtin_mul_overflow(a, b, result);
     if (is_signed)
         *result = (number)r;
     return overflow;
@@ -58,7 +62,8 @@ static bool less(bool is_signed, number a, number b)
     return is_signed ? (signed_number)a < (signed_number)b : a < b;
 }
 
-struct oracle_result oracle_integer(const char *op, bool is_signed, number a, int alen, number b, int blen, int dlen)
+struct oracle_result oracle_integer(const char *op, bool is_signed, number a, int alen,
+                                    number b, int blen, int dlen)
 {
     number x = oracle_extend(a, alen, is_signed), y = oracle_extend(b, blen, is_signed), r = 0;
     struct oracle_result out = {0, false};
@@ -82,12 +87,17 @@ struct oracle_result oracle_integer(const char *op, bool is_signed, number a, in
     return out;
 }
 
-bool oracle_integer_compare(const char *op, bool is_signed, number a, int alen, number b, int blen)
+bool oracle_integer_compare(const char *op, bool is_signed, number a, int alen, number b,
+                            int blen)
 {
     number x = oracle_extend(a, alen, is_signed), y = oracle_extend(b, blen, is_signed);
     bool lt = less(is_signed, x, y), eq = x == y;
-    return is(op, "eq") ? eq : is(op, "ne") ? !eq : is(op, "lt") ? lt : is(op, "le") ? lt || eq
-                                                            : is(op, "gt") ? !lt && !eq : !lt;
+    return is(op, "eq")   ? eq
+           : is(op, "ne") ? !eq
+           : is(op, "lt") ? lt
+           : is(op, "le") ? lt || eq
+           : is(op, "gt") ? !lt && !eq
+                          : !lt;
 }
 
 /* ---- floats ---- */
@@ -190,7 +200,8 @@ struct oracle_result oracle_float(const char *op, int width, number a, number b)
     else if (op[0] == 'f' && op[1] == '_')
         r = whole(op, x);
     else
-        r = width == 32 ? single_arithmetic(op, (float)x, (float)y) : double_arithmetic(op, x, y);
+        r = width == 32 ? single_arithmetic(op, (float)x, (float)y)
+                        : double_arithmetic(op, x, y);
     out.bits = canonical(width, r);
     out.overflow = isinf(r) && isfinite(x) && isfinite(y);
     return out;
@@ -199,13 +210,18 @@ struct oracle_result oracle_float(const char *op, int width, number a, number b)
 bool oracle_float_compare(const char *op, int width, number a, number b)
 {
     double x = oracle_float_value(width, a), y = oracle_float_value(width, b);
-    return is(op, "eq") ? x == y : is(op, "ne") ? x != y : is(op, "lt") ? x < y : is(op, "le") ? x <= y
-                                                             : is(op, "gt") ? x > y : x >= y;
+    return is(op, "eq")   ? x == y
+           : is(op, "ne") ? x != y
+           : is(op, "lt") ? x < y
+           : is(op, "le") ? x <= y
+           : is(op, "gt") ? x > y
+                          : x >= y;
 }
 
 number oracle_float_move(int to_width, number bits, int from_width)
 {
-    return to_width == from_width ? bits : canonical(to_width, oracle_float_value(from_width, bits));
+    return to_width == from_width ? bits
+                                  : canonical(to_width, oracle_float_value(from_width, bits));
 }
 
 /* ---- conversions ---- */
@@ -220,7 +236,8 @@ number oracle_to_float(int width, number integer, int len, bool is_signed)
         kept >>= 1;
         exponent++;
     }
-    number lost = magnitude - (kept << exponent), half = exponent ? (number)1 << (exponent - 1) : 0;
+    number lost = magnitude - (kept << exponent),
+           half = exponent ? (number)1 << (exponent - 1) : 0;
     if (exponent && (lost > half || (lost == half && (kept & 1))))
         kept++;
     double r = ldexp((double)kept, exponent);
@@ -229,14 +246,16 @@ number oracle_to_float(int width, number integer, int len, bool is_signed)
     return canonical(width, negative ? -r : r);
 }
 
-struct oracle_result oracle_to_integer(const char *op, int width, number bits, int len, bool is_signed)
+struct oracle_result oracle_to_integer(const char *op, int width, number bits, int len,
+                                       bool is_signed)
 {
     double x = oracle_float_value(width, bits);
     struct oracle_result out = {0, true};
     if (isnan(x))
         return out;
     double r = whole(op, x);
-    double low = is_signed ? -ldexp(1, len - 1) : 0, beyond = ldexp(1, is_signed ? len - 1 : len);
+    double low = is_signed ? -ldexp(1, len - 1) : 0,
+           beyond = ldexp(1, is_signed ? len - 1 : len);
     if (r < low) {
         out.bits = is_signed ? (number)1 << (len - 1) : 0;
     } else if (r >= beyond) {

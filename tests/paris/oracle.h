@@ -1,6 +1,8 @@
-/* oracle.h - what C/Paris instructions compute, for one processor, in plain C. Knows nothing of the machine.
+/* oracle.h - what C/Paris instructions compute, for one processor, in plain C. Knows nothing of
+ * the machine.
  *
- * A number is 128 bits; a float's bits are in the low 32 or 64. Operations are named as in instructions.tab. */
+ * A number is 128 bits; a float's bits are in the low 32 or 64. Operations are named as in
+ * instructions.tab. */
 #ifndef PARIS_TESTS_ORACLE_H
 #define PARIS_TESTS_ORACLE_H
 
@@ -17,13 +19,16 @@ struct oracle_result {
     bool overflow;
 };
 
-/* add subtract multiply subfrom min max; negate abs (b is ignored). alen, blen, dlen: widths of a, b, dest. */
-struct oracle_result oracle_integer(const char *op, bool is_signed, number a, int alen, number b, int blen, int dlen);
+/* add subtract multiply subfrom min max; negate abs (b is ignored). alen, blen, dlen: widths of
+ * a, b, dest. */
+struct oracle_result oracle_integer(const char *op, bool is_signed, number a, int alen,
+                                    number b, int blen, int dlen);
 /* eq ne lt le gt ge */
-bool oracle_integer_compare(const char *op, bool is_signed, number a, int alen, number b, int blen);
+bool oracle_integer_compare(const char *op, bool is_signed, number a, int alen, number b,
+                            int blen);
 
-/* width 32 or 64. add subtract multiply divide subfrom divinto min max; negate abs sqrt f_floor f_ceiling
- * f_truncate f_round. */
+/* width 32 or 64. add subtract multiply divide subfrom divinto min max; negate abs sqrt f_floor
+ * f_ceiling f_truncate f_round. */
 struct oracle_result oracle_float(const char *op, int width, number a, number b);
 bool oracle_float_compare(const char *op, int width, number a, number b);
 
@@ -33,7 +38,8 @@ number oracle_float_move(int to_width, number bits, int from_width);
 /* Rounded to nearest, halves to even. */
 number oracle_to_float(int width, number integer, int len, bool is_signed);
 /* op: ..._floor, ..._ceiling, ..._truncate, ..._round */
-struct oracle_result oracle_to_integer(const char *op, int width, number bits, int len, bool is_signed);
+struct oracle_result oracle_to_integer(const char *op, int width, number bits, int len,
+                                       bool is_signed);
 
 /* logand ... logorc2, lognot */
 number oracle_logical(const char *op, number a, number b);

@@ -1,5 +1,7 @@
-/* A program as one of 1990 was written: K&R definitions, implicit int, field ids in ints, names pasted by macros.
- * It must compile with -std=gnu89 -Wall without a word, by gcc and clang, and it returns 0 when all is right. */
+/* clang-format off */
+/* A program as one of 1990 was written: K&R definitions, implicit int, field ids in ints, names
+ * pasted by macros. It must compile with -std=gnu89 -Wall without a word, by gcc and clang, and
+ * it returns 0 when all is right. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/paris.h>
@@ -8,11 +10,11 @@
 #define HEIGHT 10
 #define SIG_EXP 23, 8
 #define GLUE3(a, b, c) a##b##c
-#define MAKE_ADD(name, type, lengths)                                                               \
-    void name (dest, source)                                                                        \
-        int dest, source;                                                                           \
-    {                                                                                               \
-        GLUE3 (CM, type, add_2_1L) (dest, source, lengths);                                         \
+#define MAKE_ADD(name, type, lengths)                                   \
+    void name (dest, source)                                            \
+        int dest, source;                                               \
+    {                                                                   \
+        GLUE3 (CM, type, add_2_1L) (dest, source, lengths);             \
     }
 
 MAKE_ADD (add_bytes, _u_, 8)
@@ -56,12 +58,13 @@ static void picture ()
     axis_vector[1] = 1;
 
     byte = CM_allocate_stack_field (8);
-    CM_u_write_to_news_array_1L (buff, offset_vector, start_vector, end_vector, axis_vector, byte, 8, 2,
-                                 dimension_vector, 1);
+    CM_u_write_to_news_array_1L (buff, offset_vector, start_vector, end_vector, axis_vector,
+                                 byte, 8, 2, dimension_vector, 1);
     CM_get_from_news_1L (byte, byte, 1, 0, 8);
-    CM_u_read_from_news_array_1L (back, offset_vector, start_vector, end_vector, axis_vector, byte, 8, 2,
-                                  dimension_vector, 1);
-    check ("a byte from the right", back[0] == 1 && back[WIDTH - 1] == 0 && back[WIDTH] == WIDTH + 1);
+    CM_u_read_from_news_array_1L (back, offset_vector, start_vector, end_vector, axis_vector,
+                                  byte, 8, 2, dimension_vector, 1);
+    check ("a byte from the right",
+           back[0] == 1 && back[WIDTH - 1] == 0 && back[WIDTH] == WIDTH + 1);
     add_bytes (byte, byte);
     check ("twice a byte", CM_u_read_from_processor_1L (0, byte, 8) == 2);
     CM_deallocate_stack_through (byte);
@@ -99,6 +102,7 @@ main ()
     picture ();
 
     if (failures == 0)
-        printf ("smoke_1990: %d processors, all right\n", CM_geometry_total_processors (geometry));
+        printf ("smoke_1990: %d processors, all right\n",
+                CM_geometry_total_processors (geometry));
     return failures != 0;
 }

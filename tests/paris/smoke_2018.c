@@ -1,4 +1,5 @@
-/* The same header in strict C17 with -Wpedantic: it compiles without a word and returns 0 when all is right. */
+/* The same header in strict C17 with -Wpedantic: it compiles without a word and returns 0 when
+ * all is right. */
 #include <cm/paris.h>
 
 #include <stdio.h>

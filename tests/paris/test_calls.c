@@ -1,5 +1,5 @@
-/* What is not rows of operations: fields and their parts, geometries and addresses, processors, arrays,
- * reductions, long fields, random numbers, timers, lights. */
+/* What is not rows of operations: fields and their parts, geometries and addresses, processors,
+ * arrays, reductions, long fields, random numbers, timers, lights. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,7 +45,8 @@ static void field_parts_are_its_bits(void **unused)
 static void field_inquiries_answer(void **unused)
 {
     (void)unused;
-    CM_field_id_t a = CM_allocate_stack_field(40), b = CM_allocate_stack_field(7), h = CM_allocate_heap_field(9);
+    CM_field_id_t a = CM_allocate_stack_field(40), b = CM_allocate_stack_field(7),
+                  h = CM_allocate_heap_field(9);
     assert_true(CM_is_field_valid(a) && CM_is_field_in_stack(a) && !CM_is_field_in_heap(a));
     assert_true(CM_is_field_in_heap(h) && !CM_is_field_in_stack(h));
     assert_true(CM_is_stack_field_newer(b, a) && !CM_is_stack_field_newer(a, b));
@@ -88,7 +89,8 @@ static void addresses_name_processors(void **unused)
     bool seen[16 * 5] = {false};
     for (unsigned int y = 0; y < ROWS; y++)
         for (unsigned int x = 0; x < COLUMNS; x++) {
-            unsigned int a = CM_fe_deposit_news_coordinate(g, CM_fe_make_news_coordinate(g, 0, y), 1, x);
+            unsigned int a =
+                CM_fe_deposit_news_coordinate(g, CM_fe_make_news_coordinate(g, 0, y), 1, x);
             assert_true(a < 80 && !seen[a]);
             seen[a] = true;
             assert_int_equal(CM_u_read_from_processor_1L(a, address, bits), a);
@@ -133,7 +135,8 @@ static void flags_belong_to_their_vp_set(void **unused)
     (void)unused;
     CM_vp_set_id_t first = CM_current_vp_set;
     int dimension = 10;
-    CM_vp_set_id_t second = CM_allocate_vp_set(CM_create_geometry((CM_vector_t){.ints = &dimension}, 1));
+    CM_vp_set_id_t second =
+        CM_allocate_vp_set(CM_create_geometry((CM_vector_t){.ints = &dimension}, 1));
     CM_clear_context();
     CM_set_vp_set(second);
     assert_int_equal(CM_global_count_context(), 10);
@@ -160,7 +163,8 @@ static void processors_are_read_and_written(void **unused)
     assert_int_equal(CM_u_read_from_processor(3, f, 5), 0xf);
     CM_s_write_to_processor_1L(8, f, -5, 100);
     assert_true(CM_s_read_from_processor_long_1L(8, f, 100) == -5);
-    assert_int_equal(CM_u_read_from_processor_1L(8, CM_add_offset_to_field_id(f, 90), 12), 0x3ff);
+    assert_int_equal(CM_u_read_from_processor_1L(8, CM_add_offset_to_field_id(f, 90), 12),
+                     0x3ff);
     CM_f_write_to_processor_1L(0, f, 0.1, 23, 8);
     assert_true(CM_f_read_from_processor_1L(0, f, 23, 8) == (double)0.1f);
     CM_f_write_to_processor(0, f, -0.1, 52, 11);
@@ -177,10 +181,17 @@ static void processors_are_read_and_written(void **unused)
 struct block {
     int offset[2], start[2], end[2], axis[2], dimensions[2];
 };
-#define VECTORS(b)                                                                                                     \
-    (CM_vector_t){.ints = b.offset}, (CM_vector_t){.ints = b.start}, (CM_vector_t){.ints = b.end},                     \
-        (CM_vector_t){.ints = b.axis}
-#define DIMENSIONS(b) (CM_vector_t){.ints = b.dimensions}
+#define VECTORS(b)                                                                             \
+    (CM_vector_t){.ints = b.offset}, (CM_vector_t){.ints = b.start},                           \
+        (CM_vector_t){.ints = b.end}, (CM_vector_t)                                            \
+    {                                                                                          \
+        .ints = b.axis                                                                         \
+    }
+#define DIMENSIONS(b)                                                                          \
+    (CM_vector_t)                                                                              \
+    {                                                                                          \
+        .ints = b.dimensions                                                                   \
+    }
 
 static const struct block blocks[] = {
     {{0, 0}, {0, 0}, {ROWS, COLUMNS}, {0, 1}, {ROWS, COLUMNS}}, /* all, as it is */
@@ -216,9 +227,11 @@ static void integer_blocks(unsigned int format, int bytes, int width, bool is_si
         device_integers(before, width);
         CM_field_id_t f = stack_with(width, before);
         if (is_signed)
-            CM_s_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
+            CM_s_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
+                                        format);
         else
-            CM_u_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
+            CM_u_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
+                                        format);
         device_get(f, width, after);
         for (int k = 0; k < b.dimensions[0] * b.dimensions[1]; k++) {
             number element = 0;
@@ -230,12 +243,15 @@ static void integer_blocks(unsigned int format, int bytes, int width, bool is_si
         }
         for (int p = 0; p < COUNT; p++)
             if (before[p] != after[p])
-                fail_msg("write: format %u, %d bits, block %d, processor %d: %llx, wanted %llx", format, width, n, p,
-                         (unsigned long long)after[p], (unsigned long long)before[p]);
+                fail_msg("write: format %u, %d bits, block %d, processor %d: %llx, wanted %llx",
+                         format, width, n, p, (unsigned long long)after[p],
+                         (unsigned long long)before[p]);
         if (is_signed)
-            CM_s_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
+            CM_s_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
+                                         format);
         else
-            CM_u_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
+            CM_u_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
+                                         format);
         for (int k = 0; k < ARRAY; k++) {
             number got = 0, wanted = 0;
             int p = k < b.dimensions[0] * b.dimensions[1] ? processor_of(&b, k) : -1;
@@ -244,8 +260,9 @@ static void integer_blocks(unsigned int format, int bytes, int width, bool is_si
             if (p >= 0)
                 wanted = oracle_extend(after[p], width, is_signed) & oracle_mask(8 * bytes);
             if (got != wanted)
-                fail_msg("read: format %u, %d bits, block %d, element %d: %llx, wanted %llx", format, width, n, k,
-                         (unsigned long long)got, (unsigned long long)wanted);
+                fail_msg("read: format %u, %d bits, block %d, element %d: %llx, wanted %llx",
+                         format, width, n, k, (unsigned long long)got,
+                         (unsigned long long)wanted);
         }
         CM_deallocate_stack_through(f);
     }
@@ -278,10 +295,14 @@ static void arrays_of_floats_move(void **unused)
         doubles[k] = ldexp((double)(int64_t)device_random(), (int)(device_random() % 100) - 80);
         singles[k] = (float)-doubles[k];
     }
-    CM_f_write_to_news_array_1L(doubles, VECTORS(b), f, 23, 8, 2, DIMENSIONS(b), CM_float_double);
-    CM_f_read_from_news_array_1L(singles_back, VECTORS(b), f, 23, 8, 2, DIMENSIONS(b), CM_float_single);
-    CM_f_write_to_news_array_1L(singles, VECTORS(b), f, 52, 11, 2, DIMENSIONS(b), CM_float_single);
-    CM_f_read_from_news_array_1L(doubles_back, VECTORS(b), f, 52, 11, 2, DIMENSIONS(b), CM_float_double);
+    CM_f_write_to_news_array_1L(doubles, VECTORS(b), f, 23, 8, 2, DIMENSIONS(b),
+                                CM_float_double);
+    CM_f_read_from_news_array_1L(singles_back, VECTORS(b), f, 23, 8, 2, DIMENSIONS(b),
+                                 CM_float_single);
+    CM_f_write_to_news_array_1L(singles, VECTORS(b), f, 52, 11, 2, DIMENSIONS(b),
+                                CM_float_single);
+    CM_f_read_from_news_array_1L(doubles_back, VECTORS(b), f, 52, 11, 2, DIMENSIONS(b),
+                                 CM_float_double);
     for (int k = 0; k < b.dimensions[0] * b.dimensions[1]; k++)
         if (processor_of(&b, k) >= 0) {
             assert_true(singles_back[k] == (float)doubles[k]);
@@ -562,8 +583,8 @@ static void init_gives_all_back(void **unused)
     CM_vp_set_id_t set = CM_current_vp_set;
     CM_init();
     assert_false(CM_is_field_valid(h));
-    assert_false(CM_is_vp_set_valid(set) && CM_current_vp_set == set && CM_geometry_total_processors(
-                     CM_vp_set_geometry(set)) == COUNT);
+    assert_false(CM_is_vp_set_valid(set) && CM_current_vp_set == set &&
+                 CM_geometry_total_processors(CM_vp_set_geometry(set)) == COUNT);
     assert_int_equal(CM_physical_processors_limit, 16);
     assert_int_equal(CM_physical_processors_length, 4);
     assert_int_equal(CM_geometry_total_processors(CM_vp_set_geometry(CM_current_vp_set)), 16);

@@ -1,5 +1,5 @@
-/* Wrong calls: in safety mode each is explained with the call, the argument and what to do; without it none
- * harms the host, and what the machine cannot do is explained too. */
+/* Wrong calls: in safety mode each is explained with the call, the argument and what to do;
+ * without it none harms the host, and what the machine cannot do is explained too. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,87 +14,235 @@
 /* Of the current VP set, of another, on the heap, and one that has been given back. */
 static CM_field_id_t f, foreign, heap, dead;
 static CM_vp_set_id_t other_set;
-static int vector[2] = {0, 0}, beyond[2] = {ROWS + 1, COLUMNS}, dimensions[2] = {ROWS, COLUMNS}, axes[2] = {0, 1};
+static int vector[2] = {0, 0}, beyond[2] = {ROWS + 1, COLUMNS}, dimensions[2] = {ROWS, COLUMNS},
+           axes[2] = {0, 1};
 static unsigned char array[COUNT];
 
 #define V(v) ((CM_vector_t){.ints = v})
 
-static void add_dead(void) { CM_u_add_2_1L(f, dead, 8); }
-static void add_none(void) { CM_u_add_2_1L(CM_no_field, f, 8); }
-static void add_foreign(void) { CM_s_add_2_1L(f, foreign, 8); }
-static void add_nothing(void) { CM_u_add_2_1L(f, f, 0); }
-static void add_129(void) { CM_u_add_2_1L(f, f, 129); }
-static void add_beyond(void) { CM_u_add_2_1L(f, f, 100); }
-static void add_overlap(void) { CM_u_add_2_1L(f, f + 4, 8); }
-static void add_big_constant(void) { CM_u_add_constant_2_1L(f, 256, 8); }
-static void signed_one_bit(void) { CM_s_negate_1_1L(f, 1); }
-static void float_odd(void) { CM_f_add_2_1L(f, f, 20, 11); }
-static void float_beyond(void) { CM_f_add_2_1L(f, f, 52, 11); }
-static void compare_dead(void) { CM_f_gt_zero_1L(dead, 23, 8); }
-static void move_dead(void) { CM_u_move_1L(dead, f, 8); }
-static void logical_beyond(void) { CM_logand_2_1L(f, f, 1000); }
-static void load_dead(void) { CM_load_context(dead); }
-static void store_foreign(void) { CM_store_test(foreign); }
-static void news_axis(void) { CM_get_from_news_1L(f, f, 2, 0, 8); }
-static void news_axis_minus(void) { CM_get_from_news_1L(f, f, (unsigned)-1, 0, 8); }
-static void news_direction(void) { CM_send_to_news_1L(f, f, 1, 2, 8); }
-static void coordinate_axis(void) { CM_my_news_coordinate_1L(f, 9, 8); }
-static void read_address(void) { CM_u_read_from_processor_1L(80, f, 8); }
-static void write_address(void) { CM_u_write_to_processor_1L((unsigned)-1, f, 1, 8); }
-static void write_dead(void) { CM_f_write_to_processor_1L(0, dead, 1, 23, 8); }
+static void add_dead(void)
+{
+    CM_u_add_2_1L(f, dead, 8);
+}
+static void add_none(void)
+{
+    CM_u_add_2_1L(CM_no_field, f, 8);
+}
+static void add_foreign(void)
+{
+    CM_s_add_2_1L(f, foreign, 8);
+}
+static void add_nothing(void)
+{
+    CM_u_add_2_1L(f, f, 0);
+}
+static void add_129(void)
+{
+    CM_u_add_2_1L(f, f, 129);
+}
+static void add_beyond(void)
+{
+    CM_u_add_2_1L(f, f, 100);
+}
+static void add_overlap(void)
+{
+    CM_u_add_2_1L(f, f + 4, 8);
+}
+static void add_big_constant(void)
+{
+    CM_u_add_constant_2_1L(f, 256, 8);
+}
+static void signed_one_bit(void)
+{
+    CM_s_negate_1_1L(f, 1);
+}
+static void float_odd(void)
+{
+    CM_f_add_2_1L(f, f, 20, 11);
+}
+static void float_beyond(void)
+{
+    CM_f_add_2_1L(f, f, 52, 11);
+}
+static void compare_dead(void)
+{
+    CM_f_gt_zero_1L(dead, 23, 8);
+}
+static void move_dead(void)
+{
+    CM_u_move_1L(dead, f, 8);
+}
+static void logical_beyond(void)
+{
+    CM_logand_2_1L(f, f, 1000);
+}
+static void load_dead(void)
+{
+    CM_load_context(dead);
+}
+static void store_foreign(void)
+{
+    CM_store_test(foreign);
+}
+static void news_axis(void)
+{
+    CM_get_from_news_1L(f, f, 2, 0, 8);
+}
+static void news_axis_minus(void)
+{
+    CM_get_from_news_1L(f, f, (unsigned)-1, 0, 8);
+}
+static void news_direction(void)
+{
+    CM_send_to_news_1L(f, f, 1, 2, 8);
+}
+static void coordinate_axis(void)
+{
+    CM_my_news_coordinate_1L(f, 9, 8);
+}
+static void read_address(void)
+{
+    CM_u_read_from_processor_1L(80, f, 8);
+}
+static void write_address(void)
+{
+    CM_u_write_to_processor_1L((unsigned)-1, f, 1, 8);
+}
+static void write_dead(void)
+{
+    CM_f_write_to_processor_1L(0, dead, 1, 23, 8);
+}
 static void array_end(void)
 {
-    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(beyond), V(axes), f, 8, 2, V(dimensions), CM_8_bit);
+    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(beyond), V(axes), f, 8, 2,
+                                V(dimensions), CM_8_bit);
 }
 static void array_axis(void)
 {
-    CM_u_read_from_news_array_1L(array, V(vector), V(vector), V(dimensions), V(vector), f, 8, 2, V(dimensions), 1);
+    CM_u_read_from_news_array_1L(array, V(vector), V(vector), V(dimensions), V(vector), f, 8, 2,
+                                 V(dimensions), 1);
 }
 static void array_format(void)
 {
-    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 8, 2, V(dimensions), 9);
+    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 8, 2,
+                                V(dimensions), 9);
 }
 static void array_float_format(void)
 {
-    CM_f_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 23, 8, 2, V(dimensions),
-                                CM_8_bit);
+    CM_f_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 23, 8,
+                                2, V(dimensions), CM_8_bit);
 }
 static void array_null(void)
 {
-    CM_u_write_to_news_array_1L(NULL, V(vector), V(vector), V(dimensions), V(axes), f, 8, 2, V(dimensions), 1);
+    CM_u_write_to_news_array_1L(NULL, V(vector), V(vector), V(dimensions), V(axes), f, 8, 2,
+                                V(dimensions), 1);
 }
 static void array_no_vector(void)
 {
-    CM_u_write_to_news_array_1L(array, V(NULL), V(vector), V(dimensions), V(axes), f, 8, 2, V(dimensions), 1);
+    CM_u_write_to_news_array_1L(array, V(NULL), V(vector), V(dimensions), V(axes), f, 8, 2,
+                                V(dimensions), 1);
 }
 static void array_rank(void)
 {
-    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 8, 3, V(dimensions), 1);
+    CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 8, 3,
+                                V(dimensions), 1);
 }
-static void allocate_nothing(void) { CM_allocate_stack_field(0); }
-static void allocate_too_much(void) { CM_allocate_heap_field(0xffffffffu); }
-static void allocate_nowhere(void) { CM_allocate_heap_field_vp_set(8, 77); }
-static void deallocate_twice(void) { CM_deallocate_heap_field(dead); }
-static void deallocate_stack_as_heap(void) { CM_deallocate_heap_field(f); }
-static void deallocate_heap_as_stack(void) { CM_deallocate_stack_through(heap); }
-static void deallocate_none(void) { CM_deallocate_stack_through(CM_no_field); }
-static void geometry_rank(void) { CM_create_geometry(V(dimensions), 0); }
-static void geometry_rank_32(void) { CM_create_geometry(V(dimensions), 32); }
-static void geometry_length(void) { CM_create_geometry(V(vector), 2); }
-static void geometry_null(void) { CM_create_geometry(V(NULL), 2); }
-static void geometry_none(void) { CM_geometry_axis_length(99, 0); }
-static void geometry_axis(void) { CM_geometry_axis_length(CM_current_geometry, 2); }
-static void geometry_used(void) { CM_deallocate_geometry(CM_current_geometry); }
-static void set_none(void) { CM_set_vp_set(0); }
-static void set_far(void) { CM_set_vp_set(1000000); }
-static void vp_set_none(void) { CM_allocate_vp_set(-3); }
-static void coordinate_far(void) { CM_fe_make_news_coordinate(CM_current_geometry, 0, ROWS); }
-static void extract_far(void) { CM_fe_extract_news_coordinate(CM_current_geometry, 0, 1u << 30); }
-static void random_limit(void) { CM_u_random_1L(f, 8, 1000); }
-static void timer_far(void) { CM_timer_start(64); }
-static void global_dead(void) { CM_global_u_add_1L(dead, 8); }
-static void leds_dead(void) { CM_latch_leds(dead); }
-static void attach_odd(void) { CM_attach_to_processors(100); }
+static void allocate_nothing(void)
+{
+    CM_allocate_stack_field(0);
+}
+static void allocate_too_much(void)
+{
+    CM_allocate_heap_field(0xffffffffu);
+}
+static void allocate_nowhere(void)
+{
+    CM_allocate_heap_field_vp_set(8, 77);
+}
+static void deallocate_twice(void)
+{
+    CM_deallocate_heap_field(dead);
+}
+static void deallocate_stack_as_heap(void)
+{
+    CM_deallocate_heap_field(f);
+}
+static void deallocate_heap_as_stack(void)
+{
+    CM_deallocate_stack_through(heap);
+}
+static void deallocate_none(void)
+{
+    CM_deallocate_stack_through(CM_no_field);
+}
+static void geometry_rank(void)
+{
+    CM_create_geometry(V(dimensions), 0);
+}
+static void geometry_rank_32(void)
+{
+    CM_create_geometry(V(dimensions), 32);
+}
+static void geometry_length(void)
+{
+    CM_create_geometry(V(vector), 2);
+}
+static void geometry_null(void)
+{
+    CM_create_geometry(V(NULL), 2);
+}
+static void geometry_none(void)
+{
+    CM_geometry_axis_length(99, 0);
+}
+static void geometry_axis(void)
+{
+    CM_geometry_axis_length(CM_current_geometry, 2);
+}
+static void geometry_used(void)
+{
+    CM_deallocate_geometry(CM_current_geometry);
+}
+static void set_none(void)
+{
+    CM_set_vp_set(0);
+}
+static void set_far(void)
+{
+    CM_set_vp_set(1000000);
+}
+static void vp_set_none(void)
+{
+    CM_allocate_vp_set(-3);
+}
+static void coordinate_far(void)
+{
+    CM_fe_make_news_coordinate(CM_current_geometry, 0, ROWS);
+}
+static void extract_far(void)
+{
+    CM_fe_extract_news_coordinate(CM_current_geometry, 0, 1u << 30);
+}
+static void random_limit(void)
+{
+    CM_u_random_1L(f, 8, 1000);
+}
+static void timer_far(void)
+{
+    CM_timer_start(64);
+}
+static void global_dead(void)
+{
+    CM_global_u_add_1L(dead, 8);
+}
+static void leds_dead(void)
+{
+    CM_latch_leds(dead);
+}
+static void attach_odd(void)
+{
+    CM_attach_to_processors(100);
+}
 
 static const struct {
     const char *call; /* as the message begins */
@@ -117,7 +265,7 @@ static const struct {
     {"CM_u_move_1L", "dest", move_dead, false},
     {"CM_logand_2_1L", "bits", logical_beyond, false},
     {"CM_load_context", "source", load_dead, false},
-    {"CM_store_test", "VP set", store_foreign, false},
+    {"CM_store_test", "VP set", store_foreign, true},
     {"CM_get_from_news_1L", "axis", news_axis, false},
     {"CM_get_from_news_1L", "axis", news_axis_minus, false},
     {"CM_send_to_news_1L", "direction", news_direction, false},
@@ -167,10 +315,10 @@ static void wrong_calls_explain_themselves(void **unused)
         wrong[i].make();
         char begins[64];
         snprintf(begins, sizeof begins, "%s: ", wrong[i].call);
-        if (strncmp(device_message, begins, strlen(begins)) || !strstr(device_message, wrong[i].word) ||
-            strchr(device_message, '\n'))
-            fail_msg("wrong call %zu of %s, about \"%s\", says \"%s\"", i, wrong[i].call, wrong[i].word,
-                     device_message);
+        if (strncmp(device_message, begins, strlen(begins)) ||
+            !strstr(device_message, wrong[i].word) || strchr(device_message, '\n'))
+            fail_msg("wrong call %zu of %s, about \"%s\", says \"%s\"", i, wrong[i].call,
+                     wrong[i].word, device_message);
     }
 }
 
@@ -221,6 +369,7 @@ static int start(void **unused)
     f = CM_allocate_stack_field(32);
     CM_set_vp_set(other_set);
     foreign = CM_allocate_stack_field(32);
+    CM_my_news_coordinate_1L(foreign, 0, 32);
     CM_set_vp_set(here);
     dead = CM_allocate_heap_field(32);
     CM_deallocate_heap_field(dead);

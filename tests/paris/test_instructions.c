@@ -1,10 +1,11 @@
-/* Every instruction of the table on the device against the oracle, over widths, values and context masks.
+/* Every instruction of the table on the device against the oracle, over widths, values and
+ * context masks.
  *
- * A case is one instruction with its own operands, flags and context. Cases run in batches, so that the machine
- * compiles one kernel for many of them; each case leaves dest, the context, test and overflow in fields of its
- * own, and these are compared when the batch is done. Each row takes every fifth width, another row others, so
- * that all rows and all widths are seen; PARIS_TEST_FULL=1 takes each row at each width with each mask (an hour
- * of compiling). */
+ * A case is one instruction with its own operands, flags and context. Cases run in batches, so
+ * that the machine compiles one kernel for many of them; each case leaves dest, the context,
+ * test and overflow in fields of its own, and these are compared when the batch is done. Each
+ * row takes every eighth width, another row others, so that all rows and all widths are seen;
+ * PARIS_TEST_FULL=1 takes each row at each width with each mask (an hour of compiling). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -55,7 +56,8 @@ struct paris_test_row {
 
 enum { ROW_COUNT = sizeof paris_test_rows / sizeof paris_test_rows[0], BATCH = 24 };
 
-static const int widths[] = {1, 2, 3, 7, 8, 13, 16, 24, 31, 32, 33, 48, 63, 64, 65, 100, 127, 128};
+static const int widths[] = {1,  2,  3,  7,  8,  13, 16,  24,  31,
+                             32, 33, 48, 63, 64, 65, 100, 127, 128};
 enum { WIDTHS_COUNT = sizeof widths / sizeof widths[0] };
 
 /* What a processor has before an instruction, and after it. */
@@ -122,8 +124,8 @@ static void want_unary(const struct trial *t, int i, struct oracle_result *r)
     bool one = t->row->operands == 1;
     number a = one ? t->before.dest[i] : t->a[i];
     *r = t->row->type == 'f' ? oracle_float(t->row->op, t->dlen, a, 0)
-                             : oracle_integer(t->row->op, t->row->type == 's', a, one ? t->dlen : t->alen, 0, 1,
-                                              t->dlen);
+                             : oracle_integer(t->row->op, t->row->type == 's', a,
+                                              one ? t->dlen : t->alen, 0, 1, t->dlen);
 }
 
 static bool want_test(const struct trial *t, int i)
@@ -140,7 +142,8 @@ static number want_move(const struct trial *t, int i)
     number a = is_scalar(t) ? constant_of(t, t->dlen) : t->a[i];
     if (t->row->type == 'f')
         return is_scalar(t) ? a : oracle_float_move(t->dlen, a, t->alen);
-    return oracle_extend(a, is_scalar(t) ? t->dlen : t->alen, t->row->type == 's') & oracle_mask(t->dlen);
+    return oracle_extend(a, is_scalar(t) ? t->dlen : t->alen, t->row->type == 's') &
+           oracle_mask(t->dlen);
 }
 
 static number want_logical(const struct trial *t, int i)
@@ -205,7 +208,8 @@ static void want(struct trial *t)
             if (t->row->type == 'f')
                 r.bits = oracle_to_float(t->dlen, t->a[i], t->alen, t->row->source_type == 's');
             else
-                r = oracle_to_integer(t->row->op, t->alen, t->a[i], t->dlen, t->row->type == 's');
+                r = oracle_to_integer(t->row->op, t->alen, t->a[i], t->dlen,
+                                      t->row->type == 's');
             overflows = t->row->type != 'f';
             break;
         case PARIS_TEST_MOVE:
@@ -249,7 +253,8 @@ static void print_number(FILE *out, number n)
         fprintf(out, "%llx", (unsigned long long)n);
 }
 
-static void compare(const struct trial *t, const char *what, CM_field_id_t field, int width, const number *wanted)
+static void compare(const struct trial *t, const char *what, CM_field_id_t field, int width,
+                    const number *wanted)
 {
     number got[COUNT];
     device_get(field, width, got);
@@ -259,8 +264,8 @@ static void compare(const struct trial *t, const char *what, CM_field_id_t field
         failures++;
         if (failures > 40)
             return;
-        fprintf(stderr, "%s (dest %d, sources %d, %d bits) processor %d: %s is ", t->row->name, t->dlen, t->alen,
-                t->blen, i, what);
+        fprintf(stderr, "%s (dest %d, sources %d, %d bits) processor %d: %s is ", t->row->name,
+                t->dlen, t->alen, t->blen, i, what);
         print_number(stderr, got[i]);
         fprintf(stderr, ", wanted ");
         print_number(stderr, wanted[i]);
@@ -330,7 +335,8 @@ static void trial_fill(struct trial *t, int mask)
     args->len = args->dlen = (unsigned int)t->dlen;
     args->slen = args->slen1 = (unsigned int)t->alen;
     args->slen2 = (unsigned int)t->blen;
-    float_lengths(row->shape == PARIS_TEST_CONVERT && row->type != 'f' ? t->alen : t->dlen, &args->s, &args->e);
+    float_lengths(row->shape == PARIS_TEST_CONVERT && row->type != 'f' ? t->alen : t->dlen,
+                  &args->s, &args->e);
     float_lengths(t->dlen, &args->ds, &args->de);
     float_lengths(t->alen, &args->ss, &args->se);
     args->axis = device_random() % 2;
@@ -359,7 +365,8 @@ static void trial_run(const struct paris_test_row *row, int dlen, int alen, int 
     t->blen = blen;
     trial_fill(t, mask);
     want(t);
-    CM_field_id_t context = field_with(1, t->before.context), test = field_with(1, t->before.test),
+    CM_field_id_t context = field_with(1, t->before.context),
+                  test = field_with(1, t->before.test),
                   overflow = field_with(1, t->before.overflow);
     t->first = context;
     t->dest = t->args.dest = field_with(dlen, t->before.dest);
@@ -428,7 +435,8 @@ static void row_at_width(const struct paris_test_row *row, int k)
     } else if (row->lengths == 1) {
         masks_run(row, width, width, width);
     } else {
-        masks_run(row, width, other_width(k + turn, is_signed), other_width(k + 3 * turn, is_signed));
+        masks_run(row, width, other_width(k + turn, is_signed),
+                  other_width(k + 3 * turn, is_signed));
     }
 }
 
@@ -449,7 +457,8 @@ static void shapes_run(const char *prefix, unsigned int shapes)
             const struct paris_test_row *row = &paris_test_rows[r];
             if (!(shapes >> row->shape & 1) || strncmp(row->name, prefix, strlen(prefix)))
                 continue;
-            bool takes = is_second_spelling(row) ? k == r % WIDTHS_COUNT : (turn++ + k) % 5 == 0;
+            bool takes =
+                is_second_spelling(row) ? k == r % WIDTHS_COUNT : (turn++ + k) % 8 == 0;
             if (takes || is_full())
                 row_at_width(row, k);
         }
@@ -504,7 +513,8 @@ static void float_operations_are_the_oracles(void **unused)
         for (int r = 0; r < ROW_COUNT; r++) {
             const struct paris_test_row *row = &paris_test_rows[r];
             int width = turn % 2 ? 64 : 32;
-            if (row->type != 'f' || row->shape > PARIS_TEST_MOVE || (turn != 1 && is_second_spelling(row)))
+            if (row->type != 'f' || row->shape > PARIS_TEST_MOVE ||
+                (turn != 1 && is_second_spelling(row)))
                 continue;
             masks_run(row, width, row->lengths == 2 ? 96 - width : width, width);
         }
@@ -528,10 +538,20 @@ static void news_is_the_oracles(void **unused)
     for (int k = 0; k < WIDTHS_COUNT; k++)
         for (int r = 0; r < ROW_COUNT; r++) {
             enum paris_test_shape shape = paris_test_rows[r].shape;
-            if ((shape == PARIS_TEST_NEWS || shape == PARIS_TEST_OWN) && ((k + r) % 5 == 0 || is_full()))
+            if ((shape == PARIS_TEST_NEWS || shape == PARIS_TEST_OWN) &&
+                ((k + r) % 5 == 0 || is_full()))
                 masks_run(&paris_test_rows[r], widths[k], widths[k], 1);
         }
     finish_and_check();
+}
+
+static void every_instruction_is_there(void **unused)
+{
+    (void)unused;
+    int count = sizeof paris_test_functions / sizeof paris_test_functions[0];
+    printf("%d instructions\n", count);
+    for (int i = 0; i < count; i++)
+        assert_non_null(paris_test_functions[i]);
 }
 
 static int start(void **unused)
@@ -544,6 +564,7 @@ static int start(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_instruction_is_there),
         cmocka_unit_test(flags_are_the_oracles),
         cmocka_unit_test(news_is_the_oracles),
         cmocka_unit_test(float_operations_are_the_oracles),

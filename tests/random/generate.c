@@ -119,6 +119,9 @@ static void emit_row(struct generator *g)
     info = &row_table[in.row];
     if (info->shape == FLAG && draw(g, 2))
         return;
+    /* each look costs kernels of its own */
+    if ((info->shape == INT_GLOBAL || info->shape == FLOAT_GLOBAL || info->shape == READ_PROCESSOR) && draw(g, 4))
+        return;
     if (info->number == NUMBER_F)
         bits = float_bits;
     else if (info->shape == BIT_LOAD || info->shape == BIT_STORE)
@@ -255,7 +258,7 @@ void program_generate(struct program *p, uint64_t seed, int length)
             emit_deallocate(&g);
         else if (what < 96 && p->sets_count > 1)
             emit_select(&g);
-        else if (what == 99)
+        else if (what == 99 && draw(&g, 2))
             emit_observe(&g);
     }
 }

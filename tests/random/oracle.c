@@ -440,7 +440,11 @@ static void dump(struct oracle *o)
         const struct oracle_set *set = &o->sets[o->set];
 
         for (uint64_t n = 0; n < set->count; n++)
-            trace_add(o->out, (uint64_t)(set->context[n] | set->test[n] << 1 | set->overflow[n] << 2));
+            trace_add(o->out, set->context[n]);
+        for (uint64_t n = 0; n < set->count; n++)
+            trace_add(o->out, set->test[n]);
+        for (uint64_t n = 0; n < set->count; n++)
+            trace_add(o->out, set->overflow[n]);
         for (int k = 0; k < PROGRAM_SLOTS; k++)
             if (o->fields[k].bits && o->fields[k].set == o->set)
                 for (int at = 0; at < o->fields[k].width; at += 64) {

@@ -220,67 +220,91 @@ static void step(struct execution *x, const struct instruction *in)
     }
 }
 
-/* ---- what is left at the end ---- */
+/* ---- what is left at the end ----
+ *
+ * Everything is first copied into fields of at most 64 bits, then computed at once, then downloaded: a few kernels
+ * instead of one for each field. */
 
-static void stop(const char *what)
+enum { COPIES_MAX = PROGRAM_SETS * 3 + PROGRAM_SLOTS * 3 };
+
+struct copies {
+    struct {
+        uint32_t field;
+        struct machine_type type;
+        uint64_t count;
+    } of[COPIES_MAX];
+    int count;
+};
+
+static void copy(struct copies *c, struct machine_value *value, uint64_t count)
 {
-    fprintf(stderr, "%s: %s\n", what, machine_error(paris_machine()));
-    exit(2);
+    struct machine *m = paris_machine();
+    uint32_t field = MACHINE_NO_FIELD;
+
+    if (value)
+        field = machine_field_allocate(m, machine_vpset_current(m), machine_value_type(value).width,
+                                       MACHINE_HEAP);
+    if (!field || machine_field_store(m, field, value, MACHINE_EVERYWHERE)) {
+        fprintf(stderr, "copying what is left: %s\n", machine_error(m));
+        exit(2);
+    }
+    c->of[c->count].field = field;
+    c->of[c->count].type = machine_value_type(value);
+    c->of[c->count++].count = count;
+    machine_begin(m);
 }
 
-static void add_flags(struct execution *x)
+static void copy_set(struct execution *x, struct copies *c)
 {
     static const enum machine_flag flags[] = {MACHINE_CONTEXT, MACHINE_TEST, MACHINE_OVERFLOW};
     struct machine *m = paris_machine();
     uint64_t count = geometry_count(geometry(x));
-    uint8_t *bits = buffer(count, 1), *all = buffer(count, 1);
 
-    for (int k = 0; k < 3; k++) {
-        uint32_t seen;
+    machine_begin(m);
+    for (int k = 0; k < 3; k++)
+        copy(c, machine_flag_value(m, flags[k], MACHINE_EVERYWHERE), count);
+    for (int k = 0; k < PROGRAM_SLOTS; k++)
+        for (int at = 0; x->slots[k].set == x->set && at < x->slots[k].bits; at += 64) {
+            int left = x->slots[k].bits - at;
 
-        machine_begin(m);
-        seen = machine_field_allocate(m, machine_vpset_current(m), 1, MACHINE_HEAP);
-        if (machine_field_store(m, seen, machine_flag_value(m, flags[k], MACHINE_EVERYWHERE),
-                                MACHINE_EVERYWHERE) ||
-            machine_field_download(m, seen, MACHINE_BIT, bits) || machine_field_deallocate(m, seen))
-            stop("looking at a flag");
-        for (uint64_t n = 0; n < count; n++)
-            all[n] |= (uint8_t)(bits[n] << k);
-    }
-    for (uint64_t n = 0; n < count; n++)
-        trace_add(x->out, all[n]);
-    free(bits);
-    free(all);
+            copy(c,
+                 machine_field_value(m, x->fields[k] + (uint32_t)at, MACHINE_UINT(left < 64 ? left : 64),
+                                     MACHINE_EVERYWHERE),
+                 count);
+        }
 }
 
-static void add_field(struct execution *x, int slot)
+static void show_copies(struct trace *out, const struct copies *c)
 {
     struct machine *m = paris_machine();
-    uint64_t count = geometry_count(geometry(x));
-    uint8_t *bytes = buffer(count, 8);
 
-    for (int at = 0; at < x->slots[slot].bits; at += 64) {
-        int left = x->slots[slot].bits - at;
-        struct machine_type type = MACHINE_UINT(left < 64 ? left : 64);
-        size_t size = machine_element_bytes(type);
+    if (machine_finish(m)) {
+        fprintf(stderr, "computing what is left: %s\n", machine_error(m));
+        exit(2);
+    }
+    for (int k = 0; k < c->count; k++) {
+        size_t size = machine_element_bytes(c->of[k].type);
+        uint8_t *bytes = buffer(c->of[k].count, size);
 
-        machine_begin(m);
-        if (machine_field_download(m, x->fields[slot] + (uint32_t)at, type, bytes))
-            stop("looking at a field");
-        for (uint64_t n = 0; n < count; n++) {
+        if (machine_field_download(m, c->of[k].field, c->of[k].type, bytes)) {
+            fprintf(stderr, "looking at what is left: %s\n", machine_error(m));
+            exit(2);
+        }
+        for (uint64_t n = 0; n < c->of[k].count; n++) {
             uint64_t word = 0;
 
             memcpy(&word, bytes + n * size, size);
-            trace_add(x->out, word);
+            trace_add(out, word);
         }
+        free(bytes);
     }
-    free(bytes);
 }
 
 void paris_run(const struct program *p, struct trace *out, bool eager)
 {
     static int present = -1; /* the machine there is: eager or not */
     struct execution x = {.p = p, .out = out};
+    struct copies left = {.count = 0};
 
     if (present != eager) {
         struct machine_config config = machine_config_default();
@@ -305,9 +329,15 @@ void paris_run(const struct program *p, struct trace *out, bool eager)
     out->step = p->count;
     for (x.set = 0; x.set < p->sets_count; x.set++) {
         CM_set_vp_set(x.sets[x.set]);
-        add_flags(&x);
-        for (int k = 0; k < PROGRAM_SLOTS; k++)
-            if (x.slots[k].bits && x.slots[k].set == x.set)
-                add_field(&x, k);
+        copy_set(&x, &left);
     }
+    show_copies(out, &left);
+}
+
+uint64_t paris_kernels_built(void)
+{
+    struct machine_stats now;
+
+    machine_stats_get(paris_machine(), &now);
+    return now.kernels_built;
 }

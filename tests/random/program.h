@@ -199,6 +199,9 @@ void oracle_run(const struct program *p, struct trace *out, enum sabotage sabota
 /* C/Paris calls. */
 void paris_run(const struct program *p, struct trace *out, bool eager);
 
+/* By the machine at hand, since it was made. */
+uint64_t paris_kernels_built(void);
+
 /* ---- shrinking ---- */
 
 typedef bool (*program_fails)(void *context, const struct program *p);
