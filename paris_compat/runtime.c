@@ -90,6 +90,9 @@ static bool machine_make(void)
         machine_destroy(m);
         return false;
     }
+    static bool registered;
+    if (!registered) /* a program may leave with kernels still running */
+        registered = atexit(machine_forget) == 0;
     paris_the.machine = m;
     paris_the.attached = true;
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);

@@ -29,7 +29,8 @@ enum display_status display_image_create(struct display_image *image)
         return display_fail(DISPLAY_BAD_ARGUMENT,
                             "an image is 1..%d pixels wide and high with 1 or 3 channels "
                             "(got %dx%d with %d)",
-                            DISPLAY_SIDE_MAX, image->width_px, image->height_px, image->channels);
+                            DISPLAY_SIDE_MAX, image->width_px, image->height_px,
+                            image->channels);
     size_t row_bytes = (size_t)image->width_px * (size_t)image->channels;
     image->pixels = calloc((size_t)image->height_px, row_bytes);
     if (!image->pixels)

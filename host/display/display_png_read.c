@@ -15,7 +15,8 @@ struct png_source {
     FILE *file;
     int error; /* errno of a read that failed; 0 where the file simply ended */
     char message[256];
-    uint8_t *rows; /* as libpng gives them, gray+alpha or RGB+alpha: one, or all where it is interlaced */
+    uint8_t *
+        rows; /* as libpng gives them, gray+alpha or RGB+alpha: one, or all where it is interlaced */
     struct display_image image;
 };
 
@@ -46,8 +47,9 @@ static void source_warning(png_structp png, png_const_charp message)
 static void row_to_gray(const uint8_t *row, int channels, int width_px, uint8_t *gray)
 {
     for (int x = 0; x < width_px; x++, row += channels) {
-        unsigned luminance =
-            channels == 2 ? row[0] : (54u * row[0] + 183u * row[1] + 19u * row[2] + 128u) / 256u;
+        unsigned luminance = channels == 2
+                                 ? row[0]
+                                 : (54u * row[0] + 183u * row[1] + 19u * row[2] + 128u) / 256u;
         unsigned alpha = row[channels - 1];
         gray[x] = (uint8_t)((luminance * alpha + 255u * (255u - alpha) + 127u) / 255u);
     }

@@ -14,8 +14,8 @@
 #include <time.h>
 #include <unistd.h>
 
-__attribute__((format(printf, 3, 0)))
-static int fail_as(int status, const char *verb, const char *format, va_list arguments)
+__attribute__((format(printf, 3, 0))) static int fail_as(int status, const char *verb,
+                                                         const char *format, va_list arguments)
 {
     char text[1200];
     vsnprintf(text, sizeof text, format, arguments);
@@ -109,8 +109,9 @@ struct device_memory {
     uint64_t bytes;
 };
 
-static void device_memory_take(void *context, int index, const char *platform, const char *device,
-                               const char *version, int compute_units, uint64_t memory_bytes)
+static void device_memory_take(void *context, int index, const char *platform,
+                               const char *device, const char *version, int compute_units,
+                               uint64_t memory_bytes)
 {
     (void)index;
     (void)platform;
@@ -131,9 +132,9 @@ int machine_prepare(const char *verb, int width, int height)
     double bits = 2.0 * paper_bits_per_fiber(width, height) + 56;
     double needed = bits / 8 * width * height;
     if (memory.bytes && needed > (double)memory.bytes)
-        return fail(verb,
-                    "paper of %dx%d fibers needs %.1f GB and %s has %.1f GB; take smaller paper",
-                    width, height, needed * 1e-9, memory.device, (double)memory.bytes * 1e-9);
+        return fail(
+            verb, "paper of %dx%d fibers needs %.1f GB and %s has %.1f GB; take smaller paper",
+            width, height, needed * 1e-9, memory.device, (double)memory.bytes * 1e-9);
     return EXIT_SUCCESS;
 }
 

@@ -20,13 +20,19 @@
 #define WORD "Lutetia"
 #define CAPTION "a town in a marsh, in ink on wet paper"
 
-enum { LETTERS = sizeof WORD - 1, SYLLABLES = 3, WATERLINE_PX = 640, CAPTION_BASELINE_PX = 147 };
+enum {
+    LETTERS = sizeof WORD - 1,
+    SYLLABLES = 3,
+    WATERLINE_PX = 640,
+    CAPTION_BASELINE_PX = 147
+};
 
 static const double word_size_px = 472, caption_size_px = 34, caption_tracking_em = 0.01;
 
-static const char *const word_fonts[] = {"EBGaramond12-Regular", "LinLibertine_R", "DejaVuSerif", NULL};
-static const char *const caption_fonts[] = {"EBGaramond12-Italic", "LinLibertine_RI", "DejaVuSerif-Italic",
-                                            "DejaVuSerif", NULL};
+static const char *const word_fonts[] = {"EBGaramond12-Regular", "LinLibertine_R",
+                                         "DejaVuSerif", NULL};
+static const char *const caption_fonts[] = {"EBGaramond12-Italic", "LinLibertine_RI",
+                                            "DejaVuSerif-Italic", "DejaVuSerif", NULL};
 
 static const int syllable_of[LETTERS] = {0, 0, 1, 1, 2, 2, 2};
 static const struct paper_ink inks[SYLLABLES] = {
@@ -68,7 +74,8 @@ struct paper_config demo_page_config(void)
 }
 
 /* The length of the line's first `count` letters, kerned. */
-static enum paper_status advance_of(const struct paper_line *line, int count, double *advance_px)
+static enum paper_status advance_of(const struct paper_line *line, int count,
+                                    double *advance_px)
 {
     char text[sizeof WORD] = WORD;
     text[count] = '\0';
@@ -170,7 +177,8 @@ enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet)
     return status == PAPER_OK ? paper_finish(sheet) : status;
 }
 
-static enum paper_status reflection_screen(struct demo_page *page, struct paper *sheet, int band)
+static enum paper_status reflection_screen(struct demo_page *page, struct paper *sheet,
+                                           int band)
 {
     struct paper_screen screen = {.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT};
     enum paper_status status = PAPER_OK;

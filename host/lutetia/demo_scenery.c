@@ -64,7 +64,8 @@ static double wetness(const struct demo_mask *mask, double x, double y)
     return ramp(edge - 2, edge + 7, y) * left * right * bottom;
 }
 
-static double mask_value(const struct demo_mask *mask, enum demo_mask_kind kind, double x, double y)
+static double mask_value(const struct demo_mask *mask, enum demo_mask_kind kind, double x,
+                         double y)
 {
     double wet = wetness(mask, x, y);
     double streak = cloud(x / 420, y / 26, 11);
@@ -82,7 +83,8 @@ static double mask_value(const struct demo_mask *mask, enum demo_mask_kind kind,
     return 0;
 }
 
-bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind, struct paper_screen *out)
+bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind,
+                      struct paper_screen *out)
 {
     *out = (struct paper_screen){.width_px = mask->width_px, .height_px = mask->height_px};
     size_t width = (size_t)mask->width_px;
@@ -107,7 +109,8 @@ static double band_share(int band, double depth)
     return fmax(0, 1 - fabs(depth - middle) / step);
 }
 
-void demo_reflection_blend(const struct demo_letter *letter, int band, struct paper_screen *sheet)
+void demo_reflection_blend(const struct demo_letter *letter, int band,
+                           struct paper_screen *sheet)
 {
     enum { SWAY_MAX = 30 };
     const struct paper_screen *screen = &letter->screen;

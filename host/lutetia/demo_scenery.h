@@ -23,7 +23,8 @@ enum demo_mask_kind {
 };
 
 /* False: no memory. Owns: the caller destroys *out. */
-bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind, struct paper_screen *out);
+bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind,
+                      struct paper_screen *out);
 
 /* One letter where it stands on the sheet. */
 struct demo_letter {
@@ -36,6 +37,7 @@ enum { DEMO_BANDS = 10, DEMO_REFLECTION_DEPTH_PX = 400 };
 
 /* Blends a band (0 the deepest) of a letter's reflection into a sheet-sized screen: mirrored at the letter's foot,
  * fading and swaying more the deeper, broken by glints of light. */
-void demo_reflection_blend(const struct demo_letter *letter, int band, struct paper_screen *sheet);
+void demo_reflection_blend(const struct demo_letter *letter, int band,
+                           struct paper_screen *sheet);
 
 #endif

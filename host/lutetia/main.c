@@ -27,7 +27,8 @@ static void help(FILE *out)
         snprintf(left, sizeof left, "%s %s", verbs[i].name, verbs[i].arguments);
         fprintf(out, "  %-28s %s\n", left, verbs[i].help);
     }
-    fputs("\n`lutetia VERB --help` says more.  LUTETIA_DEVICE chooses a device (part of its name, or "
+    fputs("\n`lutetia VERB --help` says more.  LUTETIA_DEVICE chooses a device (part of its "
+          "name, or "
           "its number);\nLUTETIA_EAGER=1 computes each instruction at once.\n",
           out);
 }
@@ -42,7 +43,8 @@ int main(int argc, char **argv)
         puts("lutetia " LUTETIA_VERSION);
         return EXIT_SUCCESS;
     }
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 ||
+        strcmp(argv[1], "help") == 0) {
         help(stdout);
         return EXIT_SUCCESS;
     }

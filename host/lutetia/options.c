@@ -11,7 +11,8 @@
 enum { SHOWN_MAX = 60 }; /* of a wrong value in a message */
 
 /* A finite number within the row's range, *end after it. */
-static bool number_read(const struct option_row *row, const char *text, const char **end, double *out)
+static bool number_read(const struct option_row *row, const char *text, const char **end,
+                        double *out)
 {
     char *stop;
     errno = 0;
@@ -23,7 +24,8 @@ static bool number_read(const struct option_row *row, const char *text, const ch
            *out <= row->most;
 }
 
-static bool integer_read(const struct option_row *row, const char *text, const char **end, int *out)
+static bool integer_read(const struct option_row *row, const char *text, const char **end,
+                         int *out)
 {
     char *stop;
     errno = 0;
@@ -31,7 +33,8 @@ static bool integer_read(const struct option_row *row, const char *text, const c
         return false;
     long value = strtol(text, &stop, 10);
     *end = stop;
-    if (stop == text || errno == ERANGE || (double)value < row->least || (double)value > row->most)
+    if (stop == text || errno == ERANGE || (double)value < row->least ||
+        (double)value > row->most)
         return false;
     *out = (int)value;
     return true;
@@ -41,7 +44,8 @@ static bool numbers_read(const struct option_row *row, const char *text, double 
 {
     double values[OPTION_NUMBERS_MAX];
     for (int i = 0; i < row->count; i++) {
-        if (!number_read(row, text, &text, &values[i]) || *text != (i + 1 < row->count ? ',' : '\0'))
+        if (!number_read(row, text, &text, &values[i]) ||
+            *text != (i + 1 < row->count ? ',' : '\0'))
             return false;
         text++;
     }
@@ -82,7 +86,8 @@ static bool value_take(const struct option_row *row, const char *text)
         return true;
     case OPTION_LIST:
         list = row->target;
-        if (list->count == OPTION_LIST_MAX || !numbers_read(row, text, list->numbers[list->count]))
+        if (list->count == OPTION_LIST_MAX ||
+            !numbers_read(row, text, list->numbers[list->count]))
             return false;
         list->count++;
         return true;
@@ -111,11 +116,12 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
     snprintf(range, sizeof range, "%.10g..%.10g", row->least, row->most);
     if (row->kind == OPTION_INTEGER || row->kind == OPTION_NUMBER)
         fail_usage(verb, "--%s %s %s (got '%.*s')", row->name, shape, range, SHOWN_MAX, text);
-    else if (row->kind == OPTION_LIST && ((struct option_list *)row->target)->count == OPTION_LIST_MAX)
+    else if (row->kind == OPTION_LIST &&
+             ((struct option_list *)row->target)->count == OPTION_LIST_MAX)
         fail_usage(verb, "--%s can be given %d times", row->name, OPTION_LIST_MAX);
     else
-        fail_usage(verb, "--%s %s %s with each in %s (got '%.*s')", row->name, shape, row->value,
-                   range, SHOWN_MAX, text);
+        fail_usage(verb, "--%s %s %s with each in %s (got '%.*s')", row->name, shape,
+                   row->value, range, SHOWN_MAX, text);
     return false;
 }
 
@@ -164,8 +170,8 @@ bool options_parse(const char *verb, const struct option_row *rows, int argc, ch
         }
         const struct option_row *row = row_find(rows, argument, &value);
         if (!row) {
-            fail_usage(verb, "there is no option '%.*s'; `lutetia %s --help` lists them", SHOWN_MAX,
-                       argument, verb);
+            fail_usage(verb, "there is no option '%.*s'; `lutetia %s --help` lists them",
+                       SHOWN_MAX, argument, verb);
             return false;
         }
         if (row->kind == OPTION_FLAG && value) {

@@ -33,8 +33,8 @@ struct option_list {
 };
 
 struct option_row {
-    const char *name;  /* without the dashes; NULL ends the table */
-    char letter;       /* of the short form, or 0 */
+    const char *name; /* without the dashes; NULL ends the table */
+    char letter;      /* of the short form, or 0 */
     enum option_kind kind;
     const char *value; /* what the help calls it */
     const char *help;

@@ -12,7 +12,8 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *help;
 } benches[] = {
-    {"diffusion", bench_diffusion_main, "the thesis's cycle through the machine, beside its limits"},
+    {"diffusion", bench_diffusion_main,
+     "the thesis's cycle through the machine, beside its limits"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };
@@ -29,6 +30,6 @@ int verb_bench(int argc, char **argv)
     for (int i = 0; i < BENCHES_COUNT; i++)
         if (strcmp(argv[1], benches[i].name) == 0)
             return benches[i].run(argc - 1, argv + 1);
-    return fail_usage("bench", "there is no benchmark '%.60s'; `lutetia bench --help` lists them",
-                      argv[1]);
+    return fail_usage(
+        "bench", "there is no benchmark '%.60s'; `lutetia bench --help` lists them", argv[1]);
 }

@@ -84,7 +84,8 @@ int verb_cc(int argc, char **argv)
 {
     if (argc < 2 || any_is(argc, argv, "--help") || any_is(argc, argv, "-h")) {
         fputs("usage: lutetia cc prog.c... [-o prog] [options of the C compiler]\n\n"
-              "Compiles C/Paris programs and links them with libparis; CC names the compiler (cc).\n"
+              "Compiles C/Paris programs and links them with libparis; CC names the compiler "
+              "(cc).\n"
               "-std=gnu89 is taken unless a -std is given.\n",
               argc < 2 ? stderr : stdout);
         return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
@@ -97,8 +98,9 @@ int verb_cc(int argc, char **argv)
         *slash = '\0';
     char *include, *library;
     if (!slash || !folders_find(home, &include, &library))
-        return fail("cc", "<cm/paris.h> and libparis.so are not where this command is (%s); "
-                          "install Lutetia, or run it from its build folder",
+        return fail("cc",
+                    "<cm/paris.h> and libparis.so are not where this command is (%s); "
+                    "install Lutetia, or run it from its build folder",
                     home);
 
     char *include_flag, *library_flag, *runtime_flag;

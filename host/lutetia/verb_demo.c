@@ -10,7 +10,14 @@
 #include <string.h>
 
 /* The strip: a piece of the page at so many moments, side by side. */
-enum { STAGES = 5, STAGE_X = 420, STAGE_Y = 380, STAGE_WIDTH = 390, STAGE_HEIGHT = 520, STAGE_GAP = 12 };
+enum {
+    STAGES = 5,
+    STAGE_X = 420,
+    STAGE_Y = 380,
+    STAGE_WIDTH = 390,
+    STAGE_HEIGHT = 520,
+    STAGE_GAP = 12
+};
 
 struct demo {
     const char *dir;
@@ -76,7 +83,8 @@ static int demo_write(struct demo *demo)
                          ? EXIT_SUCCESS
                          : fail("demo", "%s", display_error());
         else
-            status = sheet_write("demo", demo->sheet, i == 0 ? PAPER_VIEW_COLOR : PAPER_VIEW_WATER, path);
+            status = sheet_write("demo", demo->sheet,
+                                 i == 0 ? PAPER_VIEW_COLOR : PAPER_VIEW_WATER, path);
         if (status == EXIT_SUCCESS)
             printf("%s\n", path);
     }
@@ -85,11 +93,14 @@ static int demo_write(struct demo *demo)
 
 static int demo_prepare(struct demo *demo)
 {
-    demo->strip = (struct display_image){.width_px = STAGES * (STAGE_WIDTH + STAGE_GAP) - STAGE_GAP,
-                                         .height_px = STAGE_HEIGHT,
-                                         .channels = 3};
-    demo->view = (struct display_image){.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT, .channels = 3};
-    if (display_image_create(&demo->strip) != DISPLAY_OK || display_image_create(&demo->view) != DISPLAY_OK)
+    demo->strip =
+        (struct display_image){.width_px = STAGES * (STAGE_WIDTH + STAGE_GAP) - STAGE_GAP,
+                               .height_px = STAGE_HEIGHT,
+                               .channels = 3};
+    demo->view =
+        (struct display_image){.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT, .channels = 3};
+    if (display_image_create(&demo->strip) != DISPLAY_OK ||
+        display_image_create(&demo->view) != DISPLAY_OK)
         return fail("demo", "%s", display_error());
     memset(demo->strip.pixels, 255, 3 * (size_t)demo->strip.width_px * STAGE_HEIGHT);
     int status = folder_make("demo", demo->dir);
@@ -110,12 +121,14 @@ int verb_demo(int argc, char **argv)
 {
     struct demo demo = {.dir = "demo"};
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "DIR", "where the pictures go (demo)", &demo.dir, 0, 0, 0}, {0}};
+        {"out", 'o', OPTION_TEXT, "DIR", "where the pictures go (demo)", &demo.dir, 0, 0, 0},
+        {0}};
     struct option_words words;
     if (!options_parse("demo", rows, argc, argv, &words))
         return EXIT_USAGE;
     if (words.help) {
-        puts("usage: lutetia demo [options]\n\nPaints the demonstration page: page.png, stages.png, "
+        puts("usage: lutetia demo [options]\n\nPaints the demonstration page: page.png, "
+             "stages.png, "
              "water.png.\n");
         options_help(rows);
         return EXIT_SUCCESS;
@@ -132,8 +145,8 @@ int verb_demo(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         status = demo_write(&demo);
     if (status == EXIT_SUCCESS)
-        printf("%dx%d fibers, %d cycles: painted in %.1f s, written in %.1f s\n", DEMO_WIDTH, DEMO_HEIGHT,
-               DEMO_STEPS, painted_s - began_s, clock_s() - painted_s);
+        printf("%dx%d fibers, %d cycles: painted in %.1f s, written in %.1f s\n", DEMO_WIDTH,
+               DEMO_HEIGHT, DEMO_STEPS, painted_s - began_s, clock_s() - painted_s);
     paper_destroy(demo.sheet);
     demo_page_destroy(demo.page);
     display_image_destroy(&demo.strip);

@@ -12,8 +12,8 @@ static void device_print(void *context, int index, const char *platform, const c
                          const char *version, int compute_units, uint64_t memory_bytes)
 {
     (void)context;
-    printf("  %d: %s\n     %s, %s; %d compute units, %.1f GB\n", index, device, platform, version,
-           compute_units, (double)memory_bytes * 1e-9);
+    printf("  %d: %s\n     %s, %s; %d compute units, %.1f GB\n", index, device, platform,
+           version, compute_units, (double)memory_bytes * 1e-9);
 }
 
 static void cache_print(void)
@@ -40,10 +40,10 @@ static void fields_print(int width, int height)
 int verb_info(int argc, char **argv)
 {
     int size[2] = {1024, 1024};
-    const struct option_row rows[] = {
-        {"paper", 0, OPTION_SIZE, "WxH", "whose fibers to describe (1024x1024)", size, PAPER_SIDE_MIN,
-         PAPER_SIDE_MAX, 0},
-        {0}};
+    const struct option_row rows[] = {{"paper", 0, OPTION_SIZE, "WxH",
+                                       "whose fibers to describe (1024x1024)", size,
+                                       PAPER_SIDE_MIN, PAPER_SIDE_MAX, 0},
+                                      {0}};
     struct option_words words;
     if (!options_parse("info", rows, argc, argv, &words))
         return EXIT_USAGE;

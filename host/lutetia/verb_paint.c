@@ -11,7 +11,7 @@
 
 struct paint {
     const char *text, *image_path, *font, *view, *frames_dir, *out_path;
-    double size_px;          /* 0: so that the line fills the paper */
+    double size_px; /* 0: so that the line fills the paper */
     double ink[3], water, wet;
     int size[2], steps, every, seed;
     double gravity, gravity_x, humidity, weights[3], absorbency;
@@ -48,45 +48,49 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
 {
     const double side = PAPER_SIDE_MAX, pull = PAPER_GRAVITY_MAX;
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &paint->out_path, 0, 0, 0},
-        {"font", 0, OPTION_TEXT, "F", "a font file, or a font file's name", &paint->font, 0, 0, 0},
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &paint->out_path, 0, 0,
+         0},
+        {"font", 0, OPTION_TEXT, "F", "a font file, or a font file's name", &paint->font, 0, 0,
+         0},
         {"size", 0, OPTION_NUMBER, "PX", "of the em (so that the line fills the paper)",
          &paint->size_px, 1, 8192, 0},
-        {"ink", 0, OPTION_NUMBERS, "C,M,Y", "cyan, magenta, yellow of the type, 0..1", paint->ink, 0,
-         1, 3},
-        {"water", 0, OPTION_NUMBER, "W", "water put on with the type, 0..1 (0.8)", &paint->water, 0,
-         1, 0},
-        {"wet", 0, OPTION_NUMBER, "W", "water on the whole sheet before, 0..1 (0.25)", &paint->wet, 0,
-         1, 0},
-        {"pool", 0, OPTION_LIST, "X,Y,W,H,A", "water of amount A/100 in a rectangle; any number",
-         &paint->pools, -side, side, 5},
+        {"ink", 0, OPTION_NUMBERS, "C,M,Y", "cyan, magenta, yellow of the type, 0..1",
+         paint->ink, 0, 1, 3},
+        {"water", 0, OPTION_NUMBER, "W", "water put on with the type, 0..1 (0.8)",
+         &paint->water, 0, 1, 0},
+        {"wet", 0, OPTION_NUMBER, "W", "water on the whole sheet before, 0..1 (0.25)",
+         &paint->wet, 0, 1, 0},
+        {"pool", 0, OPTION_LIST, "X,Y,W,H,A",
+         "water of amount A/100 in a rectangle; any number", &paint->pools, -side, side, 5},
         {"image", 0, OPTION_TEXT, "FILE", "screen a gray PNG instead of type: black is ink",
          &paint->image_path, 0, 0, 0},
-        {"paper", 0, OPTION_SIZE, "WxH", "fibers (1024x640)", paint->size, PAPER_SIDE_MIN, side, 0},
-        {"absorbency", 0, OPTION_NUMBER, "A", "of the paper, 0..0.25 (0.18)", &paint->absorbency, 0,
-         PAPER_ABSORBENCY_MAX, 0},
+        {"paper", 0, OPTION_SIZE, "WxH", "fibers (1024x640)", paint->size, PAPER_SIDE_MIN, side,
+         0},
+        {"absorbency", 0, OPTION_NUMBER, "A", "of the paper, 0..0.25 (0.18)",
+         &paint->absorbency, 0, PAPER_ABSORBENCY_MAX, 0},
         {"steps", 0, OPTION_INTEGER, "N", "cycles (200)", &paint->steps, 0, 1e6, 0},
-        {"gravity", 0, OPTION_NUMBER, "G", "downwards, 0.5..2; 1 is none", &paint->gravity, 1 / pull,
-         pull, 0},
-        {"gravity-x", 0, OPTION_NUMBER, "G", "to the right, 0.5..2; 1 is none", &paint->gravity_x,
+        {"gravity", 0, OPTION_NUMBER, "G", "downwards, 0.5..2; 1 is none", &paint->gravity,
          1 / pull, pull, 0},
+        {"gravity-x", 0, OPTION_NUMBER, "G", "to the right, 0.5..2; 1 is none",
+         &paint->gravity_x, 1 / pull, pull, 0},
         {"humidity", 0, OPTION_NUMBER, "H", "water that dries in a cycle, 0..1 (0.0004)",
          &paint->humidity, 0, 1, 0},
         {"weights", 0, OPTION_NUMBERS, "C,M,Y", "how easily pigments move, 0..1 (1,0.35,0.7)",
          paint->weights, 0, 1, 3},
         {"seed", 0, OPTION_INTEGER, "S", "of the paper (1990)", &paint->seed, 0, 2147483647, 0},
         {"view", 0, OPTION_TEXT, "VIEW", "color or water", &paint->view, 0, 0, 0},
-        {"frames", 0, OPTION_TEXT, "DIR", "write pictures on the way there", &paint->frames_dir, 0, 0,
-         0},
-        {"every", 0, OPTION_INTEGER, "N", "cycles from one of them to the next (10)", &paint->every, 1,
-         1e6, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "write pictures on the way there", &paint->frames_dir,
+         0, 0, 0},
+        {"every", 0, OPTION_INTEGER, "N", "cycles from one of them to the next (10)",
+         &paint->every, 1, 1e6, 0},
         {0}};
     struct option_words words;
     if (!options_parse("paint", rows, argc, argv, &words))
         return EXIT_USAGE;
     *help = words.help;
     if (words.help) {
-        puts("usage: lutetia paint \"Text\" [options]\n       lutetia paint --image FILE [options]\n");
+        puts("usage: lutetia paint \"Text\" [options]\n       lutetia paint --image FILE "
+             "[options]\n");
         options_help(rows);
         return EXIT_SUCCESS;
     }
@@ -162,7 +166,8 @@ static enum paper_status paint_apply(const struct paint *paint, struct paper *sh
     return status;
 }
 
-static int frame_write(const struct paint *paint, struct paper *sheet, enum paper_view view, int step)
+static int frame_write(const struct paint *paint, struct paper *sheet, enum paper_view view,
+                       int step)
 {
     char path[4096];
     int length = snprintf(path, sizeof path, "%s/frame-%06d.png", paint->frames_dir, step);
@@ -173,7 +178,8 @@ static int frame_write(const struct paint *paint, struct paper *sheet, enum pape
 
 static int paint_run(const struct paint *paint, struct paper *sheet)
 {
-    enum paper_view view = strcmp(paint->view, "water") == 0 ? PAPER_VIEW_WATER : PAPER_VIEW_COLOR;
+    enum paper_view view =
+        strcmp(paint->view, "water") == 0 ? PAPER_VIEW_WATER : PAPER_VIEW_COLOR;
     struct paper_weather weather = {
         .gravity_x = paint->gravity_x,
         .gravity_y = paint->gravity,

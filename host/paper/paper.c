@@ -8,21 +8,21 @@
 
 /* The fields in the order of allocation; bits: as they are, or one of the two that the size decides. */
 enum { BITS_X = -1, BITS_Y = -2 };
-#define PAPER_FIELDS(F)                                                                            \
-    F("image", image, PAPER_IMAGE_BITS)                                                            \
-    F("absorbency", absorbency, PAPER_FLOAT_BITS)                                                  \
-    F("water", water, PAPER_FLOAT_BITS)                                                            \
-    F("cyan", pigment[0], PAPER_FLOAT_BITS)                                                        \
-    F("magenta", pigment[1], PAPER_FLOAT_BITS)                                                     \
-    F("yellow", pigment[2], PAPER_FLOAT_BITS)                                                      \
-    F("fiber colour", fiber_color, PAPER_IMAGE_BITS)                                               \
-    F("x coordinate", x_coord, BITS_X)                                                             \
-    F("y coordinate", y_coord, BITS_Y)                                                             \
-    F("context", context, 1)                                                                       \
-    F("inner context", inner_context, 1)                                                           \
-    F("inflow", inflow, PAPER_FLOAT_BITS)                                                          \
-    F("inward gradient", inward, PAPER_FLOAT_BITS)                                                 \
-    F("outward gradient", outward, PAPER_FLOAT_BITS)                                               \
+#define PAPER_FIELDS(F)                                                                        \
+    F("image", image, PAPER_IMAGE_BITS)                                                        \
+    F("absorbency", absorbency, PAPER_FLOAT_BITS)                                              \
+    F("water", water, PAPER_FLOAT_BITS)                                                        \
+    F("cyan", pigment[0], PAPER_FLOAT_BITS)                                                    \
+    F("magenta", pigment[1], PAPER_FLOAT_BITS)                                                 \
+    F("yellow", pigment[2], PAPER_FLOAT_BITS)                                                  \
+    F("fiber colour", fiber_color, PAPER_IMAGE_BITS)                                           \
+    F("x coordinate", x_coord, BITS_X)                                                         \
+    F("y coordinate", y_coord, BITS_Y)                                                         \
+    F("context", context, 1)                                                                   \
+    F("inner context", inner_context, 1)                                                       \
+    F("inflow", inflow, PAPER_FLOAT_BITS)                                                      \
+    F("inward gradient", inward, PAPER_FLOAT_BITS)                                             \
+    F("outward gradient", outward, PAPER_FLOAT_BITS)                                           \
     F("scratch", scratch, PAPER_FLOAT_BITS)
 
 static const struct {
@@ -87,7 +87,8 @@ static enum paper_status config_check(const struct paper_config *c)
 {
     if (c->width < PAPER_SIDE_MIN || c->width > PAPER_SIDE_MAX || c->height < PAPER_SIDE_MIN ||
         c->height > PAPER_SIDE_MAX)
-        return paper_fail(PAPER_BAD_ARGUMENT, "paper must be %d..%d fibers wide and high (got %dx%d)",
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "paper must be %d..%d fibers wide and high (got %dx%d)",
                           PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->width, c->height);
     if (!within(c->absorbency, 0, PAPER_ABSORBENCY_MAX))
         return paper_fail(PAPER_BAD_ARGUMENT, "absorbency must be 0..%g (got %g)",
@@ -97,8 +98,9 @@ static enum paper_status config_check(const struct paper_config *c)
             return paper_fail(PAPER_BAD_ARGUMENT, "the paper's colour must be 0..1 (got %g)",
                               c->color[i]);
     if (!within(c->color_variation, 0, 1) || !within(c->absorbency_variation, 0, 1))
-        return paper_fail(PAPER_BAD_ARGUMENT, "fibers may differ by 0..1 (got %g in colour, %g in "
-                                              "absorbency)",
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "fibers may differ by 0..1 (got %g in colour, %g in "
+                          "absorbency)",
                           c->color_variation, c->absorbency_variation);
     if (c->fiber_length < 1 || c->fiber_length > 64)
         return paper_fail(PAPER_BAD_ARGUMENT, "fibers must be 1..64 pixels long (got %d)",

@@ -29,8 +29,8 @@ enum paper_status {
     PAPER_BAD_ARGUMENT, /* a size, place, amount or rate that cannot be */
     PAPER_NO_DEVICE,    /* no OpenCL device, or not the one asked for */
     PAPER_NO_MEMORY,
-    PAPER_BAD_FONT,     /* not found, or not a font */
-    PAPER_BAD_TEXT,     /* not UTF-8, or nothing in it that leaves a mark */
+    PAPER_BAD_FONT, /* not found, or not a font */
+    PAPER_BAD_TEXT, /* not UTF-8, or nothing in it that leaves a mark */
     PAPER_MACHINE_FAILED
 };
 
@@ -47,13 +47,13 @@ const char *paper_error(void);
 #define PAPER_GRAVITY_MAX 2.0
 
 struct paper_config {
-    int width, height;            /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX each */
-    double color[3];              /* of dry fibers: red, green, blue, 0..1 */
-    double color_variation;       /* how far fibers differ in lightness, 0..1 */
-    double absorbency;            /* mean part of a gradient that flows, 0..PAPER_ABSORBENCY_MAX */
-    double absorbency_variation;  /* how far fibers differ, as a part of the mean, 0..1 */
-    int fiber_length;             /* over how many pixels, 1..64, neighbours are alike */
-    uint64_t seed;                /* same seed, same sheet, on every device */
+    int width, height;      /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX each */
+    double color[3];        /* of dry fibers: red, green, blue, 0..1 */
+    double color_variation; /* how far fibers differ in lightness, 0..1 */
+    double absorbency;      /* mean part of a gradient that flows, 0..PAPER_ABSORBENCY_MAX */
+    double absorbency_variation; /* how far fibers differ, as a part of the mean, 0..1 */
+    int fiber_length;            /* over how many pixels, 1..64, neighbours are alike */
+    uint64_t seed;               /* same seed, same sheet, on every device */
 };
 struct paper_config paper_config_default(void);
 
@@ -83,10 +83,10 @@ struct paper_ink { /* amounts that are added to a fiber; what it holds stays wit
 /* Shades of gray to screen ink through: 255 lets all of it pass, 0 none. */
 struct paper_screen {
     int width_px, height_px;
-    uint8_t *gray;      /* rows from the top, no padding */
-    int origin_x_px;    /* type: where the line begins, from the left edge */
-    int baseline_y_px;  /* type: the baseline, from the top edge */
-    double advance_px;  /* type: the length of the line */
+    uint8_t *gray;     /* rows from the top, no padding */
+    int origin_x_px;   /* type: where the line begins, from the left edge */
+    int baseline_y_px; /* type: the baseline, from the top edge */
+    double advance_px; /* type: the length of the line */
 };
 
 /* Adds ink to each fiber with x <= its x < x + width, and so in y; what lies off the sheet is ignored.
@@ -96,16 +96,17 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
 
 /* Adds ink through a screen whose upper left corner is at x, y; what lies off the sheet is ignored.
  * Errors: as paper_rectangle(). */
-enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *screen, int x, int y,
-                                   const struct paper_ink *ink);
+enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *screen, int x,
+                                   int y, const struct paper_ink *ink);
 
 /* ---- type ---- */
 
 struct paper_line {
-    const char *text;    /* UTF-8, one line */
-    const char *font;    /* a file, or a font file's name without its ending, found in the font folders */
-    double size_px;      /* of the em, 1..8192 */
-    double tracking_em;  /* added between letters */
+    const char *text; /* UTF-8, one line */
+    const char
+        *font; /* a file, or a font file's name without its ending, found in the font folders */
+    double size_px;     /* of the em, 1..8192 */
+    double tracking_em; /* added between letters */
 };
 
 /* Sets a line of type as a screen: anti-aliased, kerned (from the font's kern or GPOS table), as small as
@@ -123,9 +124,10 @@ char *paper_font_find(const char *name);
 /* ---- time ---- */
 
 struct paper_weather {
-    double gravity_x, gravity_y; /* 1 none; 2 flows twice as easily to the right (down), half as easily back */
-    double humidity;             /* water that every fiber loses in a cycle, 0..1 */
-    double molecular_weight[3];  /* how easily cyan, magenta and yellow move, 0..1 */
+    double gravity_x,
+        gravity_y; /* 1 none; 2 flows twice as easily to the right (down), half as easily back */
+    double humidity;            /* water that every fiber loses in a cycle, 0..1 */
+    double molecular_weight[3]; /* how easily cyan, magenta and yellow move, 0..1 */
 };
 struct paper_weather paper_weather_default(void);
 

@@ -10,9 +10,10 @@ static enum paper_status ink_check(const struct paper_ink *ink)
     const double amounts[4] = {ink->cyan, ink->magenta, ink->yellow, ink->water};
     for (int i = 0; i < 4; i++)
         if (!(fabs(amounts[i]) <= 1))
-            return paper_fail(PAPER_BAD_ARGUMENT,
-                              "cyan, magenta, yellow and water must be -1..1 (got %g, %g, %g, %g)",
-                              ink->cyan, ink->magenta, ink->yellow, ink->water);
+            return paper_fail(
+                PAPER_BAD_ARGUMENT,
+                "cyan, magenta, yellow and water must be -1..1 (got %g, %g, %g, %g)", ink->cyan,
+                ink->magenta, ink->yellow, ink->water);
     return PAPER_OK;
 }
 
@@ -49,11 +50,13 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
     paper_enter(p);
     CM_set_context();
     paper_context_rectangle(p, clip(x, p->width), clip(y, p->height),
-                            clip((int64_t)x + width, p->width), clip((int64_t)y + height, p->height));
+                            clip((int64_t)x + width, p->width),
+                            clip((int64_t)y + height, p->height));
     for (int i = 0; i < 4; i++) {
         if (substance_amount(ink, i) == 0)
             continue;
-        CM_f_add_constant_2_1L(substance_field(p, i), substance_amount(ink, i), PAPER_S, PAPER_E);
+        CM_f_add_constant_2_1L(substance_field(p, i), substance_amount(ink, i), PAPER_S,
+                               PAPER_E);
         substance_limit(substance_field(p, i));
     }
     paper_context_restore(p);
@@ -61,7 +64,8 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
 }
 
 /* A sheet-sized copy of the screen, so that it goes to the machine as one array. NULL: no memory. */
-static uint8_t *screen_on_sheet(const struct paper *p, const struct paper_screen *screen, int x, int y)
+static uint8_t *screen_on_sheet(const struct paper *p, const struct paper_screen *screen, int x,
+                                int y)
 {
     uint8_t *sheet = calloc((size_t)p->height, (size_t)p->width);
     if (!sheet)
@@ -75,8 +79,8 @@ static uint8_t *screen_on_sheet(const struct paper *p, const struct paper_screen
     return sheet;
 }
 
-enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *screen, int x, int y,
-                                   const struct paper_ink *ink)
+enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *screen, int x,
+                                   int y, const struct paper_ink *ink)
 {
     enum paper_status status = ink_check(ink);
     if (status != PAPER_OK)
@@ -85,16 +89,18 @@ enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *s
         return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
     uint8_t *gray = screen_on_sheet(p, screen, x, y);
     if (!gray)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", p->width, p->height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", p->width,
+                          p->height);
 
     paper_enter(p);
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->height, p->width};
-    CM_field_id_t shade = p->image; /* its red channel: the picture is made anew when it is looked at */
+    CM_field_id_t shade =
+        p->image; /* its red channel: the picture is made anew when it is looked at */
     CM_field_id_t part = p->inflow, amount = p->inward;
     CM_set_context();
-    CM_u_write_to_news_array_1L(gray, offset, start, size, axes, shade, PAPER_CHANNEL_BITS, 2, size,
-                                CM_8_bit);
+    CM_u_write_to_news_array_1L(gray, offset, start, size, axes, shade, PAPER_CHANNEL_BITS, 2,
+                                size, CM_8_bit);
     paper_context_rectangle(p, clip(x, p->width), clip(y, p->height),
                             clip((int64_t)x + screen->width_px, p->width),
                             clip((int64_t)y + screen->height_px, p->height));

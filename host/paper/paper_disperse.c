@@ -38,8 +38,9 @@ static enum paper_status weather_check(const struct paper_weather *w)
     const double least = 1 / PAPER_GRAVITY_MAX;
     if (!(w->gravity_x >= least && w->gravity_x <= PAPER_GRAVITY_MAX && w->gravity_y >= least &&
           w->gravity_y <= PAPER_GRAVITY_MAX))
-        return paper_fail(PAPER_BAD_ARGUMENT, "gravity must be %g..%g (got %g along x, %g along y)",
-                          least, PAPER_GRAVITY_MAX, w->gravity_x, w->gravity_y);
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "gravity must be %g..%g (got %g along x, %g along y)", least,
+                          PAPER_GRAVITY_MAX, w->gravity_x, w->gravity_y);
     if (!(w->humidity >= 0 && w->humidity <= 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "humidity must be 0..1 (got %g)", w->humidity);
     for (int i = 0; i < 3; i++)

@@ -69,7 +69,8 @@ void paper_fibers_make(struct paper *p, const struct paper_config *config)
     CM_f_multiply_constant_2_1L(noise, unit, PAPER_S, PAPER_E);
 
     CM_f_multiply_constant_3_1L(p->absorbency, noise,
-                                config->absorbency * config->absorbency_variation, PAPER_S, PAPER_E);
+                                config->absorbency * config->absorbency_variation, PAPER_S,
+                                PAPER_E);
     CM_f_add_constant_2_1L(p->absorbency, config->absorbency, PAPER_S, PAPER_E);
     /* A fiber that takes nothing would keep its ink as a speck. */
     CM_f_max_constant_2_1L(p->absorbency, config->absorbency * FIBER_LEAST, PAPER_S, PAPER_E);

@@ -80,7 +80,8 @@ static unsigned glyph_class(const struct paper_kerning *k, size_t at, unsigned g
     unsigned format = u16(k, at);
     if (format == 1) {
         unsigned first = u16(k, at + 2), count = u16(k, at + 4);
-        return glyph >= first && glyph - first < count ? u16(k, at + 6 + 2 * (glyph - first)) : 0;
+        return glyph >= first && glyph - first < count ? u16(k, at + 6 + 2 * (glyph - first))
+                                                       : 0;
     }
     unsigned count = u16(k, at + 2);
     for (unsigned i = 0; format == 2 && i < count; i++) {
@@ -105,8 +106,8 @@ static int value_x_advance(const struct paper_kerning *k, size_t at, unsigned fo
 }
 
 /* True where the subtable decides about the pair, with the amount in *kern. */
-static bool pair_subtable(const struct paper_kerning *k, size_t at, unsigned left, unsigned right,
-                          int *kern)
+static bool pair_subtable(const struct paper_kerning *k, size_t at, unsigned left,
+                          unsigned right, int *kern)
 {
     int covered = coverage_index(k, at + u16(k, at + 2), left);
     if (covered < 0)
@@ -136,7 +137,8 @@ static bool pair_subtable(const struct paper_kerning *k, size_t at, unsigned lef
     return true;
 }
 
-static int lookup_kern(const struct paper_kerning *k, size_t lookup, unsigned left, unsigned right)
+static int lookup_kern(const struct paper_kerning *k, size_t lookup, unsigned left,
+                       unsigned right)
 {
     unsigned type = u16(k, lookup), count = u16(k, lookup + 4);
     for (unsigned i = 0; i < count; i++) {
@@ -174,7 +176,8 @@ int paper_kerning_between(const struct paper_kerning *k, unsigned left, unsigned
             if (before < seen_count || seen_count == LOOKUPS_MAX || number >= lookup_count)
                 continue;
             seen[seen_count++] = number;
-            kern += lookup_kern(k, lookups + u16(k, lookups + 2 + 2 * (size_t)number), left, right);
+            kern +=
+                lookup_kern(k, lookups + u16(k, lookups + 2 + 2 * (size_t)number), left, right);
         }
     }
     return kern;

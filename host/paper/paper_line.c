@@ -22,7 +22,7 @@ struct line_setting {
     struct paper_kerning kerning;
     struct line_letter letters[LETTERS_MAX];
     int letters_count;
-    FT_Pos pen; /* 1/64 pixel */
+    FT_Pos pen;       /* 1/64 pixel */
     uint32_t missing; /* the first code point without a glyph, or 0 */
     int found_count;  /* code points other than spaces that have one */
 };
@@ -66,9 +66,12 @@ static enum paper_status font_open(struct line_setting *set, const struct paper_
     else if (error)
         status = paper_fail(PAPER_BAD_FONT, "%s: not a font that FreeType can read", path);
     else if (!FT_IS_SCALABLE(set->face))
-        status = paper_fail(PAPER_BAD_FONT, "%s: the font has no outlines; choose one that has", path);
-    else if (FT_Set_Char_Size(set->face, 0, (FT_F26Dot6)lround(line->size_px * 64), 72, 72) != 0)
-        status = paper_fail(PAPER_BAD_FONT, "%s: cannot be set at %g pixels", path, line->size_px);
+        status = paper_fail(PAPER_BAD_FONT, "%s: the font has no outlines; choose one that has",
+                            path);
+    else if (FT_Set_Char_Size(set->face, 0, (FT_F26Dot6)lround(line->size_px * 64), 72, 72) !=
+             0)
+        status =
+            paper_fail(PAPER_BAD_FONT, "%s: cannot be set at %g pixels", path, line->size_px);
     free(path);
     return status;
 }
@@ -99,8 +102,8 @@ static enum paper_status letter_set(struct line_setting *set, unsigned glyph)
     FT_BBox box;
     FT_Glyph_Get_CBox(*out, FT_GLYPH_BBOX_PIXELS, &box);
     if (box.xMax - box.xMin > SCREEN_SIDE_MAX || box.yMax - box.yMin > SCREEN_SIDE_MAX)
-        return paper_fail(PAPER_BAD_ARGUMENT, "a letter is larger than %d pixels; set it smaller",
-                          SCREEN_SIDE_MAX);
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "a letter is larger than %d pixels; set it smaller", SCREEN_SIDE_MAX);
     set->pen += set->face->glyph->linearHoriAdvance >> 10;
     if (FT_Glyph_To_Bitmap(out, FT_RENDER_MODE_NORMAL, &origin, 1) != 0)
         return paper_fail(PAPER_NO_MEMORY, "no memory to render a letter");
@@ -129,15 +132,17 @@ static enum paper_status line_set(struct line_setting *set, const struct paper_l
             return status;
         if (labs(set->pen) > SCREEN_SIDE_MAX * 64l)
             return paper_fail(PAPER_BAD_ARGUMENT,
-                              "the line is longer than %d pixels; set it smaller", SCREEN_SIDE_MAX);
+                              "the line is longer than %d pixels; set it smaller",
+                              SCREEN_SIDE_MAX);
         previous = glyph;
     }
     if (set->missing && !set->found_count)
-        return paper_fail(PAPER_BAD_TEXT,
-                          "%s has no glyphs for \"%.60s\" (U+%04X is the first it lacks); choose "
-                          "another font",
-                          set->face->family_name ? set->face->family_name : "the font", line->text,
-                          (unsigned)set->missing);
+        return paper_fail(
+            PAPER_BAD_TEXT,
+            "%s has no glyphs for \"%.60s\" (U+%04X is the first it lacks); choose "
+            "another font",
+            set->face->family_name ? set->face->family_name : "the font", line->text,
+            (unsigned)set->missing);
     return PAPER_OK;
 }
 
@@ -153,8 +158,8 @@ static void letter_blend(struct paper_screen *screen, FT_BitmapGlyph letter)
     }
 }
 
-static enum paper_status line_render(const struct line_setting *set, const struct paper_line *line,
-                                     struct paper_screen *screen)
+static enum paper_status line_render(const struct line_setting *set,
+                                     const struct paper_line *line, struct paper_screen *screen)
 {
     int left = SCREEN_SIDE_MAX, right = -SCREEN_SIDE_MAX, top = right, bottom = left;
     for (int i = 0; i < set->letters_count; i++) {
@@ -192,9 +197,10 @@ enum paper_status paper_line_screen(const struct paper_line *line, struct paper_
         *missing = 0;
     if (!line->text || !(line->size_px >= 1 && line->size_px <= 8192) ||
         !(fabs(line->tracking_em) <= 16))
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "type is 1..8192 pixels large and tracked by at most 16 em (got %g, %g)",
-                          line->size_px, line->tracking_em);
+        return paper_fail(
+            PAPER_BAD_ARGUMENT,
+            "type is 1..8192 pixels large and tracked by at most 16 em (got %g, %g)",
+            line->size_px, line->tracking_em);
     struct line_setting *set = calloc(1, sizeof *set);
     if (!set)
         return paper_fail(PAPER_NO_MEMORY, "no memory to set type");

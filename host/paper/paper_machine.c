@@ -12,7 +12,8 @@ static char complaint[512]; /* the first since paper_enter(); "" if none */
 static void complaint_take(const char *message)
 {
     if (!complaint[0])
-        snprintf(complaint, sizeof complaint, "%s", message && *message ? message : "no reason given");
+        snprintf(complaint, sizeof complaint, "%s",
+                 message && *message ? message : "no reason given");
 }
 
 /* Paris has words only, and both its own and the machine's speak of memory where memory was short. */

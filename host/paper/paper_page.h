@@ -36,7 +36,8 @@ struct paper {
     CM_field_id_t pigment[3]; /* cyan, magenta, yellow */
     CM_field_id_t fiber_color;
     CM_field_id_t x_coord, y_coord;
-    CM_field_id_t context, inner_context; /* contexts put aside: by a rectangle, and within it */
+    CM_field_id_t context,
+        inner_context; /* contexts put aside: by a rectangle, and within it */
     CM_field_id_t inflow, inward, outward, scratch;
 };
 

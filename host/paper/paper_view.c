@@ -16,9 +16,9 @@ static void channel_set(struct paper *p, int channel, CM_field_id_t value)
 static void image_color(struct paper *p)
 {
     for (int channel = 0; channel < 3; channel++) {
-        CM_f_u_float_2_2L(p->scratch,
-                          CM_add_offset_to_field_id(p->fiber_color, channel * PAPER_CHANNEL_BITS),
-                          PAPER_CHANNEL_BITS, PAPER_S, PAPER_E);
+        CM_f_u_float_2_2L(
+            p->scratch, CM_add_offset_to_field_id(p->fiber_color, channel * PAPER_CHANNEL_BITS),
+            PAPER_CHANNEL_BITS, PAPER_S, PAPER_E);
         CM_f_divide_constant_2_1L(p->scratch, 255.0, PAPER_S, PAPER_E);
         CM_f_subtract_2_1L(p->scratch, p->pigment[channel], PAPER_S, PAPER_E);
         channel_set(p, channel, p->scratch);
@@ -38,7 +38,8 @@ enum paper_status paper_view_read(struct paper *p, enum paper_view view, uint8_t
     size_t count = (size_t)p->width * (size_t)p->height;
     uint32_t *pixels = malloc(count * sizeof *pixels);
     if (!pixels)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->width, p->height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->width,
+                          p->height);
     paper_enter(p);
     CM_set_context();
     if (view == PAPER_VIEW_WATER)
@@ -47,13 +48,14 @@ enum paper_status paper_view_read(struct paper *p, enum paper_view view, uint8_t
         image_color(p);
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->height, p->width};
-    CM_u_read_from_news_array_1L(pixels, offset, start, size, axes, p->image, PAPER_IMAGE_BITS, 2,
-                                 size, CM_32_bit);
+    CM_u_read_from_news_array_1L(pixels, offset, start, size, axes, p->image, PAPER_IMAGE_BITS,
+                                 2, size, CM_32_bit);
     enum paper_status status = paper_leave(p);
     if (status == PAPER_OK)
         for (size_t i = 0; i < count; i++)
             for (int channel = 0; channel < 3; channel++)
-                rgb[3 * i + (size_t)channel] = (uint8_t)(pixels[i] >> channel * PAPER_CHANNEL_BITS);
+                rgb[3 * i + (size_t)channel] =
+                    (uint8_t)(pixels[i] >> channel * PAPER_CHANNEL_BITS);
     free(pixels);
     return status;
 }

@@ -111,7 +111,8 @@ static void damaged_files_are_read_or_refused(void **state)
     size_t counts[2];
     const char *path = scratch_path("fuzz.png");
     for (int kind = 0; kind < 2; kind++) {
-        struct display_image image = {.width_px = 37, .height_px = 23, .channels = kind ? 3 : 1};
+        struct display_image image = {
+            .width_px = 37, .height_px = 23, .channels = kind ? 3 : 1};
         assert_int_equal(display_image_create(&image), DISPLAY_OK);
         for (int i = 0; i < 37 * 23; i++)
             image.pixels[i] = (uint8_t)random_below(256);

@@ -26,7 +26,7 @@ static inline int scratch_count(void)
     return count;
 }
 
-static inline void scratch_remove(void)
+static inline void scratch_empty(void)
 {
     DIR *dir = opendir(scratch_dir);
     for (struct dirent *entry; dir && (entry = readdir(dir));) {
@@ -36,6 +36,11 @@ static inline void scratch_remove(void)
     }
     if (dir)
         closedir(dir);
+}
+
+static inline void scratch_remove(void)
+{
+    scratch_empty();
     rmdir(scratch_dir);
 }
 

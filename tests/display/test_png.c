@@ -37,7 +37,8 @@ static void gray_comes_back(void **state)
         assert_int_equal(display_png_read_gray(path, &in), DISPLAY_OK);
         assert_int_equal(in.width_px, out.width_px);
         assert_int_equal(in.height_px, out.height_px);
-        assert_memory_equal(in.pixels, out.pixels, (size_t)out.width_px * (size_t)out.height_px);
+        assert_memory_equal(in.pixels, out.pixels,
+                            (size_t)out.width_px * (size_t)out.height_px);
         display_image_destroy(&out);
         display_image_destroy(&in);
     }

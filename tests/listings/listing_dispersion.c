@@ -5,13 +5,13 @@
 
 #include "page.h"
 
-#define INITIALIZE_VARIABLES                                                                         \
-    inward_gradient = Page->inward;                                                                  \
-    outward_gradient = Page->outward;                                                                \
-    inflow = Page->inflow;                                                                           \
-    outflow = Page->outflow;                                                                         \
-    pigment[0] = Page->cyan;                                                                         \
-    pigment[1] = Page->magenta;                                                                      \
+#define INITIALIZE_VARIABLES                                                                   \
+    inward_gradient = Page->inward;                                                            \
+    outward_gradient = Page->outward;                                                          \
+    inflow = Page->inflow;                                                                     \
+    outflow = Page->outflow;                                                                   \
+    pigment[0] = Page->cyan;                                                                   \
+    pigment[1] = Page->magenta;                                                                \
     pigment[2] = Page->yellow;
 
 #include LISTING_DISPERSION

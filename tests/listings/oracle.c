@@ -7,7 +7,19 @@
 #include <string.h>
 
 /* Indices of real[], as page.h numbers its fields. */
-enum { WATER, ABSORBENCY, CYAN, MAGENTA, YELLOW, TEMP1, TEMP2, INWARD, OUTWARD, INFLOW, OUTFLOW };
+enum {
+    WATER,
+    ABSORBENCY,
+    CYAN,
+    MAGENTA,
+    YELLOW,
+    TEMP1,
+    TEMP2,
+    INWARD,
+    OUTWARD,
+    INFLOW,
+    OUTFLOW
+};
 enum axis { AXIS_Y, AXIS_X };
 enum direction { UPWARD, DOWNWARD };
 
@@ -50,8 +62,8 @@ void oracle_finish(struct oracle *o)
     free(o->overflow);
 }
 
-#define EACH_FIBER(o, n)                                                                             \
-    for (int y_ = 0; y_ < (o)->height; y_++)                                                         \
+#define EACH_FIBER(o, n)                                                                       \
+    for (int y_ = 0; y_ < (o)->height; y_++)                                                   \
         for (int x_ = 0, n = y_ * (o)->width; x_ < (o)->width; x_++, n++)
 
 /* ---- context and test ---- */
@@ -121,28 +133,28 @@ static void keep(struct oracle *o, int n, float *dest, float result, float a, fl
     o->overflow[n] = isinf(result) && isfinite(a) && isfinite(b);
 }
 
-#define ARITHMETIC(name, expression)                                                                 \
-    static void name(struct oracle *o, float *dest, const float *pa, const float *pb)                \
-    {                                                                                                \
-        EACH_FIBER(o, n)                                                                             \
-        {                                                                                            \
-            float a = pa[n], b = pb[n];                                                              \
-                                                                                                     \
-            if (o->context[n])                                                                       \
-                keep(o, n, dest, expression, a, b);                                                  \
-        }                                                                                            \
+#define ARITHMETIC(name, expression)                                                           \
+    static void name(struct oracle *o, float *dest, const float *pa, const float *pb)          \
+    {                                                                                          \
+        EACH_FIBER(o, n)                                                                       \
+        {                                                                                      \
+            float a = pa[n], b = pb[n];                                                        \
+                                                                                               \
+            if (o->context[n])                                                                 \
+                keep(o, n, dest, expression, a, b);                                            \
+        }                                                                                      \
     }
 
-#define ARITHMETIC_CONSTANT(name, expression)                                                        \
-    static void name(struct oracle *o, float *dest, const float *pa, float b)                        \
-    {                                                                                                \
-        EACH_FIBER(o, n)                                                                             \
-        {                                                                                            \
-            float a = pa[n];                                                                         \
-                                                                                                     \
-            if (o->context[n])                                                                       \
-                keep(o, n, dest, expression, a, b);                                                  \
-        }                                                                                            \
+#define ARITHMETIC_CONSTANT(name, expression)                                                  \
+    static void name(struct oracle *o, float *dest, const float *pa, float b)                  \
+    {                                                                                          \
+        EACH_FIBER(o, n)                                                                       \
+        {                                                                                      \
+            float a = pa[n];                                                                   \
+                                                                                               \
+            if (o->context[n])                                                                 \
+                keep(o, n, dest, expression, a, b);                                            \
+        }                                                                                      \
     }
 
 ARITHMETIC(add, a + b)
@@ -247,8 +259,8 @@ void oracle_disperse(struct oracle *o)
 
 /* ---- appendix 7.5 ---- */
 
-void oracle_screen(struct oracle *o, const uint8_t *gray, int width, int height, int x_off, int y_off,
-                   float cyan, float magenta, float yellow, float water)
+void oracle_screen(struct oracle *o, const uint8_t *gray, int width, int height, int x_off,
+                   int y_off, float cyan, float magenta, float yellow, float water)
 {
     const int inks[4] = {CYAN, MAGENTA, YELLOW, WATER};
     const float amounts[4] = {cyan, magenta, yellow, water};

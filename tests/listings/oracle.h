@@ -13,10 +13,10 @@ enum { ORACLE_PLANES = 17 };
 
 struct oracle {
     int width, height;
-    float *real[11];       /* water .. outflow */
-    uint32_t *image;       /* 24 bits */
-    uint8_t *saved;        /* Page->context */
-    uint8_t *old_context;  /* Page->old_context_store */
+    float *real[11];                    /* water .. outflow */
+    uint32_t *image;                    /* 24 bits */
+    uint8_t *saved;                     /* Page->context */
+    uint8_t *old_context;               /* Page->old_context_store */
     uint8_t *context, *test, *overflow; /* the flags */
     float gravity, molecular_weight[3];
 };
@@ -27,8 +27,8 @@ void oracle_finish(struct oracle *o);
 /* disperse_pigment_and_water(Page), once. */
 void oracle_disperse(struct oracle *o);
 /* Read_image_from_disk_and_screen_ink_on_paper, with the file's bytes. */
-void oracle_screen(struct oracle *o, const uint8_t *gray, int width, int height, int x_off, int y_off,
-                   float cyan, float magenta, float yellow, float water);
+void oracle_screen(struct oracle *o, const uint8_t *gray, int width, int height, int x_off,
+                   int y_off, float cyan, float magenta, float yellow, float water);
 
 /* A field's bits, by the number that page.h gives it. */
 uint32_t oracle_word(const struct oracle *o, int page_field, int n);

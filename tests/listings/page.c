@@ -62,11 +62,13 @@ int page_field_bits(enum page_field which)
 void page_create(struct FiberStruct *page, int width, int height)
 {
     unsigned int dimensions[2] = {(unsigned int)height, (unsigned int)width};
-    CM_field_id_t *const floats[] = {&page->water,  &page->absorbency, &page->cyan,   &page->magenta,
-                                     &page->yellow, &page->temp1,      &page->temp2,  &page->inward,
-                                     &page->outward, &page->inflow,    &page->outflow};
-    CM_field_id_t *const flags[] = {&page->context, &page->old_context_store, &page->seen_context,
-                                    &page->seen_test, &page->seen_overflow};
+    CM_field_id_t *const floats[] = {&page->water,   &page->absorbency, &page->cyan,
+                                     &page->magenta, &page->yellow,     &page->temp1,
+                                     &page->temp2,   &page->inward,     &page->outward,
+                                     &page->inflow,  &page->outflow};
+    CM_field_id_t *const flags[] = {&page->context, &page->old_context_store,
+                                    &page->seen_context, &page->seen_test,
+                                    &page->seen_overflow};
 
     CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
     page->width = width;
@@ -94,7 +96,8 @@ void page_destroy(struct FiberStruct *page)
     CM_deallocate_heap_field(page->y_coordinate);
 }
 
-static void page_transfer(struct FiberStruct *page, enum page_field which, unsigned int *words, int write)
+static void page_transfer(struct FiberStruct *page, enum page_field which, unsigned int *words,
+                          int write)
 {
     int offset[2] = {0, 0};
     unsigned int start[2] = {0, 0};
@@ -108,8 +111,8 @@ static void page_transfer(struct FiberStruct *page, enum page_field which, unsig
         CM_u_write_to_news_array_1L(words, offset, start, end, axes, field, bits, 2, dimensions,
                                     CM_32_bit);
     else
-        CM_u_read_from_news_array_1L(words, offset, start, end, axes, field, bits, 2, dimensions,
-                                     CM_32_bit);
+        CM_u_read_from_news_array_1L(words, offset, start, end, axes, field, bits, 2,
+                                     dimensions, CM_32_bit);
 }
 
 void page_write(struct FiberStruct *page, enum page_field which, const unsigned int *words)
@@ -137,7 +140,8 @@ void page_look_at_flags(struct FiberStruct *page)
     CM_store_overflow_always(page->seen_overflow);
 }
 
-int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2, int y2)
+int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2,
+                    int y2)
 {
     CM_store_context(saved);
     CM_s_ge_constant_1L(Page->x_coordinate, x1, COORDINATE_BITS);

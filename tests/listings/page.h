@@ -63,7 +63,8 @@ void page_look_at_flags(struct FiberStruct *page);
 
 /* The thesis's own: saves the context in `saved` and turns on only x1..x2 and y1..y2, both ends in, of what was
  * on.  The gnu89 programs call it without a prototype, as their authors did; ints throughout. */
-int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2, int y2);
+int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2,
+                    int y2);
 
 /* Globals of the listings. */
 extern float gravity;

@@ -17,8 +17,9 @@
 enum { IMAGE_WIDTH = 37, IMAGE_HEIGHT = 23 };
 
 /* As listing_type.c defines it: K&R, so its floats are passed as doubles. */
-int Read_image_from_disk_and_screen_ink_on_paper(struct FiberStruct *Page, char *filename, int width, int height,
-                                                 int x_off, int y_off, double cyan, double magenta, double yellow,
+int Read_image_from_disk_and_screen_ink_on_paper(struct FiberStruct *Page, char *filename,
+                                                 int width, int height, int x_off, int y_off,
+                                                 double cyan, double magenta, double yellow,
                                                  double water);
 
 /* A soft ring, so that every gray occurs. */
@@ -55,7 +56,8 @@ static void screen(int width, int height)
     static const struct {
         int x, y;
         double cyan, magenta, yellow, water;
-    } places[] = {{3, 5, 0.9, 0.1, 0.0, 0.5}, {20, 14, 0.3, 0.8, -0.2, 0.75}, {0, 0, 0.0, 0.0, 1.0, 1.0}};
+    } places[] = {
+        {3, 5, 0.9, 0.1, 0.0, 0.5}, {20, 14, 0.3, 0.8, -0.2, 0.75}, {0, 0, 0.0, 0.0, 1.0, 1.0}};
     char path[] = "/tmp/test_type_XXXXXX";
     uint8_t gray[IMAGE_WIDTH * IMAGE_HEIGHT];
     struct FiberStruct page;
@@ -70,9 +72,9 @@ static void screen(int width, int height)
     oracle_init(&o, width, height);
     page_create(&page, width, height);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
-        Read_image_from_disk_and_screen_ink_on_paper(&page, path, IMAGE_WIDTH, IMAGE_HEIGHT, places[k].x,
-                                                     places[k].y, places[k].cyan, places[k].magenta,
-                                                     places[k].yellow, places[k].water);
+        Read_image_from_disk_and_screen_ink_on_paper(
+            &page, path, IMAGE_WIDTH, IMAGE_HEIGHT, places[k].x, places[k].y, places[k].cyan,
+            places[k].magenta, places[k].yellow, places[k].water);
         oracle_screen(&o, gray, IMAGE_WIDTH, IMAGE_HEIGHT, places[k].x, places[k].y,
                       (float)places[k].cyan, (float)places[k].magenta, (float)places[k].yellow,
                       (float)places[k].water);

@@ -14,10 +14,10 @@ enum { CHILD_ARGUMENTS_MAX = 32, CHILD_TEXT_MAX = 1 << 16 };
 
 struct child {
     const char *arguments[CHILD_ARGUMENTS_MAX]; /* NULL ends them */
-    const char *variables[4];                   /* NAME=value, added to the environment; NULL ends them */
-    long file_bytes_max;                        /* 0: no limit; a disk that is soon full */
-    int interrupt_after_ms;                     /* 0: never */
-    bool output_full;                           /* the standard output is /dev/full */
+    const char *variables[4]; /* NAME=value, added to the environment; NULL ends them */
+    long file_bytes_max;      /* 0: no limit; a disk that is soon full */
+    int interrupt_after_ms;   /* 0: never */
+    bool output_full;         /* the standard output is /dev/full */
 
     int status; /* exit status, or 1000 + the signal that ended it */
     char output[CHILD_TEXT_MAX], errors[CHILD_TEXT_MAX];

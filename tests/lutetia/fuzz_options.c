@@ -40,10 +40,22 @@ static uint32_t random_below(uint32_t limit)
 }
 
 static const char *const pieces[] = {
-    "--steps", "--gravity", "--ink", "--paper", "--pool", "--out", "--loud", "-o", "--", "-", "---",
-    "=", ",", "x", "1", "0", "-1", "0.5", "2", "10", "1e3", "1e999", "nan", "-inf", "0x10", " 3", "1,2",
-    "0,0.5,1", "1,,2", "64x48", "64x", "x48", "9999999999999999999", "\xff\xfe", "%s%n", "", "Wet Fonts",
-    "--steps=5", "--gravity=", "--ink=0,0,0", "-ofile", "--nothing", "-z", "+7", "1_000", "٣", "\n",
+    "--steps",     "--gravity", "--ink",
+    "--paper",     "--pool",    "--out",
+    "--loud",      "-o",        "--",
+    "-",           "---",       "=",
+    ",",           "x",         "1",
+    "0",           "-1",        "0.5",
+    "2",           "10",        "1e3",
+    "1e999",       "nan",       "-inf",
+    "0x10",        " 3",        "1,2",
+    "0,0.5,1",     "1,,2",      "64x48",
+    "64x",         "x48",       "9999999999999999999",
+    "\xff\xfe",    "%s%n",      "",
+    "Wet Fonts",   "--steps=5", "--gravity=",
+    "--ink=0,0,0", "-ofile",    "--nothing",
+    "-z",          "+7",        "1_000",
+    "٣",           "\n",
 };
 
 enum { PIECES = sizeof pieces / sizeof *pieces };
@@ -111,7 +123,8 @@ static void lists_and_words_have_an_end(void **state)
 {
     (void)state;
     static struct option_list pools;
-    const struct option_row rows[] = {{"pool", 0, OPTION_LIST, "A,B", "", &pools, -10, 10, 2}, {0}};
+    const struct option_row rows[] = {{"pool", 0, OPTION_LIST, "A,B", "", &pools, -10, 10, 2},
+                                      {0}};
     static char verb[] = "paint", pool[] = "--pool=1,2", word[] = "w";
     char *arguments[OPTION_LIST_MAX + 3];
     struct option_words words;

@@ -29,53 +29,160 @@ static const struct {
     {"text and image", {"paint", "x", "--image", JUNK, "-o", OUT}, NULL, 2, "text", "--image"},
     {"two texts", {"paint", "Wet", "Fonts", "-o", OUT}, NULL, 2, "quotes", "Fonts"},
     {"no value", {"paint", "x", "--steps"}, NULL, 2, "--steps", "value"},
-    {"flag with letters", {"paint", "x", "--steps", "many", "-o", OUT}, NULL, 2, "--steps", "many"},
+    {"flag with letters",
+     {"paint", "x", "--steps", "many", "-o", OUT},
+     NULL,
+     2,
+     "--steps",
+     "many"},
     {"steps below", {"paint", "x", "--steps", "-1", "-o", OUT}, NULL, 2, "--steps", "-1"},
     {"steps with tail", {"paint", "x", "--steps", "10k", "-o", OUT}, NULL, 2, "--steps", "10k"},
-    {"steps overflow", {"paint", "x", "--steps", "99999999999999999999", "-o", OUT}, NULL, 2, "--steps", ""},
+    {"steps overflow",
+     {"paint", "x", "--steps", "99999999999999999999", "-o", OUT},
+     NULL,
+     2,
+     "--steps",
+     ""},
     {"gravity nan", {"paint", "x", "--gravity", "nan", "-o", OUT}, NULL, 2, "--gravity", "nan"},
     {"gravity inf", {"paint", "x", "--gravity=inf", "-o", OUT}, NULL, 2, "--gravity", "inf"},
-    {"gravity zero", {"paint", "x", "--gravity", "0", "-o", OUT}, NULL, 2, "--gravity", "0.5..2"},
-    {"humidity nan", {"paint", "x", "--humidity", "-nan", "-o", OUT}, NULL, 2, "--humidity", ""},
-    {"humidity huge", {"paint", "x", "--humidity", "1e999", "-o", OUT}, NULL, 2, "--humidity", ""},
+    {"gravity zero",
+     {"paint", "x", "--gravity", "0", "-o", OUT},
+     NULL,
+     2,
+     "--gravity",
+     "0.5..2"},
+    {"humidity nan",
+     {"paint", "x", "--humidity", "-nan", "-o", OUT},
+     NULL,
+     2,
+     "--humidity",
+     ""},
+    {"humidity huge",
+     {"paint", "x", "--humidity", "1e999", "-o", OUT},
+     NULL,
+     2,
+     "--humidity",
+     ""},
     {"water empty", {"paint", "x", "--water", "", "-o", OUT}, NULL, 2, "--water", ""},
     {"ink of two", {"paint", "x", "--ink", "1,0", "-o", OUT}, NULL, 2, "--ink", "C,M,Y"},
     {"ink of four", {"paint", "x", "--ink", "1,0,0,0", "-o", OUT}, NULL, 2, "--ink", "C,M,Y"},
     {"ink nan", {"paint", "x", "--ink", "1,nan,0", "-o", OUT}, NULL, 2, "--ink", "nan"},
-    {"pool short", {"paint", "x", "--pool", "1,2,3", "-o", OUT}, NULL, 2, "--pool", "X,Y,W,H,A"},
+    {"pool short",
+     {"paint", "x", "--pool", "1,2,3", "-o", OUT},
+     NULL,
+     2,
+     "--pool",
+     "X,Y,W,H,A"},
     {"paper of size 0", {"paint", "x", "--paper", "0x0", "-o", OUT}, NULL, 2, "--paper", "0x0"},
-    {"paper negative", {"paint", "x", "--paper", "-4x100", "-o", OUT}, NULL, 2, "--paper", "-4x100"},
-    {"paper one number", {"paint", "x", "--paper", "100", "-o", OUT}, NULL, 2, "--paper", "WxH"},
-    {"paper beyond any", {"paint", "x", "--paper", "999999x9", "-o", OUT}, NULL, 2, "--paper", "999999x9"},
+    {"paper negative",
+     {"paint", "x", "--paper", "-4x100", "-o", OUT},
+     NULL,
+     2,
+     "--paper",
+     "-4x100"},
+    {"paper one number",
+     {"paint", "x", "--paper", "100", "-o", OUT},
+     NULL,
+     2,
+     "--paper",
+     "WxH"},
+    {"paper beyond any",
+     {"paint", "x", "--paper", "999999x9", "-o", OUT},
+     NULL,
+     2,
+     "--paper",
+     "999999x9"},
     {"seed letters", {"paint", "x", "--seed", "0x12", "-o", OUT}, NULL, 2, "--seed", "0x12"},
     {"unknown view", {"paint", "x", "--view", "ink", "-o", OUT}, NULL, 2, "--view", "ink"},
-    {"missing font", {"paint", "x", "--font", "NoSuchFont", "-o", OUT}, NULL, 1, "NoSuchFont", "font"},
-    {"missing font file", {"paint", "x", "--font", "/nowhere/a.otf", "-o", OUT}, NULL, 1, "/nowhere/a.otf", ""},
+    {"missing font",
+     {"paint", "x", "--font", "NoSuchFont", "-o", OUT},
+     NULL,
+     1,
+     "NoSuchFont",
+     "font"},
+    {"missing font file",
+     {"paint", "x", "--font", "/nowhere/a.otf", "-o", OUT},
+     NULL,
+     1,
+     "/nowhere/a.otf",
+     ""},
     {"font that is none", {"paint", "x", "--font", JUNK, "-o", OUT}, NULL, 1, "not a font", ""},
-    {"missing image", {"paint", "--image", "/nowhere/a.png", "-o", OUT}, NULL, 1, "/nowhere/a.png", ""},
-    {"image that is none", {"paint", "--image", JUNK, "-o", OUT}, NULL, 1, "not a readable PNG", ""},
-    {"image that is a folder", {"paint", "--image", "/", "-o", OUT}, NULL, 1, "/: cannot read", ""},
+    {"missing image",
+     {"paint", "--image", "/nowhere/a.png", "-o", OUT},
+     NULL,
+     1,
+     "/nowhere/a.png",
+     ""},
+    {"image that is none",
+     {"paint", "--image", JUNK, "-o", OUT},
+     NULL,
+     1,
+     "not a readable PNG",
+     ""},
+    {"image that is a folder",
+     {"paint", "--image", "/", "-o", OUT},
+     NULL,
+     1,
+     "/: cannot read",
+     ""},
     {"text of spaces", {"paint", "   ", "-o", OUT}, NULL, 1, "no mark", ""},
     {"text empty", {"paint", "", "-o", OUT}, NULL, 1, "no mark", ""},
-    {"text without glyphs", {"paint", "\xf0\x93\x80\x80", "--font", "DejaVuSerif", "-o", OUT}, NULL, 1,
-     "no glyphs", "U+13000"},
+    {"text without glyphs",
+     {"paint", "\xf0\x93\x80\x80", "--font", "DejaVuSerif", "-o", OUT},
+     NULL,
+     1,
+     "no glyphs",
+     "U+13000"},
     {"text not UTF-8", {"paint", "\xff\xfe", "-o", OUT}, NULL, 1, "UTF-8", ""},
-    {"folder that cannot be", {"paint", "x", "--steps", "1", "--frames", "/proc/frames", "-o", OUT}, NULL, 1,
-     "/proc/frames", ""},
-    {"frames into a file", {"paint", "x", "--steps", "1", "--frames", JUNK, "-o", OUT}, NULL, 1, JUNK,
+    {"folder that cannot be",
+     {"paint", "x", "--steps", "1", "--frames", "/proc/frames", "-o", OUT},
+     NULL,
+     1,
+     "/proc/frames",
+     ""},
+    {"frames into a file",
+     {"paint", "x", "--steps", "1", "--frames", JUNK, "-o", OUT},
+     NULL,
+     1,
+     JUNK,
      "not a folder"},
     {"no platform", {"paint", "x", "-o", OUT}, "OCL_ICD_VENDORS=/nowhere", 1, "OpenCL", ""},
     {"no such device", {"paint", "x", "-o", OUT}, "LUTETIA_DEVICE=nonsense", 1, "nonsense", ""},
-    {"no device for the demo", {"demo", "-o", "/tmp"}, "LUTETIA_DEVICE=nonsense", 1, "nonsense", ""},
-    {"paper beyond memory", {"paint", "x", "--paper", "16384x16384", "--steps", "1", "-o", OUT},
-     "POCL_MEMORY_LIMIT=1", 1, "smaller", "16384x16384"},
-    {"unwritable place", {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/proc/x.png"}, NULL, 1,
-     "/proc/x.png", ""},
-    {"missing place", {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/nowhere/x.png"}, NULL, 1,
-     "/nowhere/x.png", "folder"},
-    {"full disk", {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/dev/full"}, NULL, 1, "/dev/full",
+    {"no device for the demo",
+     {"demo", "-o", "/tmp"},
+     "LUTETIA_DEVICE=nonsense",
+     1,
+     "nonsense",
+     ""},
+    {"paper beyond memory",
+     {"paint", "x", "--paper", "16384x16384", "--steps", "1", "-o", OUT},
+     "POCL_MEMORY_LIMIT=1",
+     1,
+     "smaller",
+     "16384x16384"},
+    {"unwritable place",
+     {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/proc/x.png"},
+     NULL,
+     1,
+     "/proc/x.png",
+     ""},
+    {"missing place",
+     {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/nowhere/x.png"},
+     NULL,
+     1,
+     "/nowhere/x.png",
+     "folder"},
+    {"full disk",
+     {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/dev/full"},
+     NULL,
+     1,
+     "/dev/full",
      "space"},
-    {"place that is a folder", {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/tmp"}, NULL, 1, "/tmp",
+    {"place that is a folder",
+     {"paint", "x", "--paper", "64x64", "--steps", "1", "-o", "/tmp"},
+     NULL,
+     1,
+     "/tmp",
      ""},
     {"demo into a file", {"demo", "-o", JUNK}, NULL, 1, JUNK, "not a folder"},
     {"demo with words", {"demo", "now"}, NULL, 2, "now", ""},
@@ -118,12 +225,22 @@ static void wrong_is_said(void **state)
     const char *says = argument_of(wrongs[i].says);
     if (child.status != wrongs[i].status || !strstr(child.errors, says) ||
         !strstr(child.errors, wrongs[i].says_too))
-        fail_msg("exit %d for %d, and it said: %s", child.status, wrongs[i].status, child.errors);
+        fail_msg("exit %d for %d, and it said: %s", child.status, wrongs[i].status,
+                 child.errors);
     if (strcmp(wrongs[i].says, "usage") != 0 && lines_in(child.errors) != 1)
         fail_msg("it said more than one line: %s", child.errors);
     if (scratch_count() != 1)
         fail_msg("it left a file behind");
     unlink(scratch_path("junk"));
+}
+
+/* Each case begins with an empty folder, whatever the one before left. */
+static int begin_clean(void **state)
+{
+    (void)state;
+    scratch_path("");
+    scratch_empty();
+    return 0;
 }
 
 static void run(struct child *child, int status)
@@ -138,8 +255,9 @@ static void paint_writes_a_picture(void **state)
 {
     (void)state;
     const char *out = scratch_path("painted.png");
-    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "200x150", "--steps", "20", "--font",
-                                        "DejaVuSerif", "--pool", "10,10,50,50,80", "-o", out}};
+    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "200x150", "--steps",
+                                        "20", "--font", "DejaVuSerif", "--pool",
+                                        "10,10,50,50,80", "-o", out}};
     run(&child, 0);
     assert_string_equal(child.errors, "");
     assert_string_equal(child.output, "");
@@ -162,8 +280,9 @@ static void same_seed_same_file(void **state)
     size_t counts[2];
     for (int i = 0; i < 2; i++) {
         const char *out = scratch_path("same.png");
-        struct child child = {.arguments = {"", "paint", "Aa", "--paper", "128x96", "--steps", "9", "--font",
-                                            "DejaVuSerif", "--seed", "4", "-o", out},
+        struct child child = {.arguments = {"", "paint", "Aa", "--paper", "128x96", "--steps",
+                                            "9", "--font", "DejaVuSerif", "--seed", "4", "-o",
+                                            out},
                               .variables = {i ? "LUTETIA_EAGER=1" : "LUTETIA_EAGER=0"}};
         run(&child, 0);
         FILE *file = fopen(out, "rb");
@@ -179,12 +298,13 @@ static void same_seed_same_file(void **state)
 static void frames_are_written(void **state)
 {
     (void)state;
-    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "64x48", "--steps", "6", "--every", "3",
-                                        "--font", "DejaVuSerif", "--frames", scratch_path("."), "-o",
-                                        scratch_path("last.png")}};
+    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "64x48", "--steps", "6",
+                                        "--every", "3", "--font", "DejaVuSerif", "--frames",
+                                        scratch_path("."), "-o", scratch_path("last.png")}};
     run(&child, 0);
     assert_int_equal(scratch_count(), 4);
-    static const char *const names[] = {"frame-000000.png", "frame-000003.png", "frame-000006.png", "last.png"};
+    static const char *const names[] = {"frame-000000.png", "frame-000003.png",
+                                        "frame-000006.png", "last.png"};
     for (int i = 0; i < 4; i++)
         assert_int_equal(unlink(scratch_path(names[i])), 0);
 }
@@ -192,8 +312,8 @@ static void frames_are_written(void **state)
 static void full_disk_leaves_nothing(void **state)
 {
     (void)state;
-    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "256x256", "--steps", "1", "--font",
-                                        "DejaVuSerif", "-o", scratch_path("big.png")},
+    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "256x256", "--steps", "1",
+                                        "--font", "DejaVuSerif", "-o", scratch_path("big.png")},
                           .file_bytes_max = 20000};
     run(&child, 1);
     assert_int_equal(lines_in(child.errors), 1);
@@ -203,8 +323,9 @@ static void full_disk_leaves_nothing(void **state)
 static void interrupt_leaves_nothing(void **state)
 {
     (void)state;
-    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "512x512", "--steps", "1000000", "--font",
-                                        "DejaVuSerif", "-o", scratch_path("cut.png")},
+    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "512x512", "--steps",
+                                        "1000000", "--font", "DejaVuSerif", "-o",
+                                        scratch_path("cut.png")},
                           .interrupt_after_ms = 1500};
     run(&child, 130);
     assert_int_equal(lines_in(child.errors), 1);
@@ -292,19 +413,27 @@ int main(void)
     }
     static char names[WRONGS_COUNT][64];
     struct CMUnitTest tests[WRONGS_COUNT + 16] = {
-        cmocka_unit_test(help_is_everywhere),     cmocka_unit_test(version_is_told),
-        cmocka_unit_test(info_lists_devices_and_bits), cmocka_unit_test(output_that_is_full_is_noticed),
-        cmocka_unit_test(paint_writes_a_picture), cmocka_unit_test(same_seed_same_file),
-        cmocka_unit_test(frames_are_written),     cmocka_unit_test(full_disk_leaves_nothing),
-        cmocka_unit_test(interrupt_leaves_nothing), cmocka_unit_test(cc_compiles_a_program_of_1990),
+        cmocka_unit_test(help_is_everywhere),
+        cmocka_unit_test(version_is_told),
+        cmocka_unit_test(info_lists_devices_and_bits),
+        cmocka_unit_test(output_that_is_full_is_noticed),
+        cmocka_unit_test(paint_writes_a_picture),
+        cmocka_unit_test(same_seed_same_file),
+        cmocka_unit_test(frames_are_written),
+        cmocka_unit_test(full_disk_leaves_nothing),
+        cmocka_unit_test(interrupt_leaves_nothing),
+        cmocka_unit_test(cc_compiles_a_program_of_1990),
     };
     size_t count = 10;
+    for (size_t i = 0; i < count; i++)
+        tests[i].setup_func = begin_clean;
     for (size_t i = 0; i < WRONGS_COUNT; i++) {
         snprintf(names[i], sizeof names[i], "wrong_%s", wrongs[i].name);
         for (char *c = names[i]; *c; c++)
             if (*c == ' ' || *c == '-')
                 *c = '_';
-        tests[count++] = (struct CMUnitTest){names[i], wrong_is_said, NULL, NULL, (void *)(uintptr_t)i};
+        tests[count++] = (struct CMUnitTest){names[i], wrong_is_said, begin_clean, NULL,
+                                             (void *)(uintptr_t)i};
     }
     return _cmocka_run_group_tests("command", tests, count, NULL, NULL);
 }

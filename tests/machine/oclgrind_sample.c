@@ -27,12 +27,14 @@ static void sum_with_neighbour(struct machine *m, int rows, int columns, int wid
     struct machine_scalar total;
 
     machine_begin(m);
-    inside = machine_binary(m, MACHINE_ULT, machine_coordinate(m, 1, 16),
-                            machine_constant(m, MACHINE_UINT(16), (struct machine_scalar){5, 0}));
+    inside =
+        machine_binary(m, MACHINE_ULT, machine_coordinate(m, 1, 16),
+                       machine_constant(m, MACHINE_UINT(16), (struct machine_scalar){5, 0}));
     assert_ok(machine_flag_store(m, MACHINE_CONTEXT, inside, MACHINE_EVERYWHERE), m);
     machine_begin(m);
     x = support_value(m, f, s.type);
-    assert_ok(machine_field_store(m, f, machine_binary(m, MACHINE_ADD, x, machine_shift(m, x, 1, -1)),
+    assert_ok(machine_field_store(m, f,
+                                  machine_binary(m, MACHINE_ADD, x, machine_shift(m, x, 1, -1)),
                                   MACHINE_WHERE_ACTIVE),
               m);
     support_expect_field(m, f, s.type, expected_sum, &s, "sum with the neighbour");

@@ -38,15 +38,17 @@ static uint64_t mixed(uint64_t z)
 static wide awkward_bits(int width, uint64_t which)
 {
     wide top = (wide)1 << (width - 1);
-    const wide awkward[] = {0, 1, wide_mask(width), top, top - 1, top + 1, wide_mask(width) - 1, 3};
+    const wide awkward[] = {0,       1,       wide_mask(width),     top,
+                            top - 1, top + 1, wide_mask(width) - 1, 3};
 
     return awkward[which % 8] & wide_mask(width);
 }
 
 static uint64_t awkward_float(int bits, uint64_t which)
 {
-    static const double awkward[] = {0.0,   -0.0,  1.0,    -1.0,   0.5,       1.5,       2.5,   -2.5, 1e-45,
-                                     1e-310, 3e38, -3e38, 1.7e308, 4294967296.0, 1e300, -0.75, 255.0};
+    static const double awkward[] = {0.0,     -0.0,         1.0,   -1.0,   0.5,  1.5,
+                                     2.5,     -2.5,         1e-45, 1e-310, 3e38, -3e38,
+                                     1.7e308, 4294967296.0, 1e300, -0.75,  255.0};
     uint64_t count = sizeof awkward / sizeof awkward[0];
 
     which %= count + 3;
@@ -64,11 +66,13 @@ wide support_word(struct machine_type type, uint64_t seed, uint64_t n)
     if (type.kind == MACHINE_FLOAT) {
         if (z % 3 == 0)
             return awkward_float(type.width, z >> 8);
-        return number_real(((double)(z >> 40) * 0x1p-24 - 0.5) * (z % 3 == 1 ? 4 : 1e5), type.width);
+        return number_real(((double)(z >> 40) * 0x1p-24 - 0.5) * (z % 3 == 1 ? 4 : 1e5),
+                           type.width);
     }
     if (z % 3 == 0)
         return awkward_bits(type.width, z >> 8);
-    return ((wide)mixed(z) << 64 | z) & wide_mask(z % 3 == 1 || type.width < 8 ? type.width : 8);
+    return ((wide)mixed(z) << 64 | z) &
+           wide_mask(z % 3 == 1 || type.width < 8 ? type.width : 8);
 }
 
 wide support_element(const void *array, struct machine_type type, uint64_t n)
@@ -94,7 +98,8 @@ static uint64_t count_of(struct machine *m)
 
 uint32_t support_field(struct machine *m, struct machine_type type, uint64_t seed)
 {
-    uint32_t field = machine_field_allocate(m, machine_vpset_current(m), type.width, MACHINE_HEAP);
+    uint32_t field =
+        machine_field_allocate(m, machine_vpset_current(m), type.width, MACHINE_HEAP);
     void *array = calloc(count_of(m), 16);
 
     assert_non_null(array);
@@ -128,8 +133,9 @@ void support_expect_field(struct machine *m, uint32_t field, struct machine_type
 
         if (got != wanted)
             fail_msg("%s, element %llu: %016llx%016llx, expected %016llx%016llx", what,
-                     (unsigned long long)n, (unsigned long long)(got >> 64), (unsigned long long)got,
-                     (unsigned long long)(wanted >> 64), (unsigned long long)wanted);
+                     (unsigned long long)n, (unsigned long long)(got >> 64),
+                     (unsigned long long)got, (unsigned long long)(wanted >> 64),
+                     (unsigned long long)wanted);
     }
     free(array);
 }
@@ -145,8 +151,8 @@ static struct {
 } later[LATER_MAX];
 static int later_count;
 
-void support_later(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
-                   size_t data_bytes, const char *what)
+void support_later(struct machine *m, struct machine_value *value, support_expected expected,
+                   const void *data, size_t data_bytes, const char *what)
 {
     uint32_t field;
 
@@ -154,7 +160,8 @@ void support_later(struct machine *m, struct machine_value *value, support_expec
     if (!value)
         fail_msg("%s: %s", what, machine_error(m));
     later[later_count].type = machine_value_type(value);
-    field = machine_field_allocate(m, machine_vpset_current(m), later[later_count].type.width, MACHINE_HEAP);
+    field = machine_field_allocate(m, machine_vpset_current(m), later[later_count].type.width,
+                                   MACHINE_HEAP);
     assert_ok(machine_field_store(m, field, value, MACHINE_EVERYWHERE), m);
     later[later_count].field = field;
     later[later_count].expected = expected;
@@ -169,13 +176,14 @@ void support_check(struct machine *m)
     later_count = 0; /* a failure below leaves the rest alone */
     assert_ok(machine_finish(m), m);
     for (int k = 0; k < count; k++) {
-        support_expect_field(m, later[k].field, later[k].type, later[k].expected, later[k].data, later[k].what);
+        support_expect_field(m, later[k].field, later[k].type, later[k].expected, later[k].data,
+                             later[k].what);
         assert_ok(machine_field_deallocate(m, later[k].field), m);
     }
 }
 
-void support_expect(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
-                    const char *what)
+void support_expect(struct machine *m, struct machine_value *value, support_expected expected,
+                    const void *data, const char *what)
 {
     struct machine_type type;
     uint32_t field;

@@ -23,10 +23,10 @@
 #include "machine.h"
 #include "oracle_number.h"
 
-#define assert_ok(status, m)                                                                         \
-    do {                                                                                             \
-        if ((status) != MACHINE_OK)                                                                  \
-            fail_msg("%s:%d: %s", __FILE__, __LINE__, machine_error(m));                             \
+#define assert_ok(status, m)                                                                   \
+    do {                                                                                       \
+        if ((status) != MACHINE_OK)                                                            \
+            fail_msg("%s:%d: %s", __FILE__, __LINE__, machine_error(m));                       \
     } while (0)
 
 /* 16 processors, so that VP ratios above 1 occur. eager: 0 or 1. */
@@ -38,7 +38,8 @@ int support_set(struct machine *m, int rank, ...);
 wide support_word(struct machine_type type, uint64_t seed, uint64_t n);
 /* A heap field of the current set with support_word(type, seed, n) in element n. */
 uint32_t support_field(struct machine *m, struct machine_type type, uint64_t seed);
-struct machine_value *support_value(struct machine *m, uint32_t field, struct machine_type type);
+struct machine_value *support_value(struct machine *m, uint32_t field,
+                                    struct machine_type type);
 
 /* One element of a dense array as machine.h lays it out. */
 wide support_element(const void *array, struct machine_type type, uint64_t n);
@@ -46,12 +47,12 @@ void support_element_set(void *array, struct machine_type type, uint64_t n, wide
 
 /* Stores the value everywhere into a new field, downloads that and compares element n with expected(data, n). */
 typedef wide (*support_expected)(const void *data, uint64_t n);
-void support_expect(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
-                    const char *what);
+void support_expect(struct machine *m, struct machine_value *value, support_expected expected,
+                    const void *data, const char *what);
 /* The same, but only at the next support_check(): one evaluation, so few kernels to compile. data_bytes of data are
  * copied, at most 64. */
-void support_later(struct machine *m, struct machine_value *value, support_expected expected, const void *data,
-                   size_t data_bytes, const char *what);
+void support_later(struct machine *m, struct machine_value *value, support_expected expected,
+                   const void *data, size_t data_bytes, const char *what);
 void support_check(struct machine *m);
 /* The same for a field as it is. */
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,

@@ -26,7 +26,8 @@ static int teardown(void **state)
     (void)state;
     machine_error_clear(machine);
     assert_ok(machine_vpset_select(machine, set), machine);
-    support_expect_field(machine, field, MACHINE_UINT(32), expected_untouched, NULL, "after a failed call");
+    support_expect_field(machine, field, MACHINE_UINT(32), expected_untouched, NULL,
+                         "after a failed call");
     machine_destroy(machine);
     return 0;
 }
@@ -64,8 +65,8 @@ static void device_that_is_not_there_is_refused(void **state)
     machine_destroy(NULL);
 }
 
-static void count_device(void *context, int index, const char *platform, const char *device, const char *version,
-                         int compute_units, uint64_t memory_bytes)
+static void count_device(void *context, int index, const char *platform, const char *device,
+                         const char *version, int compute_units, uint64_t memory_bytes)
 {
     int *count = context;
 
@@ -131,15 +132,19 @@ static void field_that_is_gone_is_refused(void **state)
     machine_begin(machine);
     assert_null(machine_field_value(machine, gone, MACHINE_UINT(32), MACHINE_EVERYWHERE));
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_store(machine, gone, support_value(machine, field, MACHINE_UINT(32)),
+    assert_int_equal(machine_field_store(machine, gone,
+                                         support_value(machine, field, MACHINE_UINT(32)),
                                          MACHINE_WHERE_ACTIVE),
                      MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_download(machine, gone, MACHINE_UINT(32), words), MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_download(machine, gone, MACHINE_UINT(32), words),
+                     MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_upload(machine, gone, MACHINE_UINT(32), words), MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_upload(machine, gone, MACHINE_UINT(32), words),
+                     MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_read(machine, gone, MACHINE_UINT(32), 0, &ignored), MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_read(machine, gone, MACHINE_UINT(32), 0, &ignored),
+                     MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
     /* a stack field is not given back as a heap field, nor a part as the whole */
     assert_int_equal(machine_field_deallocate(machine, field + 8), MACHINE_BAD_ARGUMENT);
@@ -160,11 +165,13 @@ static void access_beyond_the_field_is_refused(void **state)
     expect_failure(MACHINE_BAD_ARGUMENT);
     assert_null(machine_field_value(machine, field, MACHINE_UINT(0), MACHINE_EVERYWHERE));
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_store(machine, field + 1, support_value(machine, field, MACHINE_UINT(32)),
+    assert_int_equal(machine_field_store(machine, field + 1,
+                                         support_value(machine, field, MACHINE_UINT(32)),
                                          MACHINE_EVERYWHERE),
                      MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_read(machine, field, MACHINE_UINT(32), 123, &ignored), MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_read(machine, field, MACHINE_UINT(32), 123, &ignored),
+                     MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
 }
 
@@ -212,7 +219,8 @@ static void values_of_two_sets_do_not_mix(void **state)
     there = support_value(machine, other_field, MACHINE_UINT(32));
     assert_null(machine_binary(machine, MACHINE_ADD, here, there));
     expect_failure(MACHINE_BAD_ARGUMENT);
-    assert_int_equal(machine_field_store(machine, other_field, here, MACHINE_EVERYWHERE), MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_field_store(machine, other_field, here, MACHINE_EVERYWHERE),
+                     MACHINE_BAD_ARGUMENT);
     expect_failure(MACHINE_BAD_ARGUMENT);
 }
 
@@ -220,14 +228,10 @@ int main(void)
 {
 #define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
     const struct CMUnitTest tests[] = {
-        CASE(device_that_is_not_there_is_refused),
-        CASE(devices_are_listed_in_order),
-        CASE(vpset_of_bad_shape_is_refused),
-        CASE(field_of_no_bits_is_refused),
-        CASE(field_that_is_gone_is_refused),
-        CASE(access_beyond_the_field_is_refused),
-        CASE(operation_on_wrong_types_is_refused),
-        CASE(values_of_two_sets_do_not_mix),
+        CASE(device_that_is_not_there_is_refused), CASE(devices_are_listed_in_order),
+        CASE(vpset_of_bad_shape_is_refused),       CASE(field_of_no_bits_is_refused),
+        CASE(field_that_is_gone_is_refused),       CASE(access_beyond_the_field_is_refused),
+        CASE(operation_on_wrong_types_is_refused), CASE(values_of_two_sets_do_not_mix),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

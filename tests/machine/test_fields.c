@@ -73,7 +73,9 @@ static void vpset_of_one_works(void **state)
 
     (void)state;
     machine_begin(machine);
-    assert_ok(machine_field_store(machine, f, machine_unary(machine, MACHINE_NOT, support_value(machine, f, MACHINE_UINT(128))),
+    assert_ok(machine_field_store(machine, f,
+                                  machine_unary(machine, MACHINE_NOT,
+                                                support_value(machine, f, MACHINE_UINT(128))),
                                   MACHINE_WHERE_ACTIVE),
               machine);
     struct machine_scalar got;
@@ -91,7 +93,8 @@ static void field_is_zero_when_new_and_when_allocated_again(void **state)
 
         support_expect_field(machine, f, MACHINE_UINT(33), expected_zero, NULL, "a new field");
         machine_begin(machine);
-        assert_ok(machine_field_store(machine, f, bits(33, UINT64_MAX), MACHINE_EVERYWHERE), machine);
+        assert_ok(machine_field_store(machine, f, bits(33, UINT64_MAX), MACHINE_EVERYWHERE),
+                  machine);
         assert_ok(machine_finish(machine), machine);
         assert_ok(machine_field_deallocate_through(machine, f), machine);
         assert_false(machine_field_lookup(machine, f, &(struct machine_field_info){0}));
@@ -153,7 +156,8 @@ static void field_parts_are_written_and_read_at_any_offset(void **state)
     machine_begin(machine);
     assert_ok(machine_field_store(machine, f + 8, bits(8, 0x5a), MACHINE_EVERYWHERE), machine);
     support_expect_field(machine, f, MACHINE_UINT(24), expected_pixel, NULL, "the whole pixel");
-    support_expect_field(machine, f + 5, MACHINE_UINT(13), expected_across, NULL, "13 bits from bit 5");
+    support_expect_field(machine, f + 5, MACHINE_UINT(13), expected_across, NULL,
+                         "13 bits from bit 5");
     assert_ok(machine_field_deallocate(machine, f), machine);
 }
 
@@ -171,9 +175,11 @@ static void field_of_floats_reads_as_bits(void **state)
     (void)state;
     machine_begin(machine);
     x = machine_to_float(machine, machine_self_index(machine, 32), MACHINE_F32, false);
-    x = machine_binary(machine, MACHINE_FMUL, x, machine_constant_float(machine, MACHINE_F32, 0.5));
+    x = machine_binary(machine, MACHINE_FMUL, x,
+                       machine_constant_float(machine, MACHINE_F32, 0.5));
     assert_ok(machine_field_store(machine, f, x, MACHINE_EVERYWHERE), machine);
-    support_expect_field(machine, f, MACHINE_UINT(32), expected_float_bits, NULL, "floats as words");
+    support_expect_field(machine, f, MACHINE_UINT(32), expected_float_bits, NULL,
+                         "floats as words");
 }
 
 static void field_moves_keep_the_bits_of_nan(void **state)
@@ -187,14 +193,16 @@ static void field_moves_keep_the_bits_of_nan(void **state)
         words[n] = (n % 2 ? 0xff800001u : 0x7fc00000u) + n;
     assert_ok(machine_field_upload(machine, a, MACHINE_F32, words), machine);
     machine_begin(machine);
-    assert_ok(machine_field_store(machine, b, support_value(machine, a, MACHINE_F32), MACHINE_WHERE_ACTIVE),
+    assert_ok(machine_field_store(machine, b, support_value(machine, a, MACHINE_F32),
+                                  MACHINE_WHERE_ACTIVE),
               machine);
     assert_ok(machine_field_download(machine, b, MACHINE_F32, got), machine);
     assert_memory_equal(words, got, sizeof words);
     machine_begin(machine);
-    assert_ok(machine_field_store(machine, b,
-                                  machine_shift(machine, support_value(machine, a, MACHINE_F32), 0, ROWS),
-                                  MACHINE_WHERE_ACTIVE),
+    assert_ok(machine_field_store(
+                  machine, b,
+                  machine_shift(machine, support_value(machine, a, MACHINE_F32), 0, ROWS),
+                  MACHINE_WHERE_ACTIVE),
               machine);
     assert_ok(machine_field_download(machine, b, MACHINE_F32, got), machine);
     assert_memory_equal(words, got, sizeof words);
@@ -234,7 +242,8 @@ static void upload_does_not_change_what_was_taken_before(void **state)
 
     (void)state;
     machine_begin(machine);
-    assert_ok(machine_field_store(machine, b, support_value(machine, a, MACHINE_UINT(32)), MACHINE_EVERYWHERE),
+    assert_ok(machine_field_store(machine, b, support_value(machine, a, MACHINE_UINT(32)),
+                                  MACHINE_EVERYWHERE),
               machine);
     assert_ok(machine_field_upload(machine, a, MACHINE_UINT(32), zeros), machine);
     assert_ok(machine_field_download(machine, b, MACHINE_UINT(32), got), machine);
@@ -261,15 +270,18 @@ static void context_keeps_inactive_processors_as_they_were(void **state)
         on[n] = n % COLUMNS % 3 == 0;
     assert_ok(machine_field_upload(machine, stripes, MACHINE_BIT, on), machine);
     machine_begin(machine);
-    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT, support_value(machine, stripes, MACHINE_BIT),
+    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT,
+                                 support_value(machine, stripes, MACHINE_BIT),
                                  MACHINE_EVERYWHERE),
               machine);
     machine_begin(machine);
     assert_ok(machine_field_store(machine, f, bits(32, 7), MACHINE_WHERE_ACTIVE), machine);
-    support_expect_field(machine, f, MACHINE_UINT(32), expected_stripes, NULL, "a store under a context");
+    support_expect_field(machine, f, MACHINE_UINT(32), expected_stripes, NULL,
+                         "a store under a context");
     machine_begin(machine);
     assert_ok(machine_field_store(machine, f, bits(32, 0), MACHINE_EVERYWHERE), machine);
-    support_expect_field(machine, f, MACHINE_UINT(32), expected_zero, NULL, "a store everywhere");
+    support_expect_field(machine, f, MACHINE_UINT(32), expected_zero, NULL,
+                         "a store everywhere");
 }
 
 static void flags_begin_as_documented_and_belong_to_their_set(void **state)
@@ -280,15 +292,18 @@ static void flags_begin_as_documented_and_belong_to_their_set(void **state)
     (void)state;
     for (int flag = MACHINE_CONTEXT; flag <= MACHINE_OVERFLOW; flag++) {
         machine_begin(machine);
-        assert_ok(machine_field_store(machine, f, machine_flag_value(machine, (enum machine_flag)flag, MACHINE_EVERYWHERE),
-                                      MACHINE_EVERYWHERE),
+        assert_ok(machine_field_store(
+                      machine, f,
+                      machine_flag_value(machine, (enum machine_flag)flag, MACHINE_EVERYWHERE),
+                      MACHINE_EVERYWHERE),
                   machine);
         assert_ok(machine_field_download(machine, f, MACHINE_BIT, got), machine);
         for (int n = 0; n < COUNT; n++)
             assert_int_equal(got[n], flag == MACHINE_CONTEXT);
     }
     machine_begin(machine);
-    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT, bits(1, 0), MACHINE_EVERYWHERE), machine);
+    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT, bits(1, 0), MACHINE_EVERYWHERE),
+              machine);
     int other = support_set(machine, 1, COUNT);
     uint32_t g = machine_field_allocate(machine, other, 1, MACHINE_HEAP);
     machine_begin(machine);
@@ -342,10 +357,12 @@ static void overflow_says_what_does_not_fit(void **state)
             snprintf(what, sizeof what, "overflow of op %d, %s, %d bits", (int)c.op,
                      c.is_signed ? "signed" : "unsigned", c.width);
             machine_begin(machine);
-            assert_ok(machine_overflow_record(machine, c.op, c.is_signed, support_value(machine, fa, type),
-                                              c.op == MACHINE_NEG ? NULL : support_value(machine, fb, type)),
+            assert_ok(machine_overflow_record(
+                          machine, c.op, c.is_signed, support_value(machine, fa, type),
+                          c.op == MACHINE_NEG ? NULL : support_value(machine, fb, type)),
                       machine);
-            support_later(machine, machine_flag_value(machine, MACHINE_OVERFLOW, MACHINE_EVERYWHERE),
+            support_later(machine,
+                          machine_flag_value(machine, MACHINE_OVERFLOW, MACHINE_EVERYWHERE),
                           expected_overflow, &c, sizeof c, what);
         }
         support_check(machine);

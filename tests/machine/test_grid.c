@@ -5,9 +5,9 @@
 struct grid {
     int rank, lengths[4];
 };
-static const struct grid grids[] = {
-    {1, {1}}, {1, {97}}, {2, {5, 3}}, {2, {3, 43}}, {2, {1, 2}}, {3, {4, 2, 17}}, {4, {3, 1, 2, 41}}, {2, {9, 64}},
-    {2, {2, 5000}}};
+static const struct grid grids[] = {{1, {1}},           {1, {97}},    {2, {5, 3}},
+                                    {2, {3, 43}},       {2, {1, 2}},  {3, {4, 2, 17}},
+                                    {4, {3, 1, 2, 41}}, {2, {9, 64}}, {2, {2, 5000}}};
 enum { GRIDS = sizeof grids / sizeof grids[0] };
 
 static struct machine *machine;
@@ -78,10 +78,13 @@ static void shift_takes_the_neighbour_and_wraps(void **state)
                 struct shift_case c = {&grids[k], type, axis, distances[d]};
                 char what[64];
 
-                snprintf(what, sizeof what, "grid %d, shift by %d on axis %d", k, c.distance, axis);
+                snprintf(what, sizeof what, "grid %d, shift by %d on axis %d", k, c.distance,
+                         axis);
                 machine_begin(machine);
-                support_later(machine, machine_shift(machine, support_value(machine, f, type), axis, c.distance),
-                              expected_shift, &c, sizeof c, what);
+                support_later(
+                    machine,
+                    machine_shift(machine, support_value(machine, f, type), axis, c.distance),
+                    expected_shift, &c, sizeof c, what);
             }
         support_check(machine);
         assert_ok(machine_vpset_destroy(machine, set), machine);
@@ -113,12 +116,15 @@ static void shift_of_what_is_computed_agrees(void **state)
 
         machine_begin(machine);
         x = support_value(machine, f, MACHINE_UINT(32));
-        x = machine_binary(machine, MACHINE_MUL, x,
-                           machine_constant(machine, MACHINE_UINT(32), (struct machine_scalar){3, 0}));
-        sum = machine_binary(
-            machine, MACHINE_ADD,
-            machine_binary(machine, MACHINE_ADD, machine_shift(machine, x, 0, 1), machine_shift(machine, x, 0, -1)),
-            machine_binary(machine, MACHINE_ADD, machine_shift(machine, x, 1, 1), machine_shift(machine, x, 1, -1)));
+        x = machine_binary(
+            machine, MACHINE_MUL, x,
+            machine_constant(machine, MACHINE_UINT(32), (struct machine_scalar){3, 0}));
+        sum =
+            machine_binary(machine, MACHINE_ADD,
+                           machine_binary(machine, MACHINE_ADD, machine_shift(machine, x, 0, 1),
+                                          machine_shift(machine, x, 0, -1)),
+                           machine_binary(machine, MACHINE_ADD, machine_shift(machine, x, 1, 1),
+                                          machine_shift(machine, x, 1, -1)));
         support_expect(machine, sum, expected_laplacian, &grids[k], "sum of four neighbours");
         assert_ok(machine_vpset_destroy(machine, set), machine);
     }
@@ -130,7 +136,8 @@ static wide expected_coordinate(const void *data, uint64_t n)
 {
     const struct shift_case *c = data;
 
-    return n / stride_of(c->g, c->axis) % (uint64_t)c->g->lengths[c->axis] & wide_mask(c->type.width);
+    return n / stride_of(c->g, c->axis) % (uint64_t)c->g->lengths[c->axis] &
+           wide_mask(c->type.width);
 }
 
 static wide expected_index(const void *data, uint64_t n)
@@ -153,13 +160,15 @@ static void coordinates_index_and_address_agree(void **state)
             struct shift_case c = {&grids[k], MACHINE_UINT(axis % 2 ? 3 : 32), axis, 0};
 
             machine_begin(machine);
-            support_later(machine, machine_coordinate(machine, axis, c.type.width), expected_coordinate, &c, sizeof c,
-                          "coordinate");
+            support_later(machine, machine_coordinate(machine, axis, c.type.width),
+                          expected_coordinate, &c, sizeof c, "coordinate");
         }
         machine_begin(machine);
-        support_later(machine, machine_self_index(machine, width), expected_index, &width, sizeof width, "index");
+        support_later(machine, machine_self_index(machine, width), expected_index, &width,
+                      sizeof width, "index");
         machine_begin(machine);
-        support_later(machine, machine_self_address(machine, 32), expected_address, &set, sizeof set, "send address");
+        support_later(machine, machine_self_address(machine, 32), expected_address, &set,
+                      sizeof set, "send address");
         support_check(machine);
         assert_ok(machine_vpset_destroy(machine, set), machine);
     }
@@ -181,16 +190,18 @@ static wide expected_draw(const void *data, uint64_t n)
 
 static void random_is_a_function_of_seed_draw_and_index(void **state)
 {
-    static const struct draw_case cases[] = {{0, 0, 32}, {1, 10, 32}, {2, 0, 1}, {3, 1000000007, 40},
-                                             {4, 0, 64}, {5, (uint64_t)1 << 40, 64}, {6, 3, 2}};
+    static const struct draw_case cases[] = {{0, 0, 32}, {1, 10, 32},
+                                             {2, 0, 1},  {3, 1000000007, 40},
+                                             {4, 0, 64}, {5, (uint64_t)1 << 40, 64},
+                                             {6, 3, 2}};
     int set = select_grid(&grids[3]);
 
     (void)state;
     machine_random_seed(machine, 42);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         machine_begin(machine);
-        support_later(machine, machine_random(machine, cases[k].width, cases[k].limit), expected_draw, &cases[k],
-                      sizeof cases[k], "random");
+        support_later(machine, machine_random(machine, cases[k].width, cases[k].limit),
+                      expected_draw, &cases[k], sizeof cases[k], "random");
     }
     support_check(machine);
     assert_ok(machine_vpset_destroy(machine, set), machine);
@@ -207,15 +218,16 @@ static void set_context(bool none)
 {
     uint64_t count = machine_vpset_count(machine, machine_vpset_current(machine));
     uint8_t *on = calloc(count, 1);
-    uint32_t f = machine_field_allocate(machine, machine_vpset_current(machine), 1, MACHINE_HEAP);
+    uint32_t f =
+        machine_field_allocate(machine, machine_vpset_current(machine), 1, MACHINE_HEAP);
 
     assert_non_null(on);
     for (uint64_t n = 0; n < count; n++)
         on[n] = !none && active_at(n);
     assert_ok(machine_field_upload(machine, f, MACHINE_BIT, on), machine);
     machine_begin(machine);
-    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT, support_value(machine, f, MACHINE_BIT),
-                                 MACHINE_EVERYWHERE),
+    assert_ok(machine_flag_store(machine, MACHINE_CONTEXT,
+                                 support_value(machine, f, MACHINE_BIT), MACHINE_EVERYWHERE),
               machine);
     free(on);
 }
@@ -277,16 +289,18 @@ static void reduce_of_bits_agrees(void **state)
             set_context(none);
             for (int op = MACHINE_REDUCE_AND; op <= MACHINE_REDUCE_SMAX; op++) {
                 struct machine_scalar got;
-                wide expected = reduced((enum machine_reduction)op, width, machine_vpset_count(machine, set), none);
+                wide expected = reduced((enum machine_reduction)op, width,
+                                        machine_vpset_count(machine, set), none);
 
                 machine_begin(machine);
                 assert_ok(machine_reduce(machine, (enum machine_reduction)op,
                                          support_value(machine, f, MACHINE_UINT(width)), &got),
                           machine);
                 if (got.lo != (uint64_t)expected || got.hi != (uint64_t)(expected >> 64))
-                    fail_msg("reduction %d of %d bits on grid %d: %llx:%llx, expected %llx:%llx", op, width, k,
-                             (unsigned long long)got.hi, (unsigned long long)got.lo,
-                             (unsigned long long)(expected >> 64), (unsigned long long)expected);
+                    fail_msg(
+                        "reduction %d of %d bits on grid %d: %llx:%llx, expected %llx:%llx", op,
+                        width, k, (unsigned long long)got.hi, (unsigned long long)got.lo,
+                        (unsigned long long)(expected >> 64), (unsigned long long)expected);
             }
         }
         assert_ok(machine_vpset_destroy(machine, set), machine);
@@ -298,7 +312,9 @@ static void reduce_of_floats_keeps_its_order(void **state)
     static const struct {
         enum machine_reduction op;
         enum op oracle;
-    } ops[] = {{MACHINE_REDUCE_FADD, OP_ADD}, {MACHINE_REDUCE_FMIN, OP_MIN}, {MACHINE_REDUCE_FMAX, OP_MAX}};
+    } ops[] = {{MACHINE_REDUCE_FADD, OP_ADD},
+               {MACHINE_REDUCE_FMIN, OP_MIN},
+               {MACHINE_REDUCE_FMAX, OP_MAX}};
 
     (void)state;
     for (int k = 0; k < GRIDS; k++)
@@ -318,14 +334,17 @@ static void reduce_of_floats_keeps_its_order(void **state)
                 set_context(none);
                 for (int o = 0; o < 3; o++) {
                     struct machine_scalar got;
-                    uint64_t expected =
-                        number_float_reduce(ops[o].oracle, values, active, count, last, type.width);
+                    uint64_t expected = number_float_reduce(ops[o].oracle, values, active,
+                                                            count, last, type.width);
 
                     machine_begin(machine);
-                    assert_ok(machine_reduce(machine, ops[o].op, support_value(machine, f, type), &got), machine);
+                    assert_ok(machine_reduce(machine, ops[o].op,
+                                             support_value(machine, f, type), &got),
+                              machine);
                     if (got.lo != expected)
-                        fail_msg("float reduction %d, %d bits, grid %d: %llx, expected %llx", o, type.width, k,
-                                 (unsigned long long)got.lo, (unsigned long long)expected);
+                        fail_msg("float reduction %d, %d bits, grid %d: %llx, expected %llx", o,
+                                 type.width, k, (unsigned long long)got.lo,
+                                 (unsigned long long)expected);
                 }
                 free(values);
                 free(active);

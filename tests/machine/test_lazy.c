@@ -48,23 +48,28 @@ static void step(struct sheet *s, uint64_t k)
 
     machine_begin(m);
     store(s, s->scratch, machine_shift(m, support_value(m, s->water, word), 1, -1));
-    store(s, s->flow, machine_binary(m, MACHINE_SUB, support_value(m, s->scratch, word),
-                                     support_value(m, s->water, word)));
+    store(s, s->flow,
+          machine_binary(m, MACHINE_SUB, support_value(m, s->scratch, word),
+                         support_value(m, s->water, word)));
     test = machine_binary(m, MACHINE_SLT, support_value(m, s->flow, word), constant(m, 0));
     assert_ok(machine_flag_store(m, MACHINE_TEST, test, MACHINE_WHERE_ACTIVE), m);
     machine_begin(m);
-    assert_ok(machine_flag_store(m, MACHINE_CONTEXT, machine_flag_value(m, MACHINE_TEST, MACHINE_EVERYWHERE),
-                                 MACHINE_EVERYWHERE),
-              m);
-    machine_begin(m);
-    store(s, s->flow, machine_binary(m, MACHINE_MUL, support_value(m, s->flow, word), constant(m, k)));
     assert_ok(machine_flag_store(m, MACHINE_CONTEXT,
-                                 machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0}),
+                                 machine_flag_value(m, MACHINE_TEST, MACHINE_EVERYWHERE),
                                  MACHINE_EVERYWHERE),
               m);
     machine_begin(m);
-    store(s, s->water, machine_binary(m, MACHINE_ADD, support_value(m, s->water, word),
-                                      support_value(m, s->flow, word)));
+    store(s, s->flow,
+          machine_binary(m, MACHINE_MUL, support_value(m, s->flow, word), constant(m, k)));
+    assert_ok(
+        machine_flag_store(m, MACHINE_CONTEXT,
+                           machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0}),
+                           MACHINE_EVERYWHERE),
+        m);
+    machine_begin(m);
+    store(s, s->water,
+          machine_binary(m, MACHINE_ADD, support_value(m, s->water, word),
+                         support_value(m, s->flow, word)));
 }
 
 static void look(struct sheet *s, uint32_t *out)
@@ -84,8 +89,9 @@ static void unobserved_values_are_never_computed(void **state)
     before = stats(s.m);
     for (int n = 0; n < 100; n++) {
         machine_begin(s.m);
-        store(&s, s.scratch, machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, MACHINE_UINT(32)),
-                                            constant(s.m, (uint64_t)n)));
+        store(&s, s.scratch,
+              machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, MACHINE_UINT(32)),
+                             constant(s.m, (uint64_t)n)));
     }
     store(&s, s.scratch, constant(s.m, 5)); /* what was there is gone, unseen */
     after = stats(s.m);
@@ -155,8 +161,9 @@ static void temporaries_rewritten_do_not_grow_the_graph(void **state)
     sheet_open(&s, 0);
     for (int n = 0; n < 10000; n++) {
         machine_begin(s.m);
-        store(&s, s.scratch, machine_binary(s.m, MACHINE_ADD, support_value(s.m, s.water, MACHINE_UINT(32)),
-                                            constant(s.m, (uint64_t)n)));
+        store(&s, s.scratch,
+              machine_binary(s.m, MACHINE_ADD, support_value(s.m, s.water, MACHINE_UINT(32)),
+                             constant(s.m, (uint64_t)n)));
         if (n == 100)
             early = stats(s.m);
     }
@@ -178,8 +185,9 @@ static void fields_allocated_each_step_do_not_leak(void **state)
 
         machine_begin(s.m);
         store(&s, t, machine_shift(s.m, support_value(s.m, s.water, MACHINE_UINT(32)), 0, 1));
-        store(&s, s.water, machine_binary(s.m, MACHINE_XOR, support_value(s.m, t, MACHINE_UINT(32)),
-                                          constant(s.m, 1)));
+        store(&s, s.water,
+              machine_binary(s.m, MACHINE_XOR, support_value(s.m, t, MACHINE_UINT(32)),
+                             constant(s.m, 1)));
         assert_ok(machine_field_deallocate_through(s.m, t), s.m);
         if (n == 500)
             early = stats(s.m);

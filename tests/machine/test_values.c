@@ -3,6 +3,8 @@
  * All operations of one width are put into one evaluation: a field each, then the downloads. */
 #include "support.h"
 
+#include <math.h>
+
 static const int widths[] = {1, 2, 7, 8, 13, 16, 31, 32, 33, 48, 63, 64, 65, 100, 127, 128};
 enum { WIDTHS = sizeof widths / sizeof widths[0], COUNT = 5 * 43 };
 
@@ -43,7 +45,8 @@ static wide word_b(struct machine_type type, uint64_t n)
 static uint32_t upload(struct machine_type type, wide (*word)(struct machine_type, uint64_t))
 {
     char *array = calloc(COUNT, 16);
-    uint32_t field = machine_field_allocate(machine, machine_vpset_current(machine), type.width, MACHINE_HEAP);
+    uint32_t field = machine_field_allocate(machine, machine_vpset_current(machine), type.width,
+                                            MACHINE_HEAP);
 
     assert_non_null(array);
     for (uint64_t n = 0; n < COUNT; n++)
@@ -105,18 +108,23 @@ static wide expected_bits(const void *data, uint64_t n)
     }
 }
 
-#define BITS_OPS(X)                                                                                  \
-    X(NOT)                                                                                           \
-    X(NEG) X(AND) X(OR) X(XOR) X(ADD) X(SUB) X(MUL) X(UMIN) X(UMAX) X(SMIN) X(SMAX) X(EQ) X(NE) X(ULT) X(ULE) \
-        X(SLT) X(SLE)
-#define FLOAT_OPS(X)                                                                                 \
-    X(FNEG)                                                                                          \
-    X(FABS) X(FSQRT) X(FFLOOR) X(FCEIL) X(FTRUNC) X(FROUND) X(FADD) X(FSUB) X(FMUL) X(FDIV) X(FMIN) X(FMAX) \
+#define BITS_OPS(X)                                                                            \
+    X(NOT)                                                                                     \
+    X(NEG)                                                                                     \
+    X(AND)                                                                                     \
+    X(OR) X(XOR) X(ADD) X(SUB) X(MUL) X(UMIN) X(UMAX) X(SMIN) X(SMAX) X(EQ) X(NE) X(ULT)       \
+        X(ULE) X(SLT) X(SLE)
+#define FLOAT_OPS(X)                                                                           \
+    X(FNEG)                                                                                    \
+    X(FABS)                                                                                    \
+    X(FSQRT)                                                                                   \
+    X(FFLOOR) X(FCEIL) X(FTRUNC) X(FROUND) X(FADD) X(FSUB) X(FMUL) X(FDIV) X(FMIN) X(FMAX)     \
         X(FEQ) X(FNE) X(FLT) X(FLE) X(FGT) X(FGE)
 #define CASE(op) {#op, MACHINE_##op, {0, 0}},
 
-static void all_operations(const struct binary_case *ops, size_t count, struct machine_type type,
-                           support_expected expected, enum machine_op last_unary)
+static void all_operations(const struct binary_case *ops, size_t count,
+                           struct machine_type type, support_expected expected,
+                           enum machine_op last_unary)
 {
     uint32_t a = upload(type, word_a), b = upload(type, word_b), results[32];
 
@@ -144,9 +152,10 @@ static void all_operations(const struct binary_case *ops, size_t count, struct m
         assert_true(machine_field_lookup(machine, results[k], &info));
         snprintf(what, sizeof what, "%s of %d bits", c.name, type.width);
         support_expect_field(machine, results[k],
-                             info.bits == 1 && type.width != 1         ? MACHINE_BIT
-                             : type.kind == MACHINE_FLOAT && info.bits > 1 ? type
-                                                                       : MACHINE_UINT(info.bits),
+                             info.bits == 1 && type.width != 1 ? MACHINE_BIT
+                             : type.kind == MACHINE_FLOAT && info.bits > 1
+                                 ? type
+                                 : MACHINE_UINT(info.bits),
                              expected, &c, what);
         assert_ok(machine_field_deallocate(machine, results[k]), machine);
     }
@@ -160,7 +169,8 @@ static void bits_operations_agree_at_every_width(void **state)
 
     (void)state;
     for (int k = 0; k < WIDTHS; k++)
-        all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_UINT(widths[k]), expected_bits, MACHINE_NEG);
+        all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_UINT(widths[k]), expected_bits,
+                       MACHINE_NEG);
 }
 
 /* ---- floats ---- */
@@ -173,11 +183,11 @@ static wide rounded(double (*to_integer)(double), uint64_t a, int bits)
 static wide expected_float(const void *data, uint64_t n)
 {
     static const uint8_t arithmetic[] = {
-        [MACHINE_FNEG] = OP_NEGATE,   [MACHINE_FABS] = OP_ABS,      [MACHINE_FSQRT] = OP_SQRT,
-        [MACHINE_FADD] = OP_ADD,      [MACHINE_FSUB] = OP_SUBTRACT, [MACHINE_FMUL] = OP_MULTIPLY,
-        [MACHINE_FDIV] = OP_DIVIDE,   [MACHINE_FMIN] = OP_MIN,      [MACHINE_FMAX] = OP_MAX,
-        [MACHINE_FEQ] = OP_EQ,        [MACHINE_FNE] = OP_NE,        [MACHINE_FLT] = OP_LT,
-        [MACHINE_FLE] = OP_LE,        [MACHINE_FGT] = OP_GT,        [MACHINE_FGE] = OP_GE};
+        [MACHINE_FNEG] = OP_NEGATE, [MACHINE_FABS] = OP_ABS,      [MACHINE_FSQRT] = OP_SQRT,
+        [MACHINE_FADD] = OP_ADD,    [MACHINE_FSUB] = OP_SUBTRACT, [MACHINE_FMUL] = OP_MULTIPLY,
+        [MACHINE_FDIV] = OP_DIVIDE, [MACHINE_FMIN] = OP_MIN,      [MACHINE_FMAX] = OP_MAX,
+        [MACHINE_FEQ] = OP_EQ,      [MACHINE_FNE] = OP_NE,        [MACHINE_FLT] = OP_LT,
+        [MACHINE_FLE] = OP_LE,      [MACHINE_FGT] = OP_GT,        [MACHINE_FGE] = OP_GE};
     const struct binary_case *c = data;
     int bits = c->type.width;
     uint64_t a = (uint64_t)word_a(c->type, n), b = (uint64_t)word_b(c->type, n);
@@ -205,8 +215,10 @@ static void float_operations_agree(void **state)
     static const struct binary_case ops[] = {FLOAT_OPS(CASE)};
 
     (void)state;
-    all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_F32, expected_float, MACHINE_FROUND);
-    all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_F64, expected_float, MACHINE_FROUND);
+    all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_F32, expected_float,
+                   MACHINE_FROUND);
+    all_operations(ops, sizeof ops / sizeof ops[0], MACHINE_F64, expected_float,
+                   MACHINE_FROUND);
 }
 
 /* ---- shapes of bits ---- */
@@ -234,17 +246,20 @@ static wide expected_extract(const void *data, uint64_t n)
 
 static void resize_extends_and_cuts(void **state)
 {
-    static const int pairs[][2] = {{1, 2}, {5, 64}, {13, 8}, {32, 33}, {64, 128}, {65, 32}, {128, 1}, {31, 100}};
+    static const int pairs[][2] = {{1, 2},    {5, 64},  {13, 8},  {32, 33},
+                                   {64, 128}, {65, 32}, {128, 1}, {31, 100}};
 
     (void)state;
     for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++)
         for (int is_signed = 0; is_signed < 2; is_signed++) {
-            struct shape_case c = {MACHINE_UINT(pairs[k][0]), MACHINE_UINT(pairs[k][1]), 0, is_signed};
+            struct shape_case c = {MACHINE_UINT(pairs[k][0]), MACHINE_UINT(pairs[k][1]), 0,
+                                   is_signed};
             uint32_t a = upload(c.from, word_a);
 
             machine_begin(machine);
             support_later(machine,
-                          machine_resize(machine, support_value(machine, a, c.from), c.to.width, is_signed),
+                          machine_resize(machine, support_value(machine, a, c.from), c.to.width,
+                                         is_signed),
                           expected_resize, &c, sizeof c, "resize");
             assert_ok(machine_field_deallocate(machine, a), machine);
         }
@@ -253,17 +268,20 @@ static void resize_extends_and_cuts(void **state)
 
 static void extract_takes_the_bits_at_the_offset(void **state)
 {
-    static const int cases[][3] = {{32, 0, 8}, {33, 32, 1}, {64, 31, 2}, {128, 60, 9}, {128, 64, 64}, {100, 33, 67}};
+    static const int cases[][3] = {{32, 0, 8},   {33, 32, 1},   {64, 31, 2},
+                                   {128, 60, 9}, {128, 64, 64}, {100, 33, 67}};
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        struct shape_case c = {MACHINE_UINT(cases[k][0]), MACHINE_UINT(cases[k][2]), cases[k][1], false};
+        struct shape_case c = {MACHINE_UINT(cases[k][0]), MACHINE_UINT(cases[k][2]),
+                               cases[k][1], false};
         uint32_t a = upload(c.from, word_a);
 
         machine_begin(machine);
-        support_later(machine,
-                      machine_extract(machine, support_value(machine, a, c.from), c.offset, c.to.width),
-                      expected_extract, &c, sizeof c, "extract");
+        support_later(
+            machine,
+            machine_extract(machine, support_value(machine, a, c.from), c.offset, c.to.width),
+            expected_extract, &c, sizeof c, "extract");
         assert_ok(machine_field_deallocate(machine, a), machine);
     }
     support_check(machine);
@@ -278,7 +296,8 @@ static wide expected_concat(const void *data, uint64_t n)
 
 static void concat_puts_the_second_above_the_first(void **state)
 {
-    static const int cases[][2] = {{1, 1}, {8, 24}, {31, 2}, {32, 32}, {64, 64}, {1, 127}, {70, 10}};
+    static const int cases[][2] = {{1, 1},   {8, 24},  {31, 2}, {32, 32},
+                                   {64, 64}, {1, 127}, {70, 10}};
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -287,7 +306,8 @@ static void concat_puts_the_second_above_the_first(void **state)
 
         machine_begin(machine);
         support_later(machine,
-                      machine_concat(machine, support_value(machine, a, c.from), support_value(machine, b, c.to)),
+                      machine_concat(machine, support_value(machine, a, c.from),
+                                     support_value(machine, b, c.to)),
                       expected_concat, &c, sizeof c, "concat");
         assert_ok(machine_field_deallocate(machine, a), machine);
         assert_ok(machine_field_deallocate(machine, b), machine);
@@ -307,9 +327,11 @@ static void reinterpret_keeps_every_bit(void **state)
 
     (void)state;
     machine_begin(machine);
-    support_expect(machine, machine_reinterpret(machine, support_value(machine, a, words), MACHINE_F32),
+    support_expect(machine,
+                   machine_reinterpret(machine, support_value(machine, a, words), MACHINE_F32),
                    expected_same, &words, "bits as single");
-    support_expect(machine, machine_reinterpret(machine, support_value(machine, b, longs), MACHINE_F64),
+    support_expect(machine,
+                   machine_reinterpret(machine, support_value(machine, b, longs), MACHINE_F64),
                    expected_same, &longs, "bits as double");
     assert_ok(machine_field_deallocate(machine, a), machine);
     assert_ok(machine_field_deallocate(machine, b), machine);
@@ -335,7 +357,8 @@ static void select_chooses_by_the_bit(void **state)
         machine_begin(machine);
         support_later(machine,
                       machine_select(machine, support_value(machine, bit, MACHINE_BIT),
-                                     support_value(machine, a, type), support_value(machine, b, type)),
+                                     support_value(machine, a, type),
+                                     support_value(machine, b, type)),
                       expected_select, &type, sizeof type, "select");
         assert_ok(machine_field_deallocate(machine, a), machine);
         assert_ok(machine_field_deallocate(machine, b), machine);
@@ -353,7 +376,8 @@ static wide expected_to_float(const void *data, uint64_t n)
 
     if (c->from.kind == MACHINE_FLOAT)
         return number_resize_float((uint64_t)a, c->from.width, c->to.width);
-    return number_from_integer(c->is_signed, c->is_signed ? (wide)wide_signed(a, c->from.width) : a, c->to.width);
+    return number_from_integer(
+        c->is_signed, c->is_signed ? (wide)wide_signed(a, c->from.width) : a, c->to.width);
 }
 
 static wide expected_to_bits(const void *data, uint64_t n)
@@ -361,8 +385,8 @@ static wide expected_to_bits(const void *data, uint64_t n)
     const struct shape_case *c = data;
     bool ignored;
 
-    return number_to_integer(OP_TRUNCATE, c->is_signed, (uint64_t)word_a(c->from, n), c->from.width, c->to.width,
-                             &ignored);
+    return number_to_integer(OP_TRUNCATE, c->is_signed, (uint64_t)word_a(c->from, n),
+                             c->from.width, c->to.width, &ignored);
 }
 
 static void conversions_round_and_stop_at_the_ends(void **state)
@@ -381,13 +405,15 @@ static void conversions_round_and_stop_at_the_ends(void **state)
                      is_signed ? "signed" : "unsigned", real.width);
             machine_begin(machine);
             support_later(machine,
-                          machine_to_float(machine, support_value(machine, a, to_float.from), real, is_signed),
+                          machine_to_float(machine, support_value(machine, a, to_float.from),
+                                           real, is_signed),
                           expected_to_float, &to_float, sizeof to_float, what);
             snprintf(what, sizeof what, "float of %d to %d bits, %s", real.width, widths[k],
                      is_signed ? "signed" : "unsigned");
-            support_later(machine,
-                          machine_to_bits(machine, support_value(machine, b, real), widths[k], is_signed),
-                          expected_to_bits, &to_bits, sizeof to_bits, what);
+            support_later(
+                machine,
+                machine_to_bits(machine, support_value(machine, b, real), widths[k], is_signed),
+                expected_to_bits, &to_bits, sizeof to_bits, what);
             assert_ok(machine_field_deallocate(machine, a), machine);
             assert_ok(machine_field_deallocate(machine, b), machine);
         }
@@ -397,15 +423,20 @@ static void conversions_round_and_stop_at_the_ends(void **state)
 
 static void floats_change_their_length(void **state)
 {
-    struct shape_case narrow = {MACHINE_F64, MACHINE_F32, 0, false}, widen = {MACHINE_F32, MACHINE_F64, 0, false};
+    struct shape_case narrow = {MACHINE_F64, MACHINE_F32, 0, false},
+                      widen = {MACHINE_F32, MACHINE_F64, 0, false};
     uint32_t a = upload(MACHINE_F64, word_a), b = upload(MACHINE_F32, word_a);
 
     (void)state;
     machine_begin(machine);
-    support_expect(machine, machine_to_float(machine, support_value(machine, a, MACHINE_F64), MACHINE_F32, false),
-                   expected_to_float, &narrow, "double to single");
-    support_expect(machine, machine_to_float(machine, support_value(machine, b, MACHINE_F32), MACHINE_F64, false),
-                   expected_to_float, &widen, "single to double");
+    support_expect(
+        machine,
+        machine_to_float(machine, support_value(machine, a, MACHINE_F64), MACHINE_F32, false),
+        expected_to_float, &narrow, "double to single");
+    support_expect(
+        machine,
+        machine_to_float(machine, support_value(machine, b, MACHINE_F32), MACHINE_F64, false),
+        expected_to_float, &widen, "single to double");
     assert_ok(machine_field_deallocate(machine, a), machine);
     assert_ok(machine_field_deallocate(machine, b), machine);
 }

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#define FONT "DejaVuSerif"         /* kerned by its kern table */
+#define FONT "DejaVuSerif"               /* kerned by its kern table */
 #define FONT_GPOS "EBGaramond12-Regular" /* kerned by GPOS only */
 
 static struct paper_screen line_make(const char *text, const char *font, double size_px)
@@ -72,7 +72,8 @@ static void kerning_pulls_letters_together(void **state)
 static void size_and_tracking_scale(void **state)
 {
     (void)state;
-    struct paper_screen small = line_make("Paris", FONT, 50), large = line_make("Paris", FONT, 200);
+    struct paper_screen small = line_make("Paris", FONT, 50),
+                        large = line_make("Paris", FONT, 200);
     assert_true(fabs(large.advance_px / small.advance_px - 4) < 0.02);
     struct paper_line line = {.text = "Paris", .font = FONT, .size_px = 50, .tracking_em = 0.1};
     struct paper_screen tracked;
@@ -88,8 +89,9 @@ static void utf8_is_read_and_checked(void **state)
     (void)state;
     struct paper_screen s = line_make("\xc3\x89t\xc3\xa9 \xe2\x80\x94 \xce\xa9", FONT, 40);
     paper_screen_destroy(&s);
-    static const char *const wrong[] = {"\xff",         "a\xc3",            "\xc0\x80", "\xed\xa0\x80",
-                                        "\xf4\x90\x80\x80", "\x80", "\xe2\x28\xa1"};
+    static const char *const wrong[] = {
+        "\xff", "a\xc3",       "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80",
+        "\x80", "\xe2\x28\xa1"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct paper_line line = {.text = wrong[i], .font = FONT, .size_px = 40};
         assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_BAD_TEXT);
@@ -129,7 +131,8 @@ static void empty_text_leaves_no_mark(void **state)
 static void wrong_fonts_are_named(void **state)
 {
     (void)state;
-    static const char *const fonts[] = {"NoSuchFontAnywhere", "/nowhere/font.otf", "/dev/null", "/tmp", ""};
+    static const char *const fonts[] = {"NoSuchFontAnywhere", "/nowhere/font.otf", "/dev/null",
+                                        "/tmp", ""};
     for (size_t i = 0; i < sizeof fonts / sizeof *fonts; i++) {
         struct paper_line line = {.text = "a", .font = fonts[i], .size_px = 40};
         struct paper_screen s;
@@ -190,10 +193,14 @@ static void damaged_fonts_do_no_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(screen_fits_its_ink),      cmocka_unit_test(kerning_pulls_letters_together),
-        cmocka_unit_test(size_and_tracking_scale),  cmocka_unit_test(utf8_is_read_and_checked),
-        cmocka_unit_test(missing_glyphs_are_reported), cmocka_unit_test(empty_text_leaves_no_mark),
-        cmocka_unit_test(wrong_fonts_are_named),    cmocka_unit_test(wrong_sizes_are_refused),
+        cmocka_unit_test(screen_fits_its_ink),
+        cmocka_unit_test(kerning_pulls_letters_together),
+        cmocka_unit_test(size_and_tracking_scale),
+        cmocka_unit_test(utf8_is_read_and_checked),
+        cmocka_unit_test(missing_glyphs_are_reported),
+        cmocka_unit_test(empty_text_leaves_no_mark),
+        cmocka_unit_test(wrong_fonts_are_named),
+        cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(damaged_fonts_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,12 +15,22 @@
 enum { WIDTH = 96, HEIGHT = 70, BYTES = 3 * WIDTH * HEIGHT };
 
 /* FNV-1a of the golden page, as PoCL 3.1 on x86-64 and every other device must give it. */
-static const uint64_t golden_hash = 0;
+static const uint64_t golden_hash = 0x4abb75efe109d328u;
 
 static void check(enum paper_status status)
 {
     if (status != PAPER_OK)
         fail_msg("status %d: %s", (int)status, paper_error());
+}
+
+/* Two at a time, as `lutetia` does: kernels of more steps take long to compile. */
+static void disperse(struct paper *sheet, const struct paper_weather *weather, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        check(paper_disperse(sheet, weather));
+        if (i % 2)
+            check(paper_finish(sheet));
+    }
 }
 
 static struct paper_config config_small(void)
@@ -37,7 +47,8 @@ static struct paper *page_make(const struct paper_config *config, int steps)
     struct paper *sheet;
     check(paper_create(config, &sheet));
     check(paper_rectangle(sheet, 20, 10, 50, 45, &(struct paper_ink){.water = 0.9}));
-    check(paper_rectangle(sheet, 30, 30, 20, 12, &(struct paper_ink){.cyan = 0.8, .yellow = 0.4}));
+    check(paper_rectangle(sheet, 30, 30, 20, 12,
+                          &(struct paper_ink){.cyan = 0.8, .yellow = 0.4}));
     struct paper_line line = {.text = "Paris", .font = "DejaVuSerif", .size_px = 30};
     struct paper_screen screen;
     check(paper_line_screen(&line, &screen, NULL));
@@ -47,8 +58,7 @@ static struct paper *page_make(const struct paper_config *config, int steps)
     struct paper_weather weather = paper_weather_default();
     weather.gravity_y = 1.4;
     weather.gravity_x = 0.8;
-    for (int i = 0; i < steps; i++)
-        check(paper_disperse(sheet, &weather));
+    disperse(sheet, &weather, steps);
     return sheet;
 }
 
@@ -109,9 +119,9 @@ static void golden_page_has_its_hash(void **state)
     check(paper_rectangle(sheet, 30, 30, 20, 12,
                           &(struct paper_ink){.cyan = 0.8, .magenta = 0.5, .yellow = 0.4}));
     struct paper_weather weather = paper_weather_default();
+    weather.gravity_x = 0.8;
     weather.gravity_y = 1.4;
-    for (int i = 0; i < 20; i++)
-        check(paper_disperse(sheet, &weather));
+    disperse(sheet, &weather, 20);
     check(paper_view_read(sheet, PAPER_VIEW_COLOR, rgb));
     paper_destroy(sheet);
     uint64_t hash = 0xcbf29ce484222325u;
@@ -140,7 +150,8 @@ static void type_is_crisp_before_time(void **state)
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             size_t at = 3 * ((size_t)y * WIDTH + (size_t)x);
-            bool inside = x >= 10 && x < 10 + screen.width_px && y >= 20 && y < 20 + screen.height_px;
+            bool inside =
+                x >= 10 && x < 10 + screen.width_px && y >= 20 && y < 20 + screen.height_px;
             int gray = inside ? screen.gray[(y - 20) * screen.width_px + x - 10] : 0;
             assert_int_equal(inked[at], 255 - gray);
             assert_int_equal(inked[at + 1], blank[at + 1]);
@@ -157,14 +168,14 @@ static void flow_keeps_water_and_pigment(void **state)
     struct paper_config config = config_small();
     struct paper *sheet;
     check(paper_create(&config, &sheet));
-    check(paper_rectangle(sheet, 35, 25, 20, 20, &(struct paper_ink){.cyan = 0.5, .water = 0.7}));
+    check(
+        paper_rectangle(sheet, 35, 25, 20, 20, &(struct paper_ink){.cyan = 0.5, .water = 0.7}));
     double water[2], cyan[2];
     check(paper_total(sheet, PAPER_WATER, &water[0]));
     check(paper_total(sheet, PAPER_CYAN, &cyan[0]));
     struct paper_weather weather = paper_weather_default();
     weather.humidity = 0;
-    for (int i = 0; i < 20; i++)
-        check(paper_disperse(sheet, &weather));
+    disperse(sheet, &weather, 20);
     check(paper_total(sheet, PAPER_WATER, &water[1]));
     check(paper_total(sheet, PAPER_CYAN, &cyan[1]));
     paper_destroy(sheet);
@@ -188,8 +199,7 @@ static void still_paper_is_symmetric(void **state)
     check(paper_rectangle(sheet, 40, 0, 16, HEIGHT, &(struct paper_ink){.cyan = 0.8}));
     struct paper_weather weather = paper_weather_default();
     weather.humidity = 0;
-    for (int i = 0; i < 20; i++)
-        check(paper_disperse(sheet, &weather));
+    disperse(sheet, &weather, 20);
     check(paper_view_read(sheet, PAPER_VIEW_COLOR, rgb));
     paper_destroy(sheet);
     for (int x = 20; x < WIDTH / 2; x++) {
@@ -206,11 +216,13 @@ static void dry_paper_stands_still(void **state)
     struct paper_config config = config_small();
     struct paper *sheet;
     check(paper_create(&config, &sheet));
-    check(paper_rectangle(sheet, 30, 20, 30, 30, &(struct paper_ink){.cyan = 0.5, .magenta = 1}));
+    check(
+        paper_rectangle(sheet, 30, 20, 30, 30, &(struct paper_ink){.cyan = 0.5, .magenta = 1}));
     check(paper_view_read(sheet, PAPER_VIEW_COLOR, before));
     struct paper_weather weather = paper_weather_default();
-    for (int i = 0; i < 10; i++)
-        check(paper_disperse(sheet, &weather));
+    weather.gravity_x = 0.8;
+    weather.gravity_y = 1.4;
+    disperse(sheet, &weather, 10);
     check(paper_view_read(sheet, PAPER_VIEW_COLOR, after));
     paper_destroy(sheet);
     assert_memory_equal(before, after, BYTES);
@@ -220,21 +232,21 @@ static void dry_paper_stands_still(void **state)
 static void extremes_stay_within_bounds(void **state)
 {
     (void)state;
-    static const double gravities[] = {0.5, 1, 2};
-    for (size_t i = 0; i < 9; i++) {
+    static const double gravities[] = {0.5, 2};
+    for (size_t i = 0; i < 4; i++) {
         struct paper_config config = config_small();
         config.absorbency = PAPER_ABSORBENCY_MAX;
         config.absorbency_variation = 1;
         struct paper *sheet;
         check(paper_create(&config, &sheet));
-        check(paper_rectangle(sheet, -5, -5, 60, 60,
-                              &(struct paper_ink){.cyan = 1, .magenta = 1, .yellow = 1, .water = 1}));
-        struct paper_weather weather = {.gravity_x = gravities[i % 3],
-                                        .gravity_y = gravities[i / 3],
-                                        .humidity = i % 2 ? 0.01 : 0,
+        check(paper_rectangle(
+            sheet, -5, -5, 60, 60,
+            &(struct paper_ink){.cyan = 1, .magenta = 1, .yellow = 1, .water = 1}));
+        struct paper_weather weather = {.gravity_x = gravities[i % 2],
+                                        .gravity_y = gravities[i / 2],
+                                        .humidity = 0.01,
                                         .molecular_weight = {1, 1, 1}};
-        for (int step = 0; step < 24; step++)
-            check(paper_disperse(sheet, &weather));
+        disperse(sheet, &weather, 24);
         for (int amount = PAPER_WATER; amount <= PAPER_YELLOW; amount++) {
             double total;
             check(paper_total(sheet, (enum paper_amount)amount, &total));
@@ -310,11 +322,16 @@ static void places_off_the_sheet_are_ignored(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bits_per_fiber_add_up),       cmocka_unit_test(same_seed_same_picture),
-        cmocka_unit_test(eager_is_fused),              cmocka_unit_test(golden_page_has_its_hash),
-        cmocka_unit_test(type_is_crisp_before_time),   cmocka_unit_test(flow_keeps_water_and_pigment),
-        cmocka_unit_test(still_paper_is_symmetric),    cmocka_unit_test(dry_paper_stands_still),
-        cmocka_unit_test(extremes_stay_within_bounds), cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(bits_per_fiber_add_up),
+        cmocka_unit_test(same_seed_same_picture),
+        cmocka_unit_test(eager_is_fused),
+        cmocka_unit_test(golden_page_has_its_hash),
+        cmocka_unit_test(type_is_crisp_before_time),
+        cmocka_unit_test(flow_keeps_water_and_pigment),
+        cmocka_unit_test(still_paper_is_symmetric),
+        cmocka_unit_test(dry_paper_stands_still),
+        cmocka_unit_test(extremes_stay_within_bounds),
+        cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(places_off_the_sheet_are_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

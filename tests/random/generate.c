@@ -9,8 +9,8 @@
 #include <string.h>
 
 static const struct geometry geometries[] = {
-    {1, {7}},        {2, {5, 3}},       {2, {3, 43}},   {3, {2, 3, 5}}, {1, {1}},
-    {4, {3, 1, 2, 41}}, {2, {1, 2}},    {1, {97}},      {2, {9, 40}},   {3, {4, 2, 17}},
+    {1, {7}},           {2, {5, 3}}, {2, {3, 43}}, {3, {2, 3, 5}}, {1, {1}},
+    {4, {3, 1, 2, 41}}, {2, {1, 2}}, {1, {97}},    {2, {9, 40}},   {3, {4, 2, 17}},
 };
 
 /* What a field may be: room for floats beside odd lengths. */
@@ -103,7 +103,8 @@ static void emit_fill(struct generator *g)
 
 static double draw_real(struct generator *g)
 {
-    static const double usual[] = {0.0, 1.0, 0.75, 0.5, -2.0, 3.5, 255.0, 0.1, -0.0, 1e30, 1e-40};
+    static const double usual[] = {0.0,   1.0, 0.75, 0.5,  -2.0, 3.5,
+                                   255.0, 0.1, -0.0, 1e30, 1e-40};
 
     return usual[draw(g, sizeof usual / sizeof usual[0])];
 }
@@ -120,16 +121,19 @@ static void emit_row(struct generator *g)
     if (info->shape == FLAG && draw(g, 2))
         return;
     /* each look costs kernels of its own */
-    if ((info->shape == INT_GLOBAL || info->shape == FLOAT_GLOBAL || info->shape == READ_PROCESSOR) && draw(g, 4))
+    if ((info->shape == INT_GLOBAL || info->shape == FLOAT_GLOBAL ||
+         info->shape == READ_PROCESSOR) &&
+        draw(g, 4))
         return;
     if (info->number == NUMBER_F)
         bits = float_bits;
     else if (info->shape == BIT_LOAD || info->shape == BIT_STORE)
         bits = 1;
-    else if (info->shape == RANDOM || info->shape == INT_GLOBAL || info->shape == WRITE_PROCESSOR ||
-             info->shape == READ_PROCESSOR)
+    else if (info->shape == RANDOM || info->shape == INT_GLOBAL ||
+             info->shape == WRITE_PROCESSOR || info->shape == READ_PROCESSOR)
         bits = widths[draw(g, 8)];
-    if (!draw_operand(g, bits, &in.d) || !draw_operand(g, bits, &in.a) || !draw_operand(g, bits, &in.b))
+    if (!draw_operand(g, bits, &in.d) || !draw_operand(g, bits, &in.a) ||
+        !draw_operand(g, bits, &in.b))
         return;
     switch ((int)info->shape) {
     case INT_3_3L:

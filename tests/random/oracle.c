@@ -68,7 +68,8 @@ static uint64_t processors(const struct oracle *o)
     return o->sets[o->set].count;
 }
 
-static wide widened(const struct oracle *o, const struct operand *x, uint64_t processor, bool is_signed)
+static wide widened(const struct oracle *o, const struct operand *x, uint64_t processor,
+                    bool is_signed)
 {
     wide value = get(o, x, processor);
 
@@ -87,7 +88,8 @@ static uint64_t neighbour(const struct oracle *o, uint64_t index, int axis, int 
     coordinate = index / stride % length;
     if (o->sabotage == SABOTAGE_NEWS && coordinate + 1 == length && step > 0)
         return index;
-    return index - coordinate * stride + (coordinate + length + (uint64_t)step) % length * stride;
+    return index - coordinate * stride +
+           (coordinate + length + (uint64_t)step) % length * stride;
 }
 
 static uint64_t coordinate_of(const struct oracle *o, uint64_t index, int axis)
@@ -102,7 +104,8 @@ static uint64_t coordinate_of(const struct oracle *o, uint64_t index, int axis)
 /* ---- instructions ---- */
 
 /* The value of an instruction that has a destination, in one processor. */
-static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n, bool *overflows)
+static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n,
+                     bool *overflows)
 {
     const struct row_info *info = &row_table[in->row];
     bool is_signed = info->number == NUMBER_S;
@@ -111,10 +114,12 @@ static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n,
 
     switch ((int)info->shape) {
     case INT_1:
-        return number_integer(op, is_signed, widened(o, &in->d, n, is_signed), 0, bits, overflows);
+        return number_integer(op, is_signed, widened(o, &in->d, n, is_signed), 0, bits,
+                              overflows);
     case INT_MOVE:
     case INT_MOVE_2L:
-        return number_integer(op, is_signed, widened(o, &in->a, n, is_signed), 0, bits, overflows);
+        return number_integer(op, is_signed, widened(o, &in->a, n, is_signed), 0, bits,
+                              overflows);
     case INT_2:
         return number_integer(op, is_signed, widened(o, &in->d, n, is_signed),
                               widened(o, &in->a, n, is_signed), bits, overflows) ^
@@ -124,29 +129,34 @@ static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n,
         return number_integer(op, is_signed, widened(o, &in->a, n, is_signed),
                               widened(o, &in->b, n, is_signed), bits, overflows);
     case INT_CONSTANT_2:
-        return number_integer(op, is_signed, widened(o, &in->d, n, is_signed), (wide)in->constant, bits,
-                              overflows);
+        return number_integer(op, is_signed, widened(o, &in->d, n, is_signed),
+                              (wide)in->constant, bits, overflows);
     case INT_CONSTANT_3:
-        return number_integer(op, is_signed, widened(o, &in->a, n, is_signed), (wide)in->constant, bits,
-                              overflows);
+        return number_integer(op, is_signed, widened(o, &in->a, n, is_signed),
+                              (wide)in->constant, bits, overflows);
     case INT_MOVE_CONSTANT:
         return (wide)in->constant & wide_mask(bits);
     case INT_TO_FLOAT:
         return number_from_integer(is_signed, widened(o, &in->a, n, is_signed), bits);
     case FLOAT_TO_INT:
-        return number_to_integer(op, is_signed, (uint64_t)get(o, &in->a, n), in->a.bits, bits, overflows);
+        return number_to_integer(op, is_signed, (uint64_t)get(o, &in->a, n), in->a.bits, bits,
+                                 overflows);
     case FLOAT_1:
         return number_float(op, bits, (uint64_t)get(o, &in->d, n), 0, overflows);
     case FLOAT_MOVE:
         return number_float(op, bits, (uint64_t)get(o, &in->a, n), 0, overflows);
     case FLOAT_2:
-        return number_float(op, bits, (uint64_t)get(o, &in->d, n), (uint64_t)get(o, &in->a, n), overflows);
+        return number_float(op, bits, (uint64_t)get(o, &in->d, n), (uint64_t)get(o, &in->a, n),
+                            overflows);
     case FLOAT_3:
-        return number_float(op, bits, (uint64_t)get(o, &in->a, n), (uint64_t)get(o, &in->b, n), overflows);
+        return number_float(op, bits, (uint64_t)get(o, &in->a, n), (uint64_t)get(o, &in->b, n),
+                            overflows);
     case FLOAT_CONSTANT_2:
-        return number_float(op, bits, (uint64_t)get(o, &in->d, n), number_real(in->real, bits), overflows);
+        return number_float(op, bits, (uint64_t)get(o, &in->d, n), number_real(in->real, bits),
+                            overflows);
     case FLOAT_CONSTANT_3:
-        return number_float(op, bits, (uint64_t)get(o, &in->a, n), number_real(in->real, bits), overflows);
+        return number_float(op, bits, (uint64_t)get(o, &in->a, n), number_real(in->real, bits),
+                            overflows);
     case FLOAT_MOVE_2L:
         return number_resize_float((uint64_t)get(o, &in->a, n), in->a.bits, bits);
     case FLOAT_MOVE_CONSTANT:
@@ -217,26 +227,32 @@ static void compare(struct oracle *o, const struct instruction *in)
         switch ((int)info->shape) {
         case INT_COMPARE:
         case INT_COMPARE_2L:
-            result = number_compare_integer((enum op)info->op, is_signed, widened(o, &in->a, n, is_signed),
+            result = number_compare_integer((enum op)info->op, is_signed,
+                                            widened(o, &in->a, n, is_signed),
                                             widened(o, &in->b, n, is_signed));
             break;
         case INT_COMPARE_CONSTANT:
-            result = number_compare_integer((enum op)info->op, is_signed, widened(o, &in->a, n, is_signed),
-                                            (wide)in->constant);
+            result =
+                number_compare_integer((enum op)info->op, is_signed,
+                                       widened(o, &in->a, n, is_signed), (wide)in->constant);
             break;
         case INT_COMPARE_ZERO:
-            result = number_compare_integer((enum op)info->op, is_signed, widened(o, &in->a, n, is_signed), 0);
+            result = number_compare_integer((enum op)info->op, is_signed,
+                                            widened(o, &in->a, n, is_signed), 0);
             break;
         case FLOAT_COMPARE:
-            result = number_compare_float((enum op)info->op, in->a.bits, (uint64_t)get(o, &in->a, n),
-                                          (uint64_t)get(o, &in->b, n));
+            result =
+                number_compare_float((enum op)info->op, in->a.bits, (uint64_t)get(o, &in->a, n),
+                                     (uint64_t)get(o, &in->b, n));
             break;
         case FLOAT_COMPARE_CONSTANT:
-            result = number_compare_float((enum op)info->op, in->a.bits, (uint64_t)get(o, &in->a, n),
-                                          number_real(in->real, in->a.bits));
+            result =
+                number_compare_float((enum op)info->op, in->a.bits, (uint64_t)get(o, &in->a, n),
+                                     number_real(in->real, in->a.bits));
             break;
         case FLOAT_COMPARE_ZERO:
-            result = number_compare_float((enum op)info->op, in->a.bits, (uint64_t)get(o, &in->a, n), 0);
+            result = number_compare_float((enum op)info->op, in->a.bits,
+                                          (uint64_t)get(o, &in->a, n), 0);
             break;
         default:
             abort();
@@ -311,8 +327,8 @@ static void global_integer(struct oracle *o, const struct instruction *in)
         if (o->sets[o->set].context[n]) {
             if (is_signed)
                 total = (wide)wide_signed(total, in->a.bits);
-            total = number_integer((enum op)info->op, is_signed, total, widened(o, &in->a, n, is_signed),
-                                   in->a.bits, &ignored);
+            total = number_integer((enum op)info->op, is_signed, total,
+                                   widened(o, &in->a, n, is_signed), in->a.bits, &ignored);
         }
     trace_add(o->out, (uint64_t)total);
 }
@@ -328,7 +344,8 @@ static void global_float(struct oracle *o, const struct instruction *in)
         values[n] = (uint64_t)get(o, &in->a, n);
         active[n] = o->sets[o->set].context[n];
     }
-    total = number_float_reduce(op, values, active, processors(o), g->lengths[g->rank - 1], in->a.bits);
+    total = number_float_reduce(op, values, active, processors(o), g->lengths[g->rank - 1],
+                                in->a.bits);
     trace_real(o->out, number_value(total, in->a.bits));
     free(values);
     free(active);
@@ -353,7 +370,8 @@ static void write_data(struct oracle *o, const struct instruction *in)
             put(o, &in->d, n, number_real(data_real(in->where, n), in->d.bits));
         else if (n == in->where)
             put(o, &in->d, n,
-                shape == WRITE_PROCESSOR ? (wide)in->constant : number_real(in->real, in->d.bits));
+                shape == WRITE_PROCESSOR ? (wide)in->constant
+                                         : number_real(in->real, in->d.bits));
 }
 
 static void drop(struct oracle_field *f)
@@ -449,7 +467,8 @@ static void dump(struct oracle *o)
             if (o->fields[k].bits && o->fields[k].set == o->set)
                 for (int at = 0; at < o->fields[k].width; at += 64) {
                     int left = o->fields[k].width - at;
-                    struct operand x = {(uint8_t)k, (uint8_t)at, (uint8_t)(left < 64 ? left : 64)};
+                    struct operand x = {(uint8_t)k, (uint8_t)at,
+                                        (uint8_t)(left < 64 ? left : 64)};
 
                     observe(o, &x);
                 }

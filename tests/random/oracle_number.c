@@ -22,7 +22,8 @@ signed_wide wide_signed(wide x, int bits)
 
 static bool fits(wide exact, bool is_signed, int bits)
 {
-    return is_signed ? wide_signed(exact, bits) == (signed_wide)exact : (exact & wide_mask(bits)) == exact;
+    return is_signed ? wide_signed(exact, bits) == (signed_wide)exact
+                     : (exact & wide_mask(bits)) == exact;
 }
 
 static wide exact_arithmetic(enum op op, bool is_signed, wide a, wide b, bool *wraps)
@@ -170,39 +171,39 @@ uint64_t number_resize_float(uint64_t a, int from_bits, int to_bits)
 }
 
 /* min and max choose one of the operands: its bits, unless that is a NaN. */
-#define FLOAT_ARITHMETIC(function, type, bits_of, of_bits, square_root, absolute)                    \
-    static uint64_t function(enum op op, uint64_t pa, uint64_t pb, bool *overflows)                  \
-    {                                                                                                \
-        type a = of_bits(pa), b = of_bits(pb), result;                                               \
-                                                                                                     \
-        switch ((int)op) {                                                                           \
-        case OP_ADD:                                                                                 \
-            result = a + b;                                                                          \
-            break;                                                                                   \
-        case OP_SUBTRACT:                                                                            \
-            result = a - b;                                                                          \
-            break;                                                                                   \
-        case OP_MULTIPLY:                                                                            \
-            result = a * b;                                                                          \
-            break;                                                                                   \
-        case OP_DIVIDE:                                                                              \
-            result = a / b;                                                                          \
-            break;                                                                                   \
-        case OP_MIN:                                                                                 \
-            return bits_of(a < b ? a : b);                                                           \
-        case OP_MAX:                                                                                 \
-            return bits_of(a > b ? a : b);                                                           \
-        case OP_NEGATE:                                                                              \
-            return bits_of(-a);                                                                      \
-        case OP_ABS:                                                                                 \
-            return bits_of(absolute(a));                                                             \
-        case OP_SQRT:                                                                                \
-            return bits_of(square_root(a));                                                          \
-        default:                                                                                     \
-            abort();                                                                                 \
-        }                                                                                            \
-        *overflows = isinf(result) && isfinite(a) && isfinite(b);                                    \
-        return bits_of(result);                                                                      \
+#define FLOAT_ARITHMETIC(function, type, bits_of, of_bits, square_root, absolute)              \
+    static uint64_t function(enum op op, uint64_t pa, uint64_t pb, bool *overflows)            \
+    {                                                                                          \
+        type a = of_bits(pa), b = of_bits(pb), result;                                         \
+                                                                                               \
+        switch ((int)op) {                                                                     \
+        case OP_ADD:                                                                           \
+            result = a + b;                                                                    \
+            break;                                                                             \
+        case OP_SUBTRACT:                                                                      \
+            result = a - b;                                                                    \
+            break;                                                                             \
+        case OP_MULTIPLY:                                                                      \
+            result = a * b;                                                                    \
+            break;                                                                             \
+        case OP_DIVIDE:                                                                        \
+            result = a / b;                                                                    \
+            break;                                                                             \
+        case OP_MIN:                                                                           \
+            return bits_of(a < b ? a : b);                                                     \
+        case OP_MAX:                                                                           \
+            return bits_of(a > b ? a : b);                                                     \
+        case OP_NEGATE:                                                                        \
+            return bits_of(-a);                                                                \
+        case OP_ABS:                                                                           \
+            return bits_of(absolute(a));                                                       \
+        case OP_SQRT:                                                                          \
+            return bits_of(square_root(a));                                                    \
+        default:                                                                               \
+            abort();                                                                           \
+        }                                                                                      \
+        *overflows = isinf(result) && isfinite(a) && isfinite(b);                              \
+        return bits_of(result);                                                                \
     }
 
 FLOAT_ARITHMETIC(single_arithmetic, float, single_bits, single, sqrtf, fabsf)
@@ -214,7 +215,8 @@ uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overfl
         return a;
     if (op == OP_ZERO)
         return 0;
-    return bits == 32 ? single_arithmetic(op, a, b, overflows) : real_arithmetic(op, a, b, overflows);
+    return bits == 32 ? single_arithmetic(op, a, b, overflows)
+                      : real_arithmetic(op, a, b, overflows);
 }
 
 bool number_compare_float(enum op op, int bits, uint64_t pa, uint64_t pb)
@@ -249,7 +251,8 @@ uint64_t number_from_integer(bool is_signed, wide a, int float_bits)
 }
 
 /* Beyond the range the nearest end of it; NaN gives 0. Both are overflows. */
-wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits, bool *overflows)
+wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits,
+                       bool *overflows)
 {
     double x = number_value(a, float_bits), limit = ldexp(1.0, is_signed ? bits - 1 : bits);
     double lowest = is_signed ? -limit : 0.0;
@@ -288,11 +291,12 @@ static uint64_t together(enum op op, uint64_t so_far, uint64_t next, int bits)
 
     if (op == OP_ADD)
         return number_float(OP_ADD, bits, so_far, next, &ignored);
-    return number_compare_float(op == OP_MIN ? OP_LT : OP_GT, bits, next, so_far) ? next : so_far;
+    return number_compare_float(op == OP_MIN ? OP_LT : OP_GT, bits, next, so_far) ? next
+                                                                                  : so_far;
 }
 
-uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active, uint64_t count, int last_axis,
-                             int bits)
+uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active,
+                             uint64_t count, int last_axis, int bits)
 {
     enum { RUN = 4096, COLUMNS = 16 };
     uint64_t identity = number_real(op == OP_ADD   ? 0.0
@@ -312,8 +316,8 @@ uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *act
                 partial[k] = identity;
             for (int k = 0; k < length; k++)
                 if (active[row + (uint64_t)(start + k)])
-                    partial[k % COLUMNS] =
-                        together(op, partial[k % COLUMNS], values[row + (uint64_t)(start + k)], bits);
+                    partial[k % COLUMNS] = together(op, partial[k % COLUMNS],
+                                                    values[row + (uint64_t)(start + k)], bits);
             for (int half = COLUMNS / 2; half > 0; half /= 2)
                 for (int k = 0; k < half; k++)
                     partial[k] = together(op, partial[k], partial[k + half], bits);
@@ -321,7 +325,8 @@ uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *act
         }
     for (; runs > 1; runs = (runs + 1) / 2)
         for (uint64_t k = 0; 2 * k < runs; k++)
-            sums[k] = 2 * k + 1 < runs ? together(op, sums[2 * k], sums[2 * k + 1], bits) : sums[2 * k];
+            sums[k] = 2 * k + 1 < runs ? together(op, sums[2 * k], sums[2 * k + 1], bits)
+                                       : sums[2 * k];
     total = sums[0];
     free(sums);
     return total;

@@ -23,7 +23,8 @@ bool number_compare_integer(enum op op, bool is_signed, wide a, wide b);
 bool number_compare_float(enum op op, int bits, uint64_t a, uint64_t b);
 
 uint64_t number_from_integer(bool is_signed, wide a, int float_bits);
-wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits, bool *overflows);
+wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits,
+                       bool *overflows);
 /* Float to float of another length. */
 uint64_t number_resize_float(uint64_t a, int from_bits, int to_bits);
 /* A front-end number, rounded. */
@@ -34,7 +35,7 @@ double number_value(uint64_t a, int float_bits);
 uint64_t number_nan(int float_bits);
 
 /* ADD, MIN or MAX over the active ones of count elements, a row of the last axis after another. */
-uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active, uint64_t count, int last_axis,
-                             int bits);
+uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active,
+                             uint64_t count, int last_axis, int bits);
 
 #endif

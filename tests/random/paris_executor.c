@@ -17,7 +17,8 @@ struct execution {
     const struct program *p;
     struct trace *out;
     CM_vp_set_id_t sets[PROGRAM_SETS];
-    CM_field_id_t fields[PROGRAM_SLOTS]; /* CM_no_field: none; stack fields stay when they are gone */
+    CM_field_id_t
+        fields[PROGRAM_SLOTS]; /* CM_no_field: none; stack fields stay when they are gone */
     const struct instruction *in;
     int set;
     /* live fields, to dump at the end */
@@ -73,8 +74,8 @@ static void observe(struct execution *x)
     unsigned int *words = buffer(count, sizeof *words);
     struct block b = whole(x);
 
-    CM_u_read_from_news_array_1L(words, b.zero, b.zero, b.end, b.axes, part(x, &x->in->a), x->in->a.bits, b.rank,
-                                 b.end, CM_32_bit);
+    CM_u_read_from_news_array_1L(words, b.zero, b.zero, b.end, b.axes, part(x, &x->in->a),
+                                 x->in->a.bits, b.rank, b.end, CM_32_bit);
     for (uint64_t n = 0; n < count; n++)
         trace_add(x->out, words[n]);
     free(words);
@@ -87,9 +88,10 @@ static void write_array(struct execution *x)
     struct block b = whole(x);
 
     for (uint64_t n = 0; n < count; n++)
-        words[n] = (unsigned int)(data_word(x->in->where, n) & (((uint64_t)1 << x->in->d.bits) - 1));
-    CM_u_write_to_news_array_1L(words, b.zero, b.zero, b.end, b.axes, part(x, &x->in->d), x->in->d.bits, b.rank,
-                                b.end, CM_32_bit);
+        words[n] =
+            (unsigned int)(data_word(x->in->where, n) & (((uint64_t)1 << x->in->d.bits) - 1));
+    CM_u_write_to_news_array_1L(words, b.zero, b.zero, b.end, b.axes, part(x, &x->in->d),
+                                x->in->d.bits, b.rank, b.end, CM_32_bit);
     free(words);
 }
 
@@ -112,8 +114,8 @@ static void write_floats(struct execution *x)
     for (uint64_t n = 0; n < count; n++)
         numbers[n] = data_real(x->in->where, n);
     CM_f_write_to_news_array_1L(numbers, b.zero, b.zero, b.end, b.axes, part(x, &x->in->d),
-                                significand_length(x->in->d.bits), exponent_length(x->in->d.bits), b.rank, b.end,
-                                CM_float_double);
+                                significand_length(x->in->d.bits),
+                                exponent_length(x->in->d.bits), b.rank, b.end, CM_float_double);
     free(numbers);
 }
 
@@ -181,7 +183,8 @@ static void forget_field(struct execution *x)
 #define CALL_INT_COMPARE_ZERO(f, K) f(A, in->a.bits)
 #define CALL_INT_TO_FLOAT(f, K) f(D, A, in->a.bits, FLOAT_LENGTH(in->d))
 #define CALL_FLOAT_TO_INT(f, K) f(D, A, in->d.bits, FLOAT_LENGTH(in->a))
-#define CALL_INT_GLOBAL(f, K) trace_add(x->out, (uint64_t)f(A, in->a.bits) & (((uint64_t)1 << in->a.bits) - 1))
+#define CALL_INT_GLOBAL(f, K)                                                                  \
+    trace_add(x->out, (uint64_t)f(A, in->a.bits) & (((uint64_t)1 << in->a.bits) - 1))
 #define CALL_FLOAT_1(f, K) f(D, FLOAT_LENGTH(in->d))
 #define CALL_FLOAT_MOVE(f, K) f(D, A, FLOAT_LENGTH(in->d))
 #define CALL_FLOAT_2(f, K) f(D, A, FLOAT_LENGTH(in->d))
@@ -205,9 +208,9 @@ static void forget_field(struct execution *x)
 #define CONSTANT_F CONSTANT_U
 #define CONSTANT_S (long)in->constant
 
-#define EXECUTOR_CASE(name, shape, number, op, always)                                               \
-    case ROW_##name:                                                                                 \
-        CALL_##shape(name, CONSTANT_##number);                                              \
+#define EXECUTOR_CASE(name, shape, number, op, always)                                         \
+    case ROW_##name:                                                                           \
+        CALL_##shape(name, CONSTANT_##number);                                                 \
         break;
 
 static void step(struct execution *x, const struct instruction *in)
@@ -242,8 +245,8 @@ static void copy(struct copies *c, struct machine_value *value, uint64_t count)
     uint32_t field = MACHINE_NO_FIELD;
 
     if (value)
-        field = machine_field_allocate(m, machine_vpset_current(m), machine_value_type(value).width,
-                                       MACHINE_HEAP);
+        field = machine_field_allocate(m, machine_vpset_current(m),
+                                       machine_value_type(value).width, MACHINE_HEAP);
     if (!field || machine_field_store(m, field, value, MACHINE_EVERYWHERE)) {
         fprintf(stderr, "copying what is left: %s\n", machine_error(m));
         exit(2);
@@ -268,8 +271,8 @@ static void copy_set(struct execution *x, struct copies *c)
             int left = x->slots[k].bits - at;
 
             copy(c,
-                 machine_field_value(m, x->fields[k] + (uint32_t)at, MACHINE_UINT(left < 64 ? left : 64),
-                                     MACHINE_EVERYWHERE),
+                 machine_field_value(m, x->fields[k] + (uint32_t)at,
+                                     MACHINE_UINT(left < 64 ? left : 64), MACHINE_EVERYWHERE),
                  count);
         }
 }
@@ -320,7 +323,8 @@ void paris_run(const struct program *p, struct trace *out, bool eager)
     CM_init();
     CM_initialize_random_generator((unsigned int)p->seed);
     for (int k = 0; k < p->sets_count; k++)
-        x.sets[k] = CM_allocate_vp_set(CM_create_geometry(p->sets[k].lengths, (unsigned int)p->sets[k].rank));
+        x.sets[k] = CM_allocate_vp_set(
+            CM_create_geometry(p->sets[k].lengths, (unsigned int)p->sets[k].rank));
     CM_set_vp_set(x.sets[0]);
     for (int n = 0; n < p->count; n++) {
         out->step = n;

@@ -130,7 +130,11 @@ static void print_arguments(FILE *out, const struct instruction *in, const char 
         } else {
             bool is_float = *what == 'F' || *what == 'G';
 
-            print_length(out, *what == 'D' || *what == 'F' ? &in->d : *what == 'B' ? &in->b : &in->a, is_float);
+            print_length(out,
+                         *what == 'D' || *what == 'F' ? &in->d
+                         : *what == 'B'               ? &in->b
+                                                      : &in->a,
+                         is_float);
         }
         comma = ", ";
     }
@@ -154,13 +158,16 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
         return;
     case WRITE_ARRAY:
     case WRITE_FLOATS:
-        fprintf(out, "{ /* data_%s (%" PRIu32 "u, n) of program.c */\n        int n;\n        for (n = 0; n < %d; n++)\n",
+        fprintf(out,
+                "{ /* data_%s (%" PRIu32
+                "u, n) of program.c */\n        int n;\n        for (n = 0; n < %d; n++)\n",
                 info->shape == WRITE_ARRAY ? "word" : "real", in->where, (int)count);
         fprintf(out, "            CM_%c_write_to_processor_1L (address (%d, n), ",
                 info->shape == WRITE_ARRAY ? 'u' : 'f', (int)count);
         print_part(out, &in->d);
-        fprintf(out, info->shape == WRITE_ARRAY ? ", data_word (%" PRIu32 "u, n) & %#" PRIx64
-                                                : ", data_real (%" PRIu32 "u, n)",
+        fprintf(out,
+                info->shape == WRITE_ARRAY ? ", data_word (%" PRIu32 "u, n) & %#" PRIx64
+                                           : ", data_real (%" PRIu32 "u, n)",
                 in->where, ((uint64_t)1 << in->d.bits % 64) - 1);
         print_length(out, &in->d, info->shape == WRITE_FLOATS);
         fputs(");\n    }\n", out);
@@ -179,7 +186,9 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
         return;
     case OBSERVE:
     case READ_PROCESSOR:
-        fprintf(out, "{ int n; for (n = %d; n < %d; n++) printf (\"%%u\\n\", CM_u_read_from_processor_1L (address (%d, n), ",
+        fprintf(out,
+                "{ int n; for (n = %d; n < %d; n++) printf (\"%%u\\n\", "
+                "CM_u_read_from_processor_1L (address (%d, n), ",
                 info->shape == OBSERVE ? 0 : (int)in->where,
                 info->shape == OBSERVE ? (int)count : (int)in->where + 1, (int)count);
         print_part(out, &in->a);
@@ -187,7 +196,8 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
         return;
     case INT_GLOBAL:
     case FLOAT_GLOBAL:
-        fprintf(out, "printf (\"%s\\n\", %s (", info->shape == INT_GLOBAL ? "%u" : "%a", info->name);
+        fprintf(out, "printf (\"%s\\n\", %s (", info->shape == INT_GLOBAL ? "%u" : "%a",
+                info->name);
         print_arguments(out, in, arguments((enum shape)info->shape));
         fputs("));\n", out);
         return;
@@ -206,7 +216,8 @@ void program_print(const struct program *p, FILE *out)
 
     fputs("#include <math.h>\n#include <stdio.h>\n#include <cm/paris.h>\n\n"
           "/* LUTETIA_PROCESSORS=16; a row-major index as a send address */\n"
-          "#define address(count, n) ((unsigned) ((n) % 16 * (((count) + 15) / 16) + (n) / 16))\n\n"
+          "#define address(count, n) ((unsigned) ((n) % 16 * (((count) + 15) / 16) + (n) / "
+          "16))\n\n"
           "int main (void)\n{\n",
           out);
     for (int n = 0; n < p->count; n++)
@@ -221,9 +232,11 @@ void program_print(const struct program *p, FILE *out)
     for (int k = 0; k < PROGRAM_SLOTS; k++)
         if (used >> k & 1)
             fprintf(out, "    CM_field_id_t f%d;\n", k);
-    fprintf(out, "\n    CM_init ();\n    CM_initialize_random_generator (%uu);\n", (unsigned int)p->seed);
+    fprintf(out, "\n    CM_init ();\n    CM_initialize_random_generator (%uu);\n",
+            (unsigned int)p->seed);
     for (int k = 0; k < p->sets_count; k++)
-        fprintf(out, "    set%d = CM_allocate_vp_set (CM_create_geometry (lengths%d, %d));\n", k, k, p->sets[k].rank);
+        fprintf(out, "    set%d = CM_allocate_vp_set (CM_create_geometry (lengths%d, %d));\n",
+                k, k, p->sets[k].rank);
     fputs("    CM_set_vp_set (set0);\n", out);
     for (int n = 0; n < p->count; n++) {
         if (row_table[p->code[n].row].shape == SELECT_SET)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PROGRAM_INFO(name, shape, number, op, always)                                                \
+#define PROGRAM_INFO(name, shape, number, op, always)                                          \
     {#name, shape, NUMBER_##number, OP_##op, always},
 const struct row_info row_table[ROW_COUNT] = {RANDOM_ROWS(PROGRAM_INFO)};
 
@@ -31,9 +31,10 @@ uint64_t data_word(uint32_t stream, uint64_t index)
 
 double data_real(uint32_t stream, uint64_t index)
 {
-    static const double awkward[] = {0.0, -0.0,    1.0,     -1.0,   0.5,     2.5,     -3.5,  1e-45,
-                                     1e-310, -1e-39, 3.4e38, -3.4e38, 1.7e308, HUGE_VAL, -HUGE_VAL, NAN,
-                                     255.0, 65535.5, 2147483648.0, -129.0};
+    static const double awkward[] = {0.0,    -0.0,    1.0,     -1.0,         0.5,
+                                     2.5,    -3.5,    1e-45,   1e-310,       -1e-39,
+                                     3.4e38, -3.4e38, 1.7e308, HUGE_VAL,     -HUGE_VAL,
+                                     NAN,    255.0,   65535.5, 2147483648.0, -129.0};
     uint64_t word = data_word(stream, index);
 
     if (word % 3 == 0)
@@ -159,8 +160,8 @@ static int shape_uses(enum shape shape)
 
 static bool lengths_are_free(enum shape shape)
 {
-    return shape == INT_3_3L || shape == INT_MOVE_2L || shape == INT_COMPARE_2L || shape == INT_TO_FLOAT ||
-           shape == FLOAT_TO_INT || shape == FLOAT_MOVE_2L;
+    return shape == INT_3_3L || shape == INT_MOVE_2L || shape == INT_COMPARE_2L ||
+           shape == INT_TO_FLOAT || shape == FLOAT_TO_INT || shape == FLOAT_MOVE_2L;
 }
 
 /* Which operands are floats (number F), of 32 or 64 bits. */
@@ -202,7 +203,8 @@ static bool operand_fits(const struct static_state *st, const struct row_info *i
         return false;
     if (is_float && x->bits != 32 && x->bits != 64)
         return false;
-    return x->bits >= least && x->bits <= (is_float ? 64 : widest(info)) && x->offset + x->bits <= slot->bits;
+    return x->bits >= least && x->bits <= (is_float ? 64 : widest(info)) &&
+           x->offset + x->bits <= slot->bits;
 }
 
 static int64_t constant_within(int64_t value, int bits, bool is_signed)
@@ -216,7 +218,8 @@ static int64_t constant_within(int64_t value, int bits, bool is_signed)
     return value;
 }
 
-static bool instruction_possible(const struct program *p, struct static_state *st, struct instruction *in)
+static bool instruction_possible(const struct program *p, struct static_state *st,
+                                 struct instruction *in)
 {
     const struct row_info *info = &row_table[in->row];
     const struct geometry *g = &p->sets[st->set];
@@ -228,7 +231,8 @@ static bool instruction_possible(const struct program *p, struct static_state *s
 
         if (slot->bits || in->d.bits == 0 || in->d.bits > PROGRAM_FIELD_BITS_MAX)
             return false;
-        *slot = (struct slot_state){in->d.bits, st->set, st->allocations++, info->op == OP_HEAP};
+        *slot =
+            (struct slot_state){in->d.bits, st->set, st->allocations++, info->op == OP_HEAP};
         return true;
     }
     if (info->shape == DEALLOCATE) {

@@ -179,7 +179,8 @@ double data_real(uint32_t stream, uint64_t index);
 
 struct trace {
     uint64_t *words;
-    uint32_t *steps; /* the instruction that showed each word; the program's length for what is left at the end */
+    uint32_t *
+        steps; /* the instruction that showed each word; the program's length for what is left at the end */
     size_t count, size;
     int step; /* set by the executor */
 };
@@ -192,7 +193,13 @@ bool trace_differ(const struct trace *a, const struct trace *b, size_t *where);
 
 /* ---- executors: all append the same words for the same program ---- */
 
-enum sabotage { SABOTAGE_NONE, SABOTAGE_SUBTRACT, SABOTAGE_CONTEXT, SABOTAGE_NEWS, SABOTAGE_COUNT };
+enum sabotage {
+    SABOTAGE_NONE,
+    SABOTAGE_SUBTRACT,
+    SABOTAGE_CONTEXT,
+    SABOTAGE_NEWS,
+    SABOTAGE_COUNT
+};
 
 /* Plain bit arrays; `sabotage` makes it wrong on purpose. */
 void oracle_run(const struct program *p, struct trace *out, enum sabotage sabotage);

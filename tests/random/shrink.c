@@ -121,10 +121,14 @@ static bool make_plainer(struct instruction *in, int way, bool *applies)
         return false;
     /* never back up: lengths only shrink */
     for (int k = 0; k < 3; k++)
-        if (operands[k]->bits > (k == 0 ? before.d : k == 1 ? before.a : before.b).bits && way < 9)
+        if (operands[k]->bits > (k == 0   ? before.d
+                                 : k == 1 ? before.a
+                                          : before.b)
+                                    .bits &&
+            way < 9)
             *in = before;
-    *applies = memcmp(&before, in, sizeof before) != 0 && !(way == 10 && before.constant == 0) &&
-               !(way == 12 && before.real == 1.0);
+    *applies = memcmp(&before, in, sizeof before) != 0 &&
+               !(way == 10 && before.constant == 0) && !(way == 12 && before.real == 1.0);
     return true;
 }
 
@@ -143,7 +147,8 @@ static bool plainer_instructions(struct shrinker *s)
                 continue;
             program_normalise(&s->candidate);
             /* one that no longer fits is dropped: that is remove_runs()'s business */
-            if (s->candidate.count == count && memcmp(&s->candidate, s->p, sizeof s->candidate) != 0)
+            if (s->candidate.count == count &&
+                memcmp(&s->candidate, s->p, sizeof s->candidate) != 0)
                 better |= try_candidate(s);
         }
     return better;
