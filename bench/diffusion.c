@@ -332,6 +332,7 @@ int bench_diffusion_main(int argc, char **argv)
             fputs(USAGE, stdout);
             return 0;
         }
+    setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
     if (!options_parse(&options, argc, argv)) {
         fprintf(stderr, "lutetia bench diffusion: %s\n%s", bench_error(), USAGE);
         return 2;

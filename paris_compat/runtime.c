@@ -77,6 +77,11 @@ static void machine_forget(void)
     CM_physical_processors_length = 0;
 }
 
+static void leave(void)
+{
+    machine_leave(paris_the.machine);
+}
+
 /* False: there is none, and error_text says why. */
 static bool machine_make(void)
 {
@@ -92,7 +97,7 @@ static bool machine_make(void)
     }
     static bool registered;
     if (!registered) /* a program may leave with kernels still running */
-        registered = atexit(machine_forget) == 0;
+        registered = atexit(leave) == 0;
     paris_the.machine = m;
     paris_the.attached = true;
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);

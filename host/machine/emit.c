@@ -554,7 +554,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     put(&t, "%s%s%s", e->rows.data ? e->rows.data : "",
         e->pointers.data ? e->pointers.data : "", e->constants.data ? e->constants.data : "");
     put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
-    bool boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
+    out->has_boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
+    bool boxes = out->has_boxes && g->boxes;
     const char *body = e->body.data ? e->body.data : "";
     if (boxes)
         put(&t, "    const int row_inside = 1%s;\n",

@@ -15,6 +15,7 @@
 #define LUTETIA_MACHINE_INTERNAL_H
 
 #include <CL/cl.h>
+#include <pthread.h>
 #include <stdio.h>
 
 #include "machine.h"
@@ -175,6 +176,8 @@ enum { TRACE_LENGTH = 128 };
 struct machine {
     struct device device;
     bool device_open;
+    pthread_t owner;
+    int inside; /* calls that build, launch or wait: see machine_leave() */
     bool eager;
     char *dump_dir;
     int dump_count;
@@ -214,6 +217,8 @@ struct machine {
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
+    uint64_t
+        box_after; /* processors that a plan has run on before its kernels are made better */
     uint64_t stores, stores_evaluated, flushes, plans_built;
     double busy_s;
 };
@@ -289,6 +294,7 @@ struct plan_node {
 struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
+    bool boxes; /* write kernels that tell inside from outside: see emit.c */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -328,6 +334,7 @@ struct kernel_text {
     int arguments_count;
     int vector;
     bool wide, wraps;
+    bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */

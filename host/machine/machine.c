@@ -78,6 +78,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
         m->dump_dir = strdup(dump);
+    m->owner = pthread_self();
     m->sets_count = 1;
     m->field_next_base = 64;
     m->epoch = 1;
@@ -100,6 +101,12 @@ void machine_destroy(struct machine *m)
     device_close(m);
     free(m->dump_dir);
     free(m);
+}
+
+void machine_leave(struct machine *m)
+{
+    if (m && m->device.queue && m->inside == 0 && pthread_equal(m->owner, pthread_self()))
+        clFinish(m->device.queue);
 }
 
 enum machine_status machine_status_last(const struct machine *m)

@@ -87,6 +87,11 @@ struct machine_config machine_config_default(void);
 enum machine_status machine_create(const struct machine_config *config, struct machine **out);
 void machine_destroy(struct machine *m); /* NULL is fine */
 
+/* For exit handlers: waits for kernels that still run, so that nothing is pulled from under them, and
+ * releases nothing. Returns at once where it must not wait: in another thread, or when the exit
+ * comes from inside an evaluation (a compiler that gave up). NULL is fine. */
+void machine_leave(struct machine *m);
+
 enum machine_status machine_status_last(const struct machine *m);
 const char *machine_error(const struct machine *m); /* the last failure, one line; "" if none */
 void machine_error_clear(struct machine *m);

@@ -21,9 +21,16 @@ static size_t buffer_bytes(const struct vpset *s, struct machine_type type)
     return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
 }
 
+static double wait_begin(struct machine *m)
+{
+    m->inside++;
+    return machine_clock_s();
+}
+
 static enum machine_status wait_for(struct machine *m, cl_int error, double start,
                                     const char *what)
 {
+    m->inside--;
     m->busy_s += machine_clock_s() - start;
     return device_check(m, error, what);
 }
@@ -55,7 +62,7 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
         memcpy(to - halo, to + width - halo, halo);
         memcpy(to + width, to, halo);
     }
-    double start = machine_clock_s();
+    double start = wait_begin(m);
     cl_int error =
         clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
     free(image);
@@ -140,7 +147,7 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
         return m->status;
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
-    double start = machine_clock_s();
+    double start = wait_begin(m);
     cl_int error = s->pitch == (size_t)s->width
                        ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0,
                                              s->count * element, out, 0, NULL, NULL)
@@ -209,7 +216,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
         return m->status;
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
-    double start = machine_clock_s();
+    double start = wait_begin(m);
     cl_int error = clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
                                        place(&m->sets[f->vpset], index) * element, element, raw,
                                        0, NULL, NULL);
@@ -270,7 +277,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         places[count++] = at + width;
     if (column >= width - (size_t)s->halo)
         places[count++] = at - width;
-    double start = machine_clock_s();
+    double start = wait_begin(m);
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < count && !error; i++)
         error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
@@ -417,7 +424,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     error |= clSetKernelArg(kernel, at++, sizeof(cl_mem), &b->mem);
     size_t global[2] = {runs, s->rows};
     static const size_t one[2] = {1, 1};
-    double start = machine_clock_s();
+    double start = wait_begin(m);
     if (!error)
         error = clEnqueueNDRangeKernel(m->device.queue, kernel, 2, NULL, global,
                                        m->device.is_cpu ? one : NULL, 0, NULL, NULL);

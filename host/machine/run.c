@@ -29,7 +29,8 @@ enum {
     PENDING_MOST = 2048,
     HEIGHT_DEFERRED = 96,
     HEIGHT_MOST = 1500,
-    RUN_COLUMNS = 4096
+    RUN_COLUMNS = 4096,
+    BOX_AFTER = 32 << 20
 };
 
 #define TRACE_FACTOR                                                                           \
@@ -51,6 +52,8 @@ struct plan {
     int launches_count;
     int *stored; /* nodes that get a buffer */
     int stored_count;
+    uint64_t worked; /* processors it has run on, all runs together */
+    bool plain;      /* kernels that would be better with boxes are without */
     struct plan *next;
 };
 
@@ -178,6 +181,8 @@ void run_init(struct machine *m)
     m->trace_power = 1;
     for (int i = 0; i < TRACE_LENGTH; i++)
         m->trace_power *= TRACE_FACTOR;
+    const char *after = getenv("LUTETIA_BOX_AFTER");
+    m->box_after = after && *after ? strtoull(after, NULL, 10) : BOX_AFTER;
 }
 
 void run_finish(struct machine *m)
@@ -276,10 +281,11 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     return true;
 }
 
-static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t)
+static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
+                              bool boxes)
 {
-    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes),
-                           .count = r->count};
+    struct plan_graph g = {
+        .nodes = calloc((size_t)r->count, sizeof *g.nodes), .count = r->count, .boxes = boxes};
     struct plan *p = calloc(1, sizeof *p);
     int *stores = calloc((size_t)r->count, sizeof *stores);
     bool good = g.nodes && p && stores;
@@ -329,8 +335,27 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
         plan_free(p);
         return NULL;
     }
-    m->plans_built++;
     return p;
+}
+
+/* It has become worth it: the same plan with better kernels. What cannot be had is done without. */
+static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
+                         const struct targets *t)
+{
+    struct plan *better = plan_make(m, r, t, true), old = *p;
+    p->plain = false;
+    if (!better) {
+        machine_error_clear(m);
+        return;
+    }
+    p->launches = better->launches;
+    p->launches_count = better->launches_count;
+    p->stored = better->stored;
+    p->stored_count = better->stored_count;
+    better->launches = old.launches;
+    better->launches_count = old.launches_count;
+    better->stored = old.stored;
+    plan_free(better);
 }
 
 static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
@@ -351,11 +376,15 @@ static struct plan *plan_get(struct machine *m, const struct reach *r, const str
     struct plan **bucket = &m->plans[h & (uint64_t)(m->plans_size - 1)];
     for (struct plan *p = *bucket; p; p = p->next)
         if (p->hash == h && p->signature_length == r->length &&
-            !memcmp(p->signature, r->signature, r->length * sizeof *r->signature))
+            !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)) {
+            if (p->plain && p->worked >= m->box_after)
+                plan_improve(m, p, r, t);
             return p;
-    struct plan *p = plan_make(m, r, t);
+        }
+    struct plan *p = plan_make(m, r, t, m->box_after == 0);
     if (!p)
         return NULL;
+    m->plans_built++;
     p->signature = malloc(r->length * sizeof *p->signature);
     if (!p->signature) {
         plan_free(p);
@@ -414,8 +443,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return device_check(m, error, "a kernel cannot be started");
 }
 
-static enum machine_status execute(struct machine *m, const struct plan *p,
-                                   const struct reach *r)
+static enum machine_status execute(struct machine *m, struct plan *p, const struct reach *r)
 {
     enum machine_status status = MACHINE_OK;
     struct device_buffer **fresh = calloc((size_t)r->count, sizeof *fresh);
@@ -431,6 +459,8 @@ static enum machine_status execute(struct machine *m, const struct plan *p,
     }
     for (int i = 0; i < p->launches_count && !status; i++)
         status = launch(m, &p->launches[i], r, fresh);
+    for (int i = 0; i < p->launches_count; i++)
+        p->worked += m->sets[p->launches[i].set].count;
     for (int i = 0; i < p->stored_count; i++) {
         struct device_buffer *b = fresh[p->stored[i]];
         if (b && status)
@@ -449,8 +479,8 @@ static enum machine_status execute(struct machine *m, const struct plan *p,
     return status;
 }
 
-enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
-                                 bool all)
+static enum machine_status evaluate(struct machine *m, struct machine_value **wanted, int count,
+                                    bool all)
 {
     struct targets t = {0};
     struct reach r = {0};
@@ -478,7 +508,7 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **wante
     }
     if (!good)
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
-    const struct plan *p = status ? NULL : plan_get(m, &r, &t);
+    struct plan *p = status ? NULL : plan_get(m, &r, &t);
     if (p) {
         status = execute(m, p, &r);
         clFlush(m->device.queue);
@@ -490,6 +520,15 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **wante
     free(t.values);
     free(r.nodes);
     free(r.signature);
+    return status;
+}
+
+enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
+                                 bool all)
+{
+    m->inside++;
+    enum machine_status status = evaluate(m, wanted, count, all);
+    m->inside--;
     return status;
 }
 
@@ -528,7 +567,9 @@ enum machine_status machine_finish(struct machine *m)
 {
     enum machine_status status = run_evaluate(m, NULL, 0, false);
     double start = machine_clock_s();
+    m->inside++;
     cl_int error = clFinish(m->device.queue);
+    m->inside--;
     m->busy_s += machine_clock_s() - start;
     return status ? status : device_check(m, error, "waiting for the device");
 }
