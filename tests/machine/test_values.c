@@ -112,14 +112,18 @@ static wide expected_bits(const void *data, uint64_t n)
     X(NOT)                                                                                     \
     X(NEG)                                                                                     \
     X(AND)                                                                                     \
-    X(OR) X(XOR) X(ADD) X(SUB) X(MUL) X(UMIN) X(UMAX) X(SMIN) X(SMAX) X(EQ) X(NE) X(ULT)       \
-        X(ULE) X(SLT) X(SLE)
+    X(OR)                                                                                      \
+    X(XOR)                                                                                     \
+    X(ADD) X(SUB) X(MUL) X(UMIN) X(UMAX) X(SMIN) X(SMAX) X(EQ) X(NE) X(ULT) X(ULE) X(SLT)      \
+        X(SLE)
 #define FLOAT_OPS(X)                                                                           \
     X(FNEG)                                                                                    \
     X(FABS)                                                                                    \
     X(FSQRT)                                                                                   \
-    X(FFLOOR) X(FCEIL) X(FTRUNC) X(FROUND) X(FADD) X(FSUB) X(FMUL) X(FDIV) X(FMIN) X(FMAX)     \
-        X(FEQ) X(FNE) X(FLT) X(FLE) X(FGT) X(FGE)
+    X(FFLOOR)                                                                                  \
+    X(FCEIL)                                                                                   \
+    X(FTRUNC) X(FROUND) X(FADD) X(FSUB) X(FMUL) X(FDIV) X(FMIN) X(FMAX) X(FEQ) X(FNE) X(FLT)   \
+        X(FLE) X(FGT) X(FGE)
 #define CASE(op) {#op, MACHINE_##op, {0, 0}},
 
 static void all_operations(const struct binary_case *ops, size_t count,
