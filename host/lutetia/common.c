@@ -52,16 +52,45 @@ static void interrupt_take(int signal_number)
     interrupt_flag = 1;
 }
 
+/* SIGINT is blocked and asked for, not handled: the terminal sends it to the linker that PoCL runs as
+ * a child, too, and PoCL aborts when that dies. What is blocked stays so in children. */
 void interrupt_catch(void)
 {
     struct sigaction action = {.sa_handler = interrupt_take, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL);
+    sigset_t interrupt;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    sigprocmask(SIG_BLOCK, &interrupt, NULL);
     sigaction(SIGTERM, &action, NULL);
 }
 
 bool interrupted(void)
 {
+    sigset_t pending;
+    if (interrupt_flag == 0 && sigpending(&pending) == 0 &&
+        sigismember(&pending, SIGINT) == 1) {
+        sigset_t interrupt;
+        int signal_number;
+        sigemptyset(&interrupt);
+        sigaddset(&interrupt, SIGINT);
+        sigwait(&interrupt, &signal_number); /* this one is taken; the next ends the program */
+        sigprocmask(SIG_UNBLOCK, &interrupt, NULL);
+        interrupt_flag = 1;
+    }
     return interrupt_flag != 0;
+}
+
+int interrupt_report(const char *verb, int status, const char *untouched)
+{
+    if (status == EXIT_SUCCESS || !interrupted())
+        return status;
+    fail(verb, "interrupted; %s as before", untouched);
+    return EXIT_INTERRUPTED;
+}
+
+int fail_paper(const char *verb)
+{
+    return interrupted() ? EXIT_FAILED : fail(verb, "%s", paper_error());
 }
 
 double clock_s(void)
@@ -146,13 +175,13 @@ int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, con
         return fail(verb, "%s", display_error());
     int status = EXIT_SUCCESS;
     if (paper_view_read(sheet, view, image.pixels) != PAPER_OK)
-        status = fail(verb, "%s", paper_error());
-    else if (interrupted())
-        status = fail(verb, "interrupted; %s is as it was", path);
-    else if (display_png_write(path, &image) != DISPLAY_OK)
+        status = fail_paper(verb);
+    if (interrupted())
+        status = EXIT_INTERRUPTED;
+    else if (status == EXIT_SUCCESS && display_png_write(path, &image) != DISPLAY_OK)
         status = fail(verb, "%s", display_error());
     display_image_destroy(&image);
-    return interrupted() ? EXIT_INTERRUPTED : status;
+    return status;
 }
 
 int folder_make(const char *verb, const char *path)

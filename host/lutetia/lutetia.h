@@ -23,6 +23,10 @@ int verb_cc(int argc, char **argv);
 
 /* Prints `lutetia VERB: message` and returns EXIT_FAILED. */
 int fail(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* At a verb's end: the status, and what was interrupted says so, once. */
+int interrupt_report(const char *verb, int status, const char *untouched);
+/* Says paper_error(), but not after Ctrl-C: what fails then fails because of it. */
+int fail_paper(const char *verb);
 int fail_usage(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* ---- Ctrl-C ---- */

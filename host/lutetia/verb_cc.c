@@ -125,6 +125,13 @@ int verb_cc(int argc, char **argv)
     }
     fflush(NULL);
     execvp(line.arguments[0], line.arguments);
-    return fail("cc", "%s: %s; install a C compiler or name one in CC", line.arguments[0],
-                strerror(errno));
+    int status = fail("cc", "%s: %s; install a C compiler or name one in CC", line.arguments[0],
+                      strerror(errno));
+    free(include_flag);
+    free(library_flag);
+    free(runtime_flag);
+    free(include);
+    free(library);
+    free(line.arguments);
+    return status;
 }

@@ -35,7 +35,7 @@ static int stage_step(int stage)
 static int stage_take(struct demo *demo)
 {
     if (paper_view_read(demo->sheet, PAPER_VIEW_COLOR, demo->view.pixels) != PAPER_OK)
-        return fail("demo", "%s", paper_error());
+        return fail_paper("demo");
     size_t strip_row = 3 * (size_t)demo->strip.width_px, page_row = 3 * (size_t)DEMO_WIDTH;
     size_t left = 3 * (size_t)(demo->stages_count * (STAGE_WIDTH + STAGE_GAP));
     for (size_t y = 0; y < STAGE_HEIGHT; y++)
@@ -47,9 +47,9 @@ static int stage_take(struct demo *demo)
 
 static int demo_run(struct demo *demo)
 {
-    if (demo_page_begin(demo->page, demo->sheet) != PAPER_OK)
-        return fail("demo", "%s", paper_error());
     int status = EXIT_SUCCESS;
+    if (demo_page_begin(demo->page, demo->sheet) != PAPER_OK)
+        status = fail_paper("demo");
     struct progress progress = progress_begin("painting", DEMO_STEPS);
     for (int step = 0; step <= DEMO_STEPS && status == EXIT_SUCCESS && !interrupted(); step++) {
         if (step == stage_step(demo->stages_count))
@@ -57,16 +57,12 @@ static int demo_run(struct demo *demo)
         if (step == DEMO_STEPS || status != EXIT_SUCCESS)
             break;
         if (demo_page_step(demo->page, demo->sheet, step) != PAPER_OK)
-            status = fail("demo", "%s", paper_error());
+            status = fail_paper("demo");
         if ((step + 1) % DEMO_MOMENT == 0)
             progress_show(&progress, step + 1);
     }
     progress_end(&progress);
-    if (interrupted()) {
-        fail("demo", "interrupted; the pictures in %s are as they were", demo->dir);
-        return EXIT_INTERRUPTED;
-    }
-    return status;
+    return interrupted() ? EXIT_INTERRUPTED : status;
 }
 
 static int demo_write(struct demo *demo)
@@ -107,13 +103,13 @@ static int demo_prepare(struct demo *demo)
     if (status != EXIT_SUCCESS)
         return status;
     if (demo_page_create(&demo->page) != PAPER_OK)
-        return fail("demo", "%s", paper_error());
+        return fail_paper("demo");
     status = machine_prepare("demo", DEMO_WIDTH, DEMO_HEIGHT);
     if (status != EXIT_SUCCESS)
         return status;
     struct paper_config config = demo_page_config();
     if (paper_create(&config, &demo->sheet) != PAPER_OK)
-        return fail("demo", "%s", paper_error());
+        return fail_paper("demo");
     return EXIT_SUCCESS;
 }
 
@@ -151,5 +147,5 @@ int verb_demo(int argc, char **argv)
     demo_page_destroy(demo.page);
     display_image_destroy(&demo.strip);
     display_image_destroy(&demo.view);
-    return status;
+    return interrupt_report("demo", status, "unfinished pictures are");
 }

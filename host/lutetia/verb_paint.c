@@ -128,7 +128,7 @@ static int screen_from_text(struct paint *paint)
     uint32_t missing = 0;
     if ((paint->size_px == 0 && line_fit(paint, &line) != PAPER_OK) ||
         paper_line_screen(&line, &paint->screen, &missing) != PAPER_OK)
-        return fail("paint", "%s", paper_error());
+        return fail_paper("paint");
     if (missing)
         fprintf(stderr,
                 "lutetia paint: %s has no glyph for U+%04X; its sign for that is set instead\n",
@@ -185,10 +185,9 @@ static int paint_run(const struct paint *paint, struct paper *sheet)
         .gravity_y = paint->gravity,
         .humidity = paint->humidity,
         .molecular_weight = {paint->weights[0], paint->weights[1], paint->weights[2]}};
-    if (paint_apply(paint, sheet) != PAPER_OK || paper_finish(sheet) != PAPER_OK)
-        return fail("paint", "%s", paper_error());
-
     int status = EXIT_SUCCESS;
+    if (paint_apply(paint, sheet) != PAPER_OK || paper_finish(sheet) != PAPER_OK)
+        status = fail_paper("paint");
     struct progress progress = progress_begin("painting", paint->steps);
     for (int step = 0; step <= paint->steps && status == EXIT_SUCCESS; step++) {
         if (interrupted())
@@ -199,15 +198,13 @@ static int paint_run(const struct paint *paint, struct paper *sheet)
             break;
         if (paper_disperse(sheet, &weather) != PAPER_OK ||
             ((step + 1) % STEPS_AT_ONCE == 0 && paper_finish(sheet) != PAPER_OK))
-            status = fail("paint", "%s", paper_error());
+            status = fail_paper("paint");
         if ((step + 1) % STEPS_AT_ONCE == 0)
             progress_show(&progress, step + 1);
     }
     progress_end(&progress);
-    if (interrupted() && status != EXIT_INTERRUPTED) {
-        fail("paint", "interrupted; %s is as it was", paint->out_path);
+    if (interrupted())
         return EXIT_INTERRUPTED;
-    }
     return status == EXIT_SUCCESS ? sheet_write("paint", sheet, view, paint->out_path) : status;
 }
 
@@ -234,11 +231,11 @@ int verb_paint(int argc, char **argv)
         config.seed = (uint64_t)paint.seed;
         config.absorbency = paint.absorbency;
         if (paper_create(&config, &sheet) != PAPER_OK)
-            status = fail("paint", "%s", paper_error());
+            status = fail_paper("paint");
         else
             status = paint_run(&paint, sheet);
     }
     paper_destroy(sheet);
     paper_screen_destroy(&paint.screen);
-    return status;
+    return interrupt_report("paint", status, "the picture is");
 }
