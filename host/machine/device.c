@@ -475,29 +475,61 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
     return program;
 }
 
+/* The entry's text: the options, the kernel's name, the library's hash, the kernel. Owns. */
+static char *program_key(const struct device *d, const char *const parts[3],
+                         const char *options, const char *name)
+{
+    size_t size = strlen(options) + strlen(name) + strlen(parts[2]) + 64;
+    char *key = malloc(size);
+    uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
+    if (key)
+        snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
+                 (unsigned long long)library, parts[2]);
+    return key;
+}
+
+static struct program_entry *program_bucket(struct device *d, const char *key)
+{
+    return &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
+}
+
+static cl_kernel program_find(struct device *d, const char *key)
+{
+    for (struct program_entry *p = program_bucket(d, key)->next; p; p = p->next)
+        if (!strcmp(p->key, key))
+            return p->kernel;
+    return NULL;
+}
+
+bool device_kernel_at_hand(struct machine *m, const char *const parts[3], const char *options,
+                           const char *name)
+{
+    char path[700];
+    char *key = program_key(&m->device, parts, options, name);
+    bool found =
+        key && (program_find(&m->device, key) ||
+                (cache_path(path, sizeof path, &m->device, key) && !access(path, R_OK)));
+    free(key);
+    return found;
+}
+
 cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
                         const char *name)
 {
     struct device *d = &m->device;
-    char all_options[256];
-    snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
-    size_t size = strlen(all_options) + strlen(name) + strlen(parts[2]) + 64;
-    char *key = malloc(size);
+    char *key = program_key(d, parts, options, name);
     if (!key) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
         return NULL;
     }
-    uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
-    snprintf(key, size, "%s\n%s %llx\n%s", all_options, name, (unsigned long long)library,
-             parts[2]);
-    struct program_entry *bucket =
-        &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
-    for (struct program_entry *p = bucket->next; p; p = p->next)
-        if (!strcmp(p->key, key)) {
-            free(key);
-            return p->kernel;
-        }
-    struct program_entry *entry = calloc(1, sizeof *entry);
+    cl_kernel known = program_find(d, key);
+    if (known) {
+        free(key);
+        return known;
+    }
+    char all_options[256];
+    snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
+    struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
     if (entry && (entry->program = build(m, parts, all_options, key))) {
         entry->kernel = clCreateKernel(entry->program, name, &error);

@@ -217,8 +217,8 @@ struct machine {
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
-    uint64_t
-        box_after; /* processors that a plan has run on before its kernels are made better */
+    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
+    uint64_t optimise_after, box_after;
     uint64_t stores, stores_evaluated, flushes, plans_built;
     double busy_s;
 };
@@ -363,6 +363,9 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b);
  * memory, from disk, or built. Belongs to the device. NULL: error set. */
 cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
                         const char *name);
+/* It need not be built: it is in memory, or on disk. */
+bool device_kernel_at_hand(struct machine *m, const char *const parts[3], const char *options,
+                           const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
 
 #endif

@@ -30,8 +30,12 @@ enum {
     HEIGHT_DEFERRED = 96,
     HEIGHT_MOST = 1500,
     RUN_COLUMNS = 4096,
+    OPTIMISE_AFTER = 4 << 20,
     BOX_AFTER = 32 << 20
 };
+
+/* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
+enum quality { QUICK, OPTIMISED, BOXED };
 
 #define TRACE_FACTOR                                                                           \
     0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power   \
@@ -53,7 +57,9 @@ struct plan {
     int *stored; /* nodes that get a buffer */
     int stored_count;
     uint64_t worked; /* processors it has run on, all runs together */
-    bool plain;      /* kernels that would be better with boxes are without */
+    uint64_t work;   /* ... in one run */
+    enum quality quality;
+    bool could_be_optimised, could_be_boxed;
     struct plan *next;
 };
 
@@ -183,6 +189,8 @@ void run_init(struct machine *m)
         m->trace_power *= TRACE_FACTOR;
     const char *after = getenv("LUTETIA_BOX_AFTER");
     m->box_after = after && *after ? strtoull(after, NULL, 10) : BOX_AFTER;
+    after = getenv("LUTETIA_OPTIMISE_AFTER");
+    m->optimise_after = after && *after ? strtoull(after, NULL, 10) : OPTIMISE_AFTER;
 }
 
 void run_finish(struct machine *m)
@@ -264,9 +272,15 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
     const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
+    bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
+    if (quick)
+        strcat(k.options, " -cl-opt-disable");
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
     if (launches)
         p->launches = launches;
+    p->could_be_optimised |= quick;
+    p->could_be_boxed |= k.has_boxes && !g->boxes;
+    p->work += m->sets[set].count;
     if (!kernel) {
         kernel_text_finish(&k);
         return false;
@@ -282,10 +296,11 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
 }
 
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                              bool boxes)
+                              enum quality quality)
 {
-    struct plan_graph g = {
-        .nodes = calloc((size_t)r->count, sizeof *g.nodes), .count = r->count, .boxes = boxes};
+    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes),
+                           .count = r->count,
+                           .boxes = quality == BOXED};
     struct plan *p = calloc(1, sizeof *p);
     int *stores = calloc((size_t)r->count, sizeof *stores);
     bool good = g.nodes && p && stores;
@@ -316,9 +331,14 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
     if (good && m->dump_dir)
         dump_graph(m, m->dump_count, &g);
     int last = 0;
+    uint64_t work = 0;
     for (int i = 0; good && i < g.count; i++)
-        if (g.nodes[i].stored && g.nodes[i].stage > last)
-            last = g.nodes[i].stage;
+        if (g.nodes[i].stored) {
+            last = g.nodes[i].stage > last ? g.nodes[i].stage : last;
+            work = m->sets[g.nodes[i].set].count > work ? m->sets[g.nodes[i].set].count : work;
+        }
+    if (good)
+        p->quality = quality == QUICK && work >= m->optimise_after / 4 ? OPTIMISED : quality;
     for (int stage = 0; good && stage <= last; stage++)
         for (int set = 1; good && set < m->sets_count; set++) {
             int count = 0;
@@ -338,23 +358,36 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
     return p;
 }
 
+/* How well a plan that has run on so many processors is to be made. */
+static enum quality quality_after(const struct machine *m, uint64_t worked)
+{
+    return worked >= m->box_after ? BOXED : worked >= m->optimise_after ? OPTIMISED : QUICK;
+}
+
 /* It has become worth it: the same plan with better kernels. What cannot be had is done without. */
 static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
                          const struct targets *t)
 {
-    struct plan *better = plan_make(m, r, t, true), old = *p;
-    p->plain = false;
+    enum quality quality = quality_after(m, p->worked);
+    if (quality <= p->quality || (quality == OPTIMISED && !p->could_be_optimised) ||
+        (quality == BOXED && !p->could_be_optimised && !p->could_be_boxed))
+        return;
+    struct plan *better = plan_make(m, r, t, quality), old = *p;
+    p->quality = BOXED; /* not again, unless it says so itself */
     if (!better) {
         machine_error_clear(m);
         return;
     }
-    p->launches = better->launches;
-    p->launches_count = better->launches_count;
-    p->stored = better->stored;
-    p->stored_count = better->stored_count;
+    *p = *better;
+    p->signature = old.signature;
+    p->signature_length = old.signature_length;
+    p->hash = old.hash;
+    p->worked = old.worked;
+    p->next = old.next;
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;
+    better->signature = NULL;
     plan_free(better);
 }
 
@@ -377,11 +410,10 @@ static struct plan *plan_get(struct machine *m, const struct reach *r, const str
     for (struct plan *p = *bucket; p; p = p->next)
         if (p->hash == h && p->signature_length == r->length &&
             !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)) {
-            if (p->plain && p->worked >= m->box_after)
-                plan_improve(m, p, r, t);
+            plan_improve(m, p, r, t);
             return p;
         }
-    struct plan *p = plan_make(m, r, t, m->box_after == 0);
+    struct plan *p = plan_make(m, r, t, quality_after(m, 0));
     if (!p)
         return NULL;
     m->plans_built++;
@@ -459,8 +491,7 @@ static enum machine_status execute(struct machine *m, struct plan *p, const stru
     }
     for (int i = 0; i < p->launches_count && !status; i++)
         status = launch(m, &p->launches[i], r, fresh);
-    for (int i = 0; i < p->launches_count; i++)
-        p->worked += m->sets[p->launches[i].set].count;
+    p->worked += p->work;
     for (int i = 0; i < p->stored_count; i++) {
         struct device_buffer *b = fresh[p->stored[i]];
         if (b && status)
