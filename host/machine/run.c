@@ -263,7 +263,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "",
+                                       k.math ? kernel_math_tables_cl : "",
+                                       k.math ? kernel_math_cl : "", k.text};
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
     if (launches)
         p->launches = launches;
