@@ -270,7 +270,7 @@ bool math_fold(int op, struct machine_type type, struct machine_scalar a,
                struct machine_scalar b, struct machine_scalar *out);
 static inline bool op_is_math(int op)
 {
-    return op >= MACHINE_FEXP && op <= MACHINE_FREM;
+    return op >= MACHINE_FEXP && op <= MACHINE_FSCALE;
 }
 
 /* fields.c */

@@ -74,6 +74,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [MACHINE_FPOW] = {"FPOW", 2, 120, 1},
     [MACHINE_FMOD] = {"FMOD", 2, 100, 1},
     [MACHINE_FREM] = {"FREM", 2, 100, 1},
+    [MACHINE_FSCALE] = {"FSCALE", 2, 40, 1},
     [NODE_CONSTANT] = {"constant", 0, 0, 0},
     [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
     [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
@@ -437,7 +438,7 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     if (!a || !b)
         return NULL;
     bool is_float = (op >= MACHINE_FADD && op <= MACHINE_FGE) ||
-                    (op >= MACHINE_FATAN2 && op <= MACHINE_FREM);
+                    (op >= MACHINE_FATAN2 && op <= MACHINE_FSCALE);
     if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 2 ||
         !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation takes two operands of one type, which these are not");
