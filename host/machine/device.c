@@ -423,8 +423,8 @@ static void cache_write(const char *path, const char *key, cl_program program)
     free(binary);
 }
 
-static cl_program build(struct machine *m, const char *const parts[3], const char *options,
-                        const char *key)
+static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *key)
 {
     struct device *d = &m->device;
     char path[700];
@@ -447,8 +447,9 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
         if (program)
             clReleaseProgram(program);
     }
-    const char *sources[3] = {parts[0], parts[1], parts[2]};
-    program = clCreateProgramWithSource(d->context, 3, sources, NULL, &error);
+    const char *sources[DEVICE_PARTS];
+    memcpy(sources, parts, sizeof sources);
+    program = clCreateProgramWithSource(d->context, DEVICE_PARTS, sources, NULL, &error);
     if (error) {
         device_check(m, error, "a program cannot be made");
         free(whole);
@@ -464,7 +465,7 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
         machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s",
                      d->name, error, log);
         if (getenv("LUTETIA_DUMP"))
-            fprintf(stderr, "%s\n%s\n", options, parts[2]);
+            fprintf(stderr, "%s\n%s\n", options, parts[DEVICE_PARTS - 1]);
         clReleaseProgram(program);
         free(whole);
         return NULL;
@@ -476,15 +477,17 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
 }
 
 /* The entry's text: the options, the kernel's name, the library's hash, the kernel. Owns. */
-static char *program_key(const struct device *d, const char *const parts[3],
+static char *program_key(const struct device *d, const char *const parts[DEVICE_PARTS],
                          const char *options, const char *name)
 {
-    size_t size = strlen(options) + strlen(name) + strlen(parts[2]) + 64;
+    size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
     char *key = malloc(size);
-    uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
+    uint64_t library = 0xcbf29ce484222325u;
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        library = hash_text(library, parts[i]);
     if (key)
         snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
-                 (unsigned long long)library, parts[2]);
+                 (unsigned long long)library, parts[DEVICE_PARTS - 1]);
     return key;
 }
 
@@ -501,8 +504,8 @@ static cl_kernel program_find(struct device *d, const char *key)
     return NULL;
 }
 
-bool device_kernel_at_hand(struct machine *m, const char *const parts[3], const char *options,
-                           const char *name)
+bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
+                           const char *options, const char *name)
 {
     char path[700];
     char *key = program_key(&m->device, parts, options, name);
@@ -513,8 +516,8 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[3], const 
     return found;
 }
 
-cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
-                        const char *name)
+cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name)
 {
     struct device *d = &m->device;
     char *key = program_key(d, parts, options, name);

@@ -265,6 +265,31 @@ enum machine_op {
     MACHINE_FLE,
     MACHINE_FGT,
     MACHINE_FGE,
+    /* float -> float: kernels/math.cl, the same bits on every device and here; within 1 ulp
+       (single) and 2 ulp (double) of the correctly rounded result; special cases as in Annex F
+       of C */
+    MACHINE_FEXP,
+    MACHINE_FLN,
+    MACHINE_FLOG2,
+    MACHINE_FLOG10,
+    MACHINE_FSIN, /* radians */
+    MACHINE_FCOS,
+    MACHINE_FTAN,
+    MACHINE_FASIN,
+    MACHINE_FACOS,
+    MACHINE_FATAN,
+    MACHINE_FSINH,
+    MACHINE_FCOSH,
+    MACHINE_FTANH,
+    MACHINE_FASINH,
+    MACHINE_FACOSH,
+    MACHINE_FATANH,
+    /* float, float -> float */
+    MACHINE_FATAN2, /* of the point with y = a, x = b */
+    MACHINE_FPOW,   /* a to the power b */
+    MACHINE_FMOD,   /* a - b floor(a / b): exact but for one rounding; its sign is b's */
+    MACHINE_FREM,   /* a - b trunc(a / b): exact; its sign is a's */
+    MACHINE_FSCALE, /* a 2^b, rounded once; b is whole */
     MACHINE_OP_COUNT_PUBLIC
 };
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
@@ -305,6 +330,12 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
 enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b);
+
+/* The same with a float that is there already: overflow of active processors becomes "result is
+ * infinite and operand is not, nor NaN". */
+enum machine_status machine_overflow_record_result(struct machine *m,
+                                                   struct machine_value *result,
+                                                   struct machine_value *operand);
 
 /* ---- observation ---- */
 

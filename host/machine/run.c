@@ -271,7 +271,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "",
+                                       k.math ? kernel_math_tables_cl : "",
+                                       k.math ? kernel_math_cl : "", k.text};
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
