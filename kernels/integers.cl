@@ -6,6 +6,9 @@
  * is 0, what is left of a division by zero is the dividend; signed numbers are divided as
  * magnitudes, so that the least one over -1 is like any other. */
 
+/* Called rather than copied into each place: kernels of many such would compile for seconds. */
+#define HEAVY __attribute__((noinline))
+
 #define QUOTIENT_TRUNCATE 0
 #define QUOTIENT_FLOOR 1
 #define QUOTIENT_CEILING 2
@@ -214,7 +217,7 @@ inline int q_bits_length(VQ a)
     return a.hi ? 128 - (int)clz(a.hi) : 64 - (int)clz(a.lo);
 }
 
-inline VQ q_quotient(VQ a, VQ b)
+HEAVY VQ q_quotient(VQ a, VQ b)
 {
     VQ q = q_small(0);
     if ((b.lo | b.hi) == 0)
@@ -235,7 +238,7 @@ inline VQ q_quotient(VQ a, VQ b)
     return q;
 }
 
-inline VQ q_rounded(VQ a, VQ b, VI negative, int how)
+HEAVY VQ q_rounded(VQ a, VQ b, VI negative, int how)
 {
     VQ q = q_quotient(a, b), r = q_sub(a, q_mul(q, b)), rest = q_sub(b, r);
     VI up = 0;
@@ -255,29 +258,29 @@ inline VQ q_signed_as(VQ magnitude, VI negative, int w)
     return q_cut(negative ? q_neg(magnitude) : magnitude, w);
 }
 
-inline VQ u_divided_Q(VQ a, VQ b, int how)
+HEAVY VQ u_divided_Q(VQ a, VQ b, int how)
 {
     return q_rounded(a, b, 0, how);
 }
 
-inline VQ s_divided_Q(VQ a, VQ b, int w, int how)
+HEAVY VQ s_divided_Q(VQ a, VQ b, int w, int how)
 {
     VI negative = q_sign(a, w) ^ q_sign(b, w);
     return q_signed_as(q_rounded(q_magnitude(a, w), q_magnitude(b, w), negative, how), negative,
                        w);
 }
 
-inline VQ u_remainder_Q(VQ a, VQ b)
+HEAVY VQ u_remainder_Q(VQ a, VQ b)
 {
     return q_sub(a, q_mul(q_quotient(a, b), b));
 }
 
-inline VQ s_remainder_Q(VQ a, VQ b, int w)
+HEAVY VQ s_remainder_Q(VQ a, VQ b, int w)
 {
     return q_signed_as(u_remainder_Q(q_magnitude(a, w), q_magnitude(b, w)), q_sign(a, w), w);
 }
 
-inline VQ s_modulus_Q(VQ a, VQ b, int w)
+HEAVY VQ s_modulus_Q(VQ a, VQ b, int w)
 {
     VI sa = q_sign(a, w), sb = q_sign(b, w);
     VQ mb = q_magnitude(b, w), r = u_remainder_Q(q_magnitude(a, w), mb);
@@ -286,7 +289,7 @@ inline VQ s_modulus_Q(VQ a, VQ b, int w)
     return q_signed_as(r, sb, w);
 }
 
-inline VQ power_Q(VQ a, VQ b)
+HEAVY VQ power_Q(VQ a, VQ b)
 {
     VQ r = q_small(1);
     while (b.lo | b.hi) {
@@ -298,7 +301,7 @@ inline VQ power_Q(VQ a, VQ b)
     return r;
 }
 
-inline VI u_power_beyond_Q(VQ a, VQ b, int w)
+HEAVY VI u_power_beyond_Q(VQ a, VQ b, int w)
 {
     VQ r = q_small(1);
     VI beyond = 0, square = 0;
@@ -314,7 +317,7 @@ inline VI u_power_beyond_Q(VQ a, VQ b, int w)
     return beyond;
 }
 
-inline VI s_power_beyond_Q(VQ a, VQ b, int w)
+HEAVY VI s_power_beyond_Q(VQ a, VQ b, int w)
 {
     VQ m = q_magnitude(a, w), p = q_cut(power_Q(m, b), w);
     VI negative = q_sign(a, w) & -(int)(b.lo & 1);
@@ -323,7 +326,7 @@ inline VI s_power_beyond_Q(VQ a, VQ b, int w)
     return ~fits | u_power_beyond_Q(m, b, w);
 }
 
-inline VQ u_shifted_Q(VQ a, VU count)
+HEAVY VQ u_shifted_Q(VQ a, VU count)
 {
     int n = (int)count;
     if (n >= 128 || n <= -128)
@@ -331,17 +334,17 @@ inline VQ u_shifted_Q(VQ a, VU count)
     return n >= 0 ? q_shl(a, n) : q_shr(a, -n);
 }
 
-inline VQ s_shifted_Q(VQ a, VU count, int w)
+HEAVY VQ s_shifted_Q(VQ a, VU count, int w)
 {
     int n = (int)count;
     if (n >= 0)
         return u_shifted_Q(a, count);
     n = min(-n, 127);
     VQ x = q_extended(a, w), r = q_shr(x, n);
-    return (long)x.hi < 0 ? q_or(r, q_shl(q_small(~0UL), 128 - n >= 128 ? 127 : 128 - n)) : r;
+    return (long)x.hi < 0 ? q_or(r, q_shl(q_of(~0UL, ~0UL), 128 - n)) : r;
 }
 
-inline VQ rotated_Q(VQ a, VU count, int w)
+HEAVY VQ rotated_Q(VQ a, VU count, int w)
 {
     int n = (int)count;
     return n ? q_or(q_shl(a, n), q_shr(a, w - n)) : a;
@@ -357,19 +360,19 @@ inline VQ population_Q(VQ a)
     return q_small(popcount(a.lo) + popcount(a.hi));
 }
 
-inline VQ from_gray_Q(VQ a)
+HEAVY VQ from_gray_Q(VQ a)
 {
     for (int i = 1; i < 128; i *= 2)
         a = q_xor(a, q_shr(a, i));
     return a;
 }
 
-inline VQ reversed_Q(VQ a, int w)
+HEAVY VQ reversed_Q(VQ a, int w)
 {
     return q_shr(q_of(reversed_L(a.hi, 64), reversed_L(a.lo, 64)), 128 - w);
 }
 
-inline VQ square_root_Q(VQ a)
+HEAVY VQ square_root_Q(VQ a)
 {
     VQ r = q_small(0);
     for (int bit = 63; bit >= 0; bit--) {
