@@ -2,6 +2,8 @@
  * goes in pieces. */
 #include "paris_state.h"
 
+#include <stdlib.h>
+
 struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
                                     struct machine_value *a, struct machine_value *b)
 {
@@ -37,18 +39,67 @@ static struct paris_operand piece(struct paris_operand a, unsigned int offset, u
         a.value.bits = a.letter == 's' && (long)a.value.bits < 0 ? ~0ul : 0;
     else
         a.value.bits >>= offset; /* pieces begin at multiples of 64 */
+    if (len == 1)
+        a.letter = 'b';
     return a;
 }
 
-static void logical_piece(struct machine *m, const struct paris_instruction *self,
-                          struct paris_operand dest, struct paris_operand a,
-                          struct paris_operand b)
+/* What is stored in the piece of dest that begins at bit at. NULL: it is wrong, and that has been said. */
+typedef struct machine_value *piece_value(struct machine *m,
+                                          const struct paris_instruction *self,
+                                          const struct paris_operand *sources,
+                                          unsigned int dest_len, unsigned int at,
+                                          unsigned int len);
+
+static bool crosses(struct paris_operand dest, struct paris_operand source)
 {
+    return !source.is_constant && source.field != dest.field &&
+           dest.field < source.field + source.len && source.field < dest.field + dest.len;
+}
+
+/* A long field, piece by piece. before: all pieces are read before one is stored. */
+static void store_pieces(struct machine *m, const struct paris_instruction *self,
+                         struct paris_operand dest, const struct paris_operand *sources,
+                         piece_value *value, bool before)
+{
+    unsigned int count = (dest.len - 1) / PARIS_PIECE + 1;
+    struct machine_value **values =
+        before ? malloc(count * sizeof(struct machine_value *)) : NULL;
+    if (before && !values) {
+        paris_fail("not enough memory for a move of %u bits", dest.len);
+        return;
+    }
+    for (int pass = before ? 0 : 1; pass < 2; pass++)
+        for (unsigned int i = 0; i < count; i++) {
+            unsigned int at = i * PARIS_PIECE;
+            unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
+            struct machine_value *v =
+                pass && before ? values[i] : value(m, self, sources, dest.len, at, len);
+            if (!v || (pass && !paris_store(m, piece(dest, at, len), v, self->scope))) {
+                free(values);
+                return;
+            }
+            if (!pass)
+                values[i] = v;
+        }
+    free(values);
+}
+
+static struct machine_value *logical_piece(struct machine *m,
+                                           const struct paris_instruction *self,
+                                           const struct paris_operand *sources,
+                                           unsigned int dest_len, unsigned int at,
+                                           unsigned int len)
+{
+    (void)dest_len;
+    struct paris_operand a = piece(sources[0], at, len), b = piece(sources[1], at, len);
     struct machine_value *x = paris_load(m, a, "source1", self->scope);
     struct machine_value *y =
         x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    if (x && y)
-        paris_store(m, dest, paris_boolean(m, self->op, x, y), self->scope);
+    struct machine_value *v = y ? paris_boolean(m, self->op, x, y) : NULL;
+    if (y && !v)
+        paris_fail_machine();
+    return v;
 }
 
 /* A field of no bits is an empty loop's: nothing is done to it. */
@@ -60,14 +111,15 @@ void paris_logical(const struct paris_instruction *self, struct paris_operand de
         !paris_check_operand(a, "source1") || !paris_check_operand(b, "source2") ||
         !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
         return;
-    if (dest.len <= PARIS_INTEGER_MAX) {
-        logical_piece(m, self, dest, a, b);
+    const struct paris_operand sources[2] = {a, b};
+    if (dest.len > PARIS_INTEGER_MAX) {
+        store_pieces(m, self, dest, sources, logical_piece,
+                     crosses(dest, a) || crosses(dest, b));
         return;
     }
-    for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
-        unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
-        logical_piece(m, self, piece(dest, at, len), piece(a, at, len), piece(b, at, len));
-    }
+    struct machine_value *v = logical_piece(m, self, sources, dest.len, 0, dest.len);
+    if (v)
+        paris_store(m, dest, v, self->scope);
 }
 
 /* ---- moves ---- */
@@ -89,6 +141,8 @@ static void move_float(struct machine *m, const struct paris_instruction *self,
 static void move_short(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a)
 {
+    if (a.len == 1) /* a bit, though there is no signed number of one */
+        a.letter = 'b';
     struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
     if (!v)
         return;
@@ -108,23 +162,19 @@ static struct machine_value *filling(struct machine *m, const struct paris_instr
     return sign ? machine_resize(m, sign, (int)len, true) : NULL;
 }
 
-static void move_long(struct machine *m, const struct paris_instruction *self,
-                      struct paris_operand dest, struct paris_operand a)
+static struct machine_value *move_piece(struct machine *m, const struct paris_instruction *self,
+                                        const struct paris_operand *sources,
+                                        unsigned int dest_len, unsigned int at,
+                                        unsigned int len)
 {
-    for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
-        unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
-        struct machine_value *v;
-        if (a.is_constant || at + len <= a.len) {
-            v = paris_load(m, piece(a, at, len), "source", self->scope);
-        } else if (at >= a.len) {
-            v = filling(m, self, a, len);
-        } else {
-            v = paris_load(m, piece(a, at, a.len - at), "source", self->scope);
-            v = v ? machine_resize(m, v, (int)len, a.letter == 's') : NULL;
-        }
-        if (!v || !paris_store(m, piece(dest, at, len), v, self->scope))
-            return;
-    }
+    (void)dest_len;
+    struct paris_operand a = sources[0];
+    if (a.is_constant || at + len <= a.len)
+        return paris_load(m, piece(a, at, len), "source", self->scope);
+    if (at >= a.len)
+        return filling(m, self, a, len);
+    struct machine_value *v = paris_load(m, piece(a, at, a.len - at), "source", self->scope);
+    return v ? machine_resize(m, v, (int)len, a.letter == 's') : NULL;
 }
 
 void paris_move(const struct paris_instruction *self, struct paris_operand dest,
@@ -148,5 +198,49 @@ void paris_move(const struct paris_instruction *self, struct paris_operand dest,
     if (dest.len <= PARIS_INTEGER_MAX && a.len <= PARIS_INTEGER_MAX)
         move_short(m, self, dest, a);
     else
-        move_long(m, self, dest, a);
+        store_pieces(m, self, dest, &a, move_piece, crosses(dest, a));
+}
+
+/* ---- two fields ---- */
+
+static struct machine_value *reversed_piece(struct machine *m,
+                                            const struct paris_instruction *self,
+                                            const struct paris_operand *sources,
+                                            unsigned int dest_len, unsigned int at,
+                                            unsigned int len)
+{
+    struct paris_operand a = piece(sources[0], dest_len - at - len, len);
+    struct machine_value *v = paris_load(m, a, "source", self->scope);
+    return v ? machine_unary(m, MACHINE_REVERSE, v) : NULL;
+}
+
+void paris_move_reversed(const struct paris_instruction *self, struct paris_operand dest,
+                         struct paris_operand source)
+{
+    struct machine *m = paris_begin(self->name);
+    if (dest.len && paris_check_operand(dest, "dest") &&
+        paris_check_operand(source, "source") && paris_check_overlap(dest, source))
+        store_pieces(m, self, dest, &source, reversed_piece,
+                     crosses(dest, source) || source.field == dest.field);
+}
+
+void paris_swap(const struct paris_instruction *self, struct paris_operand dest,
+                struct paris_operand source)
+{
+    struct machine *m = paris_begin(self->name);
+    if (!paris_check_operand(dest, "dest") || !paris_check_operand(source, "source") ||
+        !paris_check_overlap(dest, source))
+        return;
+    if (crosses(dest, source)) {
+        paris_fail("fields that overlap in part cannot change places");
+        return;
+    }
+    for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
+        unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
+        struct paris_operand a = piece(dest, at, len), b = piece(source, at, len);
+        struct machine_value *x = paris_load(m, a, "dest", self->scope);
+        struct machine_value *y = x ? paris_load(m, b, "source", self->scope) : NULL;
+        if (!y || !paris_store(m, a, y, self->scope) || !paris_store(m, b, x, self->scope))
+            return;
+    }
 }

@@ -2,7 +2,7 @@
 """Makes the public header, the entry points, the tests' table and the reference page of instructions.tab.
 
     generate.py header instructions.tab paris.h paris.h.in
-    generate.py entries|tests|tests_floats|reference instructions.tab OUTPUT
+    generate.py entries|tests|tests_floats|integers|reference instructions.tab OUTPUT
 
 Each row becomes a list of Function; the four outputs are four ways of printing these.
 """
@@ -445,7 +445,115 @@ SHAPES = {"float_unary": float_unary, "float_binary": float_binary, "float_by_in
           "float_pair": float_pair, "float_part": float_part, "float_made": float_made, "float_test": float_test,
           "float_swap": float_swap}
 
-SHAPES |= {"binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
+
+
+# ---- integers beyond arithmetic: integers.c and bits.c ----
+
+INTEGER_OPS = {"TRUNCATE": ("UDIV", "SDIV"), "FLOOR": ("UDIV", "SFLOOR"), "CEILING": ("UCEIL", "SCEIL"),
+               "ROUND": ("UROUND", "SROUND"), "MOD": ("UREM", "SMOD"), "REM": ("UREM", "SREM"),
+               "SHIFT": ("USHIFT", "SSHIFT"), "TO_GRAY": ("PARIS_OP_TO_GRAY",) * 2,
+               "SIGNUM": ("PARIS_OP_SIGNUM",) * 2}
+COUNT, CLEN = (FIELD, "count"), (LEN, "clen")
+
+
+def integer_op(op, letter):
+    op = INTEGER_OPS.get(op, (op, op))[letter == "s"]
+    return op if op.startswith("PARIS") else f"MACHINE_{op}"
+
+
+def forms(stem, always, doc, action, row, flags, T, S, wanted, second=SOURCE2, **test):
+    """The forms with two sources of which wanted gives the suffixes; S is the second source's letter, which is a
+    signed long where it is a constant of any length ("n")."""
+    field = "s" if S == "n" else S
+    second_len = {"source2": "slen2", "count": "clen"}[second[1]]
+
+    def make(suffix, const, params, args, operands):
+        return instruction(f"CM_{stem}{const}{mid(always)}_{suffix}", params, doc, action, args, row, flags, always,
+                           type=T, type2=field, op=stem, operands=operands, lengths=int(suffix[2]),
+                           constant=int(const != ""), **test)
+
+    len1, d = (LEN, "len"), operand(T, "dest", "len")
+    two = second if second[1] == "count" else SOURCE
+    a = operand(T, "source" if two is COUNT else "source1", "len")
+    sources = [SOURCE, COUNT] if two is COUNT else [SOURCE1, SOURCE2]
+    two_len = "clen" if two is COUNT else "slen"
+    if "2_1L" in wanted:
+        yield make("2_1L", "", [DEST, two, len1], [d, d, operand(field, two[1], "len")], 2)
+    if "3_1L" in wanted:
+        yield make("3_1L", "", [DEST] + sources + [len1], [d, a, operand(field, second[1], "len")], 3)
+    if "2_2L" in wanted:
+        dd = operand(T, "dest", "dlen")
+        yield make("2_2L", "", [DEST, two, DLEN, (LEN, two_len)], [dd, dd, operand(field, two[1], two_len)], 2)
+    if "3_2L" in wanted:
+        yield make("3_2L", "", [DEST] + sources + [len1, (LEN, second_len)],
+                   [d, a, operand(field, second[1], second_len)], 3)
+    if "3_3L" in wanted:
+        first_len = "slen" if two is COUNT else "slen1"
+        yield make("3_3L", "", [DEST] + sources + [DLEN, (LEN, first_len), (LEN, second_len)],
+                   [operand(T, "dest", "dlen"), operand(T, sources[0][1], first_len),
+                    operand(field, second[1], second_len)], 3)
+    for const in CONSTANTS:
+        def c(length):
+            return "paris_s_constant(value, 64)" if S == "n" else constant(S, "value", length)
+        v = value(field)
+        yield make("2_1L", const, [DEST, v, len1], [d, d, c("len")], 2)
+        yield make("3_1L", const, [DEST, SOURCE, v, len1], [d, operand(T, "source", "len"), c("len")], 3)
+        if "3_3L" in wanted:
+            yield make("3_2L", const, [DEST, SOURCE, v, DLEN, SLEN],
+                       [operand(T, "dest", "dlen"), operand(T, "source", "slen"), c("slen")], 3)
+
+
+def integer(types, name, op, flags, doc):
+    for T in types:
+        for always in (False, True):
+            yield from forms(f"{T}_{name}", always, doc, "paris_integer", integer_op(op, T), flags, T, T,
+                             ("2_1L", "3_1L", "2_2L", "3_3L"), shape="INTEGER")
+
+
+def power(types, name, op, flags, doc):
+    """types: pairs of the base's and the exponent's letter."""
+    for T, S in zip(types[::2], types[1::2]):
+        for always in (False, True):
+            yield from forms(f"{T}_{S}_{name}", always, doc, "paris_power", integer_op(op, T), flags, T, S,
+                             ("2_1L", "3_1L", "2_2L", "3_3L"), shape="INTEGER")
+
+
+def integer1(types, name, op, flags, doc):
+    for T in types:
+        for f in unary(T, name, "NOT", flags, doc):
+            f.body = f.body.replace("MACHINE_NOT", integer_op(op, T)).replace("paris_unary", "paris_integer_unary")
+            f.test.update(shape="INTEGER", op=f"{T}_{name}")
+            yield f
+
+
+def shift(types, name, op, flags, doc):
+    for T in types:
+        for stem in (f"{T}_s_{name}", f"{T}_{name}"):
+            for always in (False, True):
+                yield from forms(stem, always, doc, "paris_shift", integer_op(op, T), flags, T, "n",
+                                 ("2_1L", "3_1L", "2_2L", "3_2L", "3_3L"), COUNT, shape="INTEGER")
+
+
+def rotate(_, name, op, flags, doc):
+    for stem in (name, f"u_{name}"):
+        for always in (False, True):
+            yield from forms(stem, always, doc, "paris_rotate", integer_op(op, "u"), flags, "u", "n",
+                             ("2_1L", "3_1L", "2_2L", "3_2L"), COUNT, shape="INTEGER")
+
+
+def two_fields(_, name, op, flags, doc):
+    """Bit fields of any length. flags: the spellings."""
+    action = f"paris_{name}"
+    for stem in flags:
+        for always in (False, True):
+            yield instruction(f"CM_{stem}{mid(always)}_{op}", [DEST, SOURCE, (LEN, "len")], doc, action,
+                              [operand("b", "dest", "len"), operand("b", "source", "len")], "0", [], always,
+                              shape="INTEGER", type="b", op=name, operands=2, lengths=1)
+
+
+SHAPES |= {"integer": integer, "integer1": integer1, "power": power, "shift": shift, "rotate": rotate,
+          "two_fields": two_fields,
+          "binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
           "logical": logical, "not": complement, "flag": flag, "news": news, "own": own, "processor": processor,
           "newsarray": newsarray, "global": reduction, "globalflag": globalflag}
 
@@ -513,7 +621,7 @@ def tests(sections, floats=False):
     for _, rows in sections:
         for _, functions in rows:
             for f in functions:
-                if not f.body or f.test["shape"] in ("PROCESSOR", "ARRAY"):
+                if not f.body or f.test["shape"] in ("PROCESSOR", "ARRAY", "INTEGER"):
                     continue
                 if f.test["shape"].startswith("FLOAT_") != floats:
                     continue
@@ -542,6 +650,26 @@ def tests(sections, floats=False):
                         for f in functions), "};", ""])
 
 
+def integer_tests(sections):
+    """The same for the rows of the families of integers.c and bits.c, which test_integers.c takes."""
+    calls, rows_out = [], []
+    for _, rows in sections:
+        for _, functions in rows:
+            for f in functions:
+                if not f.body or f.test["shape"] != "INTEGER":
+                    continue
+                t = f.test
+                signed = t.get("type2", t["type"]) == "s"
+                args = ", ".join(f"t->value_{'s' if signed else 'u'}" if n == "value" else f"t->{n}"
+                                 for _, n in f.params)
+                calls.append(f"static void call_{f.name}(const struct integer_args *t)\n{{\n    {f.name}({args});\n}}")
+                rows_out.append(f'    {{"{f.name}", "{t["op"]}", \'{t["type"]}\', \'{t.get("type2", "-")}\', '
+                                f'{t["operands"]}, {t["lengths"]}, {t.get("constant", 0)}, {int(t["always"])}, '
+                                f'call_{f.name}}},')
+    return "\n".join(["/* Generated from instructions.tab: the rows of integers.c and bits.c. */", *calls, "",
+                      "static const struct integer_row integer_rows[] = {", *rows_out, "};", ""])
+
+
 def reference(sections):
     out = ["# Paris, instruction by instruction", "",
            "Generated from `paris_compat/instructions.tab`. Context: an instruction changes dest, test and overflow "
@@ -567,6 +695,7 @@ def main():
         text = header(sections, sys.argv[4])
     else:
         text = {"entries": entries, "tests": tests, "tests_floats": lambda all: tests(all, True),
+                "integers": integer_tests,
                 "reference": reference}[kind](sections)
     with open(output, "w") as out:
         out.write(text)

@@ -39,6 +39,7 @@ struct paris_instruction {
 };
 
 enum { PARIS_OP_ABS = 255 };
+enum { PARIS_OP_TO_GRAY = 254, PARIS_OP_SIGNUM = 253 }; /* of paris_integer_unary() */
 enum paris_news { PARIS_NEWS_GET, PARIS_NEWS_SEND };
 
 #define PARIS_INTEGER_MAX CM_maximum_integer_length
@@ -217,6 +218,22 @@ void paris_float_made(const struct paris_instruction *self, struct paris_operand
 void paris_float_test(const struct paris_instruction *self, struct paris_operand a);
 void paris_float_swap(const struct paris_instruction *self, struct paris_operand dest,
                       struct paris_operand source);
+/* integers.c */
+void paris_integer(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a, struct paris_operand b);
+void paris_power(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a, struct paris_operand b);
+void paris_integer_unary(const struct paris_instruction *self, struct paris_operand dest,
+                         struct paris_operand a);
+void paris_shift(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a, struct paris_operand count);
+void paris_rotate(const struct paris_instruction *self, struct paris_operand dest,
+                  struct paris_operand a, struct paris_operand count);
+/* bits.c */
+void paris_swap(const struct paris_instruction *self, struct paris_operand dest,
+                struct paris_operand source);
+void paris_move_reversed(const struct paris_instruction *self, struct paris_operand dest,
+                         struct paris_operand source);
 void paris_compare(const struct paris_instruction *self, struct paris_operand a,
                    struct paris_operand b);
 void paris_move(const struct paris_instruction *self, struct paris_operand dest,

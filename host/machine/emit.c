@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kernels.h"
+
 enum { STREAM_BYTES = 48 << 20 };
 
 struct text {
@@ -85,7 +87,7 @@ struct emitter {
     int arguments_count, arguments_capacity;
     int inputs, constants_count, names;
     int reach; /* furthest column */
-    bool wide, math, axes_used, failed;
+    bool wide, math, integers, axes_used, failed;
     int ops, loads;
 };
 
@@ -427,6 +429,9 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
                 snprintf(expression, sizeof expression, "%s", raw);
             else
                 spell_cut(expression, sizeof expression, raw, n->type.width);
+        } else if (op_is_integer(n->op)) {
+            e->integers = true;
+            spell_integer(expression, sizeof expression, n->op, from, a, b);
         } else if (n->op < MACHINE_FNEG)
             spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
         else if (op_is_math(n->op)) {
@@ -546,6 +551,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->wide = e->wide;
     out->math = e->math;
     struct text t = {0};
+    if (e->integers)
+        put(&t, "%s", kernel_integers_cl);
     header(e, &t);
     put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");
     if (e->axes_used && set->rank > 1) {

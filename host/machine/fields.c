@@ -545,7 +545,8 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
     struct lazy_overflow *o = &s->overflow;
     if (flag == MACHINE_OVERFLOW && o->op) {
         struct slot *slot = &s->flags[MACHINE_OVERFLOW];
-        struct machine_value *new = node_overflow(m, (enum node_op)o->op, o->a, o->b);
+        struct machine_value *new =
+            o->op == NODE_SELECT ? o->a : node_overflow(m, (enum node_op)o->op, o->a, o->b);
         if (new)
             slot_set(m, slot, machine_select(m, o->context, new, slot->value));
         overflow_clear(m, o);
@@ -659,5 +660,26 @@ enum machine_status machine_overflow_record_result(struct machine *m,
     if (result->type.kind != MACHINE_FLOAT || !type_equal(result->type, operand->type))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
     overflow_remember(m, s, NODE_OVERFLOW_RESULT, result, operand);
+    return MACHINE_OK;
+}
+
+enum machine_status machine_overflow_record_value(struct machine *m,
+                                                  struct machine_value *overflows)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    if (!s || !overflows)
+        return m->status;
+    if (!type_equal(overflows->type, MACHINE_BIT))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
+    if (overflows->set && overflows->set != m->set_current)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    if (s->overflow.op && s->overflow.context != context)
+        flag_resolved(m, s, MACHINE_OVERFLOW);
+    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
+    graph_ref(overflows);
+    graph_ref(context);
+    overflow_clear(m, &s->overflow);
+    s->overflow = (struct lazy_overflow){.op = NODE_SELECT, .a = overflows, .context = context};
     return MACHINE_OK;
 }

@@ -2,6 +2,7 @@
  *
  *   fields.c    VP sets, fields, flags: which value is where          (uses simplify)
  *   simplify.c  makes values; the rules that keep the graph small     (uses graph)
+ *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
  *   emit.c      the text of one kernel                                (pure; no OpenCL)
@@ -124,7 +125,7 @@ struct field {
 };
 
 struct lazy_overflow {
-    uint8_t op; /* a NODE_OVERFLOW_*; 0: none */
+    uint8_t op; /* a NODE_OVERFLOW_*; NODE_SELECT: a is the bit; 0: none */
     struct machine_value *a, *b, *context;
 };
 
@@ -272,6 +273,17 @@ static inline bool op_is_math(int op)
 {
     return op >= MACHINE_FEXP && op <= MACHINE_FSCALE;
 }
+/* A node of the graph, folded by nobody. */
+struct machine_value *node_make(struct machine *m, enum machine_op op, struct machine_type type,
+                                struct machine_value *a, struct machine_value *b);
+
+/* integers.c */
+static inline bool op_is_integer(int op)
+{
+    return op >= MACHINE_UDIV && op <= MACHINE_ISQRT;
+}
+struct machine_value *integer_value(struct machine *m, enum machine_op op,
+                                    struct machine_value *a, struct machine_value *b);
 
 /* fields.c */
 struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */

@@ -565,6 +565,11 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **wante
     return status;
 }
 
+enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
+{
+    return run_evaluate(m, values, count, false);
+}
+
 /* ---- when ---- */
 
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v)

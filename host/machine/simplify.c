@@ -35,6 +35,27 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [MACHINE_ULE] = {"ULE", 2, 1, 0},
     [MACHINE_SLT] = {"SLT", 2, 2, 0},
     [MACHINE_SLE] = {"SLE", 2, 2, 0},
+    [MACHINE_UDIV] = {"UDIV", 2, 24, 0},
+    [MACHINE_UCEIL] = {"UCEIL", 2, 28, 0},
+    [MACHINE_UROUND] = {"UROUND", 2, 32, 0},
+    [MACHINE_UREM] = {"UREM", 2, 28, 0},
+    [MACHINE_SDIV] = {"SDIV", 2, 34, 0},
+    [MACHINE_SFLOOR] = {"SFLOOR", 2, 40, 0},
+    [MACHINE_SCEIL] = {"SCEIL", 2, 40, 0},
+    [MACHINE_SROUND] = {"SROUND", 2, 44, 0},
+    [MACHINE_SREM] = {"SREM", 2, 38, 0},
+    [MACHINE_SMOD] = {"SMOD", 2, 40, 0},
+    [MACHINE_POW] = {"POW", 2, 80, 0},
+    [MACHINE_UPOW_BEYOND] = {"UPOW_BEYOND", 2, 120, 0},
+    [MACHINE_SPOW_BEYOND] = {"SPOW_BEYOND", 2, 140, 0},
+    [MACHINE_USHIFT] = {"USHIFT", 2, 10, 0},
+    [MACHINE_SSHIFT] = {"SSHIFT", 2, 12, 0},
+    [MACHINE_ROTATE] = {"ROTATE", 2, 6, 0},
+    [MACHINE_POPCOUNT] = {"POPCOUNT", 1, 4, 0},
+    [MACHINE_LENGTH] = {"LENGTH", 1, 4, 0},
+    [MACHINE_REVERSE] = {"REVERSE", 1, 20, 0},
+    [MACHINE_UNGRAY] = {"UNGRAY", 1, 12, 0},
+    [MACHINE_ISQRT] = {"ISQRT", 1, 24, 0},
     [MACHINE_FNEG] = {"FNEG", 1, 1, 1},
     [MACHINE_FABS] = {"FABS", 1, 1, 1},
     [MACHINE_FSQRT] = {"FSQRT", 1, 8, 1},
@@ -422,6 +443,8 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
     struct machine_scalar math;
     if (is_number(a) && op_is_math(op) && math_fold(op, a->type, a->imm, a->imm, &math))
         return number(m, a->type, math);
+    if (op_is_integer(op))
+        return integer_value(m, op, a, NULL);
     unsigned __int128 folded;
     if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
         return number(m, a->type, narrow(folded));
@@ -448,6 +471,8 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     if (is_number(a) && is_number(b) && op_is_math(op) &&
         math_fold(op, a->type, a->imm, b->imm, &math))
         return number(m, a->type, math);
+    if (op_is_integer(op))
+        return integer_value(m, op, a, b);
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
         fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))
@@ -500,6 +525,12 @@ struct machine_value *node_overflow(struct machine *m, enum node_op op, struct m
                                     struct machine_value *b)
 {
     return build(m, (int)op, bit_type, 0, a, b, NULL);
+}
+
+struct machine_value *node_make(struct machine *m, enum machine_op op, struct machine_type type,
+                                struct machine_value *a, struct machine_value *b)
+{
+    return build(m, (int)op, type, 0, a, b, NULL);
 }
 
 /* ---- other shapes of the same bits ---- */

@@ -1,0 +1,239 @@
+/* integers.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl computes
+ * them, and numbers among each other are computed here.
+ *
+ * One bit is held otherwise than more are (spell.c), so these operations are done on two where one
+ * was given: sign and value are the same there, and the low bit of what comes out is the result. */
+#include "internal.h"
+
+typedef unsigned __int128 number;
+
+static number mask_of(int width)
+{
+    return width >= 128 ? ~(number)0 : ((number)1 << width) - 1;
+}
+
+static struct machine_scalar scalar(number x)
+{
+    return (struct machine_scalar){(uint64_t)x, (uint64_t)(x >> 64)};
+}
+
+/* ---- numbers ---- */
+
+static bool is_negative(number a, int width)
+{
+    return a >> (width - 1) & 1;
+}
+
+static number negated(number a, int width)
+{
+    return -a & mask_of(width);
+}
+
+static number fold_divided(int op, int width, number a, number b)
+{
+    bool is_signed = op >= MACHINE_SDIV, sa = is_signed && is_negative(a, width),
+         sb = is_signed && is_negative(b, width), negative = sa != sb;
+    number x = sa ? negated(a, width) : a, y = sb ? negated(b, width) : b;
+    number q = y ? x / y : 0, r = y ? x % y : x;
+    bool inexact = y && r, up = false;
+    switch (op) {
+    case MACHINE_UREM:
+    case MACHINE_SREM:
+        return sa ? negated(r, width) : r;
+    case MACHINE_SMOD:
+        r = negative && r ? y - r : r;
+        return (sb ? -r : r) & mask_of(width);
+    case MACHINE_SFLOOR:
+        up = inexact && negative;
+        break;
+    case MACHINE_UCEIL:
+    case MACHINE_SCEIL:
+        up = inexact && !negative;
+        break;
+    case MACHINE_UROUND:
+    case MACHINE_SROUND:
+        up = inexact && (r > y - r || (r == y - r && (q & 1)));
+        break;
+    default:
+        break;
+    }
+    q += up;
+    return (negative ? -q : q) & mask_of(width);
+}
+
+static bool product_beyond(number a, number b, int width)
+{
+    number p;
+    return __builtin_mul_overflow(a, b, &p) || p > mask_of(width);
+}
+
+/* a to the b, modulo 2^128; whether it is 2^width or more. */
+static number raised(number a, number b, int width, bool *beyond)
+{
+    number r = 1;
+    bool square = false;
+    *beyond = false;
+    for (; b; b >>= 1) {
+        if (b & 1) {
+            *beyond = *beyond || square || product_beyond(r, a, width);
+            r *= a;
+        }
+        square = square || product_beyond(a, a, width);
+        a *= a;
+    }
+    return r;
+}
+
+static number fold_power(int op, int width, number a, number b)
+{
+    bool beyond, negative = op == MACHINE_SPOW_BEYOND && is_negative(a, width);
+    number p = raised(negative ? negated(a, width) : a, b, width, &beyond);
+    if (op == MACHINE_POW)
+        return p & mask_of(width);
+    if (op == MACHINE_SPOW_BEYOND) {
+        number limit = (number)1 << (width - 1);
+        p &= mask_of(width);
+        beyond = beyond || !(p < limit || (p == limit && negative && (b & 1)));
+    }
+    return beyond;
+}
+
+static number fold_shifted(int op, int width, number a, int n)
+{
+    if (op == MACHINE_ROTATE)
+        return n ? a << n | a >> (width - n) : a;
+    if (op == MACHINE_SSHIFT && is_negative(a, width) &&
+        n < 0) /* the complement's, complemented */
+        return ~fold_shifted(MACHINE_USHIFT, width, ~a & mask_of(width), n) & mask_of(width);
+    if (n >= 128 || n <= -128)
+        return 0;
+    return n >= 0 ? a << n : a >> -n;
+}
+
+static number fold_counted(int op, int width, number a)
+{
+    number r = 0;
+    switch (op) {
+    case MACHINE_POPCOUNT:
+        for (; a; a &= a - 1)
+            r++;
+        return r;
+    case MACHINE_LENGTH:
+        for (; a; a >>= 1)
+            r++;
+        return r;
+    case MACHINE_REVERSE:
+        for (int i = 0; i < width; i++)
+            r |= (a >> i & 1) << (width - 1 - i);
+        return r;
+    case MACHINE_UNGRAY:
+        for (; a; a >>= 1)
+            r ^= a;
+        return r;
+    default: /* ISQRT */
+        for (int bit = 63; bit >= 0; bit--) {
+            number t = r | (number)1 << bit;
+            if (t * t <= a)
+                r = t;
+        }
+        return r;
+    }
+}
+
+static number folded(enum machine_op op, int width, number a, number b)
+{
+    if (op <= MACHINE_SMOD)
+        return fold_divided((int)op, width, a, b);
+    if (op <= MACHINE_SPOW_BEYOND)
+        return fold_power((int)op, width, a, b);
+    if (op <= MACHINE_ROTATE)
+        return fold_shifted((int)op, width, a, (int)(int32_t)(uint32_t)b);
+    return fold_counted((int)op, width, a);
+}
+
+/* ---- values ---- */
+
+static number number_of(const struct machine_value *v)
+{
+    return (number)v->imm.hi << 64 | v->imm.lo;
+}
+
+static bool keeps_sign(enum machine_op op)
+{
+    return (op >= MACHINE_SDIV && op <= MACHINE_SMOD) || op == MACHINE_SSHIFT ||
+           op == MACHINE_SPOW_BEYOND;
+}
+
+/* Operands have one width but for shifts, whose b is a count of 32 bits. */
+struct machine_value *integer_value(struct machine *m, enum machine_op op,
+                                    struct machine_value *a, struct machine_value *b)
+{
+    if (!a || (node_ops[op].inputs == 2 && !b))
+        return NULL;
+    int width = a->type.width;
+    bool gives_bit = op == MACHINE_UPOW_BEYOND || op == MACHINE_SPOW_BEYOND;
+    bool shifts = op >= MACHINE_USHIFT && op <= MACHINE_ROTATE;
+    struct machine_type type = gives_bit ? MACHINE_BIT : a->type;
+    if (a->op == NODE_CONSTANT && (!b || b->op == NODE_CONSTANT))
+        return machine_constant(m, type,
+                                scalar(folded(op, width, number_of(a), b ? number_of(b) : 0)));
+    if (width == 1 && (op == MACHINE_ROTATE || op >= MACHINE_POPCOUNT))
+        return a;
+    if (width > 1)
+        return node_make(m, op, type, a, b);
+    if (gives_bit) { /* 0 and 1 to the power fit; -1 (a signed 1) does unless it becomes 1 */
+        struct machine_value *even = machine_unary(m, MACHINE_NOT, b);
+        return op == MACHINE_SPOW_BEYOND
+                   ? even
+                   : machine_constant(m, type, (struct machine_scalar){0, 0});
+    }
+    a = machine_resize(m, a, 2, keeps_sign(op));
+    if (b && !shifts)
+        b = machine_resize(m, b, 2, keeps_sign(op));
+    struct machine_value *v =
+        a && (b || node_ops[op].inputs == 1) ? node_make(m, op, MACHINE_UINT(2), a, b) : NULL;
+    return v ? machine_extract(m, v, 0, 1) : NULL;
+}
+
+static struct machine_value *small(struct machine *m, int width, int64_t x)
+{
+    return machine_constant(m, MACHINE_UINT(width),
+                            (struct machine_scalar){(uint64_t)x, x < 0 ? UINT64_MAX : 0});
+}
+
+/* A signed count, as one of 32 bits from -128 to 128. */
+static struct machine_value *count_bounded(struct machine *m, struct machine_value *count)
+{
+    int width = count->type.width;
+    if (width > 8) {
+        count = machine_binary(m, MACHINE_SMIN, count, small(m, width, 128));
+        count = machine_binary(m, MACHINE_SMAX, count, small(m, width, -128));
+    }
+    return machine_resize(m, count, 32, true);
+}
+
+/* The same modulo width, 0 and above. */
+static struct machine_value *count_round(struct machine *m, struct machine_value *count,
+                                         int width)
+{
+    if (count->type.width < 32)
+        count = machine_resize(m, count, 32, true);
+    struct machine_value *modulus = count ? small(m, count->type.width, width) : NULL;
+    count = machine_binary(m, MACHINE_SMOD, count, modulus);
+    return machine_resize(m, count, 32, false);
+}
+
+struct machine_value *machine_bits_shift(struct machine *m, enum machine_op op,
+                                         struct machine_value *a, struct machine_value *count)
+{
+    if (!a || !count)
+        return NULL;
+    if (op < MACHINE_USHIFT || op > MACHINE_ROTATE || a->type.kind != MACHINE_BITS ||
+        count->type.kind != MACHINE_BITS) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "bits are shifted, by a number");
+        return NULL;
+    }
+    count =
+        op == MACHINE_ROTATE ? count_round(m, count, a->type.width) : count_bounded(m, count);
+    return integer_value(m, op, a, count);
+}

@@ -1,0 +1,273 @@
+/* Quotients, remainders, powers, shifts and counts of integers: rows of the families integer,
+ * integer1, power, shift, rotate.
+ *
+ * Lengths are as in arithmetic.c: sources are filled to the longest of the lengths, the operation is
+ * done there, the result is cut off to dest's. Overflow is 1 where the true result is none of dest's
+ * numbers, or there is none (a divisor of zero, the square root of a negative number, zero to a
+ * negative power), else 0; it is computed only if somebody looks. What is stored then:
+ *     a quotient by zero is 0, and what remains of a division by zero is the dividend
+ *     the square root of a negative number is 0, and so is zero to a negative power
+ *     the low bits of the true result, otherwise
+ * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1. */
+#include "paris_state.h"
+
+static unsigned int longest(unsigned int a, unsigned int b)
+{
+    return a > b ? a : b;
+}
+
+static struct machine_value *resize(struct machine *m, struct machine_value *v,
+                                    unsigned int width, bool is_signed)
+{
+    return v ? machine_resize(m, v, (int)width, is_signed) : NULL;
+}
+
+/* A number of all ones or of a small value. */
+static struct machine_value *number(struct machine *m, unsigned int width, int x)
+{
+    return machine_constant(
+        m, MACHINE_UINT(width),
+        (struct machine_scalar){(uint64_t)(int64_t)x, x < 0 ? UINT64_MAX : 0});
+}
+
+static struct machine_value *is_number(struct machine *m, struct machine_value *v, int x)
+{
+    return v ? machine_binary(m, MACHINE_EQ, v, number(m, machine_value_type(v).width, x))
+             : NULL;
+}
+
+static struct machine_value *is_least(struct machine *m, struct machine_value *v)
+{
+    unsigned int top = machine_value_type(v).width - 1u;
+    struct machine_scalar least = {top < 64 ? UINT64_C(1) << top : 0,
+                                   top < 64 ? 0 : UINT64_C(1) << (top - 64)};
+    return machine_binary(m, MACHINE_EQ, v, machine_constant(m, MACHINE_UINT(top + 1), least));
+}
+
+static struct machine_value *sign_of(struct machine *m, struct machine_value *v)
+{
+    return v ? machine_extract(m, v, machine_value_type(v).width - 1, 1) : NULL;
+}
+
+static struct machine_value *both(struct machine *m, struct machine_value *a,
+                                  struct machine_value *b)
+{
+    return machine_binary(m, MACHINE_AND, a, b);
+}
+
+static struct machine_value *either(struct machine *m, struct machine_value *a,
+                                    struct machine_value *b)
+{
+    return machine_binary(m, MACHINE_OR, a, b);
+}
+
+/* 1 where v is not the number that its low len bits are. */
+static struct machine_value *lost_in(struct machine *m, struct machine_value *v,
+                                     unsigned int len, bool is_signed)
+{
+    if (!v || machine_value_type(v).width <= len)
+        return v ? number(m, 1, 0) : NULL;
+    unsigned int width = machine_value_type(v).width;
+    return machine_binary(m, MACHINE_NE, v,
+                          resize(m, resize(m, v, len, is_signed), width, is_signed));
+}
+
+static bool check(struct paris_operand dest, struct paris_operand a, struct paris_operand b)
+{
+    struct machine_type type;
+    return paris_type(dest, "dest", &type) && paris_check_operand(dest, "dest") &&
+           paris_check_overlap(dest, a) && paris_check_overlap(dest, b);
+}
+
+/* The flag (NULL is an error that the machine has noted), then dest. */
+static void finish(struct machine *m, const struct paris_instruction *self,
+                   struct paris_operand dest, struct machine_value *result, bool is_signed,
+                   struct machine_value *overflow)
+{
+    if (!result || !overflow ||
+        (self->overflow && machine_overflow_record_value(m, overflow) != MACHINE_OK)) {
+        paris_fail_machine();
+        return;
+    }
+    paris_store(m, dest, resize(m, result, dest.len, is_signed), self->scope);
+}
+
+/* Two sources; false: one is wrong, and that has been said. */
+static bool load_two(struct machine *m, const struct paris_instruction *self,
+                     struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                     struct machine_value **x, struct machine_value **y)
+{
+    *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
+    *y = *x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    return *y != NULL;
+}
+
+/* ---- quotients ---- */
+
+void paris_integer(const struct paris_instruction *self, struct paris_operand dest,
+                   struct paris_operand a, struct paris_operand b)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_value *x, *y;
+    if (!check(dest, a, b) || !load_two(m, self, dest, a, b, &x, &y))
+        return;
+    bool is_signed = dest.letter == 's';
+    unsigned int width = longest(dest.len, longest(a.len, b.len));
+    x = resize(m, x, width, is_signed);
+    y = resize(m, y, width, is_signed);
+    struct machine_value *result = machine_binary(m, self->op, x, y);
+    struct machine_value *overflow =
+        either(m, is_number(m, y, 0), lost_in(m, result, dest.len, is_signed));
+    if (self->op >= MACHINE_SDIV && self->op <= MACHINE_SROUND && x && y)
+        overflow = either(m, overflow, both(m, is_least(m, x), is_number(m, y, -1)));
+    finish(m, self, dest, result, is_signed, overflow);
+}
+
+/* ---- powers ---- */
+
+/* x to the negative y. */
+static struct machine_value *inverse_power(struct machine *m, struct machine_value *x,
+                                           struct machine_value *y, bool is_signed)
+{
+    unsigned int width = machine_value_type(x).width;
+    struct machine_value *one = number(m, width, 1), *none = number(m, width, 0);
+    struct machine_value *others = none;
+    if (is_signed) {
+        struct machine_value *minus = machine_select(m, machine_extract(m, y, 0, 1), x, one);
+        others = machine_select(m, is_number(m, x, -1), minus, none);
+    }
+    return others ? machine_select(m, is_number(m, x, 1), one, others) : NULL;
+}
+
+void paris_power(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a, struct paris_operand b)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_value *x, *y;
+    if (!check(dest, a, b) || !load_two(m, self, dest, a, b, &x, &y))
+        return;
+    bool is_signed = dest.letter == 's', may_invert = b.letter == 's';
+    unsigned int width = longest(dest.len, longest(a.len, b.len));
+    x = resize(m, x, width, is_signed);
+    y = resize(m, y, width, may_invert);
+    struct machine_value *result = machine_binary(m, MACHINE_POW, x, y);
+    struct machine_value *overflow =
+        machine_binary(m, is_signed ? MACHINE_SPOW_BEYOND : MACHINE_UPOW_BEYOND, x, y);
+    if (may_invert && result && overflow) {
+        struct machine_value *negative = sign_of(m, y),
+                             *inverse = inverse_power(m, x, y, is_signed);
+        result = machine_select(m, negative, inverse, result);
+        overflow = machine_select(m, negative, is_number(m, x, 0), overflow);
+    }
+    overflow = either(m, overflow, lost_in(m, result, dest.len, is_signed));
+    finish(m, self, dest, result, is_signed, overflow);
+}
+
+/* ---- of one number ---- */
+
+/* The bits that differ from the sign. */
+static struct machine_value *without_sign(struct machine *m, struct machine_value *x,
+                                          bool is_signed)
+{
+    if (!is_signed)
+        return x;
+    struct machine_value *spread = resize(m, sign_of(m, x), machine_value_type(x).width, true);
+    return machine_binary(m, MACHINE_XOR, x, spread);
+}
+
+static struct machine_value *signum(struct machine *m, struct machine_value *x)
+{
+    unsigned int width = machine_value_type(x).width;
+    struct machine_value *positive =
+        resize(m, machine_binary(m, MACHINE_NE, x, number(m, width, 0)), width, false);
+    struct machine_value *sign = sign_of(m, x);
+    return positive && sign ? machine_select(m, sign, number(m, width, -1), positive) : NULL;
+}
+
+static struct machine_value *to_gray(struct machine *m, struct machine_value *x)
+{
+    return machine_binary(m, MACHINE_XOR, x,
+                          machine_bits_shift(m, MACHINE_USHIFT, x, number(m, 32, -1)));
+}
+
+void paris_integer_unary(const struct paris_instruction *self, struct paris_operand dest,
+                         struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    if (!check(dest, a, a))
+        return;
+    struct machine_value *x = paris_load(m, a, "source", self->scope), *result,
+                         *overflow = number(m, 1, 0);
+    if (!x)
+        return;
+    bool is_signed = a.letter == 's', result_signed = false;
+    switch (self->op) {
+    case MACHINE_POPCOUNT:
+    case MACHINE_LENGTH:
+        result = machine_unary(m, self->op, without_sign(m, x, is_signed));
+        break;
+    case MACHINE_ISQRT:
+        result = machine_unary(m, MACHINE_ISQRT, x);
+        if (is_signed && result) {
+            overflow = sign_of(m, x);
+            result = machine_select(m, overflow, number(m, a.len, 0), result);
+            result_signed = true;
+        }
+        break;
+    case MACHINE_UNGRAY:
+        result = machine_unary(m, MACHINE_UNGRAY, x);
+        break;
+    case PARIS_OP_TO_GRAY:
+        result = to_gray(m, x);
+        break;
+    default: /* PARIS_OP_SIGNUM */
+        result = signum(m, resize(m, x, longest(dest.len, a.len), true));
+        result_signed = true;
+        break;
+    }
+    overflow = either(m, overflow, lost_in(m, result, dest.len, result_signed));
+    finish(m, self, dest, result, result_signed, overflow);
+}
+
+/* ---- shifts ---- */
+
+/* To the left what comes back otherwise is lost, to the right what dest does not hold. */
+static struct machine_value *shift_overflow(struct machine *m,
+                                            const struct paris_instruction *self,
+                                            struct machine_value *x,
+                                            struct machine_value *result, unsigned int len,
+                                            struct machine_value *count, bool is_signed)
+{
+    unsigned int width = machine_value_type(x).width;
+    struct machine_value *kept = resize(m, resize(m, result, len, is_signed), width, is_signed);
+    struct machine_value *back = count ? machine_unary(m, MACHINE_NEG, count) : NULL;
+    struct machine_value *again = machine_bits_shift(m, self->op, kept, back);
+    struct machine_value *differs = machine_binary(m, MACHINE_NE, again, x);
+    struct machine_value *right = sign_of(m, count);
+    struct machine_value *lost = lost_in(m, result, len, is_signed);
+    return right && lost && differs ? machine_select(m, right, lost, differs) : NULL;
+}
+
+void paris_shift(const struct paris_instruction *self, struct paris_operand dest,
+                 struct paris_operand a, struct paris_operand count)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_value *x, *n;
+    if (!check(dest, a, count) || !load_two(m, self, dest, a, count, &x, &n))
+        return;
+    bool is_signed = dest.letter == 's';
+    x = resize(m, x, longest(dest.len, a.len), is_signed);
+    n = resize(m, n, count.len < PARIS_INTEGER_MAX ? count.len + 1 : count.len, true);
+    struct machine_value *result = machine_bits_shift(m, self->op, x, n);
+    finish(m, self, dest, result, is_signed,
+           result ? shift_overflow(m, self, x, result, dest.len, n, is_signed) : NULL);
+}
+
+void paris_rotate(const struct paris_instruction *self, struct paris_operand dest,
+                  struct paris_operand a, struct paris_operand count)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_value *x, *n;
+    if (check(dest, a, count) && load_two(m, self, dest, a, count, &x, &n))
+        paris_store(m, dest, machine_bits_shift(m, MACHINE_ROTATE, x, n), self->scope);
+}
