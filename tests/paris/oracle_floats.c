@@ -168,9 +168,7 @@ struct oracle_result oracle_part(const char *op, int width, number a, int dlen, 
         r = (__int128)ldexp(is_signed ? m : fabs(m), s + 1);
         out.overflow = !isfinite(x);
     } else if (is_signed) { /* exponent */
-        r = x == 0 ? -(((__int128)1) << (dlen - 1)) : isfinite(x) ? n - 1 : 0;
-        if (dlen == 128 && x == 0)
-            r = (__int128)((number)1 << 127);
+        r = x == 0 ? (__int128)(~(number)0 << (dlen - 1)) : isfinite(x) ? n - 1 : 0;
         out.overflow = x == 0 || !isfinite(x);
     } else {
         r = (__int128)((a >> s) & oracle_mask(width - 1 - s));
