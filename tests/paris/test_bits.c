@@ -46,16 +46,25 @@ static void begin(void)
     CM_deallocate_stack_through(f);
 }
 
+/* Copies first, all at once: a download of other bits than were stored is a kernel of its own. */
 static void expect(const char *what)
 {
-    for (int at = 0; at < BITS; at += 100) {
+    enum { PIECES = BITS / 100 };
+    CM_field_id_t copies[PIECES];
+    for (int p = 0; p < PIECES; p++) {
+        copies[p] = CM_allocate_stack_field(100);
+        CM_u_move_always_1L(copies[p], field + (CM_field_id_t)(100 * p), 100);
+    }
+    assert_int_equal(machine_finish(paris_machine()), MACHINE_OK);
+    for (int p = 0; p < PIECES; p++) {
         number numbers[COUNT];
-        device_get(field + (CM_field_id_t)at, 100, numbers);
+        device_get(copies[p], 100, numbers);
         for (int i = 0; i < COUNT; i++)
             for (int k = 0; k < 100; k++)
-                if ((numbers[i] >> k & 1) != model[i][at + k])
-                    fail_msg("%s: processor %d, bit %d", what, i, at + k);
+                if ((numbers[i] >> k & 1) != model[i][100 * p + k])
+                    fail_msg("%s: processor %d, bit %d", what, i, 100 * p + k);
     }
+    CM_deallocate_stack_through(copies[0]);
 }
 
 enum { MOVE, REVERSED, SWAP, XOR, NOT };
@@ -95,7 +104,6 @@ static void long_fields_are_the_oracles(void **unused)
     model_do(NOT, 100, 100, 0, 300, false);
     CM_lognot_1_1L(AT(100), 0);
     CM_u_move_zero_always_1L(AT(100), 0);
-    expect("moves and logical operations");
     CM_u_move_zero_always_1L(AT(100), 250);
     for (int i = 0; i < COUNT; i++)
         memset(&model[i][100], 0, 250);
@@ -116,13 +124,10 @@ static void overlapping_moves_read_first(void **unused)
     begin();
     CM_u_move_1L(AT(37), AT(0), 600);
     model_do(MOVE, 37, 0, 0, 600, false);
-    expect("to the higher");
     CM_s_move_always_1L(AT(1), AT(90), 600);
     model_do(MOVE, 1, 90, 0, 600, true);
-    expect("to the lower");
     CM_logxor_2_1L(AT(65), AT(0), 400);
     model_do(XOR, 65, 65, 0, 400, false);
-    expect("exclusive or with itself");
     CM_lognot_2_1L(AT(20), AT(10), 100);
     model_do(NOT, 20, 10, 0, 100, false);
     expect("short ones");
@@ -143,7 +148,7 @@ static void swapped_and_reversed_fields_are_the_oracles(void **unused)
         model_do(REVERSED, 355, 5, 0, len, false);
         CM_u_move_reversed_always_1L(AT(2), AT(2), (unsigned int)len);
         model_do(REVERSED, 2, 2, 0, len, true);
-        if (k % 3 == 1 || k == 7)
+        if (k % 4 == 3)
             expect("swapped and reversed");
     }
     CM_move_reversed_1L(AT(100), AT(50), 200);
