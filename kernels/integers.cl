@@ -7,7 +7,7 @@
  * magnitudes, so that the least one over -1 is like any other. */
 
 /* Called rather than copied into each place: kernels of many such would compile for seconds. */
-#define HEAVY __attribute__((noinline))
+#define HEAVY static __attribute__((noinline))
 
 #define QUOTIENT_TRUNCATE 0
 #define QUOTIENT_FLOOR 1
@@ -16,7 +16,7 @@
 
 /* ---- quotients of numbers without a sign ---- */
 
-inline VU quotient_U(VU a, VU b)
+HEAVY VU quotient_U(VU a, VU b)
 {
     VI none = CMP_U(b == (VU)(0));
     VU d = SEL_U(none, (VU)(1), b);
@@ -28,19 +28,19 @@ inline VU quotient_U(VU a, VU b)
     return SEL_U(none, (VU)(0), q);
 }
 
-inline VL quotient_L(VL a, VL b)
+HEAVY VL quotient_L(VL a, VL b)
 {
     VI none = CMP_L(b == (VL)(0));
     VL d = SEL_L(none, (VL)(1), b);
     return SEL_L(none, (VL)(0), a / d);
 }
 
-inline VU square_root_U(VU a) /* a double's is exact enough, as above */
+HEAVY VU square_root_U(VU a) /* a double's is exact enough, as above */
 {
     return CONVERT(uint, sqrt(CONVERT(double, a)));
 }
 
-inline VL square_root_L(VL a)
+HEAVY VL square_root_L(VL a)
 {
     VL r = CONVERT(ulong, sqrt(CONVERT(double, a)));
     r = min(r, (VL)(0xffffffffUL));
@@ -72,7 +72,7 @@ inline VL square_root_L(VL a)
         return SEL(sign_##X(a, w), negated_##X(a, w), a);                                      \
     }                                                                                          \
     /* a / b, to be negated where negative says so */                                          \
-    inline V rounded_##X(V a, V b, VI negative, int how)                                       \
+    HEAVY V rounded_##X(V a, V b, VI negative, int how)                                        \
     {                                                                                          \
         V q = quotient_##X(a, b), r = a - q * b;                                               \
         VI inexact = CMP(r != (V)(0)) & CMP(b != (V)(0)), up = (VI)(0);                        \
@@ -85,33 +85,33 @@ inline VL square_root_L(VL a)
                  (CMP(r > b - r) | (CMP(r == b - r) & CMP((q & (V)(ONE)) != (V)(0))));         \
         return SEL(up, q + (V)(ONE), q);                                                       \
     }                                                                                          \
-    inline V u_divided_##X(V a, V b, int how)                                                  \
+    HEAVY V u_divided_##X(V a, V b, int how)                                                   \
     {                                                                                          \
         return rounded_##X(a, b, (VI)(0), how);                                                \
     }                                                                                          \
-    inline V s_divided_##X(V a, V b, int w, int how)                                           \
+    HEAVY V s_divided_##X(V a, V b, int w, int how)                                            \
     {                                                                                          \
         VI negative = sign_##X(a, w) ^ sign_##X(b, w);                                         \
         V q = rounded_##X(magnitude_##X(a, w), magnitude_##X(b, w), negative, how);            \
         return SEL(negative, negated_##X(q, w), q);                                            \
     }                                                                                          \
-    inline V u_remainder_##X(V a, V b)                                                         \
+    HEAVY V u_remainder_##X(V a, V b)                                                          \
     {                                                                                          \
         return a - quotient_##X(a, b) * b;                                                     \
     }                                                                                          \
-    inline V s_remainder_##X(V a, V b, int w)                                                  \
+    HEAVY V s_remainder_##X(V a, V b, int w)                                                   \
     {                                                                                          \
         V r = u_remainder_##X(magnitude_##X(a, w), magnitude_##X(b, w));                       \
         return SEL(sign_##X(a, w), negated_##X(r, w), r);                                      \
     }                                                                                          \
-    inline V s_modulus_##X(V a, V b, int w)                                                    \
+    HEAVY V s_modulus_##X(V a, V b, int w)                                                     \
     {                                                                                          \
         VI sa = sign_##X(a, w), sb = sign_##X(b, w);                                           \
         V mb = magnitude_##X(b, w), r = u_remainder_##X(magnitude_##X(a, w), mb);              \
         r = SEL((sa ^ sb) & CMP(r != (V)(0)), mb - r, r);                                      \
         return SEL(sb, negated_##X(r, w), r & ones_##X(w));                                    \
     }                                                                                          \
-    inline V power_##X(V a, V b)                                                               \
+    HEAVY V power_##X(V a, V b)                                                                \
     {                                                                                          \
         V r = (V)(ONE);                                                                        \
         for (int i = 0; i < BITS && any(CMP(b != (V)(0))); i++) {                              \
@@ -125,7 +125,7 @@ inline VL square_root_L(VL a)
     {                                                                                          \
         return CMP(mul_hi(a, b) != (V)(0)) | CMP((a * b & ~ones_##X(w)) != (V)(0));            \
     }                                                                                          \
-    inline VI u_power_beyond_##X(V a, V b, int w)                                              \
+    HEAVY VI u_power_beyond_##X(V a, V b, int w)                                               \
     {                                                                                          \
         V r = (V)(ONE);                                                                        \
         VI beyond = (VI)(0), square = (VI)(0);                                                 \
@@ -139,7 +139,7 @@ inline VL square_root_L(VL a)
         }                                                                                      \
         return beyond;                                                                         \
     }                                                                                          \
-    inline VI s_power_beyond_##X(V a, V b, int w)                                              \
+    HEAVY VI s_power_beyond_##X(V a, V b, int w)                                               \
     {                                                                                          \
         V m = magnitude_##X(a, w), p = power_##X(m, b) & ones_##X(w);                          \
         VI negative = sign_##X(a, w) & CMP((b & (V)(ONE)) != (V)(0));                          \
@@ -147,14 +147,14 @@ inline VL square_root_L(VL a)
         VI fits = CMP(p < limit) | (negative & CMP(p == limit));                               \
         return ~fits | u_power_beyond_##X(m, b, w);                                            \
     }                                                                                          \
-    inline V u_shifted_##X(V a, VU count)                                                      \
+    HEAVY V u_shifted_##X(V a, VU count)                                                       \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V s = FROM_U(AS_U(by & (VI)(BITS - 1)));                                               \
         V r = SEL(left, a << s, a >> s);                                                       \
         return SEL(CMP_U(by >= (VI)(BITS)), (V)(0), r);                                        \
     }                                                                                          \
-    inline V s_shifted_##X(V a, VU count, int w)                                               \
+    HEAVY V s_shifted_##X(V a, VU count, int w)                                                \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V l = FROM_U(AS_U(by & (VI)(BITS - 1))), r = FROM_U(AS_U(min(by, (VI)(BITS - 1))));    \
@@ -162,7 +162,7 @@ inline VL square_root_L(VL a)
         V moved = SEL(left, a << l, AS_V(x >> AS_S_(r)));                                      \
         return SEL(left & CMP_U(by >= (VI)(BITS)), (V)(0), moved);                             \
     }                                                                                          \
-    inline V rotated_##X(V a, VU count, int w)                                                 \
+    HEAVY V rotated_##X(V a, VU count, int w)                                                  \
     {                                                                                          \
         V n = FROM_U(count);                                                                   \
         return (a << n) | (a >> (((V)(ONE * w) - n) & (V)(BITS - 1)));                         \
@@ -183,7 +183,7 @@ inline VL square_root_L(VL a)
 INTEGERS(U, VU, VI, 1u, 32, CMP_U, SEL_U, AS_U, AS_S, SAME)
 INTEGERS(L, VL, VM, 1UL, 64, CMP_L, SEL_L, AS_L, AS_M, TO_L)
 
-inline VU reversed_U(VU a, int w)
+HEAVY VU reversed_U(VU a, int w)
 {
     a = ((a >> 1) & 0x55555555u) | ((a & 0x55555555u) << 1);
     a = ((a >> 2) & 0x33333333u) | ((a & 0x33333333u) << 2);
@@ -193,7 +193,7 @@ inline VU reversed_U(VU a, int w)
     return a >> (VU)(32 - w);
 }
 
-inline VL reversed_L(VL a, int w)
+HEAVY VL reversed_L(VL a, int w)
 {
     a = ((a >> 1UL) & 0x5555555555555555UL) | ((a & 0x5555555555555555UL) << 1UL);
     a = ((a >> 2UL) & 0x3333333333333333UL) | ((a & 0x3333333333333333UL) << 2UL);

@@ -37,8 +37,7 @@ struct integer_row {
 enum {
     ROW_COUNT = sizeof integer_rows / sizeof integer_rows[0],
     COUNT = 157 * 13,
-    BATCH = 40,
-    LONG = 1000
+    BATCH = 140
 };
 
 /* ---- the machine and what is on it ---- */
@@ -127,14 +126,8 @@ static CM_field_id_t field_with(int width, const number *numbers)
     return field;
 }
 
-static void start(int rows, int columns, int processors)
+static void arrange(int rows, int columns)
 {
-    struct machine_config config = machine_config_default();
-    config.processors_count = processors;
-    if (!paris_reset(&config)) {
-        fprintf(stderr, "skipped: %s\n", paris_error());
-        exit(77);
-    }
     int dimensions[2] = {rows, columns};
     count = rows * columns;
     CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry((CM_vector_t){.ints = dimensions}, 2)));
@@ -147,14 +140,26 @@ static void start(int rows, int columns, int processors)
     overflow_field = field_with(1, overflow);
 }
 
+static int start(void **unused)
+{
+    struct machine_config config = machine_config_default();
+    (void)unused;
+    config.processors_count = 256;
+    if (!paris_reset(&config)) {
+        fprintf(stderr, "skipped: %s\n", paris_error());
+        exit(77);
+    }
+    numbers_fill();
+    return 0;
+}
+
 /* ---- cases ---- */
 
 struct trial {
     const struct integer_row *row;
     int dlen, alen, blen;
     struct integer_args args;
-    CM_field_id_t overflow;
-    bool full; /* in all processors */
+    CM_field_id_t overflow; /* CM_no_field: nobody looks */
 };
 
 static struct trial batch[BATCH];
@@ -182,7 +187,8 @@ static void check(const struct trial *t)
     static number dest[COUNT], flag[COUNT];
     bool two = t->row->operands == (t->row->type2 == '-' ? 1 : 2);
     get(t->args.dest, t->dlen, dest);
-    get(t->overflow, 1, flag);
+    if (t->overflow != CM_no_field)
+        get(t->overflow, 1, flag);
     for (int i = 0; i < count; i++) {
         bool active = context[i] != 0;
         number old = (two ? first[i] : second[i]) & oracle_mask(t->dlen), b = second[i];
@@ -198,7 +204,7 @@ static void check(const struct trial *t)
             report(t, i, "dest", dest[i], wanted);
             return;
         }
-        if (flag[i] != overflows) {
+        if (t->overflow != CM_no_field && flag[i] != overflows) {
             report(t, i, "overflow", flag[i], overflows);
             return;
         }
@@ -225,7 +231,9 @@ static bool is_unary(const struct integer_row *row)
     return row->type2 == '-';
 }
 
-static void trial(const struct integer_row *row, int dlen, int alen, int blen)
+/* constant: any number; the row takes what of it fits. */
+static void trial(const struct integer_row *row, int dlen, int alen, int blen, number constant,
+                  bool looks)
 {
     struct trial *t = &batch[batch_count++];
     bool shift = strstr(row->op, "shift") != NULL, rotate = strstr(row->op, "rotate") != NULL;
@@ -241,7 +249,7 @@ static void trial(const struct integer_row *row, int dlen, int alen, int blen)
     int wide = dlen > 64 || alen > 64 || blen > 64;
     struct integer_args *args = &t->args;
     args->dest = CM_allocate_stack_field((unsigned int)dlen);
-    t->overflow = CM_allocate_stack_field(1);
+    t->overflow = looks ? CM_allocate_stack_field(1) : CM_no_field;
     args->source = args->source1 = first_field[wide];
     args->source2 = args->count = second_field[wide];
     if (two) {
@@ -255,15 +263,14 @@ static void trial(const struct integer_row *row, int dlen, int alen, int blen)
     args->slen = args->slen1 =
         (unsigned int)(two && !row->constant && !is_unary(row) ? blen : alen);
     args->slen2 = args->clen = (unsigned int)blen;
-    int clen = blen < 64 ? blen : 64;
-    number constant = any() % 2 ? second[any() % COUNT] : any() % 40;
-    if (shift || rotate)
-        constant = (number)(any() % 200) - 100;
+    int clen = dlen < alen ? dlen : alen;
+    clen = shift || rotate || clen > 64 ? 64 : clen;
     args->value_u = (unsigned long)(constant & oracle_mask(clen));
     args->value_s = (long)oracle_extend(constant, clen, true);
     CM_load_overflow_always(overflow_field);
     row->call(args);
-    CM_store_overflow_always(t->overflow);
+    if (looks)
+        CM_store_overflow_always(t->overflow);
     cases++;
     if (batch_count == BATCH)
         batch_finish();
@@ -302,21 +309,24 @@ static void every_row_is_the_oracles(void **unused)
     static const int lengths[][3] = {{32, 32, 32}, {8, 13, 5},  {16, 7, 20}, {33, 64, 9},
                                      {1, 1, 1},    {24, 32, 3}, {64, 40, 8}, {100, 128, 70}};
     (void)unused;
-    start(157, 13, 256);
+    arrange(157, 13);
     begin();
     int k = 0;
     const char *last = "";
+    number constant = 0;
     for (int r = 0; r < ROW_COUNT; r++) {
         const struct integer_row *row = &integer_rows[r];
         if (!is_number(row))
             continue;
-        if (strcmp(row->op, last)) /* all forms of one operation: one computation */
+        if (strcmp(row->op, last)) { /* all forms of one operation: one computation */
             k++;
+            constant = k % 2 ? second[any() % COUNT] : (number)(any() % 100) - 50;
+        }
         last = row->op;
         const int *l = lengths[k % (int)(sizeof lengths / sizeof *lengths)];
         bool is_signed = row->type == 's' || row->type2 == 's';
         trial(row, l[0] + (is_signed && l[0] == 1), l[1] + (is_signed && l[1] == 1),
-              l[2] + (is_signed && l[2] == 1));
+              l[2] + (is_signed && l[2] == 1), constant, !row->constant || row->lengths == 2);
     }
     finish();
 }
@@ -330,35 +340,101 @@ static const struct integer_row *row_named(const char *name)
     return NULL;
 }
 
-static void widths_run(const char *const *names, int names_count, int low, int high, int step)
+/* Rows of arithmetic.c at all widths, a dest and a test bit each. */
+static void common_rows_at(int width, CM_field_id_t out[3])
 {
-    for (int width = low; width <= high; width += step)
-        for (int i = 0; i < names_count; i++)
-            trial(row_named(names[i]), width, width, width);
+    int wide = width > 64;
+    unsigned int len = (unsigned int)width;
+    CM_field_id_t a = first_field[wide], b = second_field[wide];
+    for (int i = 0; i < 3; i++)
+        out[i] = CM_allocate_stack_field(i < 2 ? len : 1);
+    CM_u_add_3_1L(out[0], a, b, len);
+    CM_s_multiply_3_1L(out[1], a, b, len);
+    CM_load_test_always(test_field);
+    if (width % 2)
+        CM_u_lt_1L(a, b, len);
+    else
+        CM_s_le_1L(a, b, len);
+    CM_store_test_always(out[2]);
 }
 
-/* Divisions and shifts at 1..128, on VP ratios 1, 2 and 8 (whose kernels are the same). */
-static void all_widths_are_the_oracles(void **unused)
+static void common_rows_check(int width, const CM_field_id_t out[3])
+{
+    static number got[3][COUNT];
+    for (int k = 0; k < 3; k++)
+        get(out[k], k < 2 ? width : 1, got[k]);
+    for (int i = 0; i < count; i++) {
+        number a = first[i], b = second[i], wanted[3] = {0, 0, test[i]};
+        if (context[i]) {
+            wanted[0] = oracle_integer("add", false, a, width, b, width, width).bits;
+            wanted[1] = oracle_integer("multiply", true, a, width, b, width, width).bits;
+            wanted[2] = width % 2 ? oracle_integer_compare("lt", false, a, width, b, width)
+                                  : oracle_integer_compare("le", true, a, width, b, width);
+        }
+        for (int k = 0; k < 3; k++)
+            if (got[k][i] != wanted[k])
+                fail_msg("row %d at %d bits, processor %d", k, width, i);
+    }
+}
+
+static void common_rows_run(int step)
+{
+    static CM_field_id_t out[129][3];
+    for (int width = 1; width <= 128; width += step)
+        common_rows_at(width, out[width]);
+    for (int width = 1; width <= 128; width += step)
+        common_rows_check(width, out[width]);
+}
+
+/* Rows of 64 processors make kernels of whole vectors. */
+static void vectors_are_the_oracles(void **unused)
+{
+    static const int lengths[] = {32, 11, 47};
+    (void)unused;
+    arrange(30, 64);
+    begin();
+    for (int r = 0, k = 0; r < ROW_COUNT; r++) {
+        const struct integer_row *row = &integer_rows[r];
+        if (!is_number(row) || row->constant || row->always || row->lengths != 1 ||
+            row->operands != (is_unary(row) ? 2 : 3))
+            continue;
+        int len = lengths[k++ % 3];
+        trial(row, len, len, len, 0, k % 2);
+    }
+    finish();
+}
+
+static void widths_run(int step)
 {
     static const char *const names[] = {"CM_u_truncate_3_1L", "CM_s_truncate_3_1L",
                                         "CM_u_s_shift_3_1L", "CM_s_s_shift_3_1L"};
-    static const int processors[] = {2048, 1024, 256};
+    for (int width = 1; width <= 128; width += step)
+        for (int i = 0; i < 4; i++)
+            if (width <= 64 || (width + i) % 2)
+                trial(row_named(names[i]), width, width, width, 0, width % 16 == 1);
+    finish();
+}
+
+/* Arithmetic, comparisons, divisions and shifts at 1..128, on VP ratios 1, 2 and 8. */
+static void all_widths_are_the_oracles(void **unused)
+{
+    static const int rows[] = {19, 39, 157}, ratios[] = {1, 2, 8};
     (void)unused;
-    for (int k = 0; k < 3; k++) {
-        start(157, 13, processors[k]);
-        assert_int_equal(CM_virtual_to_physical_processor_ratio, 1 << (k == 2 ? 3 : k));
+    for (int k = 2; k >= 0; k--) {
+        arrange(rows[k], 13);
+        assert_int_equal(CM_virtual_to_physical_processor_ratio, ratios[k]);
         begin();
-        widths_run(names, 4, 1 + k % 2, 128, k == 0 ? 1 : 9);
-        finish();
+        widths_run(k < 2 ? 9 : 1);
+        common_rows_run(k < 2 ? 9 : 1);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_is_the_oracles),
         cmocka_unit_test(all_widths_are_the_oracles),
+        cmocka_unit_test(every_row_is_the_oracles),
+        cmocka_unit_test(vectors_are_the_oracles),
     };
-    numbers_fill();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, start, NULL);
 }
