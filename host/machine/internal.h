@@ -81,6 +81,7 @@ struct device_buffer {
 
 struct machine_value {
     uint8_t op;
+    uint8_t origin; /* the op that it was made as; op becomes NODE_BUFFER once it is computed */
     struct machine_type type;
     uint8_t axis;
     uint8_t generator; /* cost where nothing is read from memory, else GENERATOR_NONE */
