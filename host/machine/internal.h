@@ -168,6 +168,8 @@ struct device {
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_run;
     const char *options;
+    cl_event fence;         /* see device_pace(); NULL: none yet */
+    uint64_t fence_kernels; /* run before it */
 };
 
 struct plan;
@@ -365,5 +367,8 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b);
 cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
                         const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
+/* After kernels were started: waits where the front end is hundreds of them ahead of the device,
+ * for each that waits in the queue takes memory. */
+enum machine_status device_pace(struct machine *m);
 
 #endif

@@ -512,6 +512,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     if (p) {
         status = execute(m, p, &r);
         clFlush(m->device.queue);
+        status = status ? status : device_pace(m);
         m->flushes++;
         m->epoch++;
     } else if (!status) {
