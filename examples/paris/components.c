@@ -79,7 +79,7 @@ int flood (ink, address, plain, height, width)
     static int down[4] = { -1, 1, 0, 0 }, across[4] = { 0, 0, -1, 1 };
     int *queue = (int *) malloc (height * width * sizeof (int));
     char *seen = calloc (height * width, 1);
-    int k, i, n, head, tail, row, column, pieces = 0;
+    int k, i, n, next, head, tail, row, column, pieces = 0;
     unsigned int least;
 
     for (k = 0; k < height * width; k++) {
@@ -97,14 +97,12 @@ int flood (ink, address, plain, height, width)
             for (n = 0; n < 4; n++) {
                 row = i / width + down[n];
                 column = i % width + across[n];
-                if (row < 0 || column < 0 || row >= height || column >= width)
-                    continue;
-                i = row * width + column;
-                if (ink[i] && !seen[i]) {
-                    seen[i] = 1;
-                    queue[tail++] = i;
+                next = row * width + column;
+                if (row >= 0 && column >= 0 && row < height && column < width && ink[next]
+                    && !seen[next]) {
+                    seen[next] = 1;
+                    queue[tail++] = next;
                 }
-                i = queue[head - 1];
             }
         }
         for (i = 0; i < tail; i++)

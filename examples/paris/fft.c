@@ -46,8 +46,8 @@ void transform (value, bits, sign)
         CM_c_add_2_1L (value, other, DOUBLE);
         CM_set_context ();
     }
-    CM_u_move_zero_1L (low, ADDRESS);
-    CM_move_reversed_1L (low, place, bits);
+    for (b = 0; b < bits; b++)
+        CM_u_move_1L (low + b, place + bits - 1 - b, 1);
     CM_u_move_zero_1L (address, ADDRESS);
     CM_deposit_news_coordinate_1L (CM_current_geometry, address, 0, low, bits);
     CM_send_1L (value, address, value, 128, CM_no_field);
