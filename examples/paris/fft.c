@@ -31,15 +31,16 @@ void transform (value, bits, sign)
 
     CM_my_news_coordinate_1L (place, 0, ADDRESS);
     for (b = bits - 1; b >= 0; b--) {
-        CM_get_from_power_two_1L (other, value, 0, b, 128);
+        CM_get_from_power_two_1L (other, value, 0, b, CM_upward, 128);
         CM_load_context (CM_add_offset_to_field_id (place, b));
+        CM_get_from_power_two_1L (other, value, 0, b, CM_downward, 128);
         CM_c_subtract_3_1L (value, other, value, DOUBLE);
         if (b > 0) { /* the lower b bits of the place say which root */
             CM_u_move_2L (low, place, ADDRESS, b);
             CM_f_u_float_2_2L (angle, low, ADDRESS, DOUBLE);
             CM_f_multiply_constant_2_1L (angle, sign * PI / (1 << b), DOUBLE);
             CM_f_cos_2_1L (root, angle, DOUBLE);
-            CM_f_sin_2_1L (root + 64, angle, DOUBLE);
+            CM_f_sin_2_1L (CM_add_offset_to_field_id (root, 64), angle, DOUBLE);
             CM_c_multiply_2_1L (value, root, DOUBLE);
         }
         CM_invert_context ();
@@ -47,9 +48,9 @@ void transform (value, bits, sign)
         CM_set_context ();
     }
     for (b = 0; b < bits; b++)
-        CM_u_move_1L (low + b, place + bits - 1 - b, 1);
-    CM_u_move_zero_1L (address, ADDRESS);
-    CM_deposit_news_coordinate_1L (CM_current_geometry, address, 0, low, bits);
+        CM_u_move_1L (CM_add_offset_to_field_id (low, b),
+                      CM_add_offset_to_field_id (place, bits - 1 - b), 1);
+    CM_make_news_coordinate_1L (CM_current_geometry, address, 0, low, bits);
     CM_send_1L (value, address, value, 128, CM_no_field);
     CM_deallocate_stack_through (place);
 }

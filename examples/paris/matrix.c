@@ -45,8 +45,8 @@ int main (argc, argv)
                                  CM_float_double);
     CM_f_write_to_news_array_1L (b, zero, zero, sizes, b_axes, other, DOUBLE, 2, sizes,
                                  CM_float_double);
-    CM_spread_from_zero (left, 1);
-    CM_spread_from_zero (other, 0);
+    CM_spread_with_copy_1L (left, left, 1, 64, 0);
+    CM_spread_with_copy_1L (other, other, 0, 64, 0);
     CM_f_multiply_2_1L (left, other, DOUBLE);
     CM_spread_with_f_add_1L (left, left, 2, DOUBLE);
     CM_f_read_from_news_array_1L (c, zero, zero, sizes, c_axes, left, DOUBLE, 2, sizes,

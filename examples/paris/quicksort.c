@@ -85,8 +85,7 @@ int quicksort (key)
             from_last (total, total);
             CM_u_add_2_1L (base, total, PLACE);
         }
-        CM_u_move_zero_1L (address, PLACE);
-        CM_deposit_news_coordinate_1L (CM_current_geometry, address, 0, place, PLACE);
+        CM_make_news_coordinate_1L (CM_current_geometry, address, 0, place, PLACE);
         CM_send_1L (key, address, key, KEY + KIND, CM_no_field);
 
         CM_get_from_news_1L (place, kind, 0, CM_downward, KIND);

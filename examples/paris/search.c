@@ -90,8 +90,7 @@ int main (argc, argv)
     }
     found = CM_global_count_context ();
     CM_enumerate_1L (number, 0, PLACE, CM_upward, CM_exclusive, CM_none, CM_no_field);
-    CM_u_move_zero_1L (address, PLACE);
-    CM_deposit_news_coordinate_1L (CM_current_geometry, address, 0, number, PLACE);
+    CM_make_news_coordinate_1L (CM_current_geometry, address, 0, number, PLACE);
     CM_my_news_coordinate_1L (place, 0, PLACE);
     CM_send_1L (result, address, place, PLACE, CM_no_field);
 

@@ -20,7 +20,17 @@
 
 static int counts[1], zero[1], axis[1];
 
-/* The key of the processor whose coordinate differs in bit b. */
+/* other = the key of the processor whose coordinate differs in bit b. */
+void meet (other, key, place, b)
+    CM_field_id_t other, key, place;
+    int b;
+{
+    CM_get_from_power_two_1L (other, key, 0, b, CM_upward, KEY);
+    CM_load_context (CM_add_offset_to_field_id (place, b));
+    CM_get_from_power_two_1L (other, key, 0, b, CM_downward, KEY);
+    CM_set_context ();
+}
+
 void bitonic (key, bits)
     CM_field_id_t key;
     int bits;
@@ -32,7 +42,7 @@ void bitonic (key, bits)
     CM_my_news_coordinate_1L (place, 0, KEY);
     for (k = 1; k <= bits; k++)
         for (b = k - 1; b >= 0; b--) {
-            CM_get_from_power_two_1L (other, key, 0, b, KEY);
+            meet (other, key, place, b);
             /* Blocks whose number is odd fall; the upper one of two takes the greater if it rises. */
             CM_u_move_zero_1L (take_greater, 1);
             CM_logxor_2_1L (take_greater, CM_add_offset_to_field_id (place, b), 1);
@@ -54,8 +64,7 @@ void by_rank (key, bits)
     CM_field_id_t rank = CM_allocate_stack_field (bits), address = CM_allocate_stack_field (KEY);
 
     CM_u_rank_2L (rank, key, 0, bits, KEY, CM_upward, CM_none, CM_no_field);
-    CM_u_move_zero_1L (address, KEY);
-    CM_deposit_news_coordinate_1L (CM_current_geometry, address, 0, rank, bits);
+    CM_make_news_coordinate_1L (CM_current_geometry, address, 0, rank, bits);
     CM_send_1L (key, address, key, KEY, CM_no_field);
     CM_deallocate_stack_through (rank);
 }
