@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh PROGRAM ARGUMENT...: runs an example in a folder of its own; it must say "yes" and never "no", and
 # the pictures that it names must be there.
-program=$1
+program=$(realpath "$1") || exit 1
 shift
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
