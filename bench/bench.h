@@ -9,5 +9,6 @@
 #define LUTETIA_BENCH_H
 
 int bench_diffusion_main(int argc, char **argv);
+int bench_calls_main(int argc, char **argv);
 
 #endif

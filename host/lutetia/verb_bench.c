@@ -14,6 +14,7 @@ static const struct {
 } benches[] = {
     {"diffusion", bench_diffusion_main,
      "the thesis's cycle through the machine, beside its limits"},
+    {"calls", bench_calls_main, "what a C/Paris call costs the front end"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };

@@ -224,11 +224,35 @@ static void pool_empty(struct device *d)
     d->pool_bytes = 0;
 }
 
+enum { KERNELS_AHEAD = 256 };
+
+/* A fence is put behind every KERNELS_AHEAD kernels, and the one before it waited for. */
+enum machine_status device_pace(struct machine *m)
+{
+    struct device *d = &m->device;
+    if (d->kernels_run - d->fence_kernels < KERNELS_AHEAD)
+        return MACHINE_OK;
+    cl_event reached = d->fence;
+    cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &d->fence);
+    if (error)
+        d->fence = NULL;
+    d->fence_kernels = d->kernels_run;
+    if (reached) {
+        double start = machine_clock_s();
+        error |= clWaitForEvents(1, &reached);
+        clReleaseEvent(reached);
+        m->busy_s += machine_clock_s() - start;
+    }
+    return device_check(m, error, "waiting for the device");
+}
+
 void device_close(struct machine *m)
 {
     struct device *d = &m->device;
     if (d->queue)
         clFinish(d->queue);
+    if (d->fence)
+        clReleaseEvent(d->fence);
     pool_empty(d);
     free(d->pool);
     if (d->programs)

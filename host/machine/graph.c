@@ -163,6 +163,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
         table_grow(m);
     struct machine_value *v = node_new(m);
     *v = *key;
+    v->origin = v->op;
     v->refs = 0;
     v->hash = hash;
     v->mark = 0;
@@ -185,6 +186,7 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
 {
     struct machine_value *v = node_new(m);
     *v = (struct machine_value){.op = NODE_BUFFER,
+                                .origin = NODE_BUFFER,
                                 .type = type,
                                 .generator = GENERATOR_NONE,
                                 .set = (uint16_t)set,

@@ -84,6 +84,7 @@ struct device_buffer {
 
 struct machine_value {
     uint8_t op;
+    uint8_t origin; /* the op that it was made as; op becomes NODE_BUFFER once it is computed */
     struct machine_type type;
     uint8_t axis;
     uint8_t generator; /* cost where nothing is read from memory, else GENERATOR_NONE */
@@ -170,6 +171,8 @@ struct device {
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_run;
     const char *options;
+    cl_event fence;         /* see device_pace(); NULL: none yet */
+    uint64_t fence_kernels; /* run before it */
 };
 
 struct plan;
@@ -392,5 +395,8 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
+/* After kernels were started: waits where the front end is hundreds of them ahead of the device,
+ * for each that waits in the queue takes memory. */
+enum machine_status device_pace(struct machine *m);
 
 #endif

@@ -545,6 +545,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     if (p) {
         status = execute(m, p, &r);
         clFlush(m->device.queue);
+        status = status ? status : device_pace(m);
         m->flushes++;
         m->epoch++;
     } else if (!status) {
@@ -578,10 +579,11 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     if (m->eager)
         return run_evaluate(m, NULL, 0, true);
     /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they
-     * went. */
-    uint64_t what = ((uint64_t)v->op << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
+     * went, nor whether their operands have been computed. A shift of a shift is one shift, of
+     * whatever was there first: its operand says nothing. */
+    uint64_t what = ((uint64_t)v->origin << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
     const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
-    what = (what * 64 + (in ? in->op : 0)) * 0x9e3779b97f4a7c15u;
+    what = (what * 128 + (in && v->op != NODE_SHIFT ? in->origin : 0)) * 0x9e3779b97f4a7c15u;
     uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
     m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
     *oldest = what;

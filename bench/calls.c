@@ -1,0 +1,221 @@
+/* calls.c - `lutetia bench calls`: what a C/Paris call costs the front end, which does not wait
+ * for it.
+ *
+ * Recorded: the processor time of the calling thread, which makes the calls and hands their
+ * evaluation over. To the end: the time until the device is done, too. Growth: of the process,
+ * and of what the machine holds, over a million calls after a warm-up. */
+#include "calls.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "harness.h"
+#include "paris_internal.h"
+
+enum { SIDE = 256, CALLS_TIMED = 10000, CALLS_GROWTH = 1000000, REPEAT_MIN = 10 };
+
+/* ---- the program ---- */
+
+void calls_init(struct calls *c, int width, int height)
+{
+    int dimensions[2] = {height, width};
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
+    CM_set_context();
+    c->count = CM_allocate_heap_field(32);
+    c->limit = CM_allocate_heap_field(32);
+    c->small = CM_allocate_heap_field(8);
+    c->heat = CM_allocate_heap_field(32);
+    c->mark = CM_allocate_heap_field(1);
+    CM_my_news_coordinate_1L(c->count, 1, 32);
+    CM_u_move_constant_1L(c->limit, 1000, 32);
+    CM_my_news_coordinate_1L(c->small, 0, 8);
+    CM_f_u_float_2_2L(c->heat, c->count, 32, 23, 8);
+    CM_clear_bit(c->mark);
+}
+
+void calls_turn(const struct calls *c, int turn)
+{
+    CM_field_id_t east = CM_allocate_stack_field(32), west = CM_allocate_stack_field(32);
+
+    CM_get_from_news_1L(east, c->heat, 1, CM_upward, 32);
+    CM_get_from_news_1L(west, c->heat, 1, CM_downward, 32);
+    CM_f_add_2_1L(east, west, 23, 8);
+    CM_f_multiply_constant_2_1L(east, 0.5, 23, 8);
+    CM_f_subtract_2_1L(east, c->heat, 23, 8);
+    CM_f_multiply_constant_2_1L(east, 0.1, 23, 8);
+    CM_f_add_2_1L(c->heat, east, 23, 8);
+    CM_f_gt_constant_1L(c->heat, 100.0 + turn % 7, 23, 8);
+    CM_logand_context_with_test();
+    CM_set_bit(c->mark);
+    CM_u_add_constant_2_1L(c->count, 3, 32);
+    CM_u_gt_1L(c->count, c->limit, 32);
+    CM_logand_context_with_test();
+    CM_u_subtract_2_1L(c->count, c->limit, 32);
+    CM_clear_bit(c->mark);
+    CM_set_context();
+
+    CM_field_id_t sum = CM_allocate_stack_field(16);
+    CM_u_move_2L(sum, c->small, 16, 8);
+    CM_u_add_constant_2_1L(sum, (unsigned long)(turn & 15), 16);
+    CM_u_move_constant_1L(east, 77, 32);
+    CM_u_move_1L(west, east, 32);
+    CM_get_from_news_1L(c->small, c->small, 0, CM_downward, 8);
+    CM_load_context(c->mark);
+    CM_u_move_2L(c->small, sum, 8, 16);
+    CM_invert_context();
+    CM_u_eq_constant_1L(c->small, 5, 8);
+    CM_logand_context_with_test();
+    CM_u_add_constant_2_1L(c->small, 1, 8);
+    CM_set_context();
+    CM_deallocate_stack_through(sum);
+    CM_u_eq_1L(c->small, c->small, 8);
+    CM_store_test(c->mark);
+    CM_logxor_2_1L(c->mark, c->small, 1);
+    CM_s_lt_constant_1L(c->count, 500, 32);
+    CM_logand_context_with_test();
+    CM_invert_bit(c->mark);
+    CM_set_context();
+    CM_deallocate_stack_through(east);
+}
+
+unsigned long calls_sum(const struct calls *c)
+{
+    return CM_global_u_add_1L(c->count, 32) + CM_global_u_add_1L(c->small, 8) +
+           CM_global_count_bit(c->mark);
+}
+
+/* ---- measuring ---- */
+
+static double thread_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void calls_make(const struct calls *c, int calls_count, double *recorded_s, double *total_s)
+{
+    double thread = thread_s(), start = bench_now_s();
+    for (int turn = 0; turn < calls_count / CALLS_IN_TURN; turn++)
+        calls_turn(c, turn);
+    *recorded_s = thread_s() - thread;
+    machine_finish(paris_machine());
+    *total_s = bench_now_s() - start;
+}
+
+size_t calls_resident_bytes(void)
+{
+    unsigned long all, resident;
+    FILE *f = fopen("/proc/self/statm", "r");
+    int got = f ? fscanf(f, "%lu %lu", &all, &resident) : 0;
+    if (f)
+        fclose(f);
+    return got == 2 ? resident * (size_t)sysconf(_SC_PAGESIZE) : 0;
+}
+
+static struct bench_sample one(double value)
+{
+    return (struct bench_sample){value, value};
+}
+
+static bool cost_measure(struct bench_report *r, const struct calls *c, int repeat_count)
+{
+    double *recorded = calloc((size_t)repeat_count, sizeof *recorded);
+    double *total = calloc((size_t)repeat_count, sizeof *total), ignored;
+    bool ok = (recorded && total) || bench_fail("no memory for %d times", repeat_count);
+    for (int i = 0; ok && i < 3; i++)
+        calls_make(c, CALLS_TIMED, &ignored, &ignored);
+    for (int i = 0; ok && i < repeat_count; i++)
+        calls_make(c, CALLS_TIMED, &recorded[i], &total[i]);
+    if (ok) {
+        bench_report_add(r, "recorded", "65536 processors",
+                         bench_sample_of(recorded, repeat_count), 1e6 / CALLS_TIMED, "us/call");
+        bench_report_add(r, "to the end", "65536 processors",
+                         bench_sample_of(total, repeat_count), 1e6 / CALLS_TIMED, "us/call");
+    }
+    free(recorded);
+    free(total);
+    return ok;
+}
+
+static void growth_measure(struct bench_report *r, const struct calls *c)
+{
+    struct machine_stats before, after;
+    double ignored;
+    calls_make(c, CALLS_GROWTH / 10, &ignored, &ignored);
+    machine_stats_get(paris_machine(), &before);
+    size_t resident = calls_resident_bytes();
+    calls_make(c, CALLS_GROWTH, &ignored, &ignored);
+    machine_stats_get(paris_machine(), &after);
+    double process = (double)calls_resident_bytes() - (double)resident;
+    bench_report_add(r, "growth, process", "million calls", one(process), 1.0 / 1024, "KiB");
+    bench_report_add(r, "growth, values", "million calls",
+                     one((double)after.values_live - (double)before.values_live), 1, "values");
+    bench_report_add(r, "growth, device", "million calls",
+                     one((double)after.bytes_held - (double)before.bytes_held), 1.0 / 1024,
+                     "KiB");
+}
+
+/* ---- options ---- */
+
+static const char USAGE[] = "usage: lutetia bench calls [--repeat N] [--json FILE]\n"
+                            "\n"
+                            "  --repeat N   counted runs of 10000 calls, 10 or more (21)\n"
+                            "  --json FILE  write the rows there too\n";
+
+static bool options_parse(int argc, char **argv, int *repeat_count, const char **json_path)
+{
+    for (int i = 1; i < argc; i += 2) {
+        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
+        if (strcmp(name, "--repeat") && strcmp(name, "--json"))
+            return bench_fail("there is no option \"%s\"", name);
+        if (!value)
+            return bench_fail("%s needs a value", name);
+        if (!strcmp(name, "--json")) {
+            *json_path = value;
+            continue;
+        }
+        char *end;
+        long n = strtol(value, &end, 10);
+        if (end == value || *end || n < REPEAT_MIN || n > 1000)
+            return bench_fail("--repeat must be %d..1000 (got \"%s\")", REPEAT_MIN, value);
+        *repeat_count = (int)n;
+    }
+    return true;
+}
+
+int bench_calls_main(int argc, char **argv)
+{
+    static struct bench_report report;
+    struct calls c;
+    char device[256];
+    int repeat_count = 21;
+    const char *json_path = NULL;
+
+    for (int i = 1; i < argc; i++)
+        if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
+            fputs(USAGE, stdout);
+            return 0;
+        }
+    if (!options_parse(argc, argv, &repeat_count, &json_path)) {
+        fprintf(stderr, "lutetia bench calls: %s\n%s", bench_error(), USAGE);
+        return 2;
+    }
+    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
+    bench_report_init(&report, "calls", bench_threads_count(), device);
+    calls_init(&c, SIDE, SIDE);
+    bool ok = cost_measure(&report, &c, repeat_count);
+    if (ok) {
+        growth_measure(&report, &c);
+        bench_report_print(&report, "recorded", stdout);
+        ok = !json_path || bench_report_write(&report, json_path);
+    }
+    if (!ok)
+        fprintf(stderr, "lutetia bench calls: %s\n", bench_error());
+    return ok ? 0 : 1;
+}
