@@ -40,15 +40,14 @@ static struct paris_operand piece(struct paris_operand a, unsigned int offset, u
     return a;
 }
 
-static void logical_piece(struct machine *m, const struct paris_instruction *self,
+static bool logical_piece(struct machine *m, const struct paris_instruction *self,
                           struct paris_operand dest, struct paris_operand a,
                           struct paris_operand b)
 {
     struct machine_value *x = paris_load(m, a, "source1", self->scope);
     struct machine_value *y =
         x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    if (x && y)
-        paris_store(m, dest, paris_boolean(m, self->op, x, y), self->scope);
+    return x && y && paris_store(m, dest, paris_boolean(m, self->op, x, y), self->scope);
 }
 
 /* A field of no bits is an empty loop's: nothing is done to it. */
@@ -66,7 +65,8 @@ void paris_logical(const struct paris_instruction *self, struct paris_operand de
     }
     for (unsigned int at = 0; at < dest.len; at += PARIS_PIECE) {
         unsigned int len = dest.len - at < PARIS_PIECE ? dest.len - at : PARIS_PIECE;
-        logical_piece(m, self, piece(dest, at, len), piece(a, at, len), piece(b, at, len));
+        if (!logical_piece(m, self, piece(dest, at, len), piece(a, at, len), piece(b, at, len)))
+            return;
     }
 }
 
