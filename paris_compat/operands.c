@@ -33,7 +33,8 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
 
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
 {
-    if (!paris_the.safety)
+    /* What is long goes in pieces: the first must not be stored when the last cannot be. */
+    if (!paris_the.safety && bits <= PARIS_INTEGER_MAX)
         return true;
     struct machine_field_info info;
     if (field == CM_no_field) {
@@ -79,10 +80,9 @@ static bool check_constant(struct paris_operand a, const char *role)
 
 bool paris_check_operand(struct paris_operand a, const char *role)
 {
-    if (!paris_the.safety)
-        return true;
-    return a.is_constant ? check_constant(a, role)
-                         : paris_check_field(a.field, paris_operand_bits(a), role);
+    if (a.is_constant)
+        return !paris_the.safety || check_constant(a, role);
+    return paris_check_field(a.field, paris_operand_bits(a), role);
 }
 
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)

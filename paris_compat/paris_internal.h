@@ -34,4 +34,30 @@ const char *paris_error(void);
  * before the first CM_latch_leds. */
 uint64_t paris_leds_read(uint8_t *out, uint64_t limit);
 
+/* ---- the 4096 lights of the machine's front ---- */
+
+enum { PARIS_LIGHTS = 4096, PARIS_LIGHTS_COLUMNS = 64, PARIS_LIGHTS_BYTES = PARIS_LIGHTS / 8 };
+
+/* What they show of that pattern: light l is bit l mod 8 of byte l div 8; leds.c says which
+ * processors it stands for. False: nothing has been latched. */
+bool paris_lights_read(uint8_t lights[PARIS_LIGHTS_BYTES]);
+
+/* The system's own patterns, by their modes: all on; each light for itself, drawn anew in each
+ * step; rows of random lights that move one step, odd ones to the left and even ones to
+ * the right. All are of a shift register: the same each time. */
+enum paris_pattern_mode {
+    PARIS_PATTERN_ON = 1,
+    PARIS_PATTERN_NOISE = 5,
+    PARIS_PATTERN_RANDOM = 7,
+    PARIS_PATTERNS_LAST = 7 /* modes between are as RANDOM */
+};
+struct paris_pattern {
+    unsigned int mode;
+    uint16_t shift;
+    bool begun;
+    uint64_t rows[64]; /* column 0 in bit 63 */
+};
+struct paris_pattern paris_pattern_begin(unsigned int mode);
+void paris_pattern_step(struct paris_pattern *p, uint8_t lights[PARIS_LIGHTS_BYTES]);
+
 #endif

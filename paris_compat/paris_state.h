@@ -149,7 +149,8 @@ bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_valu
 bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value,
                     enum machine_scope scope);
 
-/* Safety mode's checks; without it they say yes. False: it has been said. */
+/* Safety mode's checks; without it they say yes (but fields of more than an integer's bits are always
+ * checked). False: it has been said. */
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
 bool paris_check_operand(struct paris_operand a, const char *role);
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source);

@@ -104,7 +104,9 @@ static bool machine_make(void)
     CM_physical_processors_length = 0;
     while ((1u << CM_physical_processors_length) < CM_physical_processors_limit)
         CM_physical_processors_length++;
+    const char *call = paris_the.call; /* of what needs the machine: messages are about it */
     paris_sets_reset();
+    paris_the.call = call;
     return true;
 }
 

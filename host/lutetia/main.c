@@ -13,6 +13,7 @@ static const struct {
     {"paint", verb_paint, "\"Text\" [-o out.png]", "set type or a bitmap in ink on wet paper"},
     {"demo", verb_demo, "[-o DIR]", "paint the demonstration page"},
     {"cc", verb_cc, "prog.c... [-o prog]", "compile a C/Paris program"},
+    {"leds", verb_leds, "prog [args...]", "show the lights that a C/Paris program latches"},
     {"bench", verb_bench, "NAME [options]", "measure"},
     {"info", verb_info, "", "versions, devices, folders, and what a fiber takes"},
 };

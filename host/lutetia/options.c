@@ -191,6 +191,17 @@ bool options_parse(const char *verb, const struct option_row *rows, int argc, ch
     return true;
 }
 
+int options_own(const struct option_row *rows, int argc, char **argv)
+{
+    int i = 1;
+    while (i < argc && argv[i][0] == '-' && argv[i][1] != '\0' && strcmp(argv[i], "--") != 0) {
+        const char *value;
+        const struct option_row *row = row_find(rows, argv[i], &value);
+        i += row && row->kind != OPTION_FLAG && !value ? 2 : 1;
+    }
+    return i < argc ? i : argc;
+}
+
 void options_help(const struct option_row *rows)
 {
     for (const struct option_row *row = rows; row->name; row++) {

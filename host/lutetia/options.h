@@ -53,6 +53,10 @@ struct option_words {
 bool options_parse(const char *verb, const struct option_row *rows, int argc, char **argv,
                    struct option_words *words);
 
+/* How many of argv are options of these rows before the first word: what follows is the command line
+ * of another program. */
+int options_own(const struct option_row *rows, int argc, char **argv);
+
 /* One line for each option, on the standard output. */
 void options_help(const struct option_row *rows);
 

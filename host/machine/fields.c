@@ -464,6 +464,7 @@ enum machine_status field_replace(struct machine *m, struct field *f, uint32_t o
                                   struct machine_value *v)
 {
     struct slot *slot = slot_exact(f, offset, v->type.width);
+    graph_borrow(m, v); /* it may be what a slot that is carved away holds, and nobody else */
     if (!slot) {
         carve(m, f, offset, v->type.width);
         slot = slot_insert(m, f, offset, v->type.width);
@@ -547,8 +548,10 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
         struct slot *slot = &s->flags[MACHINE_OVERFLOW];
         struct machine_value *new =
             o->op == NODE_SELECT ? o->a : node_overflow(m, (enum node_op)o->op, o->a, o->b);
-        if (new)
-            slot_set(m, slot, machine_select(m, o->context, new, slot->value));
+        struct machine_value *all =
+            new ? machine_select(m, o->context, new, slot->value) : NULL;
+        if (all)
+            slot_set(m, slot, all);
         overflow_clear(m, o);
     }
     return s->flags[flag].value;
@@ -641,6 +644,8 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
     int node = overflow_op(op, is_signed);
     if (!s || !a || !node || (node_ops[node].inputs == 2 && !b))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
+    if ((a->set && a->set != m->set_current) || (b && b->set && b->set != m->set_current))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
     if (op == MACHINE_NEG && !is_signed) { /* 0 - a */
         b = a;
         a = zero(m, a->type.width);

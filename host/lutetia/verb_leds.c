@@ -1,0 +1,340 @@
+/* verb_leds.c - `lutetia leds`: pictures of the machine's lights.
+ *
+ * Frames come from one of three sources: a program, which libparis in it makes write them into a
+ * pipe (LUTETIA_LEDS); a recording that a program left; the system's patterns. Each goes the same
+ * way from frame_take() on. */
+#include "lutetia.h"
+#include "options.h"
+
+#include <front_panel.h>
+#include <light_recording.h>
+#include <paris_internal.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+struct leds {
+    const char *out_path, *frames_dir, *view, *pattern;
+    int size[2], every, count;
+    double fps, brightness; /* fps 0: a picture for each latch */
+
+    struct front_panel *panel;
+    struct display_image image;
+    struct light_frame last; /* of those taken */
+    uint64_t taken, base_us; /* base_us: where this one of several recordings begins */
+    uint64_t last_us;
+    int written, status;
+    struct progress progress;
+    double drawn_s;
+};
+
+/* ---- pictures ---- */
+
+static int picture_write(struct leds *leds, const char *path)
+{
+    if (front_panel_draw(leds->panel, leds->last.lights, &leds->image) != DISPLAY_OK ||
+        display_png_write(path, &leds->image) != DISPLAY_OK)
+        return fail("leds", "%s", display_error());
+    return EXIT_SUCCESS;
+}
+
+static int frame_write(struct leds *leds)
+{
+    char path[4096];
+    int length =
+        snprintf(path, sizeof path, "%s/frame-%06d.png", leds->frames_dir, leds->written);
+    if (length < 0 || (size_t)length >= sizeof path)
+        return fail("leds", "--frames: the folder's name is too long");
+    if (leds->written == 999999)
+        return fail("leds", "a million pictures are enough; take --every or a lower --fps");
+    leds->written++;
+    return picture_write(leds, path);
+}
+
+static void progress_line(struct leds *leds)
+{
+    double now = clock_s();
+    if (!leds->progress.shown || now - leds->drawn_s < 0.1)
+        return;
+    leds->drawn_s = now;
+    fprintf(stderr, "\rlights: %llu latched, %d pictures \033[K",
+            (unsigned long long)leds->taken, leds->written);
+    fflush(stderr);
+}
+
+static int go_on(const struct leds *leds)
+{
+    return leds->status == EXIT_SUCCESS && !interrupted();
+}
+
+/* With --fps: pictures of the time before this frame show the one before. */
+static void time_fill(struct leds *leds, uint64_t until_us)
+{
+    while (go_on(leds) && (double)leds->written / leds->fps * 1e6 < (double)until_us) {
+        leds->status = frame_write(leds);
+        progress_line(leds);
+    }
+}
+
+static int frame_take(void *context, const struct light_frame *frame)
+{
+    struct leds *leds = context;
+    uint64_t time_us = leds->base_us + frame->time_us;
+    if (leds->taken && time_us < leds->last_us) { /* the next recording of several */
+        leds->base_us = leds->last_us;
+        time_us = leds->base_us + frame->time_us;
+    }
+    if (leds->frames_dir && leds->fps > 0 && leds->taken)
+        time_fill(leds, time_us);
+    leds->last = *frame;
+    leds->last_us = time_us;
+    if (go_on(leds) && leds->frames_dir && leds->fps <= 0 &&
+        leds->taken % (uint64_t)leds->every == 0)
+        leds->status = frame_write(leds);
+    leds->taken++;
+    progress_line(leds);
+    return go_on(leds);
+}
+
+/* ---- sources ---- */
+
+static int from_pattern(struct leds *leds)
+{
+    static const struct {
+        const char *name;
+        unsigned int mode;
+    } patterns[] = {{"random", PARIS_PATTERN_RANDOM},
+                    {"noise", PARIS_PATTERN_NOISE},
+                    {"on", PARIS_PATTERN_ON}};
+    unsigned int mode = 0;
+    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
+        if (strcmp(leds->pattern, patterns[i].name) == 0)
+            mode = patterns[i].mode;
+    struct paris_pattern pattern = paris_pattern_begin(mode);
+    for (int i = 0; i < leds->count && go_on(leds); i++) {
+        struct light_frame frame = {.number = (uint64_t)i};
+        paris_pattern_step(&pattern, frame.lights);
+        frame_take(leds, &frame);
+    }
+    return leds->status;
+}
+
+/* Reads until the end, or until go_on() says no. what: the name for messages. */
+static int from_descriptor(struct leds *leds, int descriptor, const char *what, bool may_break)
+{
+    struct light_reader reader = {.take = frame_take, .context = leds};
+    uint8_t bytes[1 << 16];
+    while (go_on(leds)) {
+        struct pollfd ready = {.fd = descriptor, .events = POLLIN};
+        if (poll(&ready, 1, 50) == 0)
+            continue;
+        ssize_t count = read(descriptor, bytes, sizeof bytes);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count < 0)
+            return fail("leds", "%s: cannot read: %s", what, strerror(errno));
+        if (count == 0) {
+            if (light_reader_end(&reader) != DISPLAY_OK && !may_break)
+                return fail("leds", "%s: %s", what, display_error());
+            break;
+        }
+        if (light_reader_feed(&reader, bytes, (size_t)count) != DISPLAY_OK)
+            return fail("leds", "%s: %s", what, display_error());
+    }
+    return leds->status;
+}
+
+_Noreturn static void become(int write_end, char **arguments)
+{
+    char name[64];
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    snprintf(name, sizeof name, "/dev/fd/%d", write_end);
+    setenv("LUTETIA_LEDS", name, 1);
+    /* A program of the present folder needs no ./ before its name. */
+    char *here;
+    if (!strchr(arguments[0], '/') && access(arguments[0], X_OK) == 0 &&
+        asprintf(&here, "./%s", arguments[0]) > 0)
+        execv(here, arguments);
+    execvp(arguments[0], arguments);
+    int error = errno;
+    fail("leds", "%s: cannot run: %s; name a program (lutetia cc makes one) or a recording",
+         arguments[0], strerror(error));
+    _exit(126);
+}
+
+static int child_end(const struct leds *leds, pid_t child, const char *name)
+{
+    int status;
+    if (!go_on(leds))
+        kill(child, SIGINT);
+    while (waitpid(child, &status, 0) != child)
+        ;
+    if (!go_on(leds))
+        return EXIT_SUCCESS; /* that has been said, or is known */
+    if (WIFSIGNALED(status))
+        return fail("leds", "%s: ended by signal %d (%s)", name, WTERMSIG(status),
+                    strsignal(WTERMSIG(status)));
+    if (WEXITSTATUS(status) == 126 && !leds->taken)
+        return EXIT_FAILED; /* it has been said why it could not run */
+    if (WEXITSTATUS(status) != 0)
+        fprintf(stderr, "lutetia leds: %s: ended with status %d\n", name, WEXITSTATUS(status));
+    return EXIT_SUCCESS;
+}
+
+static int from_program(struct leds *leds, char **arguments)
+{
+    int ends[2];
+    if (pipe(ends) != 0)
+        return fail("leds", "no pipe: %s", strerror(errno));
+    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    fflush(NULL);
+    pid_t child = fork();
+    if (child < 0)
+        return fail("leds", "no process: %s", strerror(errno));
+    if (child == 0)
+        become(ends[1], arguments);
+    close(ends[1]);
+    int status = from_descriptor(leds, ends[0], arguments[0], true);
+    close(ends[0]);
+    int ended = child_end(leds, child, arguments[0]);
+    return status != EXIT_SUCCESS ? status : ended;
+}
+
+/* It begins as one, or it is a file that cannot be run: then reading it says what is wrong. */
+static bool is_recording(const char *path)
+{
+    char begins[8] = "";
+    struct stat status;
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+        return false;
+    bool is = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+              ((read(descriptor, begins, sizeof begins) == (ssize_t)sizeof begins &&
+                memcmp(begins, LIGHT_RECORDING_LINE, sizeof begins) == 0) ||
+               access(path, X_OK) != 0);
+    close(descriptor);
+    return is;
+}
+
+static int from_file(struct leds *leds, const char *path)
+{
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return fail("leds", "%s: cannot open: %s", path, strerror(errno));
+    int status = from_descriptor(leds, descriptor, path, false);
+    close(descriptor);
+    return status;
+}
+
+/* ---- the verb ---- */
+
+static int leds_run(struct leds *leds, int argc, char **argv)
+{
+    struct front_panel_config config = front_panel_config_default();
+    config.width_px = leds->size[0];
+    config.height_px = leds->size[1];
+    config.brightness = leds->brightness;
+    config.view = strcmp(leds->view, "door") == 0    ? FRONT_PANEL_DOOR
+                  : strcmp(leds->view, "front") == 0 ? FRONT_PANEL_FRONT
+                                                     : FRONT_PANEL_CUBE;
+    int status = leds->frames_dir ? folder_make("leds", leds->frames_dir) : EXIT_SUCCESS;
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (front_panel_create(&config, &leds->panel) != DISPLAY_OK)
+        return fail("leds", "%s", display_error());
+    interrupt_catch();
+    leds->progress = progress_begin("lights", 0);
+    if (leds->pattern)
+        status = from_pattern(leds);
+    else if (argc == 1 && is_recording(argv[0]))
+        status = from_file(leds, argv[0]);
+    else
+        status = from_program(leds, argv);
+    if (status == EXIT_SUCCESS && leds->frames_dir && leds->fps > 0 && leds->taken &&
+        go_on(leds))
+        status = frame_write(leds); /* the last one is seen, however short */
+    progress_end(&leds->progress);
+    if (interrupted())
+        return EXIT_INTERRUPTED;
+    if (status == EXIT_SUCCESS && !leds->taken)
+        return fail("leds", "%s: no lights: the program never called CM_latch_leds", argv[0]);
+    return status == EXIT_SUCCESS ? picture_write(leds, leds->out_path) : status;
+}
+
+int verb_leds(int argc, char **argv)
+{
+    struct leds leds = {.out_path = "leds.png",
+                        .view = "cube",
+                        .size = {960, 960},
+                        .every = 1,
+                        .count = 64,
+                        .brightness = 1};
+    const struct option_row rows[] = {
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture of the last lights (leds.png)",
+         &leds.out_path, 0, 0, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "write a picture for each latch there",
+         &leds.frames_dir, 0, 0, 0},
+        {"every", 0, OPTION_INTEGER, "N", "only for each Nth (1)", &leds.every, 1, 1e9, 0},
+        {"fps", 0, OPTION_NUMBER, "F", "instead: as many for each second that the program ran",
+         &leds.fps, 0.001, 1000, 0},
+        {"size", 0, OPTION_SIZE, "WxH", "of a picture (960x960)", leds.size,
+         FRONT_PANEL_SIDE_MIN, FRONT_PANEL_SIDE_MAX, 0},
+        {"view", 0, OPTION_TEXT, "VIEW", "cube, front (its four doors) or door (the first)",
+         &leds.view, 0, 0, 0},
+        {"brightness", 0, OPTION_NUMBER, "B", "of the lights, 0..10 (1)", &leds.brightness, 0,
+         10, 0},
+        {"pattern", 0, OPTION_TEXT, "NAME",
+         "no program: the machine's own: random, noise or on", &leds.pattern, 0, 0, 0},
+        {"count", 0, OPTION_INTEGER, "N", "steps of the pattern (64)", &leds.count, 1, 1e6, 0},
+        {0}};
+    int own = options_own(rows, argc, argv);
+    struct option_words words;
+    if (!options_parse("leds", rows, own, argv, &words))
+        return EXIT_USAGE;
+    if (words.help) {
+        puts("usage: lutetia leds [options] prog [arguments]\n"
+             "       lutetia leds [options] recording\n"
+             "       lutetia leds [options] --pattern random\n\n"
+             "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
+             "them.\n"
+             "LUTETIA_LEDS=FILE ./prog leaves a recording instead.\n");
+        options_help(rows);
+        return EXIT_SUCCESS;
+    }
+    argc -= own;
+    argv += own;
+    if (argc > 0 && strcmp(argv[0], "--") == 0) {
+        argc--;
+        argv++;
+    }
+    if (strcmp(leds.view, "cube") != 0 && strcmp(leds.view, "front") != 0 &&
+        strcmp(leds.view, "door") != 0)
+        return fail_usage("leds", "--view must be cube, front or door (got '%.60s')",
+                          leds.view);
+    if (leds.pattern && strcmp(leds.pattern, "random") != 0 &&
+        strcmp(leds.pattern, "noise") != 0 && strcmp(leds.pattern, "on") != 0)
+        return fail_usage("leds", "--pattern must be random, noise or on (got '%.60s')",
+                          leds.pattern);
+    if (!leds.pattern == !argc)
+        return fail_usage("leds",
+                          "give a program, a recording, or --pattern random: one of them");
+    if (argc > 1 && is_recording(argv[0]))
+        return fail_usage("leds", "options stand before the recording (after it came '%.60s')",
+                          argv[1]);
+    if (leds.pattern)
+        leds.fps = 0; /* a pattern has no time of its own: each step is a picture */
+    int status = leds_run(&leds, argc, argv);
+    display_image_destroy(&leds.image);
+    front_panel_destroy(leds.panel);
+    return interrupt_report("leds", status, "the last picture is");
+}
