@@ -6,6 +6,7 @@
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
  *   emit.c      the text of one kernel                                (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
+ *   soft.c      floats of other formats than single and double        (uses graph)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   device.c    OpenCL: devices, buffers, programs and their cache
@@ -47,6 +48,8 @@ enum node_op {
     NODE_F_TO_U,
     NODE_F_TO_S,
     NODE_F_TO_F,
+    NODE_PACK,   /* a float of another format -> its bits; soft.c */
+    NODE_UNPACK, /* and back */
     NODE_OVERFLOW_UADD, /* operands -> bit: the result does not fit */
     NODE_OVERFLOW_USUB,
     NODE_OVERFLOW_UMUL,
@@ -252,7 +255,20 @@ static inline bool node_is_cheap(const struct machine_value *v)
 }
 static inline bool type_equal(struct machine_type a, struct machine_type b)
 {
-    return a.kind == b.kind && a.width == b.width;
+    return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
+}
+
+/* soft.c: floats of other formats */
+bool soft_type_good(struct machine_type type); /* s and e are what they may be, or 0 */
+/* The bits of a field for a value of such a type, and back. */
+struct machine_value *soft_packed(struct machine *m, struct machine_value *v);
+struct machine_value *soft_unpacked(struct machine *m, struct machine_value *bits,
+                                    struct machine_type type);
+uint64_t soft_rounded(uint64_t x, struct machine_type type);     /* a double's bits */
+uint64_t soft_packed_bits(uint64_t x, struct machine_type type); /* ... as in a field */
+static inline int node_cost(int op, struct machine_type type)
+{
+    return node_ops[op].cost + (type.s && node_ops[op].inputs && op != NODE_SELECT ? 30 : 0);
 }
 
 /* simplify.c */
@@ -333,7 +349,7 @@ struct kernel_text {
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
-    bool wide, wraps;
+    bool wide, soft, wraps;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
 };

@@ -57,6 +57,19 @@ struct plan {
     struct plan *next;
 };
 
+/* The functions that a kernel of this kind calls besides the prelude's. */
+static const char *kernel_library(const struct kernel_text *k)
+{
+    static char both[sizeof kernel_wide_cl + sizeof kernel_soft_cl]; /* filled alike by all */
+    if (!k->soft)
+        return k->wide ? kernel_wide_cl : "";
+    if (!k->wide)
+        return kernel_soft_cl;
+    memcpy(both, kernel_wide_cl, sizeof kernel_wide_cl);
+    memcpy(both + sizeof kernel_wide_cl - 1, kernel_soft_cl, sizeof kernel_soft_cl);
+    return both;
+}
+
 /* ---- the nodes that are reached ---- */
 
 struct reach {
@@ -76,7 +89,7 @@ static bool reach_room(struct reach *r)
         r->nodes = nodes;
         r->capacity = capacity;
     }
-    if (r->length + 8 > r->signature_capacity) {
+    if (r->length + 9 > r->signature_capacity) {
         uint32_t capacity = r->signature_capacity ? 2 * r->signature_capacity : 4096;
         void *signature = realloc(r->signature, (size_t)capacity * sizeof *r->signature);
         if (!signature)
@@ -104,6 +117,10 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
     uint32_t *s = r->signature;
     s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
                      (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
+    if (v->type.s) {
+        s[r->length - 1] |= 0x8000;
+        s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
+    }
     if (v->op != NODE_CONSTANT)
         s[r->length++] = v->set | (uint32_t)m->sets[v->set].generation << 16;
     if (!v->buffer) {
@@ -263,7 +280,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[3] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "", k.text};
+    const char *parts[3] = {kernel_prelude_cl, kernel_library(&k), k.text};
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
     if (launches)
         p->launches = launches;
