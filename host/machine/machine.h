@@ -280,6 +280,30 @@ enum machine_op {
     MACHINE_FLE,
     MACHINE_FGT,
     MACHINE_FGE,
+    /* float -> float: kernels/math.cl, the same bits on every device and here; within 1 ulp
+       (single) and 2 ulp (double) of the correctly rounded result; special cases as in Annex F
+       of C */
+    MACHINE_FEXP,
+    MACHINE_FLN,
+    MACHINE_FLOG2,
+    MACHINE_FLOG10,
+    MACHINE_FSIN, /* radians */
+    MACHINE_FCOS,
+    MACHINE_FTAN,
+    MACHINE_FASIN,
+    MACHINE_FACOS,
+    MACHINE_FATAN,
+    MACHINE_FSINH,
+    MACHINE_FCOSH,
+    MACHINE_FTANH,
+    MACHINE_FASINH,
+    MACHINE_FACOSH,
+    MACHINE_FATANH,
+    /* float, float -> float */
+    MACHINE_FATAN2, /* of the point with y = a, x = b */
+    MACHINE_FPOW,   /* a to the power b */
+    MACHINE_FMOD,   /* a - b floor(a / b): exact but for one rounding; its sign is b's */
+    MACHINE_FREM,   /* a - b trunc(a / b): exact; its sign is a's */
     MACHINE_OP_COUNT_PUBLIC
 };
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,

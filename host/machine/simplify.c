@@ -54,6 +54,26 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [MACHINE_FLE] = {"FLE", 2, 1, 0},
     [MACHINE_FGT] = {"FGT", 2, 1, 0},
     [MACHINE_FGE] = {"FGE", 2, 1, 0},
+    [MACHINE_FEXP] = {"FEXP", 1, 60, 1},
+    [MACHINE_FLN] = {"FLN", 1, 60, 1},
+    [MACHINE_FLOG2] = {"FLOG2", 1, 60, 1},
+    [MACHINE_FLOG10] = {"FLOG10", 1, 60, 1},
+    [MACHINE_FSIN] = {"FSIN", 1, 80, 1},
+    [MACHINE_FCOS] = {"FCOS", 1, 80, 1},
+    [MACHINE_FTAN] = {"FTAN", 1, 100, 1},
+    [MACHINE_FASIN] = {"FASIN", 1, 90, 1},
+    [MACHINE_FACOS] = {"FACOS", 1, 90, 1},
+    [MACHINE_FATAN] = {"FATAN", 1, 80, 1},
+    [MACHINE_FSINH] = {"FSINH", 1, 100, 1},
+    [MACHINE_FCOSH] = {"FCOSH", 1, 100, 1},
+    [MACHINE_FTANH] = {"FTANH", 1, 100, 1},
+    [MACHINE_FASINH] = {"FASINH", 1, 100, 1},
+    [MACHINE_FACOSH] = {"FACOSH", 1, 100, 1},
+    [MACHINE_FATANH] = {"FATANH", 1, 100, 1},
+    [MACHINE_FATAN2] = {"FATAN2", 2, 90, 1},
+    [MACHINE_FPOW] = {"FPOW", 2, 120, 1},
+    [MACHINE_FMOD] = {"FMOD", 2, 100, 1},
+    [MACHINE_FREM] = {"FREM", 2, 100, 1},
     [NODE_CONSTANT] = {"constant", 0, 0, 0},
     [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
     [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
@@ -397,7 +417,8 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
 {
     if (!a)
         return NULL;
-    bool is_float = op >= MACHINE_FNEG && op <= MACHINE_FROUND;
+    bool is_float = (op >= MACHINE_FNEG && op <= MACHINE_FROUND) ||
+                    (op >= MACHINE_FEXP && op <= MACHINE_FATANH);
     if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 1 ||
         is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation does not take one operand of this type");
@@ -416,11 +437,13 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
 {
     if (!a || !b)
         return NULL;
-    bool is_float = op >= MACHINE_FADD && op <= MACHINE_FGE;
+    bool is_float = (op >= MACHINE_FADD && op <= MACHINE_FGE) ||
+                    (op >= MACHINE_FATAN2 && op <= MACHINE_FREM);
     if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 2 ||
         !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation takes two operands of one type, which these are not");
-    bool compares = (op >= MACHINE_EQ && op <= MACHINE_SLE) || op >= MACHINE_FEQ;
+    bool compares =
+        (op >= MACHINE_EQ && op <= MACHINE_SLE) || (op >= MACHINE_FEQ && op <= MACHINE_FGE);
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
         fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))
