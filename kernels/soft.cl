@@ -11,6 +11,14 @@
 #define SOFT_CLZ(x) ((int)clz(x))
 #define SOFT_HIGH(x, y) mul_hi(x, y)
 #define SOFT_FUNCTION __attribute__((noinline)) static
+#define SOFT_INLINE inline
+#else
+#include <stdint.h>
+typedef uint64_t ulong;
+#define SOFT_CLZ(x) __builtin_clzll(x)
+#define SOFT_HIGH(x, y) ((ulong)((unsigned __int128)(x) * (y) >> 64))
+#define SOFT_FUNCTION static __attribute__((unused))
+#define SOFT_INLINE static inline
 #endif
 #define SOFT_SIGN ((ulong)1 << 63)
 #define SOFT_INFINITE ((ulong)0x7ff << 52)
@@ -22,7 +30,7 @@ typedef struct {
 } soft_number;
 
 /* x neither 0 nor infinite nor NaN */
-inline soft_number soft_number_of(ulong x)
+SOFT_INLINE soft_number soft_number_of(ulong x)
 {
     soft_number r;
     ulong fraction = x << 12;
@@ -40,7 +48,7 @@ inline soft_number soft_number_of(ulong x)
 }
 
 /* Rounded; more: the true number is a little further from 0 than m says. */
-inline ulong soft_round(ulong sign, int exponent, ulong m, int more, int s, int e)
+SOFT_INLINE ulong soft_round(ulong sign, int exponent, ulong m, int more, int s, int e)
 {
     int most = (1 << (e - 1)) - 1, least = 1 - most;
     int kept_bits = exponent >= least ? s + 1 : s + 1 - (least - exponent);
@@ -51,8 +59,8 @@ inline ulong soft_round(ulong sign, int exponent, ulong m, int more, int s, int 
         return sign;
     ulong kept = drop == 64 ? 0 : m >> drop;
     ulong rest = drop == 64 ? m : m & (((ulong)1 << drop) - 1);
-    ulong half = (ulong)1 << (drop - 1);
-    kept += rest > half || (rest == half && (more || (kept & 1)));
+    ulong middle = (ulong)1 << (drop - 1);
+    kept += rest > middle || (rest == middle && (more || (kept & 1)));
     if (kept == 0)
         return sign;
     /* kept * 2^(exponent - kept_bits + 1), with 53 bits at most, or 2^53 */
@@ -65,7 +73,7 @@ inline ulong soft_round(ulong sign, int exponent, ulong m, int more, int s, int 
     return sign | (ulong)(unit + top + 1023) << 52 | (fraction & (((ulong)1 << 52) - 1));
 }
 
-inline int soft_is_nan(ulong x)
+SOFT_INLINE int soft_is_nan(ulong x)
 {
     return (x & ~SOFT_SIGN) > SOFT_INFINITE;
 }

@@ -14,19 +14,11 @@
 
 /* ---- numbers, on the host ---- */
 
-typedef uint64_t ulong_t;
-#define ulong ulong_t
-#define SOFT_CLZ(x) __builtin_clzll(x)
-#define SOFT_HIGH(x, y) ((ulong)((unsigned __int128)(x) * (y) >> 64))
-#define SOFT_FUNCTION static __attribute__((unused))
-#define inline static inline
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #include "soft.cl"
 #pragma GCC diagnostic pop
-#undef inline
-#undef ulong
 
 uint64_t soft_rounded(uint64_t x, struct machine_type type)
 {
@@ -173,8 +165,8 @@ bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machin
     case NODE_S_TO_F:
         if (from.width > 64) {
             snprintf(inner, sizeof inner, "q_magnitude(%s, %d)", a, from.width);
-            snprintf(out, size, "as_double(soft_whole(q_sign(%s, %d), %s.lo, %s.hi, %d, %d))", a,
-                     from.width, inner, inner, t.s, t.e);
+            snprintf(out, size, "as_double(soft_whole(q_sign(%s, %d), %s.lo, %s.hi, %d, %d))",
+                     a, from.width, inner, inner, t.s, t.e);
             return true;
         }
         if (from.width <= 32)
