@@ -423,8 +423,8 @@ static void cache_write(const char *path, const char *key, cl_program program)
     free(binary);
 }
 
-static cl_program build(struct machine *m, const char *const parts[3], const char *options,
-                        const char *key)
+static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *key)
 {
     struct device *d = &m->device;
     char path[700];
@@ -447,8 +447,9 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
         if (program)
             clReleaseProgram(program);
     }
-    const char *sources[3] = {parts[0], parts[1], parts[2]};
-    program = clCreateProgramWithSource(d->context, 3, sources, NULL, &error);
+    const char *sources[DEVICE_PARTS];
+    memcpy(sources, parts, sizeof sources);
+    program = clCreateProgramWithSource(d->context, DEVICE_PARTS, sources, NULL, &error);
     if (error) {
         device_check(m, error, "a program cannot be made");
         free(whole);
@@ -464,7 +465,7 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
         machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s",
                      d->name, error, log);
         if (getenv("LUTETIA_DUMP"))
-            fprintf(stderr, "%s\n%s\n", options, parts[2]);
+            fprintf(stderr, "%s\n%s\n", options, parts[DEVICE_PARTS - 1]);
         clReleaseProgram(program);
         free(whole);
         return NULL;
@@ -475,21 +476,23 @@ static cl_program build(struct machine *m, const char *const parts[3], const cha
     return program;
 }
 
-cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
-                        const char *name)
+cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name)
 {
     struct device *d = &m->device;
     char all_options[256];
     snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
-    size_t size = strlen(all_options) + strlen(name) + strlen(parts[2]) + 64;
+    size_t size = strlen(all_options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
     char *key = malloc(size);
     if (!key) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
         return NULL;
     }
-    uint64_t library = hash_text(hash_text(0xcbf29ce484222325u, parts[0]), parts[1]);
+    uint64_t library = 0xcbf29ce484222325u;
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        library = hash_text(library, parts[i]);
     snprintf(key, size, "%s\n%s %llx\n%s", all_options, name, (unsigned long long)library,
-             parts[2]);
+             parts[DEVICE_PARTS - 1]);
     struct program_entry *bucket =
         &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
     for (struct program_entry *p = bucket->next; p; p = p->next)

@@ -85,7 +85,7 @@ struct emitter {
     int arguments_count, arguments_capacity;
     int inputs, constants_count, names;
     int reach; /* furthest column */
-    bool wide, soft, axes_used, failed;
+    bool wide, soft, math, axes_used, failed;
     int ops, loads;
 };
 
@@ -433,7 +433,10 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
                 spell_cut(expression, sizeof expression, raw, n->type.width);
         } else if (n->op < MACHINE_FNEG)
             spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
-        else if (n->op < MACHINE_OP_COUNT_PUBLIC)
+        else if (op_is_math(n->op)) {
+            spell_math(expression, sizeof expression, n->op, from, a, b);
+            e->math = true;
+        } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
             spell_float(expression, sizeof expression, n->op, from, a, b);
         else if (n->op >= NODE_OVERFLOW_UADD) {
             spell_overflow(expression, sizeof expression, n->op, from, a, b);
@@ -548,6 +551,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->wraps = wraps;
     out->wide = e->wide;
     out->soft = e->soft;
+    out->math = e->math;
     struct text t = {0};
     header(e, &t);
     put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");

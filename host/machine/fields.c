@@ -622,6 +622,22 @@ static int overflow_op(enum machine_op op, bool is_signed)
     }
 }
 
+static void overflow_remember(struct machine *m, struct vpset *s, int node,
+                              struct machine_value *a, struct machine_value *b)
+{
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    if (s->overflow.op && s->overflow.context != context)
+        flag_resolved(m, s, MACHINE_OVERFLOW);
+    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
+    graph_ref(a);
+    if (b)
+        graph_ref(b);
+    graph_ref(context);
+    overflow_clear(m, &s->overflow);
+    s->overflow =
+        (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
+}
+
 enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b)
@@ -635,16 +651,19 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
         a = zero(m, a->type.width);
         node = NODE_OVERFLOW_USUB;
     }
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    if (s->overflow.op && s->overflow.context != context)
-        flag_resolved(m, s, MACHINE_OVERFLOW);
-    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
-    graph_ref(a);
-    if (b)
-        graph_ref(b);
-    graph_ref(context);
-    overflow_clear(m, &s->overflow);
-    s->overflow =
-        (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
+    overflow_remember(m, s, node, a, b);
+    return MACHINE_OK;
+}
+
+enum machine_status machine_overflow_record_result(struct machine *m,
+                                                   struct machine_value *result,
+                                                   struct machine_value *operand)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    if (!s || !result || !operand)
+        return m->status;
+    if (result->type.kind != MACHINE_FLOAT || !type_equal(result->type, operand->type))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
+    overflow_remember(m, s, NODE_OVERFLOW_RESULT, result, operand);
     return MACHINE_OK;
 }

@@ -7,6 +7,7 @@
  *   emit.c      the text of one kernel                                (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
+ *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   device.c    OpenCL: devices, buffers, programs and their cache
@@ -61,6 +62,7 @@ enum node_op {
     NODE_OVERFLOW_FSUB,
     NODE_OVERFLOW_FMUL,
     NODE_OVERFLOW_FDIV,
+    NODE_OVERFLOW_RESULT, /* in: result, operand: infinite from finite */
     NODE_OP_COUNT
 };
 
@@ -277,6 +279,16 @@ struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
 struct machine_value *node_overflow(struct machine *m, enum node_op op, struct machine_value *a,
                                     struct machine_value *b);
 
+/* math.c: the transcendental operations on the front end, with the device's bits; b is ignored
+ * where there is one operand. false: op is none of them. */
+bool math_evaluate(int op, double a, double b, double *out);
+bool math_fold(int op, struct machine_type type, struct machine_scalar a,
+               struct machine_scalar b, struct machine_scalar *out);
+static inline bool op_is_math(int op)
+{
+    return op >= MACHINE_FEXP && op <= MACHINE_FREM;
+}
+
 /* fields.c */
 struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
 void fields_finish(struct machine *m);
@@ -349,7 +361,7 @@ struct kernel_text {
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
-    bool wide, soft, wraps;
+    bool wide, soft, wraps, math;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
 };
@@ -375,10 +387,11 @@ struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
-/* The kernel of that name in a program of three parts, the first two the same for many; from
+/* The kernel of that name in a program of these parts, all but the last the same for many; from
  * memory, from disk, or built. Belongs to the device. NULL: error set. */
-cl_kernel device_kernel(struct machine *m, const char *const parts[3], const char *options,
-                        const char *name);
+enum { DEVICE_PARTS = 6 };
+cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
 
 #endif

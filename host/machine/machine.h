@@ -345,6 +345,12 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b);
 
+/* The same with a float that is there already: overflow of active processors becomes "result is
+ * infinite and operand is not, nor NaN". */
+enum machine_status machine_overflow_record_result(struct machine *m,
+                                                   struct machine_value *result,
+                                                   struct machine_value *operand);
+
 /* ---- observation ---- */
 
 enum machine_reduction {

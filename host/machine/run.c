@@ -57,19 +57,6 @@ struct plan {
     struct plan *next;
 };
 
-/* The functions that a kernel of this kind calls besides the prelude's. */
-static const char *kernel_library(const struct kernel_text *k)
-{
-    static char both[sizeof kernel_wide_cl + sizeof kernel_soft_cl]; /* filled alike by all */
-    if (!k->soft)
-        return k->wide ? kernel_wide_cl : "";
-    if (!k->wide)
-        return kernel_soft_cl;
-    memcpy(both, kernel_wide_cl, sizeof kernel_wide_cl);
-    memcpy(both + sizeof kernel_wide_cl - 1, kernel_soft_cl, sizeof kernel_soft_cl);
-    return both;
-}
-
 /* ---- the nodes that are reached ---- */
 
 struct reach {
@@ -280,7 +267,12 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[3] = {kernel_prelude_cl, kernel_library(&k), k.text};
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
+                                       k.wide ? kernel_wide_cl : "",
+                                       k.soft ? kernel_soft_cl : "",
+                                       k.math ? kernel_math_tables_cl : "",
+                                       k.math ? kernel_math_cl : "",
+                                       k.text};
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
     if (launches)
         p->launches = launches;

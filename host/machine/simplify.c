@@ -105,6 +105,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [NODE_OVERFLOW_FSUB] = {"overflow_fsub", 2, 5, 0},
     [NODE_OVERFLOW_FMUL] = {"overflow_fmul", 2, 5, 0},
     [NODE_OVERFLOW_FDIV] = {"overflow_fdiv", 2, 10, 0},
+    [NODE_OVERFLOW_RESULT] = {"overflow_result", 2, 4, 0},
 };
 
 static const struct machine_type bit_type = {.kind = MACHINE_BITS, .width = 1};
@@ -422,6 +423,9 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
     if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 1 ||
         is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation does not take one operand of this type");
+    struct machine_scalar math;
+    if (is_number(a) && op_is_math(op) && math_fold(op, a->type, a->imm, a->imm, &math))
+        return number(m, a->type, math);
     unsigned __int128 folded;
     if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
         return number(m, a->type, narrow(folded));
@@ -444,6 +448,10 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
         return bad(m, "this operation takes two operands of one type, which these are not");
     bool compares =
         (op >= MACHINE_EQ && op <= MACHINE_SLE) || (op >= MACHINE_FEQ && op <= MACHINE_FGE);
+    struct machine_scalar math;
+    if (is_number(a) && is_number(b) && op_is_math(op) &&
+        math_fold(op, a->type, a->imm, b->imm, &math))
+        return number(m, a->type, math);
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
         fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))

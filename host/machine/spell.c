@@ -175,6 +175,27 @@ void spell_float(char *out, size_t size, int op, struct machine_type t, const ch
         snprintf(out, size, "%s(%s %s %s)", compare, a, symbols[op], b);
 }
 
+void spell_math(char *out, size_t size, int op, struct machine_type t, const char *a,
+                const char *b)
+{
+    static const char *const names[] = {
+        [MACHINE_FEXP] = "exp",     [MACHINE_FLN] = "ln",       [MACHINE_FLOG2] = "log2",
+        [MACHINE_FLOG10] = "log10", [MACHINE_FSIN] = "sin",     [MACHINE_FCOS] = "cos",
+        [MACHINE_FTAN] = "tan",     [MACHINE_FASIN] = "asin",   [MACHINE_FACOS] = "acos",
+        [MACHINE_FATAN] = "atan",   [MACHINE_FSINH] = "sinh",   [MACHINE_FCOSH] = "cosh",
+        [MACHINE_FTANH] = "tanh",   [MACHINE_FASINH] = "asinh", [MACHINE_FACOSH] = "acosh",
+        [MACHINE_FATANH] = "atanh", [MACHINE_FATAN2] = "atan2", [MACHINE_FPOW] = "pow",
+        [MACHINE_FMOD] = "mod",     [MACHINE_FREM] = "rem"};
+    bool single = t.width == 32, two = op >= MACHINE_FATAN2;
+    snprintf(out, size,
+             single ? two ? "CONVERT(float, math_%s_lanes(CONVERT(double, %s), "
+                            "CONVERT(double, %s)))"
+                          : "CONVERT(float, math_%s_lanes(CONVERT(double, %s)))"
+             : two  ? "math_%s_lanes(%s, %s)"
+                    : "math_%s_lanes(%s)",
+             names[op], a, b);
+}
+
 void spell_overflow(char *out, size_t size, int op, struct machine_type t, const char *a,
                     const char *b)
 {
@@ -250,6 +271,9 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
             snprintf(out, size, "l_smul_overflows(%s, %s, %d)", x, y, w);
         else
             snprintf(out, size, "q_smul_overflows(%s, %s, %d)", a, b, w);
+        return;
+    case NODE_OVERFLOW_RESULT:
+        snprintf(out, size, "INFINITE_%c(%s) & FINITE_%c(%s)", c, a, c, b);
         return;
     default: {
         static const char symbols[] = {'+', '-', '*', '/'};

@@ -1,0 +1,123 @@
+/* math.c - kernels/math.cl for the front end: what the device computes, to the bit. */
+#include "internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static inline uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline double double_of(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+typedef uint64_t math_u64;
+typedef int64_t math_i64;
+#define MATH_FUNCTION static
+#define MATH_BITS(x) bits_of(x)
+#define MATH_DOUBLE(x) double_of(x)
+#define MATH_MUL_HI(a, b) ((uint64_t)(((unsigned __int128)(a) * (b)) >> 64))
+#define MATH_CLZ(x) __builtin_clzll(x)
+#define TABLE(type, name, count) static const type name[count]
+#define ulong uint64_t
+#include "math_tables.cl"
+/* and then */
+#include "math.cl"
+#undef ulong
+
+bool math_evaluate(int op, double a, double b, double *out)
+{
+    switch (op) {
+    case MACHINE_FEXP:
+        *out = math_exp(a);
+        return true;
+    case MACHINE_FLN:
+        *out = math_ln(a);
+        return true;
+    case MACHINE_FLOG2:
+        *out = math_log2(a);
+        return true;
+    case MACHINE_FLOG10:
+        *out = math_log10(a);
+        return true;
+    case MACHINE_FSIN:
+        *out = math_sin(a);
+        return true;
+    case MACHINE_FCOS:
+        *out = math_cos(a);
+        return true;
+    case MACHINE_FTAN:
+        *out = math_tan(a);
+        return true;
+    case MACHINE_FASIN:
+        *out = math_asin(a);
+        return true;
+    case MACHINE_FACOS:
+        *out = math_acos(a);
+        return true;
+    case MACHINE_FATAN:
+        *out = math_atan(a);
+        return true;
+    case MACHINE_FSINH:
+        *out = math_sinh(a);
+        return true;
+    case MACHINE_FCOSH:
+        *out = math_cosh(a);
+        return true;
+    case MACHINE_FTANH:
+        *out = math_tanh(a);
+        return true;
+    case MACHINE_FASINH:
+        *out = math_asinh(a);
+        return true;
+    case MACHINE_FACOSH:
+        *out = math_acosh(a);
+        return true;
+    case MACHINE_FATANH:
+        *out = math_atanh(a);
+        return true;
+    case MACHINE_FATAN2:
+        *out = math_atan2(a, b);
+        return true;
+    case MACHINE_FPOW:
+        *out = math_pow(a, b);
+        return true;
+    case MACHINE_FMOD:
+        *out = math_mod(a, b);
+        return true;
+    case MACHINE_FREM:
+        *out = math_rem(a, b);
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool math_fold(int op, struct machine_type type, struct machine_scalar a,
+               struct machine_scalar b, struct machine_scalar *out)
+{
+    double r;
+    out->hi = 0;
+    if (type.width == 64) {
+        if (!math_evaluate(op, double_of(a.lo), double_of(b.lo), &r))
+            return false;
+        out->lo = isnan(r) ? UINT64_C(0x7ff8000000000000) : bits_of(r);
+        return true;
+    }
+    uint32_t low[2] = {(uint32_t)a.lo, (uint32_t)b.lo};
+    float single[2];
+    memcpy(single, low, sizeof single);
+    if (!math_evaluate(op, (double)single[0], (double)single[1], &r))
+        return false;
+    single[0] = (float)r;
+    memcpy(low, single, sizeof low);
+    out->lo = isnan(r) ? 0x7fc00000u : low[0];
+    return true;
+}
