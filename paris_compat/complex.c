@@ -79,7 +79,7 @@ static bool store(struct machine *m, struct paris_complex dest, struct paris_cva
 /* ---- overflow ---- */
 
 /* 1 where both parts are finite */
-static struct machine_value *finite(struct machine *m, struct paris_cvalue z)
+static struct machine_value *is_finite(struct machine *m, struct paris_cvalue z)
 {
     struct machine_value *re = machine_binary(m, MACHINE_FSUB, z.re, z.re);
     struct machine_value *im = machine_binary(m, MACHINE_FSUB, z.im, z.im);
@@ -96,10 +96,10 @@ static bool overflow(struct machine *m, const struct paris_instruction *self,
         return true;
     if (!type_of(dest, "dest", &type))
         return false;
-    struct machine_value *before = finite(m, b);
+    struct machine_value *before = is_finite(m, b);
     if (good(a))
-        before = machine_binary(m, MACHINE_AND, before, finite(m, a));
-    struct machine_value *after = finite(m, converted(m, r, type));
+        before = machine_binary(m, MACHINE_AND, before, is_finite(m, a));
+    struct machine_value *after = is_finite(m, converted(m, r, type));
     after = machine_unary(m, MACHINE_NOT, after);
     return paris_flag_put(m, MACHINE_OVERFLOW, machine_binary(m, MACHINE_AND, before, after),
                           MACHINE_WHERE_ACTIVE);
