@@ -195,8 +195,7 @@ void paris_complex_move(const struct paris_instruction *self, struct paris_compl
     struct machine_type type;
     if (!type_of(dest, "dest", &type) || !check(dest, "dest") || !check_overlap(dest, a))
         return;
-    struct paris_cvalue z =
-        load(m, a, a.re.is_constant ? "value" : "source", self->scope);
+    struct paris_cvalue z = load(m, a, a.re.is_constant ? "value" : "source", self->scope);
     if (good(z))
         store(m, dest, z, self->scope);
 }
@@ -241,8 +240,8 @@ void paris_complex_to_float(const struct paris_instruction *self, struct paris_o
                               : self->op == PARIS_C_IMAG ? z.im
                                                          : NULL;
     if (!r)
-        r = machine_to_float(
-            m, paris_complex_part(self->op, doubles(m, z), is_narrow(a.re)), type, false);
+        r = machine_to_float(m, paris_complex_part(self->op, doubles(m, z), is_narrow(a.re)),
+                             type, false);
     if (self->overflow) {
         struct paris_cvalue both = {r, r};
         if (!r || !overflow(m, self, (struct paris_complex){dest, dest}, both, nothing, z))

@@ -241,8 +241,7 @@ static complex_value times_hyperbolic(real a, real b, real x)
         pair(mul(a, one_op(MACHINE_FCOSH, inside)), mul(b, one_op(MACHINE_FSINH, inside)));
     real beyond = mul(double_of(0.5), magnitude(x)), half = double_of(0.5);
     real step = one_op(MACHINE_FEXP, beyond);
-    complex_value great = pair(mul(mul(mul(a, half), step), step),
-                               signed_as(double_of(1), x));
+    complex_value great = pair(mul(mul(mul(a, half), step), step), signed_as(double_of(1), x));
     great.im = mul(great.im, mul(mul(mul(b, half), step), step));
     return pair(pick(large, great.re, small.re), pick(large, great.im, small.im));
 }
@@ -262,8 +261,7 @@ static complex_value hyperbolic_cosine(complex_value z)
     complex_value turn = paris_complex_cis(z.im);
     complex_value r = times_hyperbolic(turn.re, turn.im, z.re);
     /* sinh x sin y is a zero of their signs */
-    real none = double_of(0),
-         zero = two_op(MACHINE_OR, equal(z.re, none), equal(z.im, none));
+    real none = double_of(0), zero = two_op(MACHINE_OR, equal(z.re, none), equal(z.im, none));
     r.im = pick(zero, mul(signed_as(double_of(1), z.re), signed_as(none, turn.im)), r.im);
     return r;
 }
@@ -330,14 +328,13 @@ static complex_value arc_hyperbolic_tangent(complex_value z)
     /* close to 1: of the distances' logarithms */
     real distance = add(mul(rest, rest), mul(y, y));
     real close = less(distance, double_of(0.25));
-    real by_logarithms = mul(double_of(0.5), sub(ln_size(pair(more, y)),
-                                                 ln_size(pair(rest, y))));
+    real by_logarithms =
+        mul(double_of(0.5), sub(ln_size(pair(more, y)), ln_size(pair(rest, y))));
     real u = quotient(mul(double_of(4), x), pick(close, one, distance));
     real by_ratio = mul(double_of(0.25), ln_one_more(pick(close, one, u)));
     real reciprocal = paris_complex_divide(pair(one, double_of(0)), pair(x, y)).re;
     real re = pick(far, reciprocal, pick(close, by_logarithms, by_ratio));
-    real angle =
-        two_op(MACHINE_FATAN2, mul(double_of(2), y), sub(mul(rest, more), mul(y, y)));
+    real angle = two_op(MACHINE_FATAN2, mul(double_of(2), y), sub(mul(rest, more), mul(y, y)));
     real im = mul(double_of(0.5), angle);
     im = pick(far, signed_as(double_of(0x1.921fb54442d18p0), y), im);
     return pair(pick(turned, negated(re), re), pick(turned, negated(im), im));
@@ -346,10 +343,10 @@ static complex_value arc_hyperbolic_tangent(complex_value z)
 /* ---- powers ---- */
 
 /* Of zero: 1 where the exponent is 0, else 0 (the exponent's real part is above 0) or NaN. */
-static complex_value power_of_zero(complex_value r, complex_value z, real exponent, real is_zero)
+static complex_value power_of_zero(complex_value r, complex_value z, real exponent,
+                                   real is_zero)
 {
-    real none = double_of(0),
-         zero = two_op(MACHINE_AND, equal(z.re, none), equal(z.im, none));
+    real none = double_of(0), zero = two_op(MACHINE_AND, equal(z.re, none), equal(z.im, none));
     real above = less(none, exponent);
     r.re = pick(zero, pick(above, none, double_of(NAN)), r.re);
     r.im = pick(zero, pick(above, none, double_of(NAN)), r.im);
@@ -360,8 +357,7 @@ complex_value paris_complex_power(complex_value z, complex_value w)
 {
     complex_value r = exponential(paris_complex_multiply(w, natural_logarithm(z)));
     real none = double_of(0);
-    return power_of_zero(r, z, w.re,
-                         two_op(MACHINE_AND, equal(w.re, none), equal(w.im, none)));
+    return power_of_zero(r, z, w.re, two_op(MACHINE_AND, equal(w.re, none), equal(w.im, none)));
 }
 
 complex_value paris_complex_power_real(complex_value z, real y)
