@@ -720,6 +720,24 @@ MATH_FUNCTION double math_mod(double a, double b)
     return r;
 }
 
+/* ---- scaling ---- */
+
+/* x 2^n for a whole n, rounded once. */
+MATH_FUNCTION double math_ldexp(double x, double n)
+{
+    if (math_is_nan(n))
+        return math_nan();
+    if (math_is_nan(x) || fabs(x) == math_infinity() || x == 0.0)
+        return x;
+    n = n > 2200.0 ? 2200.0 : n < -2200.0 ? -2200.0 : n;
+    int e = math_exponent(x), k = e + (int)n;
+    if (k > 1023)
+        return math_with_sign(math_infinity(), x);
+    if (k < -1080)
+        return math_with_sign(0.0, x);
+    return math_scale(math_scale(x, -e), k);
+}
+
 /* ---- for vectors, lane by lane ---- */
 
 #ifdef VECTOR
@@ -775,4 +793,5 @@ MATH_2(math_atan2)
 MATH_2(math_pow)
 MATH_2(math_mod)
 MATH_2(math_rem)
+MATH_2(math_ldexp)
 #endif

@@ -69,8 +69,10 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
         }
     }
     struct machine_value *result = machine_binary(m, self->op, x, y);
+    bool is_function = paris_is_float_function(self->op);
     if (self->overflow &&
-        (machine_overflow_record(m, self->op, is_signed, x, y) != MACHINE_OK ||
+        (!(is_function ? paris_float_overflow(m, self->op, x, y, result)
+                       : machine_overflow_record(m, self->op, is_signed, x, y) == MACHINE_OK) ||
          (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
         paris_fail_machine();
         return;
@@ -111,7 +113,11 @@ void paris_unary(const struct paris_instruction *self, struct paris_operand dest
     if (!x)
         return;
     if (dest.letter == 'f') {
-        paris_store(m, dest, machine_unary(m, self->op, x), self->scope);
+        struct machine_value *y = machine_unary(m, self->op, x);
+        if (self->overflow && !paris_float_overflow(m, self->op, x, NULL, y))
+            paris_fail_machine();
+        else
+            paris_store(m, dest, y, self->scope);
         return;
     }
     bool is_signed = dest.letter == 's';

@@ -2,7 +2,7 @@
 """Makes the public header, the entry points, the tests' table and the reference page of instructions.tab.
 
     generate.py header instructions.tab paris.h paris.h.in
-    generate.py entries|tests|reference instructions.tab OUTPUT
+    generate.py entries|tests|tests_floats|reference instructions.tab OUTPUT
 
 Each row becomes a list of Function; the four outputs are four ways of printing these.
 """
@@ -464,20 +464,120 @@ def cfrontend(_, name, op, flags, doc):
                          f"PARIS_NEWS_{verb.split('_')[0].upper()}", flags, always)
 
 
+COMPLEX_SHAPES = {"cbinary": cbinary, "cunary": cunary, "ccompare": ccompare, "cmove": cmove, "cpower": cpower,
+                  "cpart": cpart, "cangle": cangle, "cfrontend": cfrontend}
+
+
 def call(prototype, doc):
     head, args = prototype.split(" (", 1)
     result, name = head.rsplit(" ", 1)
     return Function(name, [("", args[:-1])], doc, "", result)
 
 
-COMPLEX_SHAPES = {"cbinary": cbinary, "cunary": cunary, "ccompare": ccompare, "cmove": cmove, "cpower": cpower,
-                  "cpart": cpart, "cangle": cangle, "cfrontend": cfrontend}
-SHAPES = {"binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
+# ---- floats: families of their own, tested by tests/paris/test_floats.c from a table of their own ----
+
+
+def in_float_table(functions, shape):
+    for f in functions:
+        f.test["shape"] = shape
+        yield f
+
+
+def float_unary(types, name, op, flags, doc):
+    return in_float_table(unary(types, name, op, flags, doc), "FLOAT_UNARY")
+
+
+def float_binary(types, name, op, flags, doc):
+    return in_float_table(binary(types, name, op, flags, doc), "FLOAT_BINARY")
+
+
+def float_function(name, params, doc, action, args, row, flags, always, shape, **test):
+    return instruction(name, params, doc, action, args, row, flags, always, shape=f"FLOAT_{shape}", **test)
+
+
+F = [(LEN, "s"), (LEN, "e")]
+FLOAT_DEST, FLOAT_SOURCE = ("paris_f(dest, s, e)", "paris_f(source, s, e)")
+
+
+def float_by_integer(types, name, op, flags, doc):
+    """CM_f_T_name: dest = source1 op source2, the latter an integer of type T."""
+    for T in types:
+        for always in (False, True):
+            def make(suffix, const, params, args, **test):
+                return float_function(f"CM_f_{T}_{name}{const}{mid(always)}_{suffix}", params + F, doc,
+                                      "paris_float_by_integer", args, f"MACHINE_{op}", flags, always,
+                                      "BY_INTEGER", type="f", type2=T, op=name, **test)
+
+            yield make("2_2L", "", [DEST, SOURCE, SLEN],
+                       [FLOAT_DEST, FLOAT_DEST, operand(T, "source", "slen")], operands=2, lengths=2)
+            yield make("3_2L", "", [DEST, SOURCE1, SOURCE2, SLEN2],
+                       [FLOAT_DEST, "paris_f(source1, s, e)", operand(T, "source2", "slen2")],
+                       operands=3, lengths=2)
+            for const in CONSTANTS:
+                c = constant(T, "value", "64")
+                yield make("2_1L", const, [DEST, value(T)], [FLOAT_DEST, FLOAT_DEST, c],
+                           operands=2, lengths=1, constant=1)
+                yield make("3_1L", const, [DEST, SOURCE, value(T)], [FLOAT_DEST, FLOAT_SOURCE, c],
+                           operands=3, lengths=1, constant=1)
+
+
+def float_pair(_, name, op, flags, doc):
+    """CM_f_name_1L and its const forms: name is two operations, such as mult_add, on three sources."""
+    first, second = name.split("_")
+    for always in (False, True):
+        for const in CONSTANTS:
+            for c2 in ("", const):
+                for c3 in ("", const):
+                    if not c2 and not c3 and const != CONSTANTS[0]:
+                        continue
+                    values = [("double", "source2_value" if c3 else "value")] if c2 else [SOURCE2]
+                    values += [("double", "source3_value" if c2 else "value")] if c3 else [(FIELD, "source3")]
+                    args = [f"paris_f{'_constant' if t == 'double' else ''}({n}, s, e)" for t, n in values]
+                    yield float_function(f"CM_f_{first}{c2}_{second}{c3}{mid(always)}_1L",
+                                         [DEST, SOURCE1] + values + F, doc, "paris_float_pair",
+                                         [FLOAT_DEST, "paris_f(source1, s, e)"] + args, f"PARIS_{op}", flags,
+                                         always, "PAIR", type="f", op=name, operands=3, lengths=1,
+                                         constant=bool(c2) + 2 * bool(c3))
+
+
+def float_part(types, name, op, flags, doc):
+    """CM_T_f_name_2_2L: an integer made of a float."""
+    for T in types:
+        for always in (False, True):
+            yield float_function(f"CM_{T}_f_{name}{mid(always)}_2_2L", [DEST, SOURCE, DLEN] + F, doc,
+                                 "paris_float_part", [operand(T, "dest", "dlen"), FLOAT_SOURCE], f"PARIS_{op}",
+                                 flags, always, "PART", type=T, op=name, operands=2, lengths=2)
+
+
+def float_made(_, name, op, flags, doc):
+    """CM_f_name_1_1L, _2_1L: a float made of one, by paris_float_made."""
+    for always in (False, True):
+        for suffix, params, source in (("1_1L", [DEST], FLOAT_DEST), ("2_1L", [DEST, SOURCE], FLOAT_SOURCE)):
+            yield float_function(f"CM_f_{name}{mid(always)}_{suffix}", params + F, doc, "paris_float_made",
+                                 [FLOAT_DEST, source], f"PARIS_{op}", flags, always, "MADE", type="f", op=name,
+                                 operands=len(params), lengths=1)
+
+
+def float_test(_, name, op, flags, doc):
+    yield float_function(f"CM_f_{name}_1L", [SOURCE] + F, doc, "paris_float_test", [FLOAT_SOURCE], f"PARIS_{op}",
+                         flags, False, "TEST", type="f", op=name, operands=1, lengths=1)
+
+
+def float_swap(_, name, op, flags, doc):
+    for always in (False, True):
+        yield float_function(f"CM_f_{name}{mid(always)}_2_1L", [DEST, SOURCE] + F, doc, "paris_float_swap",
+                             [FLOAT_DEST, FLOAT_SOURCE], "0", flags, always, "SWAP", type="f", op=name,
+                             operands=2, lengths=1)
+
+
+SHAPES = {"float_unary": float_unary, "float_binary": float_binary, "float_by_integer": float_by_integer,
+          "float_pair": float_pair, "float_part": float_part, "float_made": float_made, "float_test": float_test,
+          "float_swap": float_swap}
+
+SHAPES |= {"binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
           "logical": logical, "not": complement, "flag": flag, "news": news, "own": own, "processor": processor,
           "newsarray": newsarray, "global": reduction, "globalflag": globalflag}
-
-
-SHAPES.update(COMPLEX_SHAPES)
+SHAPES |= COMPLEX_SHAPES
 
 
 def read_table(path):
@@ -537,7 +637,7 @@ def entries(sections):
     return "\n".join(out)
 
 
-def tests(sections):
+def tests(sections, floats=False):
     """A function that calls each instruction with a struct's members, and a table of them."""
     calls, rows_out = [], []
     for _, rows in sections:
@@ -545,11 +645,14 @@ def tests(sections):
             for f in functions:
                 if not f.body or f.test["shape"] in ("PROCESSOR", "ARRAY", "COMPLEX"):
                     continue
+                if f.test["shape"].startswith("FLOAT_") != floats:
+                    continue
                 t = f.test
                 T = t.get("type", "u")
 
                 def member(name):
-                    return f"t->value_{T if T in 'usf' else 'u'}" if name == "value" else f"t->{name}"
+                    kind = t["type2"] if t["shape"] == "FLOAT_BY_INTEGER" else T
+                    return f"t->value_{kind if kind in 'usf' else 'u'}" if name == "value" else f"t->{name}"
                 args = ", ".join(member(n) for _, n in f.params)
                 result = f"t->result_{'f' if T == 'f' else 'u'} = " if f.result != "void" else ""
                 if f.result in ("int", "long"):
@@ -593,7 +696,8 @@ def main():
     if kind == "header":
         text = header(sections, sys.argv[4])
     else:
-        text = {"entries": entries, "tests": tests, "reference": reference}[kind](sections)
+        text = {"entries": entries, "tests": tests, "tests_floats": lambda all: tests(all, True),
+                "reference": reference}[kind](sections)
     with open(output, "w") as out:
         out.write(text)
 

@@ -129,8 +129,16 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope)
 {
+    struct machine_type type;
     if (!paris_check_operand(dest, "dest"))
         return false;
+    if (dest.letter == 'f' && value &&
+        machine_value_type(value).kind ==
+            MACHINE_FLOAT) { /* what was done in double comes back to its format */
+        if (!paris_type(dest, "dest", &type))
+            return false;
+        value = machine_to_float(paris_the.machine, value, type, false);
+    }
     if (!value || machine_field_store(m, dest.field, value, scope) != MACHINE_OK) {
         paris_fail_machine();
         return false;

@@ -177,6 +177,46 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
                   struct paris_operand a, struct paris_operand b);
 void paris_unary(const struct paris_instruction *self, struct paris_operand dest,
                  struct paris_operand a);
+/* floats.c: what self->op is. */
+enum paris_float_op {
+    PARIS_SIGNUM,
+    PARIS_EXPONENT,
+    PARIS_EXPONENT_FIELD,
+    PARIS_SIGNIFICAND,
+    PARIS_MULT_ADD,
+    PARIS_MULT_SUB,
+    PARIS_MULT_SUBF,
+    PARIS_ADD_MULT,
+    PARIS_SUB_MULT,
+    PARIS_SUBF_MULT,
+    PARIS_IS_NAN,
+    PARIS_IS_INFINITY,
+    PARIS_IS_FINITE,
+    PARIS_IS_ZERO,
+    PARIS_IS_NEGATIVE,
+    PARIS_IS_NORMAL,
+    PARIS_IS_SUBNORMAL
+};
+/* Records the overflow of MACHINE_FEXP .. MACHINE_FSCALE: infinite from finite, and for the
+ * remainders a divisor of 0. b NULL: one operand. */
+bool paris_float_overflow(struct machine *m, int op, struct machine_value *a,
+                          struct machine_value *b, struct machine_value *result);
+static inline bool paris_is_float_function(int op)
+{
+    return op >= MACHINE_FEXP && op <= MACHINE_FSCALE;
+}
+/* op: MACHINE_FPOW or MACHINE_FSCALE; b is an integer. */
+void paris_float_by_integer(const struct paris_instruction *self, struct paris_operand dest,
+                            struct paris_operand a, struct paris_operand b);
+void paris_float_pair(const struct paris_instruction *self, struct paris_operand dest,
+                      struct paris_operand a, struct paris_operand b, struct paris_operand c);
+void paris_float_part(const struct paris_instruction *self, struct paris_operand dest,
+                      struct paris_operand a);
+void paris_float_made(const struct paris_instruction *self, struct paris_operand dest,
+                      struct paris_operand a);
+void paris_float_test(const struct paris_instruction *self, struct paris_operand a);
+void paris_float_swap(const struct paris_instruction *self, struct paris_operand dest,
+                      struct paris_operand source);
 void paris_compare(const struct paris_instruction *self, struct paris_operand a,
                    struct paris_operand b);
 void paris_move(const struct paris_instruction *self, struct paris_operand dest,

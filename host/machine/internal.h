@@ -268,6 +268,13 @@ struct machine_value *soft_unpacked(struct machine *m, struct machine_value *bit
                                     struct machine_type type);
 uint64_t soft_rounded(uint64_t x, struct machine_type type);     /* a double's bits */
 uint64_t soft_packed_bits(uint64_t x, struct machine_type type); /* ... as in a field */
+static inline struct machine_scalar soft_rounded_scalar(struct machine_scalar x,
+                                                        struct machine_type type)
+{
+    if (type.s)
+        x.lo = soft_rounded(x.lo, type);
+    return x;
+}
 static inline int node_cost(int op, struct machine_type type)
 {
     return node_ops[op].cost + (type.s && node_ops[op].inputs && op != NODE_SELECT ? 30 : 0);
@@ -286,7 +293,7 @@ bool math_fold(int op, struct machine_type type, struct machine_scalar a,
                struct machine_scalar b, struct machine_scalar *out);
 static inline bool op_is_math(int op)
 {
-    return op >= MACHINE_FEXP && op <= MACHINE_FREM;
+    return op >= MACHINE_FEXP && op <= MACHINE_FSCALE;
 }
 
 /* fields.c */

@@ -304,6 +304,7 @@ enum machine_op {
     MACHINE_FPOW,   /* a to the power b */
     MACHINE_FMOD,   /* a - b floor(a / b): exact but for one rounding; its sign is b's */
     MACHINE_FREM,   /* a - b trunc(a / b): exact; its sign is a's */
+    MACHINE_FSCALE, /* a 2^b, rounded once; b is whole */
     MACHINE_OP_COUNT_PUBLIC
 };
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,

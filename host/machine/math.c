@@ -95,6 +95,9 @@ bool math_evaluate(int op, double a, double b, double *out)
     case MACHINE_FREM:
         *out = math_rem(a, b);
         return true;
+    case MACHINE_FSCALE:
+        *out = math_ldexp(a, b);
+        return true;
     default:
         return false;
     }

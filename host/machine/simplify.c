@@ -74,6 +74,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [MACHINE_FPOW] = {"FPOW", 2, 120, 1},
     [MACHINE_FMOD] = {"FMOD", 2, 100, 1},
     [MACHINE_FREM] = {"FREM", 2, 100, 1},
+    [MACHINE_FSCALE] = {"FSCALE", 2, 40, 1},
     [NODE_CONSTANT] = {"constant", 0, 0, 0},
     [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
     [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
@@ -425,7 +426,7 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
         return bad(m, "this operation does not take one operand of this type");
     struct machine_scalar math;
     if (is_number(a) && op_is_math(op) && math_fold(op, a->type, a->imm, a->imm, &math))
-        return number(m, a->type, math);
+        return number(m, a->type, soft_rounded_scalar(math, a->type));
     unsigned __int128 folded;
     if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
         return number(m, a->type, narrow(folded));
@@ -442,7 +443,7 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     if (!a || !b)
         return NULL;
     bool is_float = (op >= MACHINE_FADD && op <= MACHINE_FGE) ||
-                    (op >= MACHINE_FATAN2 && op <= MACHINE_FREM);
+                    (op >= MACHINE_FATAN2 && op <= MACHINE_FSCALE);
     if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 2 ||
         !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation takes two operands of one type, which these are not");
@@ -451,7 +452,7 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     struct machine_scalar math;
     if (is_number(a) && is_number(b) && op_is_math(op) &&
         math_fold(op, a->type, a->imm, b->imm, &math))
-        return number(m, a->type, math);
+        return number(m, a->type, soft_rounded_scalar(math, a->type));
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
         fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))

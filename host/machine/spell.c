@@ -185,7 +185,7 @@ void spell_math(char *out, size_t size, int op, struct machine_type t, const cha
         [MACHINE_FATAN] = "atan",   [MACHINE_FSINH] = "sinh",   [MACHINE_FCOSH] = "cosh",
         [MACHINE_FTANH] = "tanh",   [MACHINE_FASINH] = "asinh", [MACHINE_FACOSH] = "acosh",
         [MACHINE_FATANH] = "atanh", [MACHINE_FATAN2] = "atan2", [MACHINE_FPOW] = "pow",
-        [MACHINE_FMOD] = "mod",     [MACHINE_FREM] = "rem"};
+        [MACHINE_FMOD] = "mod",     [MACHINE_FREM] = "rem",     [MACHINE_FSCALE] = "ldexp"};
     bool single = t.width == 32, two = op >= MACHINE_FATAN2;
     snprintf(out, size,
              single ? two ? "CONVERT(float, math_%s_lanes(CONVERT(double, %s), "

@@ -22,7 +22,7 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
 /* MACHINE_FNEG .. MACHINE_FGE. */
 void spell_float(char *out, size_t size, int op, struct machine_type t, const char *a,
                  const char *b);
-/* MACHINE_FEXP .. MACHINE_FREM: kernels/math.cl. */
+/* MACHINE_FEXP .. MACHINE_FSCALE: kernels/math.cl. */
 void spell_math(char *out, size_t size, int op, struct machine_type t, const char *a,
                 const char *b);
 /* NODE_OVERFLOW_*. */

@@ -14,7 +14,7 @@
 #include "internal.h"
 
 enum { COLUMNS = 272, ROWS = 16, COUNT = COLUMNS * ROWS, FIRST = MACHINE_FEXP };
-enum { OPS = MACHINE_FREM - MACHINE_FEXP + 1 };
+enum { OPS = MACHINE_FSCALE - MACHINE_FEXP + 1 };
 
 static uint64_t state = 88172645463325252u;
 
