@@ -132,9 +132,8 @@ bool paris_store(struct machine *m, struct paris_operand dest, struct machine_va
     struct machine_type type;
     if (!paris_check_operand(dest, "dest"))
         return false;
-    if (dest.letter == 'f' && value &&
-        machine_value_type(value).kind ==
-            MACHINE_FLOAT) { /* what was done in double comes back to its format */
+    /* What was done in double comes back to its format. */
+    if (dest.letter == 'f' && value && machine_value_type(value).kind == MACHINE_FLOAT) {
         if (!paris_type(dest, "dest", &type))
             return false;
         value = machine_to_float(paris_the.machine, value, type, false);

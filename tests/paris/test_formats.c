@@ -127,6 +127,18 @@ WANTED(to_unsigned, (uint64_t)clipped(trunc(x), 0, 255))
 WANTED(not_signed, !(rint(x) >= -4096 && rint(x) < 4096))
 WANTED(next, a_bits[n / SIDE * SIDE + (n % SIDE + 1) % SIDE])
 
+/* ---- the functions ---- */
+
+WANTED(sine, oracle_soft_function(f, 's', a))
+WANTED(exponential, oracle_soft_function(f, 'e', a))
+WANTED(mult_add, op('+', op('*', a, b), d))
+WANTED(scaled, bits_of(ldexp(x, (int8_t)u)))
+WANTED(significand, x == 0 || !isfinite(x) ? bits_of(x) : bits_of(x / ldexp(1, ilogb(x))))
+WANTED(exponent, x == 0 ? 0x8000 : isfinite(x) ? (uint64_t)ilogb(x) & 0xffff : 0)
+WANTED(exponent_field, a >> f.s & ((UINT64_C(1) << f.e) - 1))
+WANTED(normal, isfinite(x) && fabs(x) >= ldexp(1, 2 - (1 << (f.e - 1))))
+WANTED(not_number, isnan(x) != 0)
+
 /* ---- the instructions ---- */
 
 static void record_arithmetic(CM_field_id_t a, CM_field_id_t b)
@@ -178,6 +190,22 @@ static void record_flags(CM_field_id_t a, CM_field_id_t b)
     CM_store_test(result("lt_constant", 1, want_below, false));
 }
 
+static void record_functions(CM_field_id_t a, CM_field_id_t b, CM_field_id_t d, CM_field_id_t u)
+{
+    unsigned int s = (unsigned int)f.s, e = (unsigned int)f.e, bits = s + e + 1;
+    CM_f_sin_2_1L(result("sin", bits, want_sine, false), a, s, e);
+    CM_f_exp_2_1L(result("exp", bits, want_exponential, false), a, s, e);
+    CM_f_mult_add_1L(result("mult_add", bits, want_mult_add, false), a, b, d, s, e);
+    CM_f_s_scale_3_2L(result("s_scale", bits, want_scaled, false), a, u, 8, s, e);
+    CM_f_f_significand_2_1L(result("f_significand", bits, want_significand, false), a, s, e);
+    CM_s_f_exponent_2_2L(result("s_f_exponent", 16, want_exponent, false), a, 16, s, e);
+    CM_u_f_exponent_2_2L(result("u_f_exponent", e, want_exponent_field, false), a, e, s, e);
+    CM_f_is_normal_1L(a, s, e);
+    CM_store_test(result("is_normal", 1, want_normal, false));
+    CM_f_is_nan_1L(a, s, e);
+    CM_store_test(result("is_nan", 1, want_not_number, false));
+}
+
 static void start(struct soft_format format)
 {
     f = format;
@@ -203,7 +231,7 @@ static void instructions_agree(struct soft_format format)
     start(format);
     unsigned int bits = (unsigned int)(f.s + f.e + 1);
     CM_field_id_t a = field_of(bits, a_bits), b = field_of(bits, b_bits),
-                  u = field_of(64, wholes);
+                  u = field_of(64, wholes), d = field_of(bits, d_bits);
     for (int n = 0; n < MANY; n++)
         context[n] = active[n];
     CM_field_id_t mask = field_of(1, context);
@@ -211,6 +239,7 @@ static void instructions_agree(struct soft_format format)
     record_arithmetic(a, b);
     record_moves(a, u);
     record_flags(a, b);
+    record_functions(a, b, d, u);
     for (int k = 0; k < results_count; k++) {
         const struct result *r = &results[k];
         uint64_t mask_bits = r->bits == 64 ? UINT64_MAX : (UINT64_C(1) << r->bits) - 1;
