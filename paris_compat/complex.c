@@ -212,6 +212,11 @@ void paris_complex_raise(const struct paris_instruction *self, struct paris_comp
         good(z) ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
     if (!n)
         return;
+    /* Few bits, so few products: those of other numbers are of no use. */
+    if (b.is_constant && (b.letter == 's'   ? b.value.bits + 512 < 1024
+                          : b.letter == 'u' ? b.value.bits < 1024
+                                            : false))
+        n = machine_extract(m, n, 0, 10);
     if (b.letter == 'f') {
         w.re = w.im = n;
         r = paris_complex_power_real(doubles(m, z), machine_to_float(m, n, MACHINE_F64, false));

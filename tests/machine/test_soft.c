@@ -18,7 +18,7 @@ static const struct soft_format many[] = {{10, 5}, {7, 8},  {3, 4},   {1, 2},   
                                           {23, 8}, {24, 9}, {25, 8},  {20, 11}, {52, 8},
                                           {1, 11}, {52, 2}, {40, 10}, {51, 11}, {52, 11}};
 /* the double's arithmetic, rounded; whole numbers; those where subnormals are the double's */
-static const struct soft_format few[] = {{10, 5}, {40, 10}, {51, 11}};
+static const struct soft_format few[] = {{10, 5}, {51, 11}};
 
 struct operands {
     struct soft_format f;

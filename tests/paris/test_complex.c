@@ -227,8 +227,8 @@ enum { UNARIES = sizeof unaries / sizeof *unaries };
 /* in_single: in that format only these: the others are the double's, rounded. */
 static bool is_wanted(struct format f, int k)
 {
-    static const char *const in_single[] = {"move", "signum", "sqrt", "acosh"};
-    for (int i = 0; i < 4; i++)
+    static const char *const in_single[] = {"move", "sqrt"};
+    for (int i = 0; i < 2; i++)
         if (strcmp(unaries[k].name, in_single[i]) == 0)
             return true;
     return f.e == 11;
@@ -291,8 +291,9 @@ static void powers_agree(struct format f)
     for (int k = 0; k < 6; k++)
         r[k] = CM_allocate_stack_field(bits);
     CM_c_c_power_3_1L(r[0], z, w, f.s, f.e);
-    CM_c_s_power_3_2L(r[1], z, n, 8, f.s, f.e);
-    CM_c_s_power_3_2L(r[2], z, wide, 40, f.s, f.e);
+    CM_c_s_power_3_2L(r[1], z, wide, 40, f.s, f.e);
+    CM_c_move_1L(r[2], z, f.s, f.e);
+    CM_c_s_power_const_2_1L(r[2], -2, f.s, f.e);
     CM_c_u_power_constant_3_1L(r[3], z, 3, f.s, f.e);
     CM_c_f_power_3_1L(r[4], z, w, f.s, f.e);
     CM_c_f_cis_2_1L(r[5], w, f.s, f.e);
@@ -301,10 +302,11 @@ static void powers_agree(struct format f)
         parts_of(f, r[k], out);
         for (int i = 0; i < MANY; i++) {
             number_c a = of_parts(samples[0], i), b = of_parts(samples[1], i);
-            number_c c = k == 0             ? b
-                         : k == 1 || k == 2 ? exponent_of(i)
-                         : k == 3           ? 3
-                                            : creall(b);
+            number_c c = k == 0   ? b
+                         : k == 1 ? exponent_of(i)
+                         : k == 2 ? -2
+                         : k == 3 ? 3
+                                  : creall(b);
             number_c wanted = k == 5 ? CMPLXL(cosl(creall(b)), sinl(creall(b)))
                               : k == 1 || k == 2 || k == 3 ? whole_power(a, (int)creall(c))
                                                            : cpowl(a, c);
@@ -376,7 +378,8 @@ struct form {
 };
 
 #define CALL(name, ...)                                                                        \
-    static void call_##name(CM_field_id_t dest, CM_field_id_t a, CM_field_id_t b)              \
+    static __attribute__((unused)) void call_##name(CM_field_id_t dest, CM_field_id_t a,       \
+                                                    CM_field_id_t b)                           \
     {                                                                                          \
         (void)a;                                                                               \
         (void)b;                                                                               \
@@ -385,23 +388,13 @@ struct form {
 #define CALLS(op)                                                                              \
     CALL(op##_2_1L, dest, a)                                                                   \
     CALL(op##_3_1L, dest, a, b)                                                                \
-    CALL(op##_constant_2_1L, dest, value_real, value_imag)                                     \
-    CALL(op##_const_3_1L, dest, a, value_real, value_imag)                                     \
-    CALL(op##_always_2_1L, dest, a)                                                            \
-    CALL(op##_always_3_1L, dest, a, b)                                                         \
-    CALL(op##_const_always_2_1L, dest, value_real, value_imag)                                 \
-    CALL(op##_constant_always_3_1L, dest, a, value_real, value_imag)
+    CALL(op##_const_always_2_1L, dest, value_real, value_imag)
 #define ROW(op, symbol, form, n, constant, always)                                             \
     {#op #form, symbol, n, constant, always, call_##op##form},
 #define ROWS(op, symbol)                                                                       \
     ROW(op, symbol, _2_1L, 2, false, false)                                                    \
     ROW(op, symbol, _3_1L, 3, false, false)                                                    \
-    ROW(op, symbol, _constant_2_1L, 2, true, false)                                            \
-    ROW(op, symbol, _const_3_1L, 3, true, false)                                               \
-    ROW(op, symbol, _always_2_1L, 2, false, true)                                              \
-    ROW(op, symbol, _always_3_1L, 3, false, true)                                              \
-    ROW(op, symbol, _const_always_2_1L, 2, true, true)                                         \
-    ROW(op, symbol, _constant_always_3_1L, 3, true, true)
+    ROW(op, symbol, _const_always_2_1L, 2, true, true)
 
 CALLS(add)
 CALLS(subtract)
@@ -409,8 +402,22 @@ CALLS(multiply)
 CALLS(divide)
 CALLS(subfrom)
 CALLS(divinto)
-static const struct form forms[] = {ROWS(add, '+') ROWS(subtract, '-') ROWS(multiply, '*') ROWS(
-    divide, '/') ROWS(subfrom, 'r') ROWS(divinto, 'd')};
+CALL(add_constant_2_1L, dest, value_real, value_imag)
+CALL(add_const_3_1L, dest, a, value_real, value_imag)
+CALL(add_always_2_1L, dest, a)
+CALL(add_always_3_1L, dest, a, b)
+CALL(add_constant_always_3_1L, dest, a, value_real, value_imag)
+/* multiply_3_1L is the first, for the overflow flag */
+static const struct form forms[] = {
+    ROW(multiply, '*', _3_1L, 3, false, false) ROW(multiply, '*', _2_1L, 2, false, false)
+        ROWS(add, '+') ROW(add, '+', _constant_2_1L, 2, true, false) ROW(
+            add, '+', _const_3_1L, 3, true, false) ROW(add, '+', _always_2_1L, 2, false, true)
+            ROW(add, '+', _always_3_1L, 3, false, true)
+                ROW(add, '+', _constant_always_3_1L, 3, true, true)
+                    ROW(multiply, '*', _const_always_2_1L, 2, true, true) ROWS(subtract, '-')
+                        ROW(divide, '/', _2_1L, 2, false, false)
+                            ROW(divide, '/', _const_always_2_1L, 2, true, true)
+                                ROWS(subfrom, 'r') ROW(divinto, 'd', _3_1L, 3, false, false)};
 enum { FORMS = sizeof forms / sizeof *forms };
 
 static void want_form(const struct form *t, int n, double *re, double *im)
@@ -475,7 +482,7 @@ static void forms_agree(void **unused)
     CM_load_context(mask);
     for (int k = 0; k < FORMS; k++) {
         forms[k].call(r[k], a, b);
-        if (k == 17) /* multiply_3_1L */
+        if (k == 0)
             CM_store_overflow_always(flag);
     }
     for (int k = 0; k < FORMS; k++) {
@@ -490,14 +497,13 @@ static void forms_agree(void **unused)
                          out[2 * n + 1], re, im);
         }
     }
-    assert_string_equal(forms[17].name, "multiply_3_1L");
     CM_u_read_from_news_array_1L(flags, none, none, all, both, flag, 1, 2, all, CM_8_bit);
     for (int n = 0; n < MANY; n++) {
         double re = 0, im = 0;
         const double *x = samples[0] + 2 * n;
         if (!active[n])
             continue;
-        want_form(&forms[17], n, &re, &im);
+        want_form(&forms[0], n, &re, &im);
         assert_int_equal(flags[n],
                          isfinite(x[0]) && isfinite(x[1]) && !(isfinite(re) && isfinite(im)));
     }

@@ -137,7 +137,7 @@ WANTED(significand, x == 0 || !isfinite(x) ? bits_of(x) : bits_of(x / ldexp(1, i
 WANTED(exponent, x == 0 ? 0x8000 : isfinite(x) ? (uint64_t)ilogb(x) & 0xffff : 0)
 WANTED(exponent_field, a >> f.s & ((UINT64_C(1) << f.e) - 1))
 WANTED(normal, isfinite(x) && fabs(x) >= ldexp(1, 2 - (1 << (f.e - 1))))
-WANTED(not_number, isnan(x) != 0)
+WANTED(not_number, (uint64_t)(x != x))
 
 /* ---- the instructions ---- */
 
