@@ -212,6 +212,8 @@ void paris_to_bits(const struct paris_instruction *self, struct paris_operand de
     struct machine_value *x = paris_load(m, a, "source", self->scope);
     if (!x)
         return;
+    if (machine_value_type(x).s) /* what is whole need not be in another format */
+        x = machine_to_float(m, x, MACHINE_F64, false);
     x = machine_unary(m, self->op, x);
     struct machine_value *result = x ? machine_to_bits(m, x, (int)dest.len, is_signed) : NULL;
     if (result && overflow_range(m, x, dest.len, is_signed))

@@ -98,7 +98,8 @@ static bool walk_make(const struct paris_geometry *g, struct paris_block block, 
     if (!axes_good(g, block))
         return false;
     *w = (struct walk){.rank = block.rank, .count = 1};
-    step = 1;
+    step = block.pairs ? 2 : 1;
+    w->array_first = block.second;
     for (unsigned int j = block.rank; j-- > 0;) {
         if (!extent_good(g, block, j))
             return false;

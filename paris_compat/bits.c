@@ -133,8 +133,7 @@ static void move_float(struct machine *m, const struct paris_instruction *self,
     struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
     if (!v)
         return;
-    if (machine_value_type(v).width != type.width)
-        v = machine_to_float(m, v, type, false);
+    v = machine_to_float(m, v, type, false);
     paris_store(m, dest, v, self->scope);
 }
 

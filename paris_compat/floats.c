@@ -2,6 +2,8 @@
  * floats, tests of what a float is, exchange.
  *
  * Two operations in one round twice: the result is that of the two instructions. */
+#include <math.h>
+
 #include "paris_state.h"
 
 static struct machine_value *zero_if_finite(struct machine *m, struct machine_value *x)
@@ -28,6 +30,12 @@ bool paris_float_overflow(struct machine *m, int op, struct machine_value *a,
     }
     struct machine_value *operand = b ? both(m, zero_if_finite(m, a), zero_if_finite(m, b)) : a;
     return operand && machine_overflow_record_result(m, result, operand) == MACHINE_OK;
+}
+
+/* Floats of other formats as the doubles that they are: their parts are found so. */
+static struct machine_value *native(struct machine *m, struct machine_value *x)
+{
+    return x && machine_value_type(x).s ? machine_to_float(m, x, MACHINE_F64, false) : x;
 }
 
 /* ---- powers and scaling by integers ---- */
@@ -96,8 +104,12 @@ void paris_float_by_integer(const struct paris_instruction *self, struct paris_o
     struct machine_value *result;
     if (self->op == MACHINE_FPOW)
         result = machine_to_float(m, power(m, x, n, is_signed), type, false);
-    else
-        result = machine_binary(m, MACHINE_FSCALE, x, machine_to_float(m, n, type, is_signed));
+    else {
+        struct machine_type in = type.s ? MACHINE_F64 : type;
+        result = machine_binary(m, MACHINE_FSCALE, native(m, x),
+                                machine_to_float(m, n, in, is_signed));
+        result = machine_to_float(m, result, type, false);
+    }
     if (self->overflow && !paris_float_overflow(m, self->op, x, NULL, result)) {
         paris_fail_machine();
         return;
@@ -232,9 +244,10 @@ void paris_float_made(const struct paris_instruction *self, struct paris_operand
     if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
         !paris_check_overlap(dest, a))
         return;
-    struct machine_value *x = paris_load(m, a, "source", self->scope), *r;
+    struct machine_value *x = native(m, paris_load(m, a, "source", self->scope)), *r;
     if (!x)
         return;
+    type = machine_value_type(x);
     if (self->op == PARIS_SIGNUM) {
         struct machine_value *zero = machine_constant_float(m, type, 0);
         r = signum(m, x, machine_constant_float(m, type, 1),
@@ -282,7 +295,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
     if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
         !paris_check_overlap(dest, a))
         return;
-    struct machine_value *x = paris_load(m, a, "source", self->scope);
+    struct machine_value *x = native(m, paris_load(m, a, "source", self->scope));
     if (!x)
         return;
     ftype = machine_value_type(x);
@@ -291,7 +304,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
         paris_fail_machine();
         return;
     }
-    int len = (int)dest.len, w = EXPONENT_WIDTH, s = significand_bits(ftype);
+    int len = (int)dest.len, w = EXPONENT_WIDTH, s = (int)a.len;
     switch (self->op) {
     case PARIS_SIGNUM:
         store_integer(m, self, dest,
@@ -299,7 +312,9 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
                       NULL);
         return;
     case PARIS_EXPONENT_FIELD:
-        store_integer(m, self, dest, exponent_field(m, x), NULL);
+        store_integer(m, self, dest,
+                      paris_load(m, paris_b(a.field + a.len, a.e), "source", self->scope),
+                      NULL);
         return;
     case PARIS_EXPONENT: {
         /* 0 has the least number, whatever dest's length is: made at dest's length or w. */
@@ -416,7 +431,7 @@ void paris_float_test(const struct paris_instruction *self, struct paris_operand
     struct machine_value *magnitude = machine_unary(m, MACHINE_FABS, x);
     struct machine_value *infinity = machine_constant_float(m, type, (double)__builtin_inff());
     struct machine_value *least =
-        machine_constant_float(m, type, type.width == 32 ? 0x1p-126 : 0x1p-1022);
+        machine_constant_float(m, type, ldexp(1, 2 - (1 << (a.e - 1))));
     switch (self->op) {
     case PARIS_IS_NAN:
         r = machine_binary(m, MACHINE_FNE, x, x);

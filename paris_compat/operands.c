@@ -6,17 +6,14 @@
 bool paris_type(struct paris_operand a, const char *role, struct machine_type *type)
 {
     if (a.letter == 'f') {
-        if (a.len == 23 && a.e == 8) {
-            *type = MACHINE_F32;
+        if (a.len >= 1 && a.len <= CM_maximum_significand_length && a.e >= 2 &&
+            a.e <= CM_maximum_exponent_length) {
+            *type = machine_float_type((int)a.len, (int)a.e);
             return true;
         }
-        if (a.len == 52 && a.e == 11) {
-            *type = MACHINE_F64;
-            return true;
-        }
-        paris_fail("%s: floats with significand %u and exponent %u are not supported: use 23, "
-                   "8 or 52, 11",
-                   role, a.len, a.e);
+        paris_fail("%s: a float's significand must be 1..%d bits and its exponent 2..%d (got "
+                   "%u, %u)",
+                   role, CM_maximum_significand_length, CM_maximum_exponent_length, a.len, a.e);
         return false;
     }
     unsigned int least = a.letter == 's' && paris_the.safety ? 2 : 1;
@@ -132,8 +129,15 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope)
 {
+    struct machine_type type;
     if (!paris_check_operand(dest, "dest"))
         return false;
+    /* What was done in double comes back to its format. */
+    if (dest.letter == 'f' && value && machine_value_type(value).kind == MACHINE_FLOAT) {
+        if (!paris_type(dest, "dest", &type))
+            return false;
+        value = machine_to_float(paris_the.machine, value, type, false);
+    }
     if (!value || machine_field_store(m, dest.field, value, scope) != MACHINE_OK) {
         paris_fail_machine();
         return false;

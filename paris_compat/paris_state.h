@@ -284,13 +284,16 @@ int paris_global_all(const struct paris_instruction *self, enum machine_flag fla
 struct paris_block {
     const int *offset, *start, *end, *axis, *dimensions;
     unsigned int rank, format;
+    bool pairs, second; /* of complex arrays: elements are pairs; this is their second part */
 };
 #define PARIS_BLOCK                                                                            \
     ((struct paris_block){offset_vector.ints, start_vector.ints, end_vector.ints,              \
-                          axis_vector.ints, dimension_vector.ints, rank, format})
+                          axis_vector.ints, dimension_vector.ints, rank, format, false, false})
 void paris_array_write(const struct paris_instruction *self, const void *array,
                        struct paris_block block, struct paris_operand dest);
 void paris_array_read(const struct paris_instruction *self, void *array,
                       struct paris_block block, struct paris_operand source);
+
+#include "paris_complex.h"
 
 #endif

@@ -35,19 +35,22 @@ void CM_u_random(CM_field_id_t dest, unsigned int len, unsigned long limit)
     random_bits("CM_u_random", dest, len, limit);
 }
 
-/* A multiple of 2^-24, or of 2^-53, below 1: each of them is a float. */
+/* A multiple of 2^-(s + 1) below 1: each of them is a float. */
 static void random_float(const char *name, CM_field_id_t dest, unsigned int s, unsigned int e)
 {
     struct machine *m = paris_begin(name);
     struct machine_type type;
     if (!paris_type(paris_f(dest, s, e), "dest", &type))
         return;
-    struct machine_value *whole = machine_random(m, (int)s + 1, 0);
-    struct machine_value *x = whole ? machine_to_float(m, whole, type, false) : NULL;
-    struct machine_value *unit =
-        machine_constant_float(m, type, 1.0 / (double)(1ull << (s + 1)));
-    paris_store(m, paris_f(dest, s, e),
-                x && unit ? machine_binary(m, MACHINE_FMUL, x, unit) : NULL,
+    /* other formats by way of double, exactly; with an exponent of 2 bits the least float is
+     * 2^-s */
+    unsigned int bits = e == 2 ? s : s + 1;
+    struct machine_type in = type.s ? MACHINE_F64 : type;
+    struct machine_value *whole = machine_random(m, (int)bits, 0);
+    struct machine_value *x = whole ? machine_to_float(m, whole, in, false) : NULL;
+    struct machine_value *unit = machine_constant_float(m, in, 1.0 / (double)(1ull << bits));
+    x = x && unit ? machine_binary(m, MACHINE_FMUL, x, unit) : NULL;
+    paris_store(m, paris_f(dest, s, e), machine_to_float(m, x, type, false),
                 MACHINE_WHERE_ACTIVE);
 }
 

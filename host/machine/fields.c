@@ -479,16 +479,17 @@ static struct field *field_part(struct machine *m, uint32_t id, struct machine_t
     struct field *f = field_find(m, id, offset);
     if (!f)
         return NULL;
-    if (type.width < 1 || type.width > 128 ||
+    if (type.width < 1 || type.width > 128 || !soft_type_good(type) ||
         (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64)) {
         machine_fail(m, MACHINE_BAD_ARGUMENT,
                      "a value's width must be 1..128 bits, a float's 32 or 64");
         return NULL;
     }
-    if (*offset + type.width > f->bits) {
+    int bits = machine_type_bits(type);
+    if (*offset + (uint32_t)bits > f->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT,
-                     "%d bits from bit %u on run over the end of a field of %u bits",
-                     type.width, *offset, f->bits);
+                     "%d bits from bit %u on run over the end of a field of %u bits", bits,
+                     *offset, f->bits);
         return NULL;
     }
     return f;
@@ -498,6 +499,9 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
                                           struct machine_type type, enum machine_scope scope)
 {
     uint32_t offset;
+    if (type.s && soft_type_good(type))
+        return soft_unpacked(
+            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope), type);
     struct field *f = field_part(m, field, type, &offset);
     if (!f)
         return NULL;
@@ -513,6 +517,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
                                         struct machine_value *value, enum machine_scope scope)
 {
+    if (value && value->type.s)
+        value = soft_packed(m, value);
     if (!value)
         return m->status;
     uint32_t offset;

@@ -110,6 +110,7 @@ static uint32_t hash_of(const struct machine_value *k)
 {
     uint64_t h = k->op | (uint64_t)k->type.kind << 8 | (uint64_t)k->type.width << 16 |
                  (uint64_t)k->axis << 24 | (uint64_t)(uint32_t)k->detail << 32;
+    h ^= (uint64_t)k->type.s << 48 | (uint64_t)k->type.e << 56;
     h = (h ^ k->set) * 0x9e3779b97f4a7c15u;
     for (int i = 0; i < 3; i++)
         h = (h ^ (h >> 29) ^ (uint64_t)(uintptr_t)k->in[i]) * 0xbf58476d1ce4e5b9u;
@@ -155,7 +156,7 @@ static void table_remove(struct machine *m, struct machine_value *v)
 static void derive(struct machine_value *v, uint32_t epoch)
 {
     const struct node_op_info *info = &node_ops[v->op];
-    unsigned generator = info->cost, height = 0;
+    unsigned generator = (unsigned)node_cost(v->op, v->type), height = 0;
     bool nan = info->may_be_nan;
     v->birth = epoch;
     for (int i = 0; i < info->inputs; i++) {

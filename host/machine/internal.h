@@ -7,6 +7,7 @@
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
  *   emit.c      the text of one kernel                                (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
+ *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
@@ -49,6 +50,8 @@ enum node_op {
     NODE_F_TO_U,
     NODE_F_TO_S,
     NODE_F_TO_F,
+    NODE_PACK,   /* a float of another format -> its bits; soft.c */
+    NODE_UNPACK, /* and back */
     NODE_OVERFLOW_UADD, /* operands -> bit: the result does not fit */
     NODE_OVERFLOW_USUB,
     NODE_OVERFLOW_UMUL,
@@ -258,7 +261,27 @@ static inline bool node_is_cheap(const struct machine_value *v)
 }
 static inline bool type_equal(struct machine_type a, struct machine_type b)
 {
-    return a.kind == b.kind && a.width == b.width;
+    return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
+}
+
+/* soft.c: floats of other formats */
+bool soft_type_good(struct machine_type type); /* s and e are what they may be, or 0 */
+/* The bits of a field for a value of such a type, and back. */
+struct machine_value *soft_packed(struct machine *m, struct machine_value *v);
+struct machine_value *soft_unpacked(struct machine *m, struct machine_value *bits,
+                                    struct machine_type type);
+uint64_t soft_rounded(uint64_t x, struct machine_type type);     /* a double's bits */
+uint64_t soft_packed_bits(uint64_t x, struct machine_type type); /* ... as in a field */
+static inline struct machine_scalar soft_rounded_scalar(struct machine_scalar x,
+                                                        struct machine_type type)
+{
+    if (type.s)
+        x.lo = soft_rounded(x.lo, type);
+    return x;
+}
+static inline int node_cost(int op, struct machine_type type)
+{
+    return node_ops[op].cost + (type.s && node_ops[op].inputs && op != NODE_SELECT ? 30 : 0);
 }
 
 /* simplify.c */
@@ -360,7 +383,7 @@ struct kernel_text {
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
-    bool wide, wraps, math;
+    bool wide, soft, wraps, math;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
 };
@@ -388,7 +411,7 @@ void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 /* The kernel of that name in a program of these parts, all but the last the same for many; from
  * memory, from disk, or built. Belongs to the device. NULL: error set. */
-enum { DEVICE_PARTS = 5 };
+enum { DEVICE_PARTS = 6 };
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
 /* It need not be built: it is in memory, or on disk. */

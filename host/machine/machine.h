@@ -22,10 +22,11 @@
  * machine_begin(), and longer only as the content of a field or flag. Whoever drives the
  * machine calls machine_begin() before each instruction.
  *
- * Types. Bits of width 1..128 (signedness belongs to the operations) and IEEE single and
- * double. Reading a field with another type or width than it was written with reinterprets its
- * bits; bit 0 is the lowest. Every float operation that gives a NaN gives the quiet NaN with
- * sign 0 and payload 0; moves keep NaNs' bits.
+ * Types. Bits of width 1..128 (signedness belongs to the operations), IEEE single and double,
+ * and floats of other formats (see machine_float_type()). Reading a field with another type or
+ * width than it was written with reinterprets its bits; bit 0 is the lowest. Every float
+ * operation that gives a NaN gives the quiet NaN with sign 0 and payload 0; moves keep NaNs'
+ * bits.
  *
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
@@ -57,11 +58,25 @@ enum machine_kind { MACHINE_BITS, MACHINE_FLOAT };
 struct machine_type {
     uint8_t kind;  /* enum machine_kind */
     uint8_t width; /* bits 1..128; float 32 or 64 */
+    uint8_t s, e;  /* of a float of another format; else 0, 0 */
 };
-#define MACHINE_UINT(bits) ((struct machine_type){MACHINE_BITS, (uint8_t)(bits)})
-#define MACHINE_BIT ((struct machine_type){MACHINE_BITS, 1})
-#define MACHINE_F32 ((struct machine_type){MACHINE_FLOAT, 32})
-#define MACHINE_F64 ((struct machine_type){MACHINE_FLOAT, 64})
+#define MACHINE_UINT(bits) ((struct machine_type){MACHINE_BITS, (uint8_t)(bits), 0, 0})
+#define MACHINE_BIT ((struct machine_type){MACHINE_BITS, 1, 0, 0})
+#define MACHINE_F32 ((struct machine_type){MACHINE_FLOAT, 32, 0, 0})
+#define MACHINE_F64 ((struct machine_type){MACHINE_FLOAT, 64, 0, 0})
+
+/* Floats of other formats. s bits of significand, 1..52, and e of exponent, 2..11, are laid out
+ * as IEEE's are, with bias 2^(e - 1) - 1, subnormals, infinities and NaNs. Each of their
+ * numbers is a double, and as values they are doubles (width 64, s and e set): uploads,
+ * downloads, reading and writing take and give doubles, of which those written are rounded. In
+ * fields they have s + e + 1 bits. Operations on them are rounded once, to nearest even, to the
+ * format: FADD, FSUB, FMUL, FDIV, FSQRT and conversions from whole numbers from the exact
+ * result, others from the double's. Reductions add in double and round the sum. */
+#define MACHINE_SOFT(s, e) ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
+/* The type of floats with s and e: the native ones for 23, 8 and 52, 11. */
+struct machine_type machine_float_type(int s, int e);
+/* How many bits of a field a value of the type takes. */
+int machine_type_bits(struct machine_type type);
 
 /* A number on the front end: bits (lo, then hi from bit 64 on), or a float as its bits in lo.
  */

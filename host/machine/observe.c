@@ -117,10 +117,11 @@ static struct field *part(struct machine *m, uint32_t id, struct machine_type ty
                           uint32_t *offset)
 {
     struct field *f = field_find(m, id, offset);
-    if (f && *offset + type.width > f->bits) {
+    int bits = machine_type_bits(type);
+    if (f && *offset + (uint32_t)bits > f->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT,
-                     "%d bits from bit %u on run over the end of a field of %u bits",
-                     type.width, *offset, f->bits);
+                     "%d bits from bit %u on run over the end of a field of %u bits", bits,
+                     *offset, f->bits);
         return NULL;
     }
     return f;
@@ -246,6 +247,10 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
                                         struct machine_scalar value)
 {
     uint32_t offset;
+    if (type.s && soft_type_good(type)) {
+        value = (struct machine_scalar){soft_packed_bits(value.lo, type), 0};
+        type = MACHINE_UINT(machine_type_bits(type));
+    }
     struct field *f = part(m, field, type, &offset);
     if (!f)
         return m->status;
@@ -398,7 +403,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
              : wide   ? "ulong"
                       : elements[type_bytes(v->type)],
              is_float ? real : "ulong");
-    const char *parts[DEVICE_PARTS] = {"", "", "", "", kernel_reduce_cl};
+    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", kernel_reduce_cl};
     cl_kernel kernel = device_kernel(m, parts, options, "reduce");
     size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
     size_t element = is_float ? type_bytes(v->type) : wide ? 16 : 8;
@@ -487,5 +492,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
         out->lo = 0x7fc00000u;
     if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
         out->lo = 0x7ff8000000000000u;
+    if (type.s)
+        out->lo = soft_rounded(out->lo, type);
     return MACHINE_OK;
 }

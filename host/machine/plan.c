@@ -105,7 +105,7 @@ static void expand(struct search *s, int index, int offset, int stage)
         }
         return;
     }
-    s->operations += node_ops[n->op].cost;
+    s->operations += node_cost(n->op, n->type);
     if (n->op == NODE_SHIFT) {
         const struct vpset *set = &s->sets[n->set];
         int moved = offset_moved(s, offset, n->axis, n->detail);
@@ -215,7 +215,7 @@ static void find_light(struct search *s, double *weight)
 {
     for (int i = 0; i < s->g->count; i++) {
         const struct plan_node *n = &s->g->nodes[i];
-        weight[i] = n->constant ? 0 : n->leaf ? 1 : node_ops[n->op].cost;
+        weight[i] = n->constant ? 0 : n->leaf ? 1 : node_cost(n->op, n->type);
         s->light[i] = n->constant || n->leaf;
         if (s->light[i])
             continue;

@@ -82,7 +82,7 @@ static bool reach_room(struct reach *r)
         r->nodes = nodes;
         r->capacity = capacity;
     }
-    if (r->length + 8 > r->signature_capacity) {
+    if (r->length + 9 > r->signature_capacity) {
         uint32_t capacity = r->signature_capacity ? 2 * r->signature_capacity : 4096;
         void *signature = realloc(r->signature, (size_t)capacity * sizeof *r->signature);
         if (!signature)
@@ -110,6 +110,10 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
     uint32_t *s = r->signature;
     s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
                      (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
+    if (v->type.s) {
+        s[r->length - 1] |= 0x8000;
+        s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
+    }
     if (v->op != NODE_CONSTANT)
         s[r->length++] = v->set | (uint32_t)m->sets[v->set].generation << 16;
     if (!v->buffer) {
@@ -271,7 +275,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl, k.wide ? kernel_wide_cl : "",
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
+                                       k.wide ? kernel_wide_cl : "",
+                                       k.soft ? kernel_soft_cl : "",
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "", k.text};
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");

@@ -114,6 +114,8 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [NODE_F_TO_U] = {"f_to_u", 1, 6, 0},
     [NODE_F_TO_S] = {"f_to_s", 1, 6, 0},
     [NODE_F_TO_F] = {"f_to_f", 1, 2, 1},
+    [NODE_PACK] = {"pack", 1, 30, 0},
+    [NODE_UNPACK] = {"unpack", 1, 20, 0},
     [NODE_OVERFLOW_UADD] = {"overflow_uadd", 2, 2, 0},
     [NODE_OVERFLOW_USUB] = {"overflow_usub", 2, 2, 0},
     [NODE_OVERFLOW_UMUL] = {"overflow_umul", 2, 8, 0},
@@ -128,7 +130,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [NODE_OVERFLOW_RESULT] = {"overflow_result", 2, 4, 0},
 };
 
-static const struct machine_type bit_type = {MACHINE_BITS, 1};
+static const struct machine_type bit_type = {.kind = MACHINE_BITS, .width = 1};
 
 static struct machine_value *bad(struct machine *m, const char *what)
 {
@@ -200,7 +202,7 @@ static bool is_one_bit(const struct machine_value *v)
 struct machine_value *machine_constant(struct machine *m, struct machine_type type,
                                        struct machine_scalar bits)
 {
-    if (!bits_type_ok(type.width) ||
+    if (!bits_type_ok(type.width) || !soft_type_good(type) ||
         (type.kind == MACHINE_FLOAT && type.width != 32 && type.width != 64))
         return bad(m, "a value's width must be 1..128 bits, a float's 32 or 64");
     return number(m, type, bits);
@@ -210,7 +212,8 @@ struct machine_value *machine_constant_float(struct machine *m, struct machine_t
                                              double x)
 {
     struct machine_scalar bits = {0, 0};
-    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64))
+    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64) ||
+        !soft_type_good(type))
         return bad(m, "a float is 32 or 64 bits");
     if (type.width == 32) {
         float f = (float)x;
@@ -219,6 +222,8 @@ struct machine_value *machine_constant_float(struct machine *m, struct machine_t
         bits.lo = u;
     } else {
         memcpy(&bits.lo, &x, sizeof x);
+        if (type.s)
+            bits.lo = soft_rounded(bits.lo, type);
     }
     return number(m, type, bits);
 }
@@ -442,7 +447,7 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
         return bad(m, "this operation does not take one operand of this type");
     struct machine_scalar math;
     if (is_number(a) && op_is_math(op) && math_fold(op, a->type, a->imm, a->imm, &math))
-        return number(m, a->type, math);
+        return number(m, a->type, soft_rounded_scalar(math, a->type));
     if (op_is_integer(op))
         return integer_value(m, op, a, NULL);
     unsigned __int128 folded;
@@ -470,7 +475,7 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     struct machine_scalar math;
     if (is_number(a) && is_number(b) && op_is_math(op) &&
         math_fold(op, a->type, a->imm, b->imm, &math))
-        return number(m, a->type, math);
+        return number(m, a->type, soft_rounded_scalar(math, a->type));
     if (op_is_integer(op))
         return integer_value(m, op, a, b);
     unsigned __int128 folded;
@@ -628,7 +633,8 @@ struct machine_value *machine_to_float(struct machine *m, struct machine_value *
 {
     if (!a)
         return NULL;
-    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64))
+    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64) ||
+        !soft_type_good(type))
         return bad(m, "a float is 32 or 64 bits");
     if (type_equal(a->type, type))
         return a;

@@ -35,4 +35,13 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
 void spell_conversion(char *out, size_t size, const struct plan_node *n,
                       struct machine_type from, const char *a);
 
+/* ---- soft.c ---- */
+
+/* Operations on floats of other formats that are not the double's, rounded: false where n is
+ * none. */
+bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machine_type from,
+                const char *a, const char *b);
+/* The rounding of the expression in text where n asks for it. */
+void spell_soft_rounding(char *text, size_t size, const struct plan_node *n);
+
 #endif

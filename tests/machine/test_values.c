@@ -112,7 +112,7 @@ static wide expected_bits(const void *data, uint64_t n)
     {                                                                                          \
 #op, MACHINE_##op,                                                                     \
         {                                                                                      \
-            0, 0                                                                               \
+            0, 0, 0, 0                                                                         \
         }                                                                                      \
     }
 

@@ -58,7 +58,7 @@ static void signed_one_bit(void)
 }
 static void float_odd(void)
 {
-    CM_f_add_2_1L(f, f, 20, 11);
+    CM_f_add_2_1L(f, f, 53, 8);
 }
 static void float_beyond(void)
 {
