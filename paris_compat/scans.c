@@ -22,8 +22,9 @@ static bool segments_load(struct machine *m, unsigned int smode, CM_field_id_t s
                                                   [CM_start_bit] = MACHINE_START_BIT,
                                                   [CM_segment_bit] = MACHINE_SEGMENT_BIT};
     if (smode > CM_segment_bit) {
-        paris_fail("smode: must be CM_none (0), CM_start_bit (1) or CM_segment_bit (2) (got %d)",
-                   (int)smode);
+        paris_fail(
+            "smode: must be CM_none (0), CM_start_bit (1) or CM_segment_bit (2) (got %d)",
+            (int)smode);
         return false;
     }
     how->segments = modes[smode];
@@ -57,7 +58,8 @@ static bool coordinate_good(const char *role, unsigned int axis, unsigned int co
     int length = machine_vpset_length(m, machine_vpset_current(m), (int)axis);
     if (coordinate < (unsigned int)length)
         return true;
-    paris_fail("%s: must be 0..%d on axis %u (got %d)", role, length - 1, axis, (int)coordinate);
+    paris_fail("%s: must be 0..%d on axis %u (got %d)", role, length - 1, axis,
+               (int)coordinate);
     return false;
 }
 

@@ -99,8 +99,8 @@ static struct machine_value *fill(struct machine *m, int set, struct machine_val
     if (!b)
         return NULL;
     put_scalar(pattern, v->imm, element);
-    cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes, 0,
-                                       NULL, NULL);
+    cl_int error =
+        clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes, 0, NULL, NULL);
     if (device_check(m, error, "filling a field")) {
         device_buffer_unref(m, b);
         return NULL;

@@ -67,8 +67,8 @@ static int bits_of(int x)
     return bits;
 }
 
-static bool words_of(struct machine *m, const struct machine_scan *how, struct machine_value *key,
-                     struct words *w)
+static bool words_of(struct machine *m, const struct machine_scan *how,
+                     struct machine_value *key, struct words *w)
 {
     const struct vpset *s = &m->sets[m->set_current];
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
@@ -90,7 +90,8 @@ static bool words_of(struct machine *m, const struct machine_scan *how, struct m
             .combiner = MACHINE_COMBINE_ADD, .axis = how->axis, .bits = NULL};
         struct machine_value *begins = scan_boundaries(m, how);
         struct machine_value *segment =
-            begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone) : NULL;
+            begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone)
+                   : NULL;
         segment = machine_resize(m, segment, bits, false);
         above = segment ? machine_concat(m, inactive, segment) : NULL;
     }
@@ -181,9 +182,11 @@ static enum machine_status sort_words(struct machine *m, const struct sort *t,
         for (int k = 0; k < passes; k++) {
             int begin = w->bits[i] * k / passes, end = w->bits[i] * (k + 1) / passes;
             bool last = i == w->count - 1 && k == passes - 1;
-            enum machine_status status =
-                sort_pass(m, t, w->values[i]->buffer, k ? PAIR : i ? GATHER : WORD, begin,
-                          end - begin, from, last);
+            enum machine_status status = sort_pass(m, t, w->values[i]->buffer,
+                                                   k   ? PAIR
+                                                   : i ? GATHER
+                                                       : WORD,
+                                                   begin, end - begin, from, last);
             if (status)
                 return status;
             from = !from;

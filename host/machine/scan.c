@@ -1,9 +1,10 @@
 /* scan.c - scans and spreads along an axis: kernels written by hand, started and not waited for.
  *
- * What is combined is brought into a form that few kernels do (kernels/scan.cl): processors that
- * do not take part have the identity; the least and the greatest of any type are the least of
- * whole numbers in another order; "and" is "or" of complements; numbers have 32, 64 or 128 bits.
- * Before and after the kernels these are ordinary values, so they fuse with what is around.
+ * What is combined is brought into a form that few kernels do (kernels/scan.cl): the least and the
+ * greatest of any type are the least of whole numbers in another order; "and" is "or" of
+ * complements; numbers have 32, 64 or 128 bits. Whole numbers of more than 16 bits are taken as
+ * they are in memory; what else is to be done is done by ordinary values, which fuse with what is
+ * around.
  *
  * Long lines are cut in runs: see kernels/scan.cl. For floats the length of a run is part of what
  * machine_scan() promises; for others it is what suits the device. */
@@ -14,7 +15,9 @@
 #include "kernels.h"
 
 enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 8192, LANES = 16 };
-enum { COPY, ADD, MULTIPLY, MIN, OR, XOR }; /* as in kernels/scan.cl */
+/* As in kernels/scan.cl. */
+enum { COPY, ADD, MULTIPLY, MIN, OR, XOR };
+enum { JOINS, FINISHES, FILLS };
 
 struct element {
     const char *name, *mask;
@@ -23,7 +26,7 @@ struct element {
 };
 enum { UINT32, UINT64, UINT128, FLOAT32, FLOAT64 };
 static const struct element elements[] = {
-    [UINT32] = {"uint", "int", 0, 4},     [UINT64] = {"ulong", "long", 0, 8},
+    [UINT32] = {"uint", "int", 0, 4},      [UINT64] = {"ulong", "long", 0, 8},
     [UINT128] = {"ulong2", "long", 2, 16}, [FLOAT32] = {"float", "int", 1, 4},
     [FLOAT64] = {"double", "long", 1, 8},
 };
@@ -154,68 +157,93 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
 struct line_scan {
     const struct element *element;
     int op;
-    bool exclusive, segmented;
-    struct machine_scalar identity;
-    const struct device_buffer *in, *flags; /* flags NULL: none */
-    struct device_buffer *out, *sums;       /* sums NULL: not wanted */
+    bool exclusive;
+    bool starts, backward; /* segments begin in active processors only; after a 1, not at it */
+    struct machine_scalar identity, flip, cut;
+    const struct device_buffer *in, *context, *bits; /* NULL: all take part; no segments */
+    struct device_buffer *out, *sums;                /* sums NULL: not wanted */
 };
+
+static enum machine_status scan_runs(struct machine *m, const struct lines *l,
+                                     const struct line_scan *j, int run, int runs,
+                                     struct device_buffer *totals, struct device_buffer *firsts)
+{
+    const struct element *e = j->element;
+    int lanes = lanes_of(l, e);
+    struct kernel_arguments a = part(m, 0, e, lanes);
+    if (!a.kernel)
+        return m->status;
+    kernel_lines_add(&a, l, run, true);
+    const int numbers[] = {j->op,     j->exclusive, j->context != NULL, j->bits != NULL,
+                           j->starts, j->backward,  totals != NULL};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        add_int(&a, numbers[i]);
+    kernel_argument_add(&a, &j->identity, e->bytes);
+    kernel_argument_add(&a, &j->flip, e->bytes);
+    kernel_argument_add(&a, &j->cut, e->bytes);
+    add_buffer(&a, j->in);
+    add_buffer(&a, j->context ? j->context : j->in);
+    add_buffer(&a, j->bits ? j->bits : j->in);
+    add_buffer(&a, j->out);
+    add_buffer(&a, totals ? totals : j->out);
+    add_buffer(&a, totals ? firsts : j->out);
+    return kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
+}
+
+/* Where FILLS takes elements from. */
+struct origin {
+    cl_ulong base, inner, outer;
+};
+
+/* JOINS, FINISHES, FILLS: the last takes what is in sums. */
+static enum machine_status scan_stage(struct machine *m, const struct lines *l,
+                                      const struct line_scan *j, int stage, int run, int runs,
+                                      struct origin from, struct device_buffer *totals,
+                                      struct device_buffer *firsts)
+{
+    const struct element *e = j->element;
+    int lanes = stage == FILLS && e->kind == 0 ? lanes_of(l, e) : 1;
+    struct kernel_arguments a = part(m, 1, e, 1);
+    if (!a.kernel)
+        return m->status;
+    kernel_lines_add(&a, l, run, true);
+    const int numbers[] = {lanes, stage, runs, j->op, j->sums != NULL};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        add_int(&a, numbers[i]);
+    kernel_argument_add(&a, &j->identity, e->bytes);
+    kernel_argument_add(&a, &j->flip, e->bytes);
+    kernel_argument_add(&a, &j->cut, e->bytes);
+    kernel_argument_add(&a, &from.base, sizeof from.base);
+    kernel_argument_add(&a, &from.inner, sizeof from.inner);
+    kernel_argument_add(&a, &from.outer, sizeof from.outer);
+    add_buffer(&a, j->out);
+    add_buffer(&a, totals ? totals : j->out);
+    add_buffer(&a, firsts ? firsts : j->out);
+    add_buffer(&a, j->sums ? j->sums : j->out);
+    if (stage == JOINS)
+        return kernel_start(m, &a, (size_t)l->columns, l->inner * l->outer, 1);
+    return kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
+}
 
 static enum machine_status scan_lines(struct machine *m, const struct lines *l,
                                       const struct line_scan *j)
 {
     const struct element *e = j->element;
-    int lanes = lanes_of(l, e), run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
-    bool joins = runs > 1 || (j->sums && e->kind == 1), keep = joins || j->sums;
+    int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
+    bool joins = runs > 1 || j->sums;
     size_t count = (size_t)runs * lines_count(l);
-    struct device_buffer *totals = j->sums, *firsts = NULL;
-    struct kernel_arguments a = part(m, 0, e, lanes);
-    enum machine_status status = a.kernel ? MACHINE_OK : m->status;
-    if (!status && joins && !(totals = device_buffer_get(m, count * e->bytes)))
-        status = m->status;
-    if (!status && keep && !(firsts = device_buffer_get(m, count * sizeof(cl_uint))))
-        status = m->status;
-    if (!status) {
-        kernel_lines_add(&a, l, run, true);
-        add_int(&a, j->op);
-        add_int(&a, j->exclusive);
-        add_int(&a, j->segmented);
-        add_int(&a, keep);
-        kernel_argument_add(&a, &j->identity, e->bytes);
-        add_buffer(&a, j->in);
-        add_buffer(&a, j->flags ? j->flags : j->in);
-        add_buffer(&a, j->out);
-        add_buffer(&a, keep ? totals : j->out);
-        add_buffer(&a, keep ? firsts : j->out);
-        status = kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
-    }
-    if (!status && joins) {
-        a = part(m, 1, e, 1);
-        status = a.kernel ? MACHINE_OK : m->status;
-    }
-    if (!status && joins) {
-        add_int(&a, runs);
-        add_int(&a, l->columns);
-        add_int(&a, j->op);
-        add_int(&a, j->sums != NULL);
-        kernel_argument_add(&a, &j->identity, e->bytes);
-        add_buffer(&a, totals);
-        add_buffer(&a, firsts);
-        add_buffer(&a, j->sums ? j->sums : totals);
-        status = kernel_start(m, &a, (size_t)l->columns, l->inner * l->outer, 1);
-    }
-    if (!status && runs > 1 && !j->sums) {
-        a = part(m, 2, e, lanes);
-        status = a.kernel ? MACHINE_OK : m->status;
-        if (!status) {
-            kernel_lines_add(&a, l, run, true);
-            add_int(&a, j->op);
-            add_buffer(&a, j->out);
-            add_buffer(&a, totals);
-            add_buffer(&a, firsts);
-            status = kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
-        }
-    }
-    if (joins && totals)
+    const struct origin none = {0, 0, 0};
+    struct device_buffer *totals = joins ? device_buffer_get(m, count * e->bytes) : NULL;
+    struct device_buffer *firsts =
+        totals ? device_buffer_get(m, count * sizeof(cl_uint)) : NULL;
+    enum machine_status status = joins && !firsts ? m->status : MACHINE_OK;
+    if (!status)
+        status = scan_runs(m, l, j, run, runs, totals, firsts);
+    if (!status && joins)
+        status = scan_stage(m, l, j, JOINS, run, runs, none, totals, firsts);
+    if (!status && runs > 1 && !j->sums)
+        status = scan_stage(m, l, j, FINISHES, run, runs, none, totals, firsts);
+    if (totals)
         device_buffer_unref(m, totals);
     if (firsts)
         device_buffer_unref(m, firsts);
@@ -234,30 +262,27 @@ enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, siz
                       .columns = 1,
                       .width = (cl_int)length,
                       .along = 1};
-    struct line_scan j = {
-        .element = &elements[UINT32], .op = ADD, .exclusive = true, .in = b, .out = b};
+    struct line_scan j = {.element = &elements[UINT32],
+                          .op = ADD,
+                          .exclusive = true,
+                          .cut = {UINT32_MAX, 0},
+                          .in = b,
+                          .out = b};
     return scan_lines(m, &l, &j);
 }
 
-/* Every element of each line becomes the one of `from` at base + inner * from_inner + outer *
- * from_outer + column. */
+/* Every element of each line becomes one of `from`. */
 static enum machine_status fill_lines(struct machine *m, const struct lines *l,
-                                      const struct element *e, const struct device_buffer *from,
-                                      cl_ulong base, cl_ulong inner, cl_ulong outer,
-                                      struct device_buffer *out)
+                                      const struct element *e, struct device_buffer *from,
+                                      struct origin origin, struct device_buffer *out)
 {
-    int lanes = lanes_of(l, e), run = m->device.is_cpu ? 1 << 16 : RUN_GPU,
-        runs = (l->length - 1) / run + 1;
-    struct kernel_arguments a = part(m, 3, e, lanes);
-    if (!a.kernel)
-        return m->status;
-    kernel_lines_add(&a, l, run, true);
-    kernel_argument_add(&a, &base, sizeof base);
-    kernel_argument_add(&a, &inner, sizeof inner);
-    kernel_argument_add(&a, &outer, sizeof outer);
-    add_buffer(&a, from);
-    add_buffer(&a, out);
-    return kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
+    /* floats are filled in as whole numbers */
+    const struct element *same = &elements[e->bytes == 4   ? UINT32
+                                           : e->bytes == 8 ? UINT64
+                                                           : UINT128];
+    struct line_scan j = {.element = same, .out = out, .sums = from};
+    int run = m->device.is_cpu ? 1 << 16 : RUN_GPU, runs = (l->length - 1) / run + 1;
+    return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
 }
 
 /* ---- what is combined, and how it is shown ---- */
@@ -268,17 +293,12 @@ struct form {
     const struct element *element;
     int op;
     bool ordered_floats;
-    struct machine_scalar identity, flip; /* flip: what bits are xor-ed with, before and after */
+    struct machine_scalar identity, flip, cut; /* of whole numbers: see kernels/scan.cl */
 };
 
 static const struct element *bits_element(int width)
 {
     return &elements[width <= 32 ? UINT32 : width <= 64 ? UINT64 : UINT128];
-}
-
-static struct machine_type bits_type(const struct element *e)
-{
-    return MACHINE_UINT(8 * (int)e->bytes);
 }
 
 static struct machine_scalar ones(int width)
@@ -319,8 +339,8 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
     struct machine_value *is_nan = machine_binary(m, MACHINE_FNE, v, v);
     struct machine_value *bits = machine_reinterpret(m, v, MACHINE_UINT(width));
     struct machine_value *negative = machine_extract(m, bits, width - 1, 1);
-    struct machine_value *order = machine_select(m, negative, machine_unary(m, MACHINE_NOT, bits),
-                                                 flipped(m, bits, sign_of(width)));
+    struct machine_value *order = machine_select(
+        m, negative, machine_unary(m, MACHINE_NOT, bits), flipped(m, bits, sign_of(width)));
     struct machine_scalar last = {nan, 0};
     return machine_select(m, is_nan, machine_constant(m, MACHINE_UINT(width), last), order);
 }
@@ -328,9 +348,9 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
 static struct machine_value *float_unordered(struct machine *m, struct machine_value *order)
 {
     int width = order->type.width;
-    struct machine_value *bits = machine_select(m, machine_extract(m, order, width - 1, 1),
-                                                flipped(m, order, sign_of(width)),
-                                                machine_unary(m, MACHINE_NOT, order));
+    struct machine_value *bits =
+        machine_select(m, machine_extract(m, order, width - 1, 1),
+                       flipped(m, order, sign_of(width)), machine_unary(m, MACHINE_NOT, order));
     return machine_reinterpret(m, bits, width == 32 ? MACHINE_F32 : MACHINE_F64);
 }
 
@@ -357,6 +377,7 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         return v;
     }
     f->element = bits_element(f->width);
+    f->cut = ones(f->width);
     struct machine_scalar all = ones(f->width), sign = sign_of(f->width);
     switch (c) {
     case MACHINE_COMBINE_FMIN:
@@ -367,7 +388,7 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         f->identity.lo = f->width == 32 ? 0xff800000u : 0xfff0000000000000u;
         if (c == MACHINE_COMBINE_FMAX)
             f->flip = all;
-        v = float_order(m, v, f->identity.lo ^ f->flip.lo);
+        v = float_order(m, v, (f->identity.lo ^ f->flip.lo) & all.lo);
         break;
     case MACHINE_COMBINE_AND:
         f->op = OR;
@@ -402,12 +423,9 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         f->op = COPY;
         break;
     }
-    v = flipped(m, v, f->flip);
     if (v && v->op == NODE_REINTERPRET && !v->buffer && v->in[0]->buffer)
         v = v->in[0]; /* its memory as it is */
-    return v && v->type.width != bits_type(f->element).width
-               ? machine_resize(m, v, bits_type(f->element).width, false)
-               : v;
+    return v && type_bytes(v->type) != f->element->bytes ? machine_resize(m, v, 32, false) : v;
 }
 
 /* What a kernel left, as a value of the type that came. */
@@ -419,8 +437,9 @@ static struct machine_value *shown(struct machine *m, const struct form *f, int 
         return machine_to_float(m, graph_buffer_node(m, plain, set, b), f->type, false);
     if (f->op == COPY && f->type.kind == MACHINE_FLOAT)
         return machine_to_float(m, graph_buffer_node(m, plain, set, b), f->type, false);
-    struct machine_value *v = graph_buffer_node(m, bits_type(f->element), set, b);
-    v = flipped(m, machine_resize(m, v, f->width, false), f->flip);
+    struct machine_type stored = MACHINE_UINT(f->width > 16 ? f->width : 32);
+    struct machine_value *v =
+        machine_resize(m, graph_buffer_node(m, stored, set, b), f->width, false);
     if (v && f->ordered_floats)
         v = machine_to_float(m, float_unordered(m, v), f->type, false);
     return v;
@@ -433,7 +452,7 @@ static struct machine_value *wrong(struct machine *m, const char *what)
 }
 
 bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
-                           const struct machine_value *value, const struct machine_value *bits)
+                         const struct machine_value *value, const struct machine_value *bits)
 {
     const char *what = NULL;
     if (axis < 0 || axis >= s->rank)
@@ -461,8 +480,7 @@ struct machine_value *scan_boundaries(struct machine *m, const struct machine_sc
         return NULL;
     if (how->segments == MACHINE_START_BIT)
         return machine_binary(m, MACHINE_AND, bits, s->flags[MACHINE_CONTEXT].value);
-    /* Going down, a segment begins after the first processor of the one above it. */
-    return how->downward ? machine_shift(m, bits, how->axis, 1) : bits;
+    return bits;
 }
 
 struct machine_value *scan_where(struct machine *m, const struct machine_scan *how,
@@ -476,24 +494,14 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         return NULL;
     if (!combiner_fits(how->combiner, value->type))
         return wrong(m, "this scan does not take values of this type");
-    struct machine_value *values[2] = {0}, *flags = scan_boundaries(m, how);
-    if (segmented && !flags)
-        return NULL;
-    segmented = flags && !is_constant(flags, 0);
     struct form f;
-    struct machine_value *v = formed(m, how->combiner, value, &f);
-    if (v && f.op == COPY) {
-        struct machine_value *zero =
-            machine_constant(m, MACHINE_BIT, (struct machine_scalar){0, 0});
-        values[1] = machine_concat(m, segmented ? flags : zero, context);
-        if (!values[1])
-            return NULL;
-    } else if (v) {
-        v = machine_select(m, context, v, machine_constant(m, v->type, f.identity));
-        values[1] = segmented ? flags : NULL;
-    }
-    values[0] = v;
-    if (!v || !values_materialise(m, m->set_current, values, values[1] ? 2 : 1))
+    struct machine_value *values[3] = {formed(m, how->combiner, value, &f)};
+    int count = 1, masked = 0, bits = 0;
+    if (!is_constant(context, 1))
+        values[masked = count++] = context;
+    if (segmented && !is_constant(how->bits, 0))
+        values[bits = count++] = how->bits;
+    if (!values[0] || !values_materialise(m, m->set_current, values, count))
         return NULL;
     s = &m->sets[m->set_current];
     struct device_buffer *out = device_buffer_get(m, set_bytes(s, f.element->bytes));
@@ -503,10 +511,14 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
     struct line_scan j = {.element = f.element,
                           .op = f.op,
                           .exclusive = how->exclusive,
-                          .segmented = segmented,
+                          .starts = how->segments == MACHINE_START_BIT,
+                          .backward = how->segments == MACHINE_SEGMENT_BIT && how->downward,
                           .identity = f.identity,
+                          .flip = f.flip,
+                          .cut = f.cut,
                           .in = values[0]->buffer,
-                          .flags = values[1] ? values[1]->buffer : NULL,
+                          .context = masked ? values[masked]->buffer : NULL,
+                          .bits = bits ? values[bits]->buffer : NULL,
                           .out = out};
     if (scan_lines(m, &l, &j)) {
         device_buffer_unref(m, out);
@@ -534,14 +546,16 @@ struct machine_value *machine_spread(struct machine *m, enum machine_combiner co
         return wrong(m, "there is no such axis");
     if (combiner == MACHINE_COMBINE_COPY || !combiner_fits(combiner, value->type))
         return wrong(m, "this spread does not take values of this type");
+    if (!axes)
+        return value;
     struct form f;
-    struct machine_value *v = formed(m, combiner, value, &f);
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    v = v ? machine_select(m, context, v, machine_constant(m, v->type, f.identity)) : NULL;
-    if (!v || !values_materialise(m, m->set_current, &v, 1))
+    struct machine_value *values[2] = {formed(m, combiner, value, &f), context};
+    bool masked = !is_constant(context, 1);
+    if (!values[0] || !values_materialise(m, m->set_current, values, 1 + masked))
         return NULL;
     s = &m->sets[m->set_current];
-    struct device_buffer *out = v->buffer;
+    struct device_buffer *out = values[0]->buffer;
     device_buffer_ref(out);
     for (int axis = s->rank - 1; axis >= 0; axis--) {
         if (!(axes >> axis & 1))
@@ -553,12 +567,16 @@ struct machine_value *machine_spread(struct machine *m, enum machine_combiner co
         struct line_scan j = {.element = f.element,
                               .op = f.op,
                               .identity = f.identity,
+                              .flip = f.flip,
+                              .cut = f.cut,
                               .in = in,
+                              .context = masked ? values[1]->buffer : NULL,
                               .out = out,
                               .sums = sums};
-        bool good = out && !scan_lines(m, &l, &j) &&
-                    !fill_lines(m, &l, f.element, sums, 0, (cl_ulong)l.columns,
-                                l.inner * (cl_ulong)l.columns, out);
+        struct origin from = {0, (cl_ulong)l.columns, l.inner * (cl_ulong)l.columns};
+        bool good =
+            out && !scan_lines(m, &l, &j) && !fill_lines(m, &l, f.element, sums, from, out);
+        masked = false; /* now all have something */
         device_buffer_unref(m, in);
         if (sums)
             device_buffer_unref(m, sums);
@@ -573,9 +591,8 @@ struct machine_value *machine_spread(struct machine *m, enum machine_combiner co
 }
 
 /* The lines are filled with elements of the value itself. */
-static struct machine_value *spread_copy(struct machine *m, const struct lines *l, cl_ulong from,
-                                         cl_ulong from_inner, cl_ulong from_outer,
-                                         struct machine_value *value)
+static struct machine_value *spread_copy(struct machine *m, const struct lines *l,
+                                         struct origin from, struct machine_value *value)
 {
     struct form f;
     struct machine_value *v = formed(m, MACHINE_COMBINE_COPY, value, &f);
@@ -585,7 +602,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
     struct device_buffer *out = device_buffer_get(m, set_bytes(s, f.element->bytes));
     if (!out)
         return NULL;
-    if (fill_lines(m, l, f.element, v->buffer, from, from_inner, from_outer, out)) {
+    if (fill_lines(m, l, f.element, v->buffer, from, out)) {
         device_buffer_unref(m, out);
         return NULL;
     }
@@ -602,8 +619,9 @@ struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int
     if (coordinate < 0 || coordinate >= s->dimensions[axis])
         return wrong(m, "there is no such coordinate on the axis");
     struct lines l = lines_of(s, axis, false);
-    return spread_copy(m, &l, l.base + (cl_ulong)coordinate * (cl_ulong)l.step, l.inner_stride,
-                       l.outer_stride, value);
+    struct origin from = {l.base + (cl_ulong)coordinate * (cl_ulong)l.step, l.inner_stride,
+                          l.outer_stride};
+    return spread_copy(m, &l, from, value);
 }
 
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
@@ -616,5 +634,6 @@ struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
         return wrong(m, "there is no such processor");
     uint64_t width = (uint64_t)s->width;
     struct lines l = lines_of(s, s->rank - 1, false);
-    return spread_copy(m, &l, index / width * s->pitch + l.base + index % width, 0, 0, value);
+    struct origin from = {index / width * s->pitch + l.base + index % width, 0, 0};
+    return spread_copy(m, &l, from, value);
 }

@@ -160,8 +160,8 @@ static number *duplicate(const number *from, int count)
     return to;
 }
 
-void oracle_spread(const struct scan_grid *g, const struct scan_case *c, unsigned int mask, int to,
-                   int from, number *dest)
+void oracle_spread(const struct scan_grid *g, const struct scan_case *c, unsigned int mask,
+                   int to, int from, number *dest)
 {
     number *source = duplicate(c->source, g->count), *context = duplicate(c->context, g->count);
     int stride = stride_of(g, c->axis), length = g->dimensions[c->axis];

@@ -15,9 +15,9 @@ struct scan_grid {
 };
 
 struct scan_case {
-    char letter;        /* u s f b */
-    const char *op;     /* add multiply min max logand logior logxor copy */
-    int width;          /* of f 32 or 64 */
+    char letter;    /* u s f b */
+    const char *op; /* add multiply min max logand logior logxor copy */
+    int width;      /* of f 32 or 64 */
     int axis;
     int direction, inclusion, smode; /* as in <cm/paris.h> */
     const number *source, *context, *sbit;

@@ -31,25 +31,25 @@ struct row {
 #define LEN_s c->len
 #define LEN_b c->len
 #define LEN_f c->s, c->e
-#define SCAN_CALL(name, ...)                                                                     \
+#define SCAN_CALL(name, ...)                                                                   \
     static void scan_##name(const struct call *c)                                              \
     {                                                                                          \
-        CM_scan_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->direction, c->inclusion,   \
-                                 c->smode, c->sbit);                                           \
+        CM_scan_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->direction,       \
+                                 c->inclusion, c->smode, c->sbit);                             \
     }
-#define CALLS(name, ...)                                                                         \
-    SCAN_CALL(name, __VA_ARGS__)                                                                         \
+#define CALLS(name, ...)                                                                       \
+    SCAN_CALL(name, __VA_ARGS__)                                                               \
     static void spread_##name(const struct call *c)                                            \
     {                                                                                          \
-        CM_spread_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__);                            \
+        CM_spread_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__);                  \
     }                                                                                          \
     static void multispread_##name(const struct call *c)                                       \
     {                                                                                          \
-        CM_multispread_with_##name##_1L(c->dest, c->source, c->mask, __VA_ARGS__);                       \
+        CM_multispread_with_##name##_1L(c->dest, c->source, c->mask, __VA_ARGS__);             \
     }                                                                                          \
     static void reduce_##name(const struct call *c)                                            \
     {                                                                                          \
-        CM_reduce_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->to);                     \
+        CM_reduce_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->to);           \
     }
 CALLS(u_add, LEN_u)
 CALLS(u_min, LEN_u)
@@ -79,20 +79,13 @@ static void reduce_copy(const struct call *c)
         letter, op, scan_##name, spread_##name, multispread_##name, reduce_##name              \
     }
 static const struct row rows[] = {
-    ROW('u', "add", u_add),
-    ROW('u', "min", u_min),
-    ROW('u', "max", u_max),
-    ROW('s', "add", s_add),
-    ROW('s', "min", s_min),
-    ROW('s', "max", s_max),
-    ROW('b', "logand", logand),
-    ROW('b', "logior", logior),
-    ROW('b', "logxor", logxor),
-    ROW('f', "add", f_add),
-    ROW('f', "multiply", f_multiply),
-    ROW('f', "min", f_min),
-    ROW('f', "max", f_max),
-    {'b', "copy", scan_copy, spread_copy, NULL, reduce_copy},
+    ROW('u', "add", u_add),           ROW('u', "min", u_min),
+    ROW('u', "max", u_max),           ROW('s', "add", s_add),
+    ROW('s', "min", s_min),           ROW('s', "max", s_max),
+    ROW('b', "logand", logand),       ROW('b', "logior", logior),
+    ROW('b', "logxor", logxor),       ROW('f', "add", f_add),
+    ROW('f', "multiply", f_multiply), ROW('f', "min", f_min),
+    ROW('f', "max", f_max),           {'b', "copy", scan_copy, spread_copy, NULL, reduce_copy},
 };
 enum { ROWS_COUNT = sizeof rows / sizeof *rows };
 
@@ -118,8 +111,8 @@ static void put(const struct set *s, CM_field_id_t field, int width, const numbe
     unsigned char *dense = calloc((size_t)s->grid.count, bytes);
     for (int i = 0; i < s->grid.count; i++)
         memcpy(dense + (size_t)i * bytes, &n[i], bytes);
-    assert_int_equal(
-        machine_field_upload(paris_machine(), field, MACHINE_UINT(width), dense), MACHINE_OK);
+    assert_int_equal(machine_field_upload(paris_machine(), field, MACHINE_UINT(width), dense),
+                     MACHINE_OK);
     free(dense);
 }
 
@@ -127,7 +120,8 @@ static void get(const struct set *s, CM_field_id_t field, int width, number *n)
 {
     size_t bytes = machine_element_bytes(MACHINE_UINT(width));
     unsigned char *dense = calloc((size_t)s->grid.count, bytes);
-    if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) != MACHINE_OK)
+    if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) !=
+        MACHINE_OK)
         fail_msg("%s", machine_error(paris_machine()));
     memset(n, 0, (size_t)s->grid.count * sizeof *n);
     for (int i = 0; i < s->grid.count; i++)
@@ -142,8 +136,8 @@ static struct set set_new(int rank, const int *dimensions)
         s.grid.dimensions[i] = dimensions[i];
         s.grid.count *= dimensions[i];
     }
-    s.id = CM_allocate_vp_set(CM_create_geometry((CM_vector_t){.ints = dimensions},
-                                                 (unsigned int)rank));
+    s.id = CM_allocate_vp_set(
+        CM_create_geometry((CM_vector_t){.ints = dimensions}, (unsigned int)rank));
     CM_set_vp_set(s.id);
     s.context = CM_allocate_heap_field(1);
     s.sbit = CM_allocate_heap_field(1);
@@ -279,50 +273,46 @@ static void try_row(struct set *s, const struct row *row, int form, int width)
     }
 }
 
-static const int widths[] = {1, 2, 7, 8, 16, 24, 32, 33, 50, 64, 65, 100, 128};
-enum { WIDTHS_COUNT = sizeof widths / sizeof *widths };
-
-static int width_for(const struct row *row, unsigned int i)
-{
-    if (row->letter == 'f')
-        return i % 2 ? 64 : 32;
-    int width = widths[i % WIDTHS_COUNT];
-    return row->letter == 's' && width == 1 ? 31 : width;
-}
+/* Two widths for each row, of all kinds of elements taken together. */
+static const int widths[ROWS_COUNT][2] = {{33, 7},  {32, 128}, {64, 16},  {65, 32}, {8, 50},
+                                          {31, 90}, {1, 48},   {24, 128}, {64, 3},  {32, 64},
+                                          {64, 32}, {32, 64},  {64, 32},  {1, 64}};
 
 static void every_operation_is_the_oracles(void **unused)
 {
     (void)unused;
-    static const int shapes[][3] = {{3, 5, 21}, {7, 1, 40}, {1, 9, 3}, {5, 4, 1}, {2, 3, 70}};
-    for (int k = 0; k < 5; k++) {
+    static const int shapes[][3] = {{3, 5, 21}, {2, 3, 70}, {7, 1, 17}, {1, 9, 40}};
+    for (int k = 0; k < 4; k++) {
         struct set s = set_new(3, shapes[k]);
-        for (unsigned int turn = 0; turn < 3; turn++) {
-            set_masks(&s, (int)((turn + (unsigned)k) % 3), 3 + (int)below(9));
-            for (unsigned int r = 0; r < ROWS_COUNT; r++)
-                for (int i = 0; i < 3; i++)
-                    try_row(&s, &rows[r], (int)(i < 2 ? SCAN : 1 + (r + turn) % 3),
-                            width_for(&rows[r], below(1000)));
+        for (int turn = 0; turn < 4; turn++) {
+            set_masks(&s, (turn + k) % 3, 3 + (int)below(9));
+            for (int r = 0; r < ROWS_COUNT; r++) {
+                int form = (r + turn) % 4;
+                try_row(&s, &rows[r], SCAN, widths[r][turn % 2]);
+                try_row(&s, &rows[r], SCAN, widths[r][turn % 2]);
+                try_row(&s, &rows[r], form == REDUCE && r % 3 ? SPREAD : form,
+                        widths[r][turn % 2]);
+            }
         }
         set_free(&s);
     }
 }
 
+/* Narrow rows too, which have no repeated columns. */
 static void any_rank_of_geometry_is_the_oracles(void **unused)
 {
     (void)unused;
-    static const int ranks[] = {1, 2, 4, 5};
-    static const char *const some[] = {"add", "copy"};
-    for (int k = 0; k < 4; k++) {
-        int dimensions[SCAN_AXES_MAX];
-        for (int a = 0; a < ranks[k]; a++)
-            dimensions[a] = 1 + (int)below(ranks[k] == 1 ? 300 : ranks[k] == 2 ? 40 : 6);
-        struct set s = set_new(ranks[k], dimensions);
-        for (int turn = 0; turn < 3; turn++) {
-            set_masks(&s, 2, 5);
-            for (int r = 0; r < ROWS_COUNT; r++)
-                for (int i = 0; i < 2; i++)
-                    if (strcmp(rows[r].op, some[i]) == 0 && rows[r].letter != 'u')
-                        try_row(&s, &rows[r], turn, 32);
+    static const struct {
+        int rank, dimensions[SCAN_AXES_MAX];
+    } shapes[] = {
+        {1, {301}}, {2, {19, 33}}, {4, {3, 4, 2, 18}}, {5, {2, 3, 1, 5, 20}}, {3, {5, 30, 3}}};
+    static const int some[] = {3, 9, 13}; /* s_add, f_add, copy */
+    for (int k = 0; k < 5; k++) {
+        struct set s = set_new(shapes[k].rank, shapes[k].dimensions);
+        for (int turn = 0; turn < 6; turn++) {
+            set_masks(&s, turn % 2 ? 2 : 0, 5);
+            for (int i = 0; i < 3; i++)
+                try_row(&s, &rows[some[i]], turn % 3 == 2 ? SPREAD : SCAN, 32);
         }
         set_free(&s);
     }
@@ -332,8 +322,8 @@ static void any_rank_of_geometry_is_the_oracles(void **unused)
 static void long_lines_are_the_oracles(void **unused)
 {
     (void)unused;
-    static const int shapes[][3] = {{1, 2, 1300}, {1100, 1, 3}, {1, 1030, 19}};
-    for (int k = 0; k < 3; k++) {
+    static const int shapes[][3] = {{1, 2, 1300}, {1, 1030, 19}};
+    for (int k = 0; k < 2; k++) {
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 2; turn++) {
             set_masks(&s, turn ? 2 : 1, turn ? 400 : 9);
@@ -410,22 +400,18 @@ static void rank_call(const struct set *s, const struct scan_case *c, unsigned i
                      width == 32 ? 8 : 11, direction, smode, sbit);
 }
 
-static void try_rank(struct set *s, char letter, int width)
+static void try_rank(struct set *s, struct scan_case c)
 {
-    struct scan_case c = {.letter = letter,
-                          .op = "rank",
-                          .width = width,
-                          .axis = (int)below((unsigned)s->grid.rank),
-                          .direction = (int)below(2),
-                          .smode = (int)below(3),
-                          .source = s->numbers,
-                          .context = s->context_bits,
-                          .sbit = s->sbits};
-    numbers_random(s->numbers, s->grid.count, width, letter == 'f');
+    c.op = "rank";
+    c.axis = (int)below((unsigned)s->grid.rank);
+    c.source = s->numbers;
+    c.context = s->context_bits;
+    c.sbit = s->sbits;
+    numbers_random(s->numbers, s->grid.count, c.width, c.letter == 'f');
     for (int i = 0; i < s->grid.count; i++)
         if (device_random() % 4 == 0) /* equal ones */
             s->numbers[i] = s->numbers[below((unsigned)s->grid.count)];
-    put(s, s->source, width, s->numbers);
+    put(s, s->source, c.width, s->numbers);
     numbers_random(s->old, s->grid.count, 20, false);
     put(s, s->dest, 20, s->old);
     rank_call(s, &c, 20);
@@ -437,16 +423,21 @@ static void try_rank(struct set *s, char letter, int width)
 static void ranks_are_the_oracles(void **unused)
 {
     (void)unused;
-    static const int shapes[][3] = {{3, 5, 21}, {9, 1, 70}, {1, 80, 17}, {90, 3, 2}};
-    for (int k = 0; k < 4; k++) {
+    static const int shapes[][3] = {{3, 5, 21}, {9, 1, 70}, {1, 80, 17}};
+    static const struct scan_case cases[] = {
+        {.letter = 'u', .width = 32, .direction = CM_upward, .smode = CM_none},
+        {.letter = 'u', .width = 9, .direction = CM_downward, .smode = CM_segment_bit},
+        {.letter = 's', .width = 50, .direction = CM_upward, .smode = CM_start_bit},
+        {.letter = 's', .width = 128, .direction = CM_downward, .smode = CM_none},
+        {.letter = 'f', .width = 32, .direction = CM_upward, .smode = CM_segment_bit},
+        {.letter = 'f', .width = 64, .direction = CM_downward, .smode = CM_none},
+    };
+    for (int k = 0; k < 3; k++) {
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 3; turn++) {
-            set_masks(&s, (turn + k) % 3, 4 + (int)below(20));
-            try_rank(&s, 'u', widths[below(WIDTHS_COUNT)]);
-            try_rank(&s, 'u', 32);
-            try_rank(&s, 's', widths[1 + below(WIDTHS_COUNT - 1)]);
-            try_rank(&s, 'f', 32);
-            try_rank(&s, 'f', 64);
+            set_masks(&s, turn, 4 + (int)below(20));
+            for (int i = 0; i < (turn == 1 ? 2 : 6); i++)
+                try_rank(&s, cases[i]);
         }
         set_free(&s);
     }
@@ -512,9 +503,9 @@ static void enumeration_counts_the_active(void **unused)
             s.numbers[i] = 1;
         numbers_random(s.old, s.grid.count, 17, false);
         put(&s, s.dest, 17, s.old);
-        (turn % 2 ? CM_enumerate_1L : CM_enumerate)(
-            s.dest, (unsigned)c.axis, 17, (unsigned)c.direction, (unsigned)c.inclusion,
-            (unsigned)c.smode, s.sbit);
+        (turn % 2 ? CM_enumerate_1L
+                  : CM_enumerate)(s.dest, (unsigned)c.axis, 17, (unsigned)c.direction,
+                                  (unsigned)c.inclusion, (unsigned)c.smode, s.sbit);
         oracle_scan(&s.grid, &c, s.old);
         compare(&s, "enumerate", &c);
     }
@@ -563,7 +554,8 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
         }
         if (round == 0)
             CM_spread_from_processor_1L(
-                s.dest, (unsigned)machine_send_address(paris_machine(), s.id, 37), s.source, 145);
+                s.dest, (unsigned)machine_send_address(paris_machine(), s.id, 37), s.source,
+                145);
     }
     c = (struct scan_case){.letter = 'f',
                            .op = "add",
