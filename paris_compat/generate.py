@@ -466,6 +466,47 @@ def cfrontend(_, name, op, flags, doc):
 
 COMPLEX_SHAPES = {"cbinary": cbinary, "cunary": cunary, "ccompare": ccompare, "cmove": cmove, "cpower": cpower,
                   "cpart": cpart, "cangle": cangle, "cfrontend": cfrontend}
+# ---- along axes ----
+
+SCAN = [(LEN, n) for n in ("direction", "inclusion", "smode")] + [(FIELD, "sbit")]
+SCAN_ARGS = ["direction, inclusion, smode, sbit"]
+
+
+def combine(types, name, op, flags, doc):
+    for T in types:
+        floats = T in "fc"
+        L = length_names("f" if floats else T, "len")
+        lens = lengths("f" if floats else T, "len")
+        letter = "f" if floats else T
+        row = "MACHINE_COMBINE_" + machine_op(op, T).removeprefix("MACHINE_")
+        d, a = operand(letter, "dest", *L), operand(letter, "source", *L)
+        parts = "2" if T == "c" else "1"
+
+        def make(verb, params, action, args):
+            fname = f"CM_{verb}_with_{'' if T == 'b' else T + '_'}{name}"
+            for spelling in spellings(fname + "_1L"):
+                yield instruction(spelling, params, doc, action, [parts, d, a] + args, row, flags, shape=None)
+
+        copies = op == "COPY"
+        yield from make("scan", [DEST, SOURCE, AXIS] + lens + SCAN, "paris_scan", ["axis"] + SCAN_ARGS)
+        yield from make("spread", [DEST, SOURCE, AXIS] + lens + ([(LEN, "coordinate")] if copies else []),
+                        "paris_spread", ["axis", "coordinate" if copies else "0"])
+        yield from make("reduce", [DEST, SOURCE, AXIS] + lens + [(LEN, "to_coordinate")]
+                        + ([(LEN, "from_coordinate")] if copies else []),
+                        "paris_reduce", ["axis, to_coordinate", "from_coordinate" if copies else "0"])
+        if not copies:
+            yield from make("multispread", [DEST, SOURCE, (LEN, "axis_mask")] + lens, "paris_multispread",
+                            ["axis_mask"])
+
+
+def rank(types, name, op, flags, doc):
+    for T in types:
+        L, lens = (["s", "e"], lengths("f", "len")) if T == "f" else (["slen"], [SLEN])
+        for fname in (f"CM_{T}_{name}_2L", f"CM_{T}_{name}"):
+            yield instruction(fname, [DEST, SOURCE, AXIS, DLEN] + lens + [(LEN, "direction"), (LEN, "smode"),
+                                                                          (FIELD, "sbit")],
+                              doc, "paris_rank", ["paris_u(dest, dlen)", operand(T, "source", *L),
+                                                  "axis, direction, smode, sbit"], "0", flags, shape=None)
 
 
 def call(prototype, doc):
@@ -688,7 +729,8 @@ SHAPES |= {"integer": integer, "integer1": integer1, "power": power, "shift": sh
           "two_fields": two_fields,
           "binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
           "logical": logical, "not": complement, "flag": flag, "news": news, "own": own, "processor": processor,
-          "newsarray": newsarray, "global": reduction, "globalflag": globalflag}
+          "newsarray": newsarray, "global": reduction, "globalflag": globalflag,
+          "combine": combine, "rank": rank}
 SHAPES |= COMPLEX_SHAPES
 
 
@@ -755,7 +797,7 @@ def tests(sections, floats=False):
     for _, rows in sections:
         for _, functions in rows:
             for f in functions:
-                if not f.body or f.test["shape"] in ("PROCESSOR", "ARRAY", "INTEGER", "COMPLEX"):
+                if not f.body or f.test["shape"] in ("PROCESSOR", "ARRAY", "INTEGER", "COMPLEX", None):
                     continue
                 if f.test["shape"].startswith("FLOAT_") != floats:
                     continue

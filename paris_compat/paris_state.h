@@ -261,6 +261,21 @@ void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_
                              enum machine_flag other);
 void paris_news(const struct paris_instruction *self, CM_field_id_t dest, CM_field_id_t source,
                 unsigned int axis, unsigned int direction, unsigned int len);
+/* Scans and what goes with them; parts: a float, or 2: complex, both parts alike. */
+void paris_scan(const struct paris_instruction *self, int parts, struct paris_operand dest,
+                struct paris_operand source, unsigned int axis, unsigned int direction,
+                unsigned int inclusion, unsigned int smode, CM_field_id_t sbit);
+void paris_spread(const struct paris_instruction *self, int parts, struct paris_operand dest,
+                  struct paris_operand source, unsigned int axis, unsigned int coordinate);
+void paris_multispread(const struct paris_instruction *self, int parts,
+                       struct paris_operand dest, struct paris_operand source,
+                       unsigned int axis_mask);
+void paris_reduce(const struct paris_instruction *self, int parts, struct paris_operand dest,
+                  struct paris_operand source, unsigned int axis, unsigned int to_coordinate,
+                  unsigned int from_coordinate);
+void paris_rank(const struct paris_instruction *self, struct paris_operand dest,
+                struct paris_operand source, unsigned int axis, unsigned int direction,
+                unsigned int smode, CM_field_id_t sbit);
 void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t dest,
                          unsigned int axis, unsigned int len);
 void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t send_address,

@@ -11,6 +11,8 @@
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
+ *   scan.c      scans and spreads: kernels written by hand            (uses run)
+ *   rank.c      ranks: a radix sort                                   (uses scan)
  *   device.c    OpenCL: devices, buffers, programs and their cache
  *   machine.c   creation, errors, configuration
  */
@@ -401,6 +403,50 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **targe
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
 void run_init(struct machine *m);
 void run_finish(struct machine *m);
+
+/* observe.c */
+/* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
+bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
+
+/* scan.c */
+/* Lines of elements in a buffer: see kernels/scan.cl. */
+struct lines {
+    cl_ulong base;
+    cl_long step;
+    cl_ulong inner_stride, outer_stride;
+    size_t inner, outer; /* rows of lines */
+    cl_int length, columns, width, halo, along;
+};
+struct lines lines_of(const struct vpset *s, int axis, bool downward);
+static inline size_t lines_count(const struct lines *l)
+{
+    return l->outer * l->inner * (size_t)l->columns;
+}
+/* Each 32-bit number of dense lines becomes the sum of those before it. */
+enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, size_t lines,
+                                 size_t length);
+/* machine_scan() in another context. */
+struct machine_value *scan_where(struct machine *m, const struct machine_scan *how,
+                                 struct machine_value *value, struct machine_value *context);
+/* Where segments begin when lines are gone through in that direction; NULL: only at the ends. */
+struct machine_value *scan_boundaries(struct machine *m, const struct machine_scan *how);
+/* false: error set. */
+bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
+                         const struct machine_value *value, const struct machine_value *bits);
+/* Bits in the order of the floats; NaNs become nan. */
+struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
+size_t set_bytes(const struct vpset *s, size_t element);
+int device_units(const struct machine *m);
+struct kernel_arguments {
+    cl_kernel kernel;
+    cl_uint count;
+    cl_int error;
+};
+void kernel_argument_add(struct kernel_arguments *a, const void *value, size_t bytes);
+void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int run,
+                      bool with_rows);
+enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
+                                 size_t runs, size_t rows, size_t blocks);
 
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);

@@ -392,6 +392,67 @@ enum machine_status machine_overflow_record_value(struct machine *m,
 /* Computes these now, so that what is made of them finds them in memory. Never needed for the right
  * result: a long chain of equal parts becomes one kernel that runs often. */
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count);
+/* ---- along axes: scans, spreads, ranks ---- */
+
+enum machine_combiner {
+    MACHINE_COMBINE_COPY, /* the first; any type */
+    MACHINE_COMBINE_AND,
+    MACHINE_COMBINE_OR,
+    MACHINE_COMBINE_XOR,
+    MACHINE_COMBINE_ADD, /* modulo 2^width */
+    MACHINE_COMBINE_UMIN,
+    MACHINE_COMBINE_UMAX,
+    MACHINE_COMBINE_SMIN,
+    MACHINE_COMBINE_SMAX,
+    MACHINE_COMBINE_FADD,
+    MACHINE_COMBINE_FMUL,
+    MACHINE_COMBINE_FMIN, /* pass over NaNs; -0 is less than 0 */
+    MACHINE_COMBINE_FMAX
+};
+enum machine_segments {
+    MACHINE_UNSEGMENTED,
+    MACHINE_START_BIT,  /* where an active processor has a 1, in the scan's direction */
+    MACHINE_SEGMENT_BIT /* a 1, active or not, is in the first processor of a segment, the one
+                           with the least coordinate, in both directions */
+};
+struct machine_scan {
+    enum machine_combiner combiner;
+    int axis;
+    bool downward;  /* from the greatest coordinate to the least */
+    bool exclusive; /* without the processor's own */
+    enum machine_segments segments;
+    struct machine_value *bits; /* of the segments; taken EVERYWHERE */
+};
+/* In each active processor, the combination of the active processors from the beginning of its
+ * segment to itself, along the axis. Exclusive: the identity where there is none (COPY: 0).
+ * The value is taken WHERE_ACTIVE; what inactive processors get is not specified.
+ * The order of float addition and multiplication is fixed: in each run of 512 processors along
+ * the axis, counted from where the scan comes from, one after the other from 0 (or 1) on, and
+ * anew from the beginning of a segment; before the first beginning of a segment in the run, to
+ * the left of that, what goes before: the combination of the runs' own from the beginning of the
+ * segment on, one after the other. */
+struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
+                                   struct machine_value *value);
+/* In each processor, the combination of all active ones that differ from it only on the axes of
+ * the mask (bit 0: axis 0). The order is that of a scan up the greatest axis of the mask, then
+ * of these results along the next, and so on. Not COPY. */
+struct machine_value *machine_spread(struct machine *m, enum machine_combiner combiner,
+                                     uint32_t axes, struct machine_value *value);
+/* In each processor, the value of the one on its line along the axis with that coordinate, active
+ * or not. The value is taken EVERYWHERE. */
+struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,
+                                                struct machine_value *value);
+/* In each processor, the value of the one with that row-major index, active or not. The value is
+ * taken EVERYWHERE. */
+struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
+                                           struct machine_value *value);
+/* In each active processor, 32 bits: its position along the axis if the active processors of its
+ * segment were sorted by value into the segment's first places. Equal ones keep their order;
+ * downward the greatest comes first. Floats: -0 equals 0, NaNs come last in both directions.
+ * Segments begin at bits, counted upward in both directions. */
+struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
+                                   enum machine_segments segments, struct machine_value *bits,
+                                   struct machine_value *value);
 
 /* ---- observation ---- */
 

@@ -90,27 +90,42 @@ static void cut_scalar(struct machine_scalar *x, int width)
         x->hi &= (UINT64_C(1) << (width - 64)) - 1;
 }
 
+/* One number for all, in a buffer: the device writes it. */
+static struct machine_value *fill(struct machine *m, int set, struct machine_value *v)
+{
+    size_t element = type_bytes(v->type), bytes = buffer_bytes(&m->sets[set], v->type);
+    unsigned char pattern[16];
+    struct device_buffer *b = device_buffer_get(m, bytes);
+    if (!b)
+        return NULL;
+    put_scalar(pattern, v->imm, element);
+    cl_int error =
+        clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes, 0, NULL, NULL);
+    if (device_check(m, error, "filling a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    return graph_buffer_node(m, v->type, set, b);
+}
+
+bool values_materialise(struct machine *m, int set, struct machine_value **values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (values[i]->op == NODE_CONSTANT && !values[i]->buffer)
+            values[i] = fill(m, set, values[i]);
+        if (!values[i])
+            return false;
+    }
+    for (int i = 0; i < count; i++)
+        if (!values[i]->buffer)
+            return run_evaluate(m, values, count, false) == MACHINE_OK;
+    return true;
+}
+
 /* The value with its numbers in a buffer of the VP set. NULL: error set. */
 static struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
 {
-    if (v->op == NODE_CONSTANT && !v->buffer) {
-        const struct vpset *s = &m->sets[set];
-        size_t element = type_bytes(v->type);
-        unsigned char *all = malloc(s->count * element);
-        if (!all) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for %llu numbers",
-                         (unsigned long long)s->count);
-            return NULL;
-        }
-        for (uint64_t i = 0; i < s->count; i++)
-            put_scalar(all + i * element, v->imm, element);
-        v = upload_value(m, set, v->type, all);
-        free(all);
-        return v;
-    }
-    if (!v->buffer && run_evaluate(m, &v, 1, false))
-        return NULL;
-    return v;
+    return values_materialise(m, set, &v, 1) ? v : NULL;
 }
 
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,

@@ -1,0 +1,230 @@
+/* rank.c - ranks along an axis: a radix sort from the lowest digit, started and not waited for.
+ *
+ * Keys become whole numbers in the order wanted, with a bit above them that puts inactive
+ * processors last; with segments, the number of the processor's segment is above all. A
+ * processor's place among all of its line, sorted by that, is then already what is asked for:
+ * segments follow each other with all their processors, so each begins where it did. Keys are cut
+ * in words of 32 bits, and these in digits; each digit is a pass (kernels/sort.cl). */
+#include "internal.h"
+
+#include "kernels.h"
+
+enum { WORDS_MAX = 6, CHUNK_GPU = 2048, LONG = 1 << 15, SHORT = 64 };
+enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
+
+struct words {
+    struct machine_value *values[WORDS_MAX];
+    int bits[WORDS_MAX];
+    int count;
+};
+
+static bool words_add(struct machine *m, struct words *w, struct machine_value *key)
+{
+    for (int at = 0; key && at < key->type.width; at += 32) {
+        int bits = key->type.width - at < 32 ? key->type.width - at : 32;
+        struct machine_value *word =
+            machine_resize(m, machine_extract(m, key, at, bits), 32, false);
+        if (!word)
+            return false;
+        if (word->op == NODE_REINTERPRET && !word->buffer && word->in[0]->buffer)
+            word = word->in[0];
+        w->values[w->count] = word;
+        w->bits[w->count++] = bits;
+    }
+    return key != NULL;
+}
+
+/* Whole numbers whose order is the one asked for. */
+static struct machine_value *key_of(struct machine *m, struct machine_value *v, bool downward,
+                                    bool is_signed)
+{
+    int width = v->type.width;
+    struct machine_type type = MACHINE_UINT(width);
+    if (v->type.kind == MACHINE_FLOAT) {
+        struct machine_type plain = width == 32 ? MACHINE_F32 : MACHINE_F64;
+        v = machine_to_float(m, v, plain, false);
+        /* -0 + 0 is 0 */
+        v = v ? machine_binary(m, MACHINE_FADD, v,
+                               machine_constant(m, plain, (struct machine_scalar){0, 0}))
+              : NULL;
+        if (!v)
+            return NULL;
+        uint64_t last = width == 32 ? UINT32_MAX : UINT64_MAX;
+        v = float_order(m, v, downward ? 0 : last);
+    } else if (is_signed) {
+        struct machine_scalar sign = {width <= 64 ? UINT64_C(1) << (width - 1) : 0,
+                                      width > 64 ? UINT64_C(1) << (width - 65) : 0};
+        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, sign));
+    }
+    return v && downward ? machine_unary(m, MACHINE_NOT, v) : v;
+}
+
+static int bits_of(int x)
+{
+    int bits = 0;
+    for (; x; x >>= 1)
+        bits++;
+    return bits;
+}
+
+static bool words_of(struct machine *m, const struct machine_scan *how,
+                     struct machine_value *key, struct words *w)
+{
+    const struct vpset *s = &m->sets[m->set_current];
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    int length = s->dimensions[how->axis];
+    struct machine_value *inactive = machine_unary(m, MACHINE_NOT, context);
+    if (!key || !inactive)
+        return false;
+    bool all = inactive->op == NODE_CONSTANT && !inactive->buffer && !inactive->imm.lo;
+    if (how->segments == MACHINE_UNSEGMENTED && all)
+        return words_add(m, w, key);
+    if (how->segments == MACHINE_UNSEGMENTED && key->type.width < 128)
+        return words_add(m, w, machine_concat(m, key, inactive));
+    struct machine_value *above = inactive;
+    struct machine_value *everyone =
+        machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0});
+    if (how->segments != MACHINE_UNSEGMENTED) {
+        int bits = bits_of(length);
+        struct machine_scan number = {
+            .combiner = MACHINE_COMBINE_ADD, .axis = how->axis, .bits = NULL};
+        struct machine_value *begins = scan_boundaries(m, how);
+        struct machine_value *segment =
+            begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone)
+                   : NULL;
+        segment = machine_resize(m, segment, bits, false);
+        above = segment ? machine_concat(m, inactive, segment) : NULL;
+    }
+    return above && words_add(m, w, key) && words_add(m, w, above);
+}
+
+struct sort {
+    struct lines lines;
+    const struct vpset *set;
+    int chunk, chunks, digit; /* processors in a chunk; bits */
+    struct device_buffer *pairs[2], *counts, *ranks;
+    size_t counts_bytes;
+};
+
+static struct sort sort_of(const struct machine *m, const struct vpset *s, int axis)
+{
+    struct sort t = {.lines = lines_of(s, axis, false), .set = s, .chunks = 1};
+    int length = t.lines.length;
+    t.digit = length <= SHORT ? 4 : length < LONG || !m->device.is_cpu ? 8 : 11;
+    t.chunk = length;
+    if (!m->device.is_cpu && length > CHUNK_GPU) {
+        t.chunk = CHUNK_GPU;
+    } else if (m->device.is_cpu && length >= LONG) {
+        int wanted = 2 * device_units(m);
+        t.chunk = (length - 1) / wanted + 1;
+    }
+    t.chunks = (length - 1) / t.chunk + 1;
+    return t;
+}
+
+static struct kernel_arguments sort_part(struct machine *m, int number)
+{
+    char options[64];
+    snprintf(options, sizeof options, "-DPART=%d -DDIGIT=%d", number,
+             m->device.is_cpu ? 11 : 8);
+    const char *parts[3] = {"", "", kernel_sort_cl};
+    m->inside++;
+    struct kernel_arguments a = {.kernel = device_kernel(m, parts, options, "sort")};
+    m->inside--;
+    return a;
+}
+
+static void add_buffer(struct kernel_arguments *a, const struct device_buffer *b)
+{
+    kernel_argument_add(a, &b->mem, sizeof b->mem);
+}
+
+static enum machine_status sort_pass(struct machine *m, const struct sort *t,
+                                     const struct device_buffer *word, int source, int shift,
+                                     int bits, int from, bool last)
+{
+    const struct lines *l = &t->lines;
+    size_t rows = l->inner * (size_t)l->columns;
+    cl_int numbers[3] = {source, shift, bits}, is_last = last;
+    for (int number = 0; number < 2; number++) {
+        struct kernel_arguments a = sort_part(m, number);
+        if (!a.kernel)
+            return m->status;
+        kernel_lines_add(&a, l, t->chunk, false);
+        for (int i = 0; i < 3; i++)
+            kernel_argument_add(&a, &numbers[i], sizeof numbers[i]);
+        add_buffer(&a, word);
+        add_buffer(&a, t->pairs[from]);
+        add_buffer(&a, t->counts);
+        if (number == 1) {
+            kernel_argument_add(&a, &is_last, sizeof is_last);
+            kernel_argument_add(&a, &l->width, sizeof l->width);
+            kernel_argument_add(&a, &l->halo, sizeof l->halo);
+            kernel_argument_add(&a, &l->along, sizeof l->along);
+            add_buffer(&a, t->pairs[!from]);
+            add_buffer(&a, t->ranks);
+        }
+        enum machine_status status = kernel_start(m, &a, (size_t)t->chunks, rows, l->outer);
+        if (!status && number == 0)
+            status = lines_sum_up(m, t->counts, lines_count(l), (size_t)t->chunks << bits);
+        if (status)
+            return status;
+    }
+    return MACHINE_OK;
+}
+
+static enum machine_status sort_words(struct machine *m, const struct sort *t,
+                                      const struct words *w)
+{
+    int from = 0;
+    for (int i = 0; i < w->count; i++) {
+        int passes = (w->bits[i] - 1) / t->digit + 1;
+        for (int k = 0; k < passes; k++) {
+            int begin = w->bits[i] * k / passes, end = w->bits[i] * (k + 1) / passes;
+            bool last = i == w->count - 1 && k == passes - 1;
+            enum machine_status status = sort_pass(m, t, w->values[i]->buffer,
+                                                   k   ? PAIR
+                                                   : i ? GATHER
+                                                       : WORD,
+                                                   begin, end - begin, from, last);
+            if (status)
+                return status;
+            from = !from;
+        }
+    }
+    return MACHINE_OK;
+}
+
+struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
+                                   enum machine_segments segments, struct machine_value *bits,
+                                   struct machine_value *value)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    struct machine_scan how = {.axis = axis, .segments = segments, .bits = bits};
+    bool segmented = segments != MACHINE_UNSEGMENTED;
+    struct words w = {.count = 0};
+    if (!value || !s || (segmented && !bits) ||
+        !scan_arguments_good(m, s, axis, value, segmented ? bits : NULL) ||
+        !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
+        !values_materialise(m, m->set_current, w.values, w.count))
+        return NULL;
+    s = &m->sets[m->set_current];
+    struct sort t = sort_of(m, s, axis);
+    size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
+    struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
+    const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
+                             set_bytes(s, 4)};
+    enum machine_status status = MACHINE_OK;
+    for (int i = 0; i < 4 && !status; i++)
+        if (!(*all[i] = device_buffer_get(m, bytes[i])))
+            status = m->status;
+    if (!status)
+        status = sort_words(m, &t, &w);
+    for (int i = 0; i < 3; i++)
+        if (*all[i])
+            device_buffer_unref(m, *all[i]);
+    if (status && t.ranks)
+        device_buffer_unref(m, t.ranks);
+    clFlush(m->device.queue);
+    return status ? NULL : graph_buffer_node(m, MACHINE_UINT(32), m->set_current, t.ranks);
+}

@@ -1,0 +1,34 @@
+/* oracle_scan.h - scans, spreads and ranks in plain C, from their definitions: for each processor
+ * the others of its line are gone through. Knows nothing of the machine. */
+#ifndef PARIS_TESTS_ORACLE_SCAN_H
+#define PARIS_TESTS_ORACLE_SCAN_H
+
+#include <stdint.h>
+
+#include "oracle.h"
+
+enum { SCAN_AXES_MAX = 5 };
+
+struct scan_grid {
+    int rank, dimensions[SCAN_AXES_MAX];
+    int count;
+};
+
+struct scan_case {
+    char letter;    /* u s f b */
+    const char *op; /* add multiply min max logand logior logxor copy */
+    int width;      /* of f 32 or 64 */
+    int axis;
+    int direction, inclusion, smode; /* as in <cm/paris.h> */
+    const number *source, *context, *sbit;
+};
+
+/* dest: what was there before, and then is. */
+void oracle_scan(const struct scan_grid *grid, const struct scan_case *c, number *dest);
+/* Over the axes of the mask; `to` other than -1: only processors with that coordinate on c->axis.
+ * copy: what processors with the coordinate `from` on c->axis have. */
+void oracle_spread(const struct scan_grid *grid, const struct scan_case *c, unsigned int mask,
+                   int to, int from, number *dest);
+void oracle_rank(const struct scan_grid *grid, const struct scan_case *c, number *dest);
+
+#endif
