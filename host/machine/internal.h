@@ -352,6 +352,13 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
 void run_init(struct machine *m);
 void run_finish(struct machine *m);
 
+/* observe.c */
+/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
+ * everywhere the same). Does not wait. NULL: error set. */
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
+/* Of a buffer for one value of that type. */
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
+
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);
 void device_close(struct machine *m);
