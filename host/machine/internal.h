@@ -8,6 +8,9 @@
  *   spell.c     the text of one operation                             (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   observe.c   reading, writing, reducing                            (uses run)
+ *   router.c    sends and gets                                        (uses run)
+ *   reshape.c   aliases: the same memory seen from another VP set     (uses run, graph)
+ *   call.h      starting a kernel that is not generated
  *   device.c    OpenCL: devices, buffers, programs and their cache
  *   machine.c   creation, errors, configuration
  */
@@ -58,6 +61,7 @@ enum node_op {
     NODE_OVERFLOW_FSUB,
     NODE_OVERFLOW_FMUL,
     NODE_OVERFLOW_FDIV,
+    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.c */
     NODE_OP_COUNT
 };
 
@@ -111,6 +115,12 @@ struct slot {
     bool overwritten_first;  /* that first access overwrote it: a temporary */
 };
 
+/* Where an alias has its bits: VP r's first one is start + r div parts * outer + r mod parts * inner in
+ * the memory of the field that it is an alias of. */
+struct view {
+    uint32_t start, parts, outer, inner;
+};
+
 struct field {
     uint32_t base; /* its id */
     uint32_t bits;
@@ -119,6 +129,11 @@ struct field {
     uint64_t serial;    /* order of allocation */
     struct slot *slots; /* ascending offsets, no overlap; what is missing is 0 */
     int slots_count, slots_capacity;
+    struct field *root; /* an alias: the field whose memory it is, which is no alias itself */
+    struct view view;   /* an alias: where */
+    bool current;       /* an alias: its slots are what the memory holds */
+    struct field *aliases, *next_alias; /* of a root: all of them */
+    struct field *newest; /* of a root: the alias that was stored into since, or NULL */
 };
 
 struct lazy_overflow {
@@ -136,6 +151,7 @@ struct vpset {
     int halo;             /* columns repeated on both sides of a row */
     size_t pitch;         /* elements from row to row */
     uint64_t ratio;
+    enum machine_order order;
     struct slot flags[3];
     struct lazy_overflow overflow;
 };
@@ -235,6 +251,10 @@ void graph_finish(struct machine *m);
 struct machine_value *graph_node(struct machine *m, const struct machine_value *key);
 struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
                                         struct device_buffer *buffer);
+/* The same if there is one, else NULL. */
+struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
+/* A node with a buffer is from now on no more than that. */
+void graph_forget(struct machine *m, struct machine_value *v);
 void graph_ref(struct machine_value *v);
 void graph_unref(struct machine *m, struct machine_value *v);
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
@@ -351,6 +371,27 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **targe
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
 void run_init(struct machine *m);
 void run_finish(struct machine *m);
+
+/* The slots between two bit offsets are given up for these, whose values' references go to the field. */
+void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
+                     const struct slot *slots, int count);
+void field_unlink_alias(struct field *alias);
+/* The field that begins at the id; NULL if none does. */
+struct field *field_exact(struct machine *m, uint32_t id);
+/* Whether the field may have so many bits without running into the next one's ids. */
+bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
+void field_destroy(struct machine *m, struct field *f);
+
+/* reshape.c */
+/* Called before slots of f are looked at, or replaced (writes; whole: all of them, everywhere): brings
+ * what was stored through another alias of its memory. */
+bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole);
+/* The root takes over what its newest alias holds. */
+bool reshape_settle(struct machine *m, struct field *root);
+/* Gives a slice its buffer; others that are found on the way too. */
+bool reshape_unpack(struct machine *m, struct machine_value *slice);
+/* No slice is left that is of the VP set, or of a value of it. */
+bool reshape_forget_set(struct machine *m, int set);
 
 /* observe.c */
 /* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:

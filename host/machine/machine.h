@@ -134,6 +134,13 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
  * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
  * everywhere. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
+/* Where virtual processors are, with R the VP ratio, ceil(count / P), of P physical processors: in
+ * NEWS order the one of row-major index n is VP n div P of processor n mod P; in send order it is VP
+ * n mod R of processor n div R. A send address is processor * R + VP: in send order the row-major
+ * index. machine_vpset_create() is NEWS order. */
+enum machine_order { MACHINE_NEWS_ORDER, MACHINE_SEND_ORDER };
+int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
+                                 enum machine_order order);
 enum machine_status machine_vpset_destroy(struct machine *m, int vpset); /* its fields go too */
 enum machine_status machine_vpset_select(struct machine *m,
                                          int vpset); /* values are built in this set */
@@ -141,10 +148,10 @@ int machine_vpset_current(const struct machine *m);
 int machine_vpset_rank(const struct machine *m, int vpset);
 int machine_vpset_length(const struct machine *m, int vpset, int axis);
 uint64_t machine_vpset_count(const struct machine *m, int vpset); /* virtual processors */
-/* NEWS-ordered: row-major index n is VP n div P of processor n mod P; its send address is (n
- * mod P)*R + n div P, with R the VP ratio, ceil(count / P). A set smaller than the machine has
- * R = 1. */
+enum machine_order machine_vpset_order(const struct machine *m, int vpset);
 uint64_t machine_vpset_ratio(const struct machine *m, int vpset);
+/* The bits that hold a send address of the set: of P * R numbers; 1 at least. */
+int machine_address_bits(const struct machine *m, int vpset);
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index);
 /* The row-major index of a send address; UINT64_MAX if there is no such processor. */
 uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address);
@@ -174,6 +181,23 @@ struct machine_field_info {
 /* false: there is no such field (any more). Does not set the error. */
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out);
+
+/* ---- aliases ---- */
+
+/* A field that is the same memory, from that bit of the field on, seen from the VP set. Memory belongs to
+ * physical processors: of a field of L bits in a set of VP ratio R each has R * L bits, VP after VP.
+ *  - The set has the same ratio: its VPs see their own bits, L - offset of them.
+ *  - k times the ratio: the L - offset bits of each VP are shared out among k, (L - offset) / k to each.
+ *  - a k-th of it: each VP sees the bits of k one after the other, without the first offset.
+ *  - other ratios: the bits of the processor are shared out, one VP after the other.
+ * Stores are seen from all sides. Bits of VPs that do not exist (in a set whose size is no multiple of the
+ * processors) are 0 and are not kept. An alias of an alias is one of its memory. It goes with the memory, or
+ * with its VP set. Its id takes offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
+uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset);
+/* The alias is one of another field from now on, in its own VP set. */
+enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field);
+enum machine_status machine_alias_remove(struct machine *m, uint32_t alias);
+bool machine_is_alias(struct machine *m, uint32_t field);
 
 /* ---- values ---- */
 
@@ -305,6 +329,43 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
 enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b);
+
+/* ---- the router ---- */
+
+enum machine_combiner {
+    MACHINE_COMBINE_OVERWRITE, /* dest = message */
+    MACHINE_COMBINE_AND,
+    MACHINE_COMBINE_OR,
+    MACHINE_COMBINE_XOR,
+    MACHINE_COMBINE_ADD, /* modulo 2^width */
+    MACHINE_COMBINE_UMIN,
+    MACHINE_COMBINE_UMAX,
+    MACHINE_COMBINE_SMIN,
+    MACHINE_COMBINE_SMAX,
+    MACHINE_COMBINE_FADD,
+    MACHINE_COMBINE_FMUL,
+    MACHINE_COMBINE_FMIN,
+    MACHINE_COMBINE_FMAX
+};
+/* Each active processor of the current VP set sends source to dest in the processor at the send
+ * address; dest may be in another VP set, whose context does not matter. As if one sender after the
+ * other, in the order of their row-major indices, did dest = combine (dest, its source) there, with
+ * the machine's operation of that name: so with OVERWRITE the sender with the highest index wins, and
+ * sums of floats begin with the old dest. Of the address the low machine_address_bits() of dest's set
+ * count; messages to a processor that does not exist are lost. notify: a bit field of dest's set,
+ * which becomes 1 where a message arrived and 0 elsewhere; or MACHINE_NO_FIELD. */
+enum machine_status machine_send(struct machine *m, uint32_t dest,
+                                 struct machine_value *send_address,
+                                 struct machine_value *source, enum machine_combiner combiner,
+                                 uint32_t notify);
+/* What the field holds in the processor at each active processor's send address, 0 where there is no
+ * such processor; anything in inactive processors. The field may be in another VP set. */
+struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
+                                  uint32_t source, struct machine_type type);
+/* How many active processors have an address that vpset has no processor for; waits. */
+enum machine_status machine_addresses_check(struct machine *m,
+                                            struct machine_value *send_address, int vpset,
+                                            uint64_t *wrong);
 
 /* ---- observation ---- */
 

@@ -83,6 +83,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [NODE_OVERFLOW_FSUB] = {"overflow_fsub", 2, 5, 0},
     [NODE_OVERFLOW_FMUL] = {"overflow_fmul", 2, 5, 0},
     [NODE_OVERFLOW_FDIV] = {"overflow_fdiv", 2, 10, 0},
+    [NODE_SLICE] = {"slice", 1, GENERATOR_NONE, 0},
 };
 
 static const struct machine_type bit_type = {MACHINE_BITS, 1};
@@ -650,6 +651,8 @@ struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
 
 struct machine_value *machine_self_address(struct machine *m, int width)
 {
+    if (machine_vpset_order(m, m->set_current) == MACHINE_SEND_ORDER)
+        return machine_self_index(m, width);
     return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
 }
 
