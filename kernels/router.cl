@@ -136,7 +136,7 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
 }
 #else
 
-/* AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMUL, FMIN, FMAX are 1 .. 12. sign: the highest
+/* AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
  * bit, mask: all bits, of the width. */
 #if KIND == 0
 inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
@@ -165,8 +165,6 @@ inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 #if OP == 9
     const ELEMENT c = a + b;
 #elif OP == 10
-    const ELEMENT c = a * b;
-#elif OP == 11
     const ELEMENT c = a < b ? a : b;
 #else
     const ELEMENT c = a > b ? a : b;

@@ -52,6 +52,25 @@ int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
     return machine_vpset_create_ordered(m, dimensions, rank, MACHINE_NEWS_ORDER);
 }
 
+static void vpset_lay_out(const struct machine *m, struct vpset *s, const int *dimensions,
+                          int rank, enum machine_order order)
+{
+    s->order = order;
+    s->rank = rank;
+    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
+    s->count = 1;
+    for (int i = 0; i < rank; i++)
+        s->count *= (uint64_t)dimensions[i];
+    s->width = dimensions[rank - 1];
+    s->rows = s->count / (uint64_t)s->width;
+    s->ratio = (s->count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
+    const struct device_shape *shape = &m->device.shape;
+    s->halo = s->width >= shape->vector ? shape->halo : 0;
+    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
+    if (s->halo)
+        s->pitch = (s->pitch + 15) / 16 * 16;
+}
+
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
                                  enum machine_order order)
 {
@@ -95,18 +114,7 @@ int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int r
     struct vpset *s = &m->sets[id];
     *s = (struct vpset){.generation = (uint16_t)(s->generation + 1)};
     s->used = true;
-    s->order = order;
-    s->rank = rank;
-    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
-    s->count = count;
-    s->width = dimensions[rank - 1];
-    s->rows = count / (uint64_t)s->width;
-    s->ratio = (count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
-    const struct device_shape *shape = &m->device.shape;
-    s->halo = s->width >= shape->vector ? shape->halo : 0;
-    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
-    if (s->halo)
-        s->pitch = (s->pitch + 15) / 16 * 16;
+    vpset_lay_out(m, s, dimensions, rank, order);
     for (int flag = 0; flag < 3; flag++) {
         s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
         struct machine_value *one = machine_constant(
@@ -186,6 +194,67 @@ void fields_finish(struct machine *m)
         if (m->sets[i].used)
             vpset_release(m, &m->sets[i]);
     free(m->sets);
+}
+
+/* Every value of the set in memory, as numbers of the new layout. False: error set. */
+static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int vpset,
+                          const struct vpset *to, struct machine_value **out, int *out_count)
+{
+    for (int i = 0; i < count; i++) {
+        struct machine_value *v = slots[i].value;
+        if (v->op != NODE_CONSTANT && !(v = reshape_lay_out(m, v, vpset, to)))
+            return false;
+        out[(*out_count)++] = v;
+    }
+    return true;
+}
+
+/* All or nothing: the new values are made before any is put in its place. */
+enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
+                                          int rank, enum machine_order order)
+{
+    struct vpset *s = vpset_get(m, vpset);
+    uint64_t count = 1;
+    for (int i = 0; s && i < rank && rank <= MACHINE_AXES_MAX; i++)
+        count *= dimensions[i] > 0 ? (uint64_t)dimensions[i] : 0;
+    if (!s)
+        return m->status;
+    if (rank < 1 || rank > MACHINE_AXES_MAX || count != s->count)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "another geometry of a VP set has as many processors (%llu)",
+                            (unsigned long long)s->count);
+    machine_begin(m);
+    flag_resolved(m, s, MACHINE_OVERFLOW);
+    size_t slots_count = 3;
+    for (int i = 0; i < m->fields_count; i++)
+        slots_count += m->fields[i]->vpset == vpset ? (size_t)m->fields[i]->slots_count : 0;
+    struct vpset to = *s;
+    vpset_lay_out(m, &to, dimensions, rank, order);
+    struct machine_value **fresh = calloc(slots_count, sizeof *fresh);
+    if (!fresh)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");
+    int done = 0;
+    bool good = run_evaluate(m, NULL, 0, true) == MACHINE_OK && reshape_forget_set(m, vpset) &&
+                slots_lay_out(m, s->flags, 3, vpset, &to, fresh, &done);
+    for (int i = 0; i < m->fields_count && good; i++)
+        if (m->fields[i]->vpset == vpset)
+            good = slots_lay_out(m, m->fields[i]->slots, m->fields[i]->slots_count, vpset, &to,
+                                 fresh, &done);
+    done = 0;
+    for (int flag = 0; flag < 3 && good; flag++)
+        slot_set(m, &s->flags[flag], fresh[done++]);
+    for (int i = 0; i < m->fields_count && good; i++)
+        for (int k = 0; m->fields[i]->vpset == vpset && k < m->fields[i]->slots_count; k++)
+            slot_set(m, &m->fields[i]->slots[k], fresh[done++]);
+    if (good) {
+        for (int flag = 0; flag < 3; flag++)
+            to.flags[flag] = s->flags[flag];
+        to.generation++;
+        *s = to;
+    }
+    free(fresh);
+    machine_begin(m);
+    return good ? MACHINE_OK : m->status;
 }
 
 enum machine_status machine_vpset_select(struct machine *m, int vpset)

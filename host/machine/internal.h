@@ -390,7 +390,11 @@ bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole);
 bool reshape_settle(struct machine *m, struct field *root);
 /* Gives a slice its buffer; others that are found on the way too. */
 bool reshape_unpack(struct machine *m, struct machine_value *slice);
-/* No slice is left that is of the VP set, or of a value of it. */
+/* The same numbers for the same processors in rows of another geometry; v is of the set as it is. */
+struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v, int set,
+                                      const struct vpset *to);
+/* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
+ * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);
 
 /* observe.c */

@@ -141,6 +141,10 @@ int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
 enum machine_order { MACHINE_NEWS_ORDER, MACHINE_SEND_ORDER };
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
                                  enum machine_order order);
+/* The same processors in another geometry of the same size: what is in the processor at a send address
+ * stays there. */
+enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
+                                          int rank, enum machine_order order);
 enum machine_status machine_vpset_destroy(struct machine *m, int vpset); /* its fields go too */
 enum machine_status machine_vpset_select(struct machine *m,
                                          int vpset); /* values are built in this set */
@@ -343,7 +347,6 @@ enum machine_combiner {
     MACHINE_COMBINE_SMIN,
     MACHINE_COMBINE_SMAX,
     MACHINE_COMBINE_FADD,
-    MACHINE_COMBINE_FMUL,
     MACHINE_COMBINE_FMIN,
     MACHINE_COMBINE_FMAX
 };

@@ -129,12 +129,45 @@ bool reshape_forget_set(struct machine *m, int set)
     for (uint32_t i = 0; i < m->table_size; i++)
         for (struct machine_value *v = m->table[i], *next; v; v = next) {
             next = v->next;
-            if (v->op == NODE_SLICE && (v->set == set || v->in[0]->set == set)) {
+            if ((v->op == NODE_SLICE && (v->set == set || v->in[0]->set == set)) ||
+                (v->buffer && v->set == set)) {
                 graph_forget(m, v);
                 next = m->table[i]; /* its input may have gone with it */
             }
         }
     return true;
+}
+
+struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v, int set,
+                                      const struct vpset *to)
+{
+    v = observe_materialise(m, set, v);
+    struct device_buffer *b =
+        v ? device_buffer_get(m, observe_buffer_bytes(to, v->type)) : NULL;
+    if (!b)
+        return NULL;
+    size_t bytes = type_bytes(v->type);
+    char options[64];
+    snprintf(options, sizeof options, "-DELEMENT=%s%s", call_element(bytes),
+             bytes == 16 ? " -DPAIR" : "");
+    m->inside++;
+    struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "slices");
+    call_set(&c, m, &m->sets[set]);
+    call_set(&c, m, to);
+    call_uint(&c, processors_run(m));
+    call_uint(&c, 1); /* one slice, all of it */
+    call_uint(&c, 0);
+    call_uint(&c, 1);
+    call_uint(&c, 1);
+    call_buffer(&c, v->buffer);
+    for (int i = 0; i < BLOCK; i++)
+        call_buffer(&c, b);
+    enum machine_status status = call_processors(&c, m, (size_t)to->ratio);
+    m->inside--;
+    if (!status)
+        return graph_buffer_node(m, v->type, set, b);
+    device_buffer_unref(m, b);
+    return NULL;
 }
 
 /* ---- rolling up ---- */
