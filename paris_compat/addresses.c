@@ -1,9 +1,17 @@
 /* Send addresses and NEWS coordinates on the front end. */
 #include "paris_state.h"
 
+enum machine_order paris_geometry_order(const struct paris_geometry *g)
+{
+    for (int axis = 0; axis < g->rank; axis++)
+        if (g->ordering[axis] != CM_send_order)
+            return MACHINE_NEWS_ORDER;
+    return MACHINE_SEND_ORDER;
+}
+
 static bool in_send_order(const struct paris_geometry *g)
 {
-    return g->rank == 1 && g->ordering[0] == CM_send_order;
+    return paris_geometry_order(g) == MACHINE_SEND_ORDER;
 }
 
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index)
@@ -113,9 +121,7 @@ static void my_send_address(const char *name, CM_field_id_t dest, enum machine_s
     struct machine *m = paris_begin(name);
     const struct paris_geometry *g = paris_geometry_current();
     unsigned int bits = paris_address_bits(g);
-    struct machine_value *v = in_send_order(g) ? machine_self_index(m, (int)bits)
-                                               : machine_self_address(m, (int)bits);
-    paris_store(m, paris_u(dest, bits), v, scope);
+    paris_store(m, paris_u(dest, bits), machine_self_address(m, (int)bits), scope);
 }
 
 void CM_my_send_address(CM_field_id_t dest)

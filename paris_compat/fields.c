@@ -5,10 +5,6 @@ static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t
                               enum machine_region region)
 {
     struct machine *m = paris_begin(name);
-    if (len == 0) {
-        paris_fail("len: a field has 1 or more bits (got 0)");
-        return CM_no_field;
-    }
     uint32_t field =
         machine_field_allocate(m, vp_set ? vp_set : machine_vpset_current(m), len, region);
     if (field == MACHINE_NO_FIELD)

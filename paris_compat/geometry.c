@@ -3,8 +3,8 @@
  *
  * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of
  * row-major index i is virtual processor i div P of physical processor i mod P, and its send
- * address is (i mod P) * R + i div P. Along a single axis in send order the coordinate is the
- * send address. */
+ * address is (i mod P) * R + i div P. Where all axes are in send order the row-major index is the
+ * send address; a geometry that has axes of both orders is in NEWS order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +62,9 @@ static CM_geometry_id_t geometry_add(const struct paris_geometry *g)
         paris_the.geometries = grown;
         paris_the.geometries_count = count;
     }
+    static unsigned int serial;
     paris_the.geometries[i] = *g;
+    paris_the.geometries[i].serial = ++serial;
     paris_the.pristine = false;
     return i + 1;
 }
@@ -255,6 +257,59 @@ unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int a
     }
     return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left
                                                                : (uint64_t)g->dimensions[axis]);
+}
+
+unsigned int CM_geometry_axis_weight(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_weight";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    return g ? (unsigned int)g->weight[axis] : 0;
+}
+
+unsigned int CM_geometry_axis_on_chip_bits(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_on_chip_bits";
+    geometry_axis(geometry, axis);
+    return 0;
+}
+
+unsigned int CM_geometry_axis_on_chip_pos(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_on_chip_pos";
+    geometry_axis(geometry, axis);
+    return 0;
+}
+
+static unsigned int off_chip_bits(CM_geometry_id_t geometry, const struct paris_geometry *g,
+                                  unsigned int axis)
+{
+    unsigned int vps = CM_geometry_axis_vp_ratio(geometry, axis);
+    uint64_t left = ((uint64_t)g->dimensions[axis] + vps - 1) / vps;
+    return left > 1 ? bits_for(left) : 0;
+}
+
+unsigned int CM_geometry_axis_off_chip_bits(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_off_chip_bits";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    return g ? off_chip_bits(geometry, g, axis) : 0;
+}
+
+unsigned int CM_geometry_axis_off_chip_pos(CM_geometry_id_t geometry, unsigned int axis)
+{
+    paris_the.call = "CM_geometry_axis_off_chip_pos";
+    const struct paris_geometry *g = geometry_axis(geometry, axis);
+    unsigned int position = 0;
+    for (unsigned int i = axis + 1; g && i < (unsigned int)g->rank; i++)
+        position += off_chip_bits(geometry, g, i);
+    return position;
+}
+
+unsigned int CM_geometry_serial_number(CM_geometry_id_t geometry)
+{
+    paris_the.call = "CM_geometry_serial_number";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    return g ? g->serial : 0;
 }
 
 unsigned int CM_geometry_send_address_length(CM_geometry_id_t geometry)

@@ -102,6 +102,7 @@ struct paris_geometry {
     uint64_t count; /* virtual processors */
     uint64_t ratio;
     int sets; /* VP sets that have it */
+    unsigned int serial;
 };
 
 struct paris_state {
@@ -166,6 +167,8 @@ struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
 
 /* ---- geometry: the machine's row-major index and Paris's send address ---- */
 
+/* In send order: all axes are. Else the row-major index n is VP n div P of processor n mod P. */
+enum machine_order paris_geometry_order(const struct paris_geometry *g);
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);
 /* UINT64_MAX where there is no such processor. */
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address);
@@ -294,6 +297,30 @@ double paris_global_f(const struct paris_instruction *self, struct paris_operand
 unsigned int paris_global_count(const struct paris_instruction *self, enum machine_flag flag);
 int paris_global_any(const struct paris_instruction *self, enum machine_flag flag);
 int paris_global_all(const struct paris_instruction *self, enum machine_flag flag);
+
+/* ---- the router, coordinates: router.c, coordinates.c ---- */
+
+void paris_send(const struct paris_instruction *self, struct paris_operand dest,
+                CM_field_id_t send_address, struct paris_operand source, CM_field_id_t notify);
+void paris_get(const struct paris_instruction *self, CM_field_id_t dest,
+               CM_field_id_t send_address, CM_field_id_t source, unsigned int len);
+void paris_power_two(const struct paris_instruction *self, CM_field_id_t dest,
+                     CM_field_id_t source, unsigned int axis, unsigned int log2_distance,
+                     unsigned int direction, unsigned int len);
+void paris_cross_move(const struct paris_instruction *self, CM_field_id_t dest,
+                      CM_field_id_t source, unsigned int len);
+/* self->op is 1 where the coordinate is a number. */
+void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                           CM_field_id_t dest, unsigned int axis, CM_field_id_t coordinate,
+                           unsigned int slen);
+void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                              CM_field_id_t dest, unsigned int axis, unsigned int coordinate,
+                              unsigned int slen);
+void paris_coordinate_extract(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                              CM_field_id_t dest, unsigned int axis, CM_field_id_t send_address,
+                              unsigned int dlen);
+/* As paris_check_field(), for a field of any VP set. */
+bool paris_check_field_anywhere(CM_field_id_t field, unsigned int bits, const char *role);
 
 /* A block of a front-end array, and where it is among the processors. */
 struct paris_block {

@@ -45,7 +45,7 @@ CM_vp_set_id_t CM_allocate_vp_set(CM_geometry_id_t geometry)
     const struct paris_geometry *g = paris_geometry_of(geometry);
     if (!g)
         return 0;
-    int set = machine_vpset_create(m, g->dimensions, g->rank);
+    int set = machine_vpset_create_ordered(m, g->dimensions, g->rank, paris_geometry_order(g));
     if (!set) {
         paris_fail_machine();
         return 0;
@@ -98,6 +98,31 @@ void CM_set_vp_set(CM_vp_set_id_t vp_set)
 {
     paris_begin("CM_set_vp_set");
     if (set_check(vp_set))
+        set_select(vp_set);
+}
+
+void CM_set_vp_set_geometry(CM_vp_set_id_t vp_set, CM_geometry_id_t geometry)
+{
+    struct machine *m = paris_begin("CM_set_vp_set_geometry");
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    if (!g || !set_check(vp_set))
+        return;
+    struct paris_geometry *old = &paris_the.geometries[paris_the.set_geometry[vp_set] - 1];
+    if (g->count != old->count) {
+        paris_fail("geometry: %d has %llu processors, the VP set %llu: they must be as many",
+                   geometry, (unsigned long long)g->count, (unsigned long long)old->count);
+        return;
+    }
+    if (machine_vpset_arrange(m, vp_set, g->dimensions, g->rank, paris_geometry_order(g)) !=
+        MACHINE_OK) {
+        paris_fail_machine();
+        return;
+    }
+    old->sets--;
+    paris_the.geometries[geometry - 1].sets++;
+    paris_the.set_geometry[vp_set] = geometry;
+    paris_the.pristine = false;
+    if (vp_set == CM_current_vp_set)
         set_select(vp_set);
 }
 

@@ -574,3 +574,10 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
     free(key);
     return NULL;
 }
+
+cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
+                                const char *name)
+{
+    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", text};
+    return device_kernel(m, parts, options, name);
+}

@@ -551,7 +551,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     }
     bool wraps = set->halo == 0 || e->reach > set->halo;
     /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
-    bool one = wraps || e->wide || e->soft || set->width < shape->vector || set->halo < shape->vector;
+    bool one =
+        wraps || e->wide || e->soft || set->width < shape->vector || set->halo < shape->vector;
     out->vector = one ? 1 : shape->vector;
     out->wraps = wraps;
     out->wide = e->wide;

@@ -49,6 +49,31 @@ static struct machine_value *zero(struct machine *m, int width)
 
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
 {
+    return machine_vpset_create_ordered(m, dimensions, rank, MACHINE_NEWS_ORDER);
+}
+
+static void vpset_lay_out(const struct machine *m, struct vpset *s, const int *dimensions,
+                          int rank, enum machine_order order)
+{
+    s->order = order;
+    s->rank = rank;
+    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
+    s->count = 1;
+    for (int i = 0; i < rank; i++)
+        s->count *= (uint64_t)dimensions[i];
+    s->width = dimensions[rank - 1];
+    s->rows = s->count / (uint64_t)s->width;
+    s->ratio = (s->count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
+    const struct device_shape *shape = &m->device.shape;
+    s->halo = s->width >= shape->vector ? shape->halo : 0;
+    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
+    if (s->halo)
+        s->pitch = (s->pitch + 15) / 16 * 16;
+}
+
+int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
+                                 enum machine_order order)
+{
     if (rank < 1 || rank > MACHINE_AXES_MAX) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)",
                      MACHINE_AXES_MAX, rank);
@@ -89,17 +114,7 @@ int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
     struct vpset *s = &m->sets[id];
     *s = (struct vpset){.generation = (uint16_t)(s->generation + 1)};
     s->used = true;
-    s->rank = rank;
-    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
-    s->count = count;
-    s->width = dimensions[rank - 1];
-    s->rows = count / (uint64_t)s->width;
-    s->ratio = (count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
-    const struct device_shape *shape = &m->device.shape;
-    s->halo = s->width >= shape->vector ? shape->halo : 0;
-    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
-    if (s->halo)
-        s->pitch = (s->pitch + 15) / 16 * 16;
+    vpset_lay_out(m, s, dimensions, rank, order);
     for (int flag = 0; flag < 3; flag++) {
         s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
         struct machine_value *one = machine_constant(
@@ -117,9 +132,30 @@ static void vpset_release(struct machine *m, struct vpset *s)
     s->used = false;
 }
 
+void field_unlink_alias(struct field *alias)
+{
+    struct field **link = &alias->root->aliases;
+    while (*link != alias)
+        link = &(*link)->next_alias;
+    *link = alias->next_alias;
+}
+
+static int fields_above(const struct machine *m, uint32_t id);
+
+/* An alias leaves what it holds to its root; with a root its aliases go. */
 static void field_release(struct machine *m, int index)
 {
     struct field *f = m->fields[index];
+    if (f->root) {
+        if (f->root->newest == f)
+            reshape_settle(m, f->root);
+        f->root->newest = f->root->newest == f ? NULL : f->root->newest;
+        field_unlink_alias(f);
+    }
+    f->newest = NULL;
+    while (f->aliases)
+        field_release(m, fields_above(m, f->aliases->base) - 1);
+    index = fields_above(m, f->base) - 1;
     for (int i = 0; i < f->slots_count; i++)
         graph_unref(m, f->slots[i].value);
     free(f->slots);
@@ -136,8 +172,11 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
         return m->status;
     machine_begin(m);
     for (int i = m->fields_count - 1; i >= 0; i--)
-        if (m->fields[i]->vpset == vpset)
+        if (i < m->fields_count && m->fields[i]->vpset == vpset)
             field_release(m, i);
+    machine_begin(m);
+    if (!reshape_forget_set(m, vpset))
+        return m->status;
     vpset_release(m, s);
     if (m->set_current == vpset)
         m->set_current = 0;
@@ -146,6 +185,8 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
 
 void fields_finish(struct machine *m)
 {
+    for (int i = 0; i < m->fields_count; i++)
+        m->fields[i]->newest = NULL; /* nobody is going to look */
     while (m->fields_count)
         field_release(m, m->fields_count - 1);
     free(m->fields);
@@ -153,6 +194,67 @@ void fields_finish(struct machine *m)
         if (m->sets[i].used)
             vpset_release(m, &m->sets[i]);
     free(m->sets);
+}
+
+/* Every value of the set in memory, as numbers of the new layout. False: error set. */
+static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int vpset,
+                          const struct vpset *to, struct machine_value **out, int *out_count)
+{
+    for (int i = 0; i < count; i++) {
+        struct machine_value *v = slots[i].value;
+        if (v->op != NODE_CONSTANT && !(v = reshape_lay_out(m, v, vpset, to)))
+            return false;
+        out[(*out_count)++] = v;
+    }
+    return true;
+}
+
+/* All or nothing: the new values are made before any is put in its place. */
+enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
+                                          int rank, enum machine_order order)
+{
+    struct vpset *s = vpset_get(m, vpset);
+    uint64_t count = 1;
+    for (int i = 0; s && i < rank && rank <= MACHINE_AXES_MAX; i++)
+        count *= dimensions[i] > 0 ? (uint64_t)dimensions[i] : 0;
+    if (!s)
+        return m->status;
+    if (rank < 1 || rank > MACHINE_AXES_MAX || count != s->count)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "another geometry of a VP set has as many processors (%llu)",
+                            (unsigned long long)s->count);
+    machine_begin(m);
+    flag_resolved(m, s, MACHINE_OVERFLOW);
+    size_t slots_count = 3;
+    for (int i = 0; i < m->fields_count; i++)
+        slots_count += m->fields[i]->vpset == vpset ? (size_t)m->fields[i]->slots_count : 0;
+    struct vpset to = *s;
+    vpset_lay_out(m, &to, dimensions, rank, order);
+    struct machine_value **fresh = calloc(slots_count, sizeof *fresh);
+    if (!fresh)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");
+    int done = 0;
+    bool good = run_evaluate(m, NULL, 0, true) == MACHINE_OK && reshape_forget_set(m, vpset) &&
+                slots_lay_out(m, s->flags, 3, vpset, &to, fresh, &done);
+    for (int i = 0; i < m->fields_count && good; i++)
+        if (m->fields[i]->vpset == vpset)
+            good = slots_lay_out(m, m->fields[i]->slots, m->fields[i]->slots_count, vpset, &to,
+                                 fresh, &done);
+    done = 0;
+    for (int flag = 0; flag < 3 && good; flag++)
+        slot_set(m, &s->flags[flag], fresh[done++]);
+    for (int i = 0; i < m->fields_count && good; i++)
+        for (int k = 0; m->fields[i]->vpset == vpset && k < m->fields[i]->slots_count; k++)
+            slot_set(m, &m->fields[i]->slots[k], fresh[done++]);
+    if (good) {
+        for (int flag = 0; flag < 3; flag++)
+            to.flags[flag] = s->flags[flag];
+        to.generation++;
+        *s = to;
+    }
+    free(fresh);
+    machine_begin(m);
+    return good ? MACHINE_OK : m->status;
 }
 
 enum machine_status machine_vpset_select(struct machine *m, int vpset)
@@ -197,10 +299,28 @@ uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
     return s ? s->ratio : 0;
 }
 
+enum machine_order machine_vpset_order(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->order : MACHINE_NEWS_ORDER;
+}
+
+int machine_address_bits(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    uint64_t addresses = s ? (uint64_t)m->processors_count * s->ratio : 1;
+    int bits = 1;
+    while (bits < 63 && UINT64_C(1) << bits < addresses)
+        bits++;
+    return bits;
+}
+
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
 {
     const struct vpset *s = peek(m, vpset);
     uint64_t processors = (uint64_t)m->processors_count;
+    if (s && s->order == MACHINE_SEND_ORDER)
+        return index;
     return s ? index % processors * s->ratio + index / processors : 0;
 }
 
@@ -210,7 +330,9 @@ uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address
     if (!s)
         return UINT64_MAX;
     uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
-    uint64_t index = which * (uint64_t)m->processors_count + processor;
+    uint64_t index = s->order == MACHINE_SEND_ORDER
+                         ? send_address
+                         : which * (uint64_t)m->processors_count + processor;
     return processor < (uint64_t)m->processors_count && index < s->count ? index : UINT64_MAX;
 }
 
@@ -235,12 +357,12 @@ static int fields_above(const struct machine *m, uint32_t id)
 static uint32_t find_room(struct machine *m, uint32_t bits)
 {
     uint32_t room =
-        (bits + 127) / 64 * 64; /* a gap between fields: an id never runs into the next one */
+        (bits + 128) / 64 * 64; /* a gap between fields: an id never runs into the next one */
     for (int round = 0; round < 2; round++) {
         uint32_t base = m->field_next_base;
         for (int i = fields_above(m, base); base <= ID_SPACE - room; i++) {
-            if (i > 0 && m->fields[i - 1]->base + m->fields[i - 1]->bits > base)
-                base = (m->fields[i - 1]->base + m->fields[i - 1]->bits + 127) / 64 * 64;
+            if (i > 0 && m->fields[i - 1]->base + m->fields[i - 1]->bits >= base)
+                base = (m->fields[i - 1]->base + m->fields[i - 1]->bits + 128) / 64 * 64;
             if (base > ID_SPACE - room)
                 break;
             if (i >= m->fields_count || m->fields[i]->base >= base + room) {
@@ -258,8 +380,8 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
 {
     if (!vpset_get(m, vpset))
         return MACHINE_NO_FIELD;
-    if (bits < 1 || bits > ID_SPACE / 4) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "a field has 1..%u bits (got %u)", ID_SPACE / 4,
+    if (bits > ID_SPACE / 4) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a field has 0..%u bits (got %u)", ID_SPACE / 4,
                      bits);
         return MACHINE_NO_FIELD;
     }
@@ -313,7 +435,8 @@ bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out)
 {
     int i = fields_above(m, field) - 1;
-    if (i < 0 || field - m->fields[i]->base >= m->fields[i]->bits)
+    if (i < 0 || (field - m->fields[i]->base >= m->fields[i]->bits &&
+                  (m->fields[i]->bits || field != m->fields[i]->base)))
         return false;
     const struct field *f = m->fields[i];
     *out = (struct machine_field_info){.base = f->base,
@@ -324,10 +447,31 @@ bool machine_field_lookup(const struct machine *m, uint32_t field,
     return true;
 }
 
+struct field *field_exact(struct machine *m, uint32_t id)
+{
+    int i = fields_above(m, id) - 1;
+    return i >= 0 && m->fields[i]->base == id ? m->fields[i] : NULL;
+}
+
+bool field_room(const struct machine *m, const struct field *f, uint32_t bits)
+{
+    int i = fields_above(m, f->base);
+    uint32_t end = f->base + (bits + 128) / 64 * 64;
+    return bits <= ID_SPACE / 4 && end <= ID_SPACE &&
+           (i >= m->fields_count || end <= m->fields[i]->base) &&
+           (end <= m->field_next_base || f->base >= m->field_next_base);
+}
+
+void field_destroy(struct machine *m, struct field *f)
+{
+    field_release(m, fields_above(m, f->base) - 1);
+}
+
 static int exact_index(struct machine *m, uint32_t id, enum machine_region region)
 {
     int i = fields_above(m, id) - 1;
-    if (i >= 0 && m->fields[i]->base == id && m->fields[i]->region == region)
+    if (i >= 0 && m->fields[i]->base == id && m->fields[i]->region == region &&
+        !m->fields[i]->root)
         return i;
     machine_fail(m, MACHINE_BAD_ARGUMENT, "%u is not a field on the %s (any more)", id,
                  region == MACHINE_STACK ? "stack" : "heap");
@@ -350,7 +494,8 @@ enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t
         return m->status;
     uint64_t serial = m->fields[first]->serial;
     for (int i = m->fields_count - 1; i >= 0; i--)
-        if (m->fields[i]->region == MACHINE_STACK && m->fields[i]->serial >= serial)
+        if (i < m->fields_count && m->fields[i]->region == MACHINE_STACK &&
+            !m->fields[i]->root && m->fields[i]->serial >= serial)
             field_release(m, i);
     return MACHINE_OK;
 }
@@ -438,26 +583,49 @@ static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t off
 static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
 {
     uint32_t end = offset + bits;
-    for (int i = slot_at(f, offset); i < f->slots_count && f->slots[i].offset < end;) {
-        struct slot old = f->slots[i];
-        f->slots_count--;
-        memmove(&f->slots[i], &f->slots[i + 1],
-                (size_t)(f->slots_count - i) * sizeof *f->slots);
-        if (old.offset < offset) {
-            struct machine_value *v =
-                machine_extract(m, old.value, 0, (int)(offset - old.offset));
-            slot_set(m, slot_insert(m, f, old.offset, offset - old.offset), v);
-            i++;
-        }
-        if (old.offset + old.bits > end) {
-            uint32_t rest = old.offset + old.bits - end;
-            struct machine_value *v =
-                machine_extract(m, old.value, (int)(end - old.offset), (int)rest);
-            slot_set(m, slot_insert(m, f, end, rest), v);
-            i++;
-        }
-        graph_unref(m, old.value);
+    int first = slot_at(f, offset), last = first;
+    while (last < f->slots_count && f->slots[last].offset < end)
+        last++;
+    if (first == last)
+        return;
+    struct slot low = f->slots[first], high = f->slots[last - 1];
+    struct machine_value *below =
+        low.offset < offset ? machine_extract(m, low.value, 0, (int)(offset - low.offset))
+                            : NULL;
+    struct machine_value *above = high.offset + high.bits > end
+                                      ? machine_extract(m, high.value, (int)(end - high.offset),
+                                                        (int)(high.offset + high.bits - end))
+                                      : NULL;
+    for (int i = first; i < last; i++)
+        graph_unref(m, f->slots[i].value);
+    f->slots_count -= last - first;
+    memmove(&f->slots[first], &f->slots[last],
+            (size_t)(f->slots_count - first) * sizeof *f->slots);
+    if (below)
+        slot_set(m, slot_insert(m, f, low.offset, offset - low.offset), below);
+    if (above)
+        slot_set(m, slot_insert(m, f, end, high.offset + high.bits - end), above);
+}
+
+void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
+                     const struct slot *slots, int count)
+{
+    if (to > from)
+        carve(m, f, from, to - from);
+    while (f->slots_count + count > f->slots_capacity) {
+        int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
+        struct slot *grown = realloc(f->slots, (size_t)capacity * sizeof *grown);
+        INVARIANT(grown != NULL);
+        f->slots = grown;
+        f->slots_capacity = capacity;
     }
+    if (count == 0)
+        return;
+    int i = slot_at(f, from);
+    memmove(&f->slots[i + count], &f->slots[i],
+            (size_t)(f->slots_count - i) * sizeof *f->slots);
+    memcpy(&f->slots[i], slots, (size_t)count * sizeof *slots);
+    f->slots_count += count;
 }
 
 enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset,
@@ -501,9 +669,10 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
     uint32_t offset;
     if (type.s && soft_type_good(type))
         return soft_unpacked(
-            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope), type);
+            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope),
+            type);
     struct field *f = field_part(m, field, type, &offset);
-    if (!f)
+    if (!f || !reshape_bring(m, f, false, false))
         return NULL;
     for (int i = slot_at(f, offset);
          i < f->slots_count && f->slots[i].offset < offset + type.width; i++)
@@ -530,6 +699,10 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
                             "the value and the field belong to different VP sets");
     if (value->op == NODE_REINTERPRET && !value->buffer)
         value = value->in[0]; /* the same bits; a float that is moved as bits stays a float */
+    if (!reshape_bring(m, f, true,
+                       scope == MACHINE_EVERYWHERE && offset == 0 &&
+                           value->type.width == f->bits))
+        return m->status;
     struct slot *slot = slot_exact(f, offset, value->type.width);
     if (slot)
         slot_accessed(m, slot, true);

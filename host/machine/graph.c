@@ -179,12 +179,27 @@ static void derive(struct machine_value *v, uint32_t epoch)
     v->maybe_nan = nan && v->type.kind == MACHINE_FLOAT;
 }
 
-struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
+/* Waits to be computed: slices are views that cost nothing until somebody looks. */
+static bool is_pending(const struct machine_value *v)
+{
+    return v->op != NODE_CONSTANT && v->op != NODE_SLICE;
+}
+
+struct machine_value *graph_find(struct machine *m, const struct machine_value *key)
 {
     uint32_t hash = hash_of(key);
     for (struct machine_value *v = m->table[hash & (m->table_size - 1)]; v; v = v->next)
         if (v->hash == hash && same_key(v, key))
-            return graph_borrow(m, v);
+            return v;
+    return NULL;
+}
+
+struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
+{
+    uint32_t hash = hash_of(key);
+    struct machine_value *known = graph_find(m, key);
+    if (known)
+        return graph_borrow(m, known);
     if (m->table_count >= m->table_size)
         table_grow(m);
     struct machine_value *v = node_new(m);
@@ -202,7 +217,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     v->next = m->table[hash & (m->table_size - 1)];
     m->table[hash & (m->table_size - 1)] = v;
     m->table_count++;
-    if (v->op != NODE_CONSTANT)
+    if (is_pending(v))
         m->nodes_pending++;
     return graph_borrow(m, v);
 }
@@ -229,7 +244,7 @@ void graph_unref(struct machine *m, struct machine_value *v)
     for (;;) {
         if (v->interned) {
             table_remove(m, v);
-            if (v->op != NODE_CONSTANT && !v->buffer)
+            if (is_pending(v) && !v->buffer)
                 m->nodes_pending--;
         }
         if (v->buffer)
@@ -248,14 +263,9 @@ void graph_unref(struct machine *m, struct machine_value *v)
     }
 }
 
-void graph_materialised(struct machine *m, struct machine_value *v,
-                        struct device_buffer *buffer)
+void graph_forget(struct machine *m, struct machine_value *v)
 {
-    INVARIANT(!v->buffer && v->interned);
-    v->buffer = buffer;
-    m->nodes_pending--;
-    if (node_is_cheap(v))
-        return; /* keeps its name: the next one like it is the same node */
+    INVARIANT(v->buffer && v->interned);
     table_remove(m, v);
     struct machine_value *in[3];
     memcpy(in, v->in, sizeof in);
@@ -270,4 +280,16 @@ void graph_materialised(struct machine *m, struct machine_value *v,
     for (int i = 0; i < 3; i++)
         if (in[i])
             graph_unref(m, in[i]);
+}
+
+void graph_materialised(struct machine *m, struct machine_value *v,
+                        struct device_buffer *buffer)
+{
+    INVARIANT(!v->buffer && v->interned);
+    v->buffer = buffer;
+    if (is_pending(v))
+        m->nodes_pending--;
+    if (node_is_cheap(v) || v->op == NODE_SLICE)
+        return; /* keeps its name: the next one like it is the same node */
+    graph_forget(m, v);
 }

@@ -13,6 +13,9 @@
  *   observe.c   reading, writing, reducing                            (uses run)
  *   scan.c      scans and spreads: kernels written by hand            (uses run)
  *   rank.c      ranks: a radix sort                                   (uses scan)
+ *   router.c    sends and gets                                        (uses run)
+ *   reshape.c   aliases: the same memory seen from another VP set     (uses run, graph)
+ *   call.h      starting a kernel that is not generated
  *   device.c    OpenCL: devices, buffers, programs and their cache
  *   machine.c   creation, errors, configuration
  */
@@ -52,8 +55,8 @@ enum node_op {
     NODE_F_TO_U,
     NODE_F_TO_S,
     NODE_F_TO_F,
-    NODE_PACK,   /* a float of another format -> its bits; soft.c */
-    NODE_UNPACK, /* and back */
+    NODE_PACK,          /* a float of another format -> its bits; soft.c */
+    NODE_UNPACK,        /* and back */
     NODE_OVERFLOW_UADD, /* operands -> bit: the result does not fit */
     NODE_OVERFLOW_USUB,
     NODE_OVERFLOW_UMUL,
@@ -66,6 +69,7 @@ enum node_op {
     NODE_OVERFLOW_FMUL,
     NODE_OVERFLOW_FDIV,
     NODE_OVERFLOW_RESULT, /* in: result, operand: infinite from finite */
+    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.c */
     NODE_OP_COUNT
 };
 
@@ -120,6 +124,12 @@ struct slot {
     bool overwritten_first;  /* that first access overwrote it: a temporary */
 };
 
+/* Where an alias has its bits: VP r's first one is start + r div parts * outer + r mod parts * inner in
+ * the memory of the field that it is an alias of. */
+struct view {
+    uint32_t start, parts, outer, inner;
+};
+
 struct field {
     uint32_t base; /* its id */
     uint32_t bits;
@@ -128,6 +138,11 @@ struct field {
     uint64_t serial;    /* order of allocation */
     struct slot *slots; /* ascending offsets, no overlap; what is missing is 0 */
     int slots_count, slots_capacity;
+    struct field *root; /* an alias: the field whose memory it is, which is no alias itself */
+    struct view view;   /* an alias: where */
+    bool current;       /* an alias: its slots are what the memory holds */
+    struct field *aliases, *next_alias; /* of a root: all of them */
+    struct field *newest; /* of a root: the alias that was stored into since, or NULL */
 };
 
 struct lazy_overflow {
@@ -145,6 +160,7 @@ struct vpset {
     int halo;             /* columns repeated on both sides of a row */
     size_t pitch;         /* elements from row to row */
     uint64_t ratio;
+    enum machine_order order;
     struct slot flags[3];
     struct lazy_overflow overflow;
 };
@@ -246,6 +262,10 @@ void graph_finish(struct machine *m);
 struct machine_value *graph_node(struct machine *m, const struct machine_value *key);
 struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
                                         struct device_buffer *buffer);
+/* The same if there is one, else NULL. */
+struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
+/* A node with a buffer is from now on no more than that. */
+void graph_forget(struct machine *m, struct machine_value *v);
 void graph_ref(struct machine_value *v);
 void graph_unref(struct machine *m, struct machine_value *v);
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
@@ -447,6 +467,37 @@ void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int 
                       bool with_rows);
 enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
                                  size_t runs, size_t rows, size_t blocks);
+/* The slots between two bit offsets are given up for these, whose values' references go to the field. */
+void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
+                     const struct slot *slots, int count);
+void field_unlink_alias(struct field *alias);
+/* The field that begins at the id; NULL if none does. */
+struct field *field_exact(struct machine *m, uint32_t id);
+/* Whether the field may have so many bits without running into the next one's ids. */
+bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
+void field_destroy(struct machine *m, struct field *f);
+
+/* reshape.c */
+/* Called before slots of f are looked at, or replaced (writes; whole: all of them, everywhere): brings
+ * what was stored through another alias of its memory. */
+bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole);
+/* The root takes over what its newest alias holds. */
+bool reshape_settle(struct machine *m, struct field *root);
+/* Gives a slice its buffer; others that are found on the way too. */
+bool reshape_unpack(struct machine *m, struct machine_value *slice);
+/* The same numbers for the same processors in rows of another geometry; v is of the set as it is. */
+struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v, int set,
+                                      const struct vpset *to);
+/* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
+ * and a buffer. */
+bool reshape_forget_set(struct machine *m, int set);
+
+/* observe.c */
+/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
+ * everywhere the same). Does not wait. NULL: error set. */
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
+/* Of a buffer for one value of that type. */
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
 
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);
@@ -460,6 +511,9 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b);
 enum { DEVICE_PARTS = 6 };
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
+/* The same for one that is written by hand, in a text of its own. */
+cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
+                                const char *name);
 /* It need not be built: it is in memory, or on disk. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);

@@ -72,7 +72,8 @@ struct machine_type {
  * fields they have s + e + 1 bits. Operations on them are rounded once, to nearest even, to the
  * format: FADD, FSUB, FMUL, FDIV, FSQRT and conversions from whole numbers from the exact
  * result, others from the double's. Reductions add in double and round the sum. */
-#define MACHINE_SOFT(s, e) ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
+#define MACHINE_SOFT(s, e)                                                                     \
+    ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
 /* The type of floats with s and e: the native ones for 23, 8 and 52, 11. */
 struct machine_type machine_float_type(int s, int e);
 /* How many bits of a field a value of the type takes. */
@@ -149,6 +150,17 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
  * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
  * everywhere. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
+/* Where virtual processors are, with R the VP ratio, ceil(count / P), of P physical processors: in
+ * NEWS order the one of row-major index n is VP n div P of processor n mod P; in send order it is VP
+ * n mod R of processor n div R. A send address is processor * R + VP: in send order the row-major
+ * index. machine_vpset_create() is NEWS order. */
+enum machine_order { MACHINE_NEWS_ORDER, MACHINE_SEND_ORDER };
+int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
+                                 enum machine_order order);
+/* The same processors in another geometry of the same size: what is in the processor at a send address
+ * stays there. */
+enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
+                                          int rank, enum machine_order order);
 enum machine_status machine_vpset_destroy(struct machine *m, int vpset); /* its fields go too */
 enum machine_status machine_vpset_select(struct machine *m,
                                          int vpset); /* values are built in this set */
@@ -156,10 +168,10 @@ int machine_vpset_current(const struct machine *m);
 int machine_vpset_rank(const struct machine *m, int vpset);
 int machine_vpset_length(const struct machine *m, int vpset, int axis);
 uint64_t machine_vpset_count(const struct machine *m, int vpset); /* virtual processors */
-/* NEWS-ordered: row-major index n is VP n div P of processor n mod P; its send address is (n
- * mod P)*R + n div P, with R the VP ratio, ceil(count / P). A set smaller than the machine has
- * R = 1. */
+enum machine_order machine_vpset_order(const struct machine *m, int vpset);
 uint64_t machine_vpset_ratio(const struct machine *m, int vpset);
+/* The bits that hold a send address of the set: of P * R numbers; 1 at least. */
+int machine_address_bits(const struct machine *m, int vpset);
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index);
 /* The row-major index of a send address; UINT64_MAX if there is no such processor. */
 uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address);
@@ -189,6 +201,23 @@ struct machine_field_info {
 /* false: there is no such field (any more). Does not set the error. */
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out);
+
+/* ---- aliases ---- */
+
+/* A field that is the same memory, from that bit of the field on, seen from the VP set. Memory belongs to
+ * physical processors: of a field of L bits in a set of VP ratio R each has R * L bits, VP after VP.
+ *  - The set has the same ratio: its VPs see their own bits, L - offset of them.
+ *  - k times the ratio: the L - offset bits of each VP are shared out among k, (L - offset) / k to each.
+ *  - a k-th of it: each VP sees the bits of k one after the other, without the first offset.
+ *  - other ratios: the bits of the processor are shared out, one VP after the other.
+ * Stores are seen from all sides. Bits of VPs that do not exist (in a set whose size is no multiple of the
+ * processors) are 0 and are not kept. An alias of an alias is one of its memory. It goes with the memory, or
+ * with its VP set. Its id takes offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
+uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset);
+/* The alias is one of another field from now on, in its own VP set. */
+enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field);
+enum machine_status machine_alias_remove(struct machine *m, uint32_t alias);
+bool machine_is_alias(struct machine *m, uint32_t field);
 
 /* ---- values ---- */
 
@@ -392,10 +421,11 @@ enum machine_status machine_overflow_record_value(struct machine *m,
 /* Computes these now, so that what is made of them finds them in memory. Never needed for the right
  * result: a long chain of equal parts becomes one kernel that runs often. */
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count);
-/* ---- along axes: scans, spreads, ranks ---- */
+
+/* ---- combining, by the router and along axes ---- */
 
 enum machine_combiner {
-    MACHINE_COMBINE_COPY, /* the first; any type */
+    MACHINE_COMBINE_OVERWRITE, /* the router: the last one; any type */
     MACHINE_COMBINE_AND,
     MACHINE_COMBINE_OR,
     MACHINE_COMBINE_XOR,
@@ -405,10 +435,36 @@ enum machine_combiner {
     MACHINE_COMBINE_SMIN,
     MACHINE_COMBINE_SMAX,
     MACHINE_COMBINE_FADD,
-    MACHINE_COMBINE_FMUL,
-    MACHINE_COMBINE_FMIN, /* pass over NaNs; -0 is less than 0 */
-    MACHINE_COMBINE_FMAX
+    MACHINE_COMBINE_FMIN, /* along axes: pass over NaNs; -0 is less than 0 */
+    MACHINE_COMBINE_FMAX,
+    MACHINE_COMBINE_FMUL, /* along axes */
+    MACHINE_COMBINE_COPY  /* along axes: the first one; any type */
 };
+
+/* ---- the router ---- */
+
+/* Each active processor of the current VP set sends source to dest in the processor at the send
+ * address; dest may be in another VP set, whose context does not matter. As if one sender after the
+ * other, in the order of their row-major indices, did dest = combine (dest, its source) there, with
+ * the machine's operation of that name: so with OVERWRITE the sender with the highest index wins, and
+ * sums of floats begin with the old dest. Of the address the low machine_address_bits() of dest's set
+ * count; messages to a processor that does not exist are lost. notify: a bit field of dest's set,
+ * which becomes 1 where a message arrived and 0 elsewhere; or MACHINE_NO_FIELD. */
+enum machine_status machine_send(struct machine *m, uint32_t dest,
+                                 struct machine_value *send_address,
+                                 struct machine_value *source, enum machine_combiner combiner,
+                                 uint32_t notify);
+/* What the field holds in the processor at each active processor's send address, 0 where there is no
+ * such processor; anything in inactive processors. The field may be in another VP set. */
+struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
+                                  uint32_t source, struct machine_type type);
+/* How many active processors have an address that vpset has no processor for; waits. */
+enum machine_status machine_addresses_check(struct machine *m,
+                                            struct machine_value *send_address, int vpset,
+                                            uint64_t *wrong);
+
+/* ---- along axes: scans, spreads, ranks ---- */
+
 enum machine_segments {
     MACHINE_UNSEGMENTED,
     MACHINE_START_BIT,  /* where an active processor has a 1, in the scan's direction */

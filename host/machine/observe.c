@@ -16,7 +16,7 @@ size_t machine_element_bytes(struct machine_type type)
     return type_bytes(type);
 }
 
-static size_t buffer_bytes(const struct vpset *s, struct machine_type type)
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
 {
     return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
 }
@@ -45,7 +45,7 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
                                           const void *in)
 {
     const struct vpset *s = &m->sets[set];
-    size_t element = type_bytes(type), bytes = buffer_bytes(s, type);
+    size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
     unsigned char *image = calloc(1, bytes);
     struct device_buffer *b = image ? device_buffer_get(m, bytes) : NULL;
     if (!b) {
@@ -93,7 +93,7 @@ static void cut_scalar(struct machine_scalar *x, int width)
 /* One number for all, in a buffer: the device writes it. */
 static struct machine_value *fill(struct machine *m, int set, struct machine_value *v)
 {
-    size_t element = type_bytes(v->type), bytes = buffer_bytes(&m->sets[set], v->type);
+    size_t element = type_bytes(v->type), bytes = observe_buffer_bytes(&m->sets[set], v->type);
     unsigned char pattern[16];
     struct device_buffer *b = device_buffer_get(m, bytes);
     if (!b)
@@ -122,8 +122,7 @@ bool values_materialise(struct machine *m, int set, struct machine_value **value
     return true;
 }
 
-/* The value with its numbers in a buffer of the VP set. NULL: error set. */
-static struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
     return values_materialise(m, set, &v, 1) ? v : NULL;
 }
@@ -158,7 +157,7 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
             put_scalar((unsigned char *)out + i * element, v->imm, element);
         return MACHINE_OK;
     }
-    v = materialise(m, f->vpset, v);
+    v = observe_materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
@@ -227,7 +226,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
         *out = v->imm;
         return MACHINE_OK;
     }
-    v = materialise(m, f->vpset, v);
+    v = observe_materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
@@ -244,7 +243,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 /* A buffer of the same content that nobody else looks at. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
-    size_t bytes = buffer_bytes(&m->sets[set], v->type);
+    size_t bytes = observe_buffer_bytes(&m->sets[set], v->type);
     struct device_buffer *b = device_buffer_get(m, bytes);
     if (!b)
         return NULL;
@@ -274,7 +273,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
-    v = v ? materialise(m, f->vpset, v) : NULL;
+    v = v ? observe_materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
     /* In place where this field alone holds the buffer: the slot's reference, and those of this
@@ -418,8 +417,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
              : wide   ? "ulong"
                       : elements[type_bytes(v->type)],
              is_float ? real : "ulong");
-    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", kernel_reduce_cl};
-    cl_kernel kernel = device_kernel(m, parts, options, "reduce");
+    cl_kernel kernel = device_library_kernel(m, kernel_reduce_cl, options, "reduce");
     size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
     size_t element = is_float ? type_bytes(v->type) : wide ? 16 : 8;
     struct device_buffer *b = kernel ? device_buffer_get(m, count * element) : NULL;
@@ -495,7 +493,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_value *none = machine_constant(m, type, identity);
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
     value = value && none ? machine_select(m, context, value, none) : NULL;
-    value = value ? materialise(m, m->set_current, value) : NULL;
+    value = value ? observe_materialise(m, m->set_current, value) : NULL;
     if (!value || reduce_buffer(m, s, value, info->op, identity, out))
         return m->status;
     if (info->is_signed) {

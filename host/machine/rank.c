@@ -127,9 +127,9 @@ static struct kernel_arguments sort_part(struct machine *m, int number)
     char options[64];
     snprintf(options, sizeof options, "-DPART=%d -DDIGIT=%d", number,
              m->device.is_cpu ? 11 : 8);
-    const char *parts[3] = {"", "", kernel_sort_cl};
     m->inside++;
-    struct kernel_arguments a = {.kernel = device_kernel(m, parts, options, "sort")};
+    struct kernel_arguments a = {.kernel =
+                                     device_library_kernel(m, kernel_sort_cl, options, "sort")};
     m->inside--;
     return a;
 }

@@ -99,6 +99,8 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
     if (v->mark == m->mark)
         return true;
     v->mark = m->mark;
+    if (v->op == NODE_SLICE && !v->buffer && !reshape_unpack(m, v))
+        return false;
     int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
     for (int i = 0; i < inputs; i++)
         if (!reach_from(m, r, v->in[i]))
@@ -150,7 +152,7 @@ static bool targets_add(struct targets *t, struct machine_value *v)
 static bool slot_wants(const struct machine *m, const struct slot *slot, bool all)
 {
     const struct machine_value *v = slot->value;
-    if (node_is_leaf(v) || node_is_cheap(v))
+    if (node_is_leaf(v) || node_is_cheap(v) || v->op == NODE_SLICE)
         return false;
     if (all || v->height > HEIGHT_DEFERRED)
         return true;
@@ -279,7 +281,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.wide ? kernel_wide_cl : "",
                                        k.soft ? kernel_soft_cl : "",
                                        k.math ? kernel_math_tables_cl : "",
-                                       k.math ? kernel_math_cl : "", k.text};
+                                       k.math ? kernel_math_cl : "",
+                                       k.text};
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
@@ -526,7 +529,9 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     enum machine_status status = MACHINE_OK;
     bool good = true;
     for (int i = 0; i < count && good; i++)
-        if (!node_is_leaf(wanted[i]))
+        if (wanted[i]->op == NODE_SLICE && !wanted[i]->buffer)
+            good = reshape_unpack(m, wanted[i]);
+        else if (!node_is_leaf(wanted[i]))
             good = targets_add(&t, wanted[i]);
     /* Reading one thing after another is one look: nothing has become older in between. */
     if (all || m->stores != m->stores_evaluated)

@@ -126,9 +126,9 @@ static struct kernel_arguments part(struct machine *m, int number, const struct 
     char options[96];
     snprintf(options, sizeof options, "-DPART=%d -DTYPE=%s -DMASK=%s -DKIND=%d -DLANES=%d",
              number, e->name, e->mask, e->kind, lanes);
-    const char *parts[3] = {"", "", kernel_scan_cl};
     m->inside++;
-    struct kernel_arguments a = {.kernel = device_kernel(m, parts, options, "scan")};
+    struct kernel_arguments a = {.kernel =
+                                     device_library_kernel(m, kernel_scan_cl, options, "scan")};
     m->inside--;
     return a;
 }
@@ -358,7 +358,8 @@ static bool combiner_fits(enum machine_combiner c, struct machine_type type)
 {
     if (c == MACHINE_COMBINE_COPY)
         return true;
-    return (c >= MACHINE_COMBINE_FADD) == (type.kind == MACHINE_FLOAT);
+    return c != MACHINE_COMBINE_OVERWRITE &&
+           (c >= MACHINE_COMBINE_FADD) == (type.kind == MACHINE_FLOAT);
 }
 
 /* The value as the kernels take it, without regard to who takes part. */
@@ -417,6 +418,7 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         }
         break;
     case MACHINE_COMBINE_COPY:
+    case MACHINE_COMBINE_OVERWRITE: /* does not come here */
     case MACHINE_COMBINE_FADD:
     case MACHINE_COMBINE_FMUL:
         v = v ? machine_reinterpret(m, v, MACHINE_UINT(v->type.width)) : NULL;

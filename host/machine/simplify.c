@@ -128,6 +128,7 @@ const struct node_op_info node_ops[NODE_OP_COUNT] = {
     [NODE_OVERFLOW_FMUL] = {"overflow_fmul", 2, 5, 0},
     [NODE_OVERFLOW_FDIV] = {"overflow_fdiv", 2, 10, 0},
     [NODE_OVERFLOW_RESULT] = {"overflow_result", 2, 4, 0},
+    [NODE_SLICE] = {"slice", 1, GENERATOR_NONE, 0},
 };
 
 static const struct machine_type bit_type = {.kind = MACHINE_BITS, .width = 1};
@@ -719,6 +720,8 @@ struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
 
 struct machine_value *machine_self_address(struct machine *m, int width)
 {
+    if (machine_vpset_order(m, m->set_current) == MACHINE_SEND_ORDER)
+        return machine_self_index(m, width);
     return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
 }
 

@@ -110,10 +110,11 @@ static void vpset_of_bad_shape_is_refused(void **state)
     expect_failure(MACHINE_BAD_ARGUMENT);
 }
 
-static void field_of_no_bits_is_refused(void **state)
+static void field_that_cannot_be_is_refused(void **state)
 {
     (void)state;
-    assert_int_equal(machine_field_allocate(machine, set, 0, MACHINE_HEAP), MACHINE_NO_FIELD);
+    assert_int_equal(machine_field_allocate(machine, set, UINT32_MAX, MACHINE_HEAP),
+                     MACHINE_NO_FIELD);
     expect_failure(MACHINE_BAD_ARGUMENT);
     assert_int_equal(machine_field_allocate(machine, 777, 8, MACHINE_HEAP), MACHINE_NO_FIELD);
     expect_failure(MACHINE_BAD_ARGUMENT);
@@ -229,7 +230,7 @@ int main(void)
 #define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
     const struct CMUnitTest tests[] = {
         CASE(device_that_is_not_there_is_refused), CASE(devices_are_listed_in_order),
-        CASE(vpset_of_bad_shape_is_refused),       CASE(field_of_no_bits_is_refused),
+        CASE(vpset_of_bad_shape_is_refused),       CASE(field_that_cannot_be_is_refused),
         CASE(field_that_is_gone_is_refused),       CASE(access_beyond_the_field_is_refused),
         CASE(operation_on_wrong_types_is_refused), CASE(values_of_two_sets_do_not_mix),
     };

@@ -147,10 +147,6 @@ static void array_rank(void)
     CM_u_write_to_news_array_1L(array, V(vector), V(vector), V(dimensions), V(axes), f, 8, 3,
                                 V(dimensions), 1);
 }
-static void allocate_nothing(void)
-{
-    CM_allocate_stack_field(0);
-}
 static void allocate_too_much(void)
 {
     CM_allocate_heap_field(0xffffffffu);
@@ -280,7 +276,6 @@ static const struct {
     {"CM_u_write_to_news_array_1L", "array", array_null, false},
     {"CM_u_write_to_news_array_1L", "vector", array_no_vector, false},
     {"CM_u_write_to_news_array_1L", "rank", array_rank, false},
-    {"CM_allocate_stack_field", "len", allocate_nothing, false},
     {"CM_allocate_heap_field", "", allocate_too_much, false},
     {"CM_allocate_heap_field_vp_set", "vp_set", allocate_nowhere, false},
     {"CM_deallocate_heap_field", "", deallocate_twice, false},

@@ -1,0 +1,108 @@
+/* call.h - starting a kernel that is written by hand in kernels/.
+ *
+ *     struct kernel_call c = call_begin(m, kernel_router_cl, "-DADDRESS=uint", "claim");
+ *     call_layout(&c, set);
+ *     call_uint(&c, mask);
+ *     call_buffer(&c, buffer);
+ *     status = call_over(&c, m, set, "sending");
+ *
+ * Arguments are given in order; an error on the way makes the start do nothing but tell of it. */
+#ifndef LUTETIA_MACHINE_CALL_H
+#define LUTETIA_MACHINE_CALL_H
+
+#include "internal.h"
+
+enum { CALL_RUN = 4096 }; /* columns for a work-item on a CPU */
+
+struct kernel_call {
+    cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
+    cl_uint at;
+    cl_int error;
+};
+
+static inline struct kernel_call call_begin(struct machine *m, const char *text,
+                                            const char *options, const char *name)
+{
+    return (struct kernel_call){.kernel = device_library_kernel(m, text, options, name)};
+}
+
+static inline void call_argument(struct kernel_call *c, size_t size, const void *value)
+{
+    if (c->kernel)
+        c->error |= clSetKernelArg(c->kernel, c->at++, size, value);
+}
+
+static inline void call_uint(struct kernel_call *c, uint64_t value)
+{
+    cl_uint x = (cl_uint)value;
+    call_argument(c, sizeof x, &x);
+}
+
+static inline void call_ulong(struct kernel_call *c, uint64_t value)
+{
+    call_argument(c, sizeof value, &value);
+}
+
+static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
+{
+    call_argument(c, sizeof b->mem, &b->mem);
+}
+
+/* How rows lie in a buffer: width, pitch, halo. */
+static inline void call_layout(struct kernel_call *c, const struct vpset *s)
+{
+    call_uint(c, (uint64_t)s->width);
+    call_uint(c, s->pitch);
+    call_uint(c, (uint64_t)s->halo);
+}
+
+/* Which row-major index an address is: count, ratio, logarithm of the processors, order. */
+static inline void call_order(struct kernel_call *c, const struct machine *m,
+                              const struct vpset *s)
+{
+    call_uint(c, s->count);
+    call_uint(c, s->ratio);
+    call_uint(c, (uint64_t)m->processors_log2);
+    call_uint(c, s->order == MACHINE_SEND_ORDER);
+}
+
+/* Work-items x * y; on a CPU each a group of its own. */
+static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
+                                             size_t y, const char *what)
+{
+    static const size_t one[2] = {1, 1};
+    size_t global[2] = {x, y};
+    if (!c->kernel)
+        return m->status;
+    if (!c->error)
+        c->error = clEnqueueNDRangeKernel(m->device.queue, c->kernel, 2, NULL, global,
+                                          m->device.is_cpu ? one : NULL, 0, NULL, NULL);
+    m->device.kernels_run++;
+    return device_check(m, c->error, what);
+}
+
+/* Columns that a work-item of call_over() does; the kernel wants it as an argument. */
+static inline size_t call_run(const struct machine *m)
+{
+    return m->device.is_cpu ? CALL_RUN : 1;
+}
+
+/* A work-item for each run of columns of each row. */
+static inline enum machine_status call_over(struct kernel_call *c, struct machine *m,
+                                            const struct vpset *s, const char *what)
+{
+    size_t run = call_run(m);
+    return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
+}
+
+/* The C type of an element in memory of so many bytes; 16 is a pair. */
+static inline const char *call_element(size_t bytes)
+{
+    return bytes == 1   ? "uchar"
+           : bytes == 2 ? "ushort"
+           : bytes == 4 ? "uint"
+           : bytes == 8 ? "ulong"
+                        : "ulong2";
+}
+
+#endif

@@ -1,0 +1,220 @@
+/* router.cl - messages to other processors.
+ *
+ * Processors are counted by row-major index. Elements lie in rows of `width`, `pitch` apart, that
+ * begin and end with `halo` columns which repeat the other end.
+ *
+ *     claim      owner[d] = 1 + the highest index that sends to d
+ *     deliver    dest[d] = source of its owner, or old[d]
+ *     route      to[i] = the processor that i sends to
+ *     combine    each work-item has some of the destinations, and passes all senders in order
+ *     fetch      out[i] = source[the processor at i's address]
+ *     arrived    1 where there is an owner
+ *     edges      fills the halo
+ *
+ * -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
+ * 64, 1 float or double, 2 pairs of 64; -DOP= as in machine_send(). */
+#pragma OPENCL FP_CONTRACT OFF
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+
+#define NONE 0xffffffffu
+#define NOBODY 0xfffffffeu /* sends, but there is no such processor */
+
+#define LAYOUT(s) uint s##_width, uint s##_pitch, uint s##_halo
+#define ORDER uint count, uint ratio, uint plog2, uint send
+
+inline size_t place(uint n, uint width, uint pitch, uint halo)
+{
+    return n < width ? n + halo : (size_t)(n / width) * pitch + halo + n % width;
+}
+#define PLACE(s, n) place(n, s##_width, s##_pitch, s##_halo)
+
+inline uint index_of(uint a, ORDER)
+{
+    if (!send && ratio > 1) {
+        const uint processor = a / ratio;
+        if (processor >> plog2)
+            return NOBODY;
+        a = (a % ratio) << plog2 | processor;
+    }
+    return a < count ? a : NOBODY;
+}
+
+#define COLUMNS(s)                                                                             \
+    const uint row = get_global_id(1), begin = get_global_id(0) * run,                         \
+               end = min(begin + run, s##_width);                                              \
+    const size_t first = (size_t)row * s##_pitch + s##_halo
+
+/* Column x of a row, and where it is repeated. */
+#define PUT(s, p, x, v)                                                                        \
+    do {                                                                                       \
+        p[first + x] = v;                                                                      \
+        if (x < s##_halo)                                                                      \
+            p[first + x + s##_width] = v;                                                      \
+        if (x + s##_halo >= s##_width)                                                         \
+            p[first + x - s##_width] = v;                                                      \
+    } while (0)
+
+#ifdef ADDRESS
+#define ADDRESS_OF(a) ((uint)(a)LOW)
+
+__kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all,
+                    const __global ADDRESS *address, const __global uchar *context,
+                    volatile __global uint *owner)
+{
+    COLUMNS(s);
+    for (uint x = begin; x < end; x++) {
+        const uint i = row * s_width + x + 1;
+        if (!all && !context[first + x])
+            continue;
+        const uint d =
+            index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+        if (d < NOBODY && owner[d] < i)
+            atomic_max(&owner[d], i);
+    }
+}
+
+__kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
+                    const __global ADDRESS *address, const __global uchar *context,
+                    __global uint *to)
+{
+    COLUMNS(s);
+    for (uint x = begin; x < end; x++)
+        to[row * s_width + x] =
+            all || context[first + x]
+                ? index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send)
+                : NONE;
+}
+
+#ifdef ELEMENT
+__kernel void fetch(LAYOUT(s), uint run, uint mask, ORDER, LAYOUT(f),
+                    const __global ADDRESS *address, const __global ELEMENT *from,
+                    __global ELEMENT *out)
+{
+    COLUMNS(s);
+    for (uint x = begin; x < end; x++) {
+        const uint d =
+            index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+        const ELEMENT v = d < NOBODY ? from[PLACE(f, d)] : (ELEMENT)(0);
+        PUT(s, out, x, v);
+    }
+}
+#endif
+
+#else
+__kernel void arrived(LAYOUT(d), uint run, const __global uint *owner, __global uchar *out)
+{
+    COLUMNS(d);
+    for (uint x = begin; x < end; x++) {
+        const uchar v = owner[row * d_width + x] != 0;
+        PUT(d, out, x, v);
+    }
+}
+#endif
+
+#if defined(ELEMENT) && !defined(ADDRESS)
+__kernel void edges(LAYOUT(d), uint run, __global ELEMENT *out)
+{
+    COLUMNS(d);
+    for (uint x = begin; x < end; x++)
+        if (x < d_halo || x + d_halo >= d_width) {
+            const ELEMENT v = out[first + x];
+            PUT(d, out, x, v);
+        }
+}
+
+#ifndef OP
+__kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner,
+                      const __global ELEMENT *from, const __global ELEMENT *old,
+                      __global ELEMENT *out)
+{
+    COLUMNS(d);
+    for (uint x = begin; x < end; x++) {
+        const uint o = owner[row * d_width + x];
+        const ELEMENT v = o ? from[PLACE(s, o - 1)] : old[first + x];
+        PUT(d, out, x, v);
+    }
+}
+#else
+
+/* AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
+ * bit, mask: all bits, of the width. */
+#if KIND == 0
+inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+{
+#if OP == 1
+    return a & b;
+#elif OP == 2
+    return a | b;
+#elif OP == 3
+    return a ^ b;
+#elif OP == 4
+    return (ELEMENT)((a + b) & mask.x);
+#elif OP == 5
+    return a < b ? a : b;
+#elif OP == 6
+    return a > b ? a : b;
+#elif OP == 7
+    return (a ^ sign.x) < (b ^ sign.x) ? a : b;
+#else
+    return (a ^ sign.x) > (b ^ sign.x) ? a : b;
+#endif
+}
+#elif KIND == 1
+inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+{
+#if OP == 9
+    const ELEMENT c = a + b;
+#elif OP == 10
+    const ELEMENT c = a < b ? a : b;
+#else
+    const ELEMENT c = a > b ? a : b;
+#endif
+    return c == c ? c : CANONICAL;
+}
+#else
+inline int less(ulong2 a, ulong2 b, ulong2 sign)
+{
+    a ^= sign;
+    b ^= sign;
+    return a.y < b.y || (a.y == b.y && a.x < b.x);
+}
+inline ulong2 join(ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
+{
+#if OP == 1
+    return a & b;
+#elif OP == 2
+    return a | b;
+#elif OP == 3
+    return a ^ b;
+#elif OP == 4
+    const ulong low = a.x + b.x;
+    return (ulong2)(low, a.y + b.y + (low < a.x)) & mask;
+#elif OP == 5
+    return less(b, a, (ulong2)(0)) ? b : a;
+#elif OP == 6
+    return less(a, b, (ulong2)(0)) ? b : a;
+#elif OP == 7
+    return less(b, a, sign) ? b : a;
+#else
+    return less(a, b, sign) ? b : a;
+#endif
+}
+#endif
+
+__kernel void combine(LAYOUT(d), LAYOUT(s), uint senders, uint share, ulong sign_low,
+                      ulong sign_high, ulong mask_low, ulong mask_high, const __global uint *to,
+                      const __global ELEMENT *from, __global ELEMENT *out, __global uint *owner)
+{
+    const uint low = get_global_id(0) * share;
+    const ulong2 sign = (ulong2)(sign_low, sign_high), mask = (ulong2)(mask_low, mask_high);
+    for (uint i = 0; i < senders; i++) {
+        const uint d = to[i];
+        if (d - low >= share || d >= NOBODY)
+            continue;
+        const size_t at = PLACE(d, d);
+        out[at] = join(out[at], from[PLACE(s, i)], sign, mask);
+        owner[d] = 1;
+    }
+}
+#endif
+#endif

@@ -1,0 +1,212 @@
+/* Send addresses made of coordinates and coordinates of send addresses, in the processors. The geometry
+ * may be any, not only that of the current VP set.
+ *
+ * All is done with 64-bit numbers. The machine has no division, and needs none: for n < 2^31 and a
+ * divisor d, with k = 31 + the least s for which d <= 2^s, n / d is n * (2^k / d + 1) >> k. */
+#include "paris_state.h"
+
+enum { WIDTH = 64 };
+
+static struct machine_value *number(struct machine *m, uint64_t x)
+{
+    return machine_constant(m, MACHINE_UINT(WIDTH), (struct machine_scalar){x, 0});
+}
+
+static struct machine_value *times(struct machine *m, struct machine_value *a, uint64_t factor)
+{
+    return factor == 1 ? a : machine_binary(m, MACHINE_MUL, a, number(m, factor));
+}
+
+static struct machine_value *quotient(struct machine *m, struct machine_value *n, uint64_t d)
+{
+    int shift = 0;
+    if (d == 1)
+        return n;
+    while (UINT64_C(1) << shift < d)
+        shift++;
+    int k = (d & (d - 1)) ? 31 + shift : shift;
+    if (d & (d - 1))
+        n = machine_binary(m, MACHINE_MUL, n, number(m, (UINT64_C(1) << k) / d + 1));
+    return machine_resize(m, machine_extract(m, n, k, WIDTH - k), WIDTH, false);
+}
+
+static struct machine_value *rest(struct machine *m, struct machine_value *n, uint64_t d)
+{
+    if (d == 1)
+        return number(m, 0);
+    if ((d & (d - 1)) == 0) {
+        int bits = 0;
+        while (UINT64_C(1) << bits < d)
+            bits++;
+        return machine_resize(m, machine_resize(m, n, bits, false), WIDTH, false);
+    }
+    return machine_binary(m, MACHINE_SUB, n, times(m, quotient(m, n, d), d));
+}
+
+/* ---- addresses and row-major indices ---- */
+
+static struct machine_value *index_of(struct machine *m, const struct paris_geometry *g,
+                                      struct machine_value *address)
+{
+    if (paris_geometry_order(g) == MACHINE_SEND_ORDER || g->ratio == 1)
+        return address;
+    return machine_binary(m, MACHINE_ADD, quotient(m, address, g->ratio),
+                          times(m, rest(m, address, g->ratio), CM_physical_processors_limit));
+}
+
+static struct machine_value *address_of(struct machine *m, const struct paris_geometry *g,
+                                        struct machine_value *index)
+{
+    if (paris_geometry_order(g) == MACHINE_SEND_ORDER || g->ratio == 1)
+        return index;
+    return machine_binary(m, MACHINE_ADD, quotient(m, index, CM_physical_processors_limit),
+                          times(m, rest(m, index, CM_physical_processors_limit), g->ratio));
+}
+
+static uint64_t stride_of(const struct paris_geometry *g, unsigned int axis)
+{
+    uint64_t stride = 1;
+    for (int i = g->rank - 1; i > (int)axis; i--)
+        stride *= (uint64_t)g->dimensions[i];
+    return stride;
+}
+
+static struct machine_value *coordinate_of(struct machine *m, const struct paris_geometry *g,
+                                           struct machine_value *index, unsigned int axis)
+{
+    struct machine_value *n = quotient(m, index, stride_of(g, axis));
+    return axis == 0 ? n : rest(m, n, (uint64_t)g->dimensions[axis]);
+}
+
+/* ---- operands ---- */
+
+static const struct paris_geometry *geometry_of(CM_geometry_id_t id, unsigned int axis)
+{
+    const struct paris_geometry *g = paris_geometry_of(id);
+    if (g && axis >= (unsigned int)g->rank) {
+        paris_fail("axis: must be 0..%d in this geometry (got %d)", g->rank - 1, (int)axis);
+        return NULL;
+    }
+    return g;
+}
+
+static struct machine_value *load(struct machine *m, CM_field_id_t field, unsigned int len,
+                                  const char *role)
+{
+    if (len > 32) {
+        paris_fail("%s: length must be 1..32 bits (got %u)", role, len);
+        return NULL;
+    }
+    struct machine_value *v = paris_load(m, paris_u(field, len), role, MACHINE_WHERE_ACTIVE);
+    return v ? machine_resize(m, v, WIDTH, false) : NULL;
+}
+
+static struct machine_value *load_address(struct machine *m, const struct paris_geometry *g,
+                                          CM_field_id_t field)
+{
+    return load(m, field, paris_address_bits(g), "send_address");
+}
+
+static void store_address(struct machine *m, const struct paris_instruction *self,
+                          const struct paris_geometry *g, CM_field_id_t dest,
+                          struct machine_value *index)
+{
+    unsigned int bits = paris_address_bits(g);
+    struct machine_value *v = address_of(m, g, index);
+    paris_store(m, paris_u(dest, bits), machine_resize(m, v, (int)bits, false), self->scope);
+}
+
+/* ---- the instructions ---- */
+
+void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                           CM_field_id_t dest, unsigned int axis, CM_field_id_t coordinate,
+                           unsigned int slen)
+{
+    struct machine *m = paris_begin(self->name);
+    const struct paris_geometry *g = geometry_of(geometry, axis);
+    struct machine_value *v = g ? load(m, coordinate, slen, "coordinate") : NULL;
+    if (v)
+        store_address(m, self, g, dest, times(m, v, stride_of(g, axis)));
+}
+
+void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                              CM_field_id_t dest, unsigned int axis, unsigned int coordinate,
+                              unsigned int slen)
+{
+    struct machine *m = paris_begin(self->name);
+    const struct paris_geometry *g = geometry_of(geometry, axis);
+    struct machine_value *v = NULL, *index = g ? load_address(m, g, dest) : NULL;
+    if (!index)
+        return;
+    if (self->op == 0) {
+        v = load(m, coordinate, slen, "coordinate");
+    } else if (coordinate >= (unsigned int)g->dimensions[axis]) {
+        paris_fail("value: must be 0..%d on axis %u (got %u)", g->dimensions[axis] - 1, axis,
+                   coordinate);
+    } else {
+        v = number(m, coordinate);
+    }
+    if (!v)
+        return;
+    index = index_of(m, g, index);
+    v = machine_binary(m, MACHINE_SUB, v, coordinate_of(m, g, index, axis));
+    v = times(m, v, stride_of(g, axis));
+    store_address(m, self, g, dest, machine_binary(m, MACHINE_ADD, index, v));
+}
+
+void paris_coordinate_extract(const struct paris_instruction *self, CM_geometry_id_t geometry,
+                              CM_field_id_t dest, unsigned int axis, CM_field_id_t send_address,
+                              unsigned int dlen)
+{
+    struct machine *m = paris_begin(self->name);
+    const struct paris_geometry *g = geometry_of(geometry, axis);
+    struct machine_value *v = g ? load_address(m, g, send_address) : NULL;
+    struct machine_type type;
+    if (!v || !paris_type(paris_u(dest, dlen), "dest", &type))
+        return;
+    v = coordinate_of(m, g, index_of(m, g, v), axis);
+    paris_store(m, paris_u(dest, dlen), machine_resize(m, v, (int)dlen, false), self->scope);
+}
+
+void CM_extract_multi_coordinate_1L(CM_geometry_id_t geometry, CM_field_id_t dest,
+                                    unsigned int axis_mask, CM_field_id_t send_address,
+                                    unsigned int dlen)
+{
+    struct machine *m = paris_begin("CM_extract_multi_coordinate_1L");
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    struct machine_value *v = g ? load_address(m, g, send_address) : NULL, *sum = NULL;
+    struct machine_type type;
+    if (!v || !paris_type(paris_u(dest, dlen), "dest", &type))
+        return;
+    v = index_of(m, g, v);
+    for (unsigned int axis = 0; axis < (unsigned int)g->rank; axis++)
+        if (axis_mask >> axis & 1) {
+            struct machine_value *c = coordinate_of(m, g, v, axis);
+            sum = sum ? machine_binary(m, MACHINE_ADD,
+                                       times(m, sum, (uint64_t)g->dimensions[axis]), c)
+                      : c;
+        }
+    sum = sum ? sum : number(m, 0);
+    paris_store(m, paris_u(dest, dlen), machine_resize(m, sum, (int)dlen, false),
+                MACHINE_WHERE_ACTIVE);
+}
+
+unsigned int CM_fe_extract_multi_coordinate(CM_geometry_id_t geometry, unsigned int axis_mask,
+                                            unsigned int send_address)
+{
+    paris_the.call = "CM_fe_extract_multi_coordinate";
+    const struct paris_geometry *g = paris_geometry_of(geometry);
+    uint64_t sum = 0, index = g ? paris_index_of_address(g, send_address) : 0;
+    if (!g)
+        return 0;
+    if (index == UINT64_MAX) {
+        paris_fail("send_address: there is no processor %u in this geometry of %llu",
+                   send_address, (unsigned long long)g->count);
+        return 0;
+    }
+    for (unsigned int axis = 0; axis < (unsigned int)g->rank; axis++)
+        if (axis_mask >> axis & 1)
+            sum = sum * (uint64_t)g->dimensions[axis] +
+                  index / stride_of(g, axis) % (uint64_t)g->dimensions[axis];
+    return (unsigned int)sum;
+}

@@ -1,0 +1,430 @@
+/* test_router.c - sends, gets and combinations against plain loops, over random geometries of both orders,
+ * addresses that collide or lead nowhere, and contexts. */
+#include "support.h"
+
+enum { PROCESSORS = 16, ROUNDS = 8 };
+
+static struct machine *machine;
+static uint64_t state;
+
+static uint64_t next(uint64_t below)
+{
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (state >> 33) % below;
+}
+
+/* ---- geometries ---- */
+
+struct set {
+    int id;
+    uint64_t count, ratio;
+    enum machine_order order;
+};
+
+static struct set set_make(int rank, enum machine_order order)
+{
+    static const int most[] = {150, 12, 6, 4, 3};
+    int lengths[5];
+    struct set s = {.count = 1, .order = order};
+
+    for (int axis = 0; axis < rank; axis++) {
+        lengths[axis] = 1 + (int)next((uint64_t)most[rank - 1]);
+        s.count *= (uint64_t)lengths[axis];
+    }
+    s.ratio = (s.count + PROCESSORS - 1) / PROCESSORS;
+    s.id = machine_vpset_create_ordered(machine, lengths, rank, order);
+    assert_true(s.id > 0);
+    return s;
+}
+
+static uint64_t address_of(const struct set *s, uint64_t n)
+{
+    return s->order == MACHINE_SEND_ORDER ? n : n % PROCESSORS * s->ratio + n / PROCESSORS;
+}
+
+/* UINT64_MAX: nobody lives there. */
+static uint64_t index_of(const struct set *s, uint64_t address)
+{
+    for (uint64_t n = 0; n < s->count; n++)
+        if (address_of(s, n) == address)
+            return n;
+    return UINT64_MAX;
+}
+
+/* ---- what combinations are ---- */
+
+static float single(wide x)
+{
+    uint32_t bits = (uint32_t)x;
+    float f;
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+static double twice(wide x)
+{
+    uint64_t bits = (uint64_t)x;
+    double d;
+    memcpy(&d, &bits, sizeof d);
+    return d;
+}
+
+static wide combined_float(enum machine_combiner c, int width, wide a, wide b)
+{
+    if (width == 32) {
+        float x = single(a), y = single(b);
+        float r = c == MACHINE_COMBINE_FADD   ? x + y
+                  : c == MACHINE_COMBINE_FMIN ? (x < y ? x : y)
+                                              : (x > y ? x : y);
+        uint32_t bits;
+        memcpy(&bits, &r, sizeof bits);
+        return r != r ? number_nan(32) : bits;
+    }
+    double x = twice(a), y = twice(b);
+    double r = c == MACHINE_COMBINE_FADD   ? x + y
+               : c == MACHINE_COMBINE_FMIN ? (x < y ? x : y)
+                                           : (x > y ? x : y);
+    uint64_t bits;
+    memcpy(&bits, &r, sizeof bits);
+    return r != r ? number_nan(64) : bits;
+}
+
+static wide combined(enum machine_combiner c, struct machine_type type, wide a, wide b)
+{
+    signed_wide x = wide_signed(a, type.width), y = wide_signed(b, type.width);
+
+    switch (c) {
+    case MACHINE_COMBINE_OVERWRITE:
+        return b;
+    case MACHINE_COMBINE_AND:
+        return a & b;
+    case MACHINE_COMBINE_OR:
+        return a | b;
+    case MACHINE_COMBINE_XOR:
+        return a ^ b;
+    case MACHINE_COMBINE_ADD:
+        return (a + b) & wide_mask(type.width);
+    case MACHINE_COMBINE_UMIN:
+        return a < b ? a : b;
+    case MACHINE_COMBINE_UMAX:
+        return a > b ? a : b;
+    case MACHINE_COMBINE_SMIN:
+        return x < y ? a : b;
+    case MACHINE_COMBINE_SMAX:
+        return x > y ? a : b;
+    case MACHINE_COMBINE_FADD:
+    case MACHINE_COMBINE_FMIN:
+    case MACHINE_COMBINE_FMAX:
+    case MACHINE_COMBINE_FMUL:
+    case MACHINE_COMBINE_COPY:
+    default:
+        return combined_float(c, type.width, a, b);
+    }
+}
+
+static const struct {
+    struct machine_type type;
+    enum machine_combiner combiner;
+} cases[] = {
+    {MACHINE_UINT(1), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(8), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(13), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(32), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(64), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(80), MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_F64, MACHINE_COMBINE_OVERWRITE},
+    {MACHINE_UINT(32), MACHINE_COMBINE_AND},
+    {MACHINE_UINT(32), MACHINE_COMBINE_OR},
+    {MACHINE_UINT(32), MACHINE_COMBINE_XOR},
+    {MACHINE_UINT(32), MACHINE_COMBINE_ADD},
+    {MACHINE_UINT(27), MACHINE_COMBINE_ADD},
+    {MACHINE_UINT(32), MACHINE_COMBINE_UMIN},
+    {MACHINE_UINT(19), MACHINE_COMBINE_UMAX},
+    {MACHINE_UINT(27), MACHINE_COMBINE_SMIN},
+    {MACHINE_UINT(32), MACHINE_COMBINE_SMAX},
+    {MACHINE_UINT(1), MACHINE_COMBINE_OR},
+    {MACHINE_UINT(1), MACHINE_COMBINE_ADD},
+    {MACHINE_UINT(61), MACHINE_COMBINE_ADD},
+    {MACHINE_UINT(64), MACHINE_COMBINE_SMIN},
+    {MACHINE_UINT(100), MACHINE_COMBINE_ADD},
+    {MACHINE_UINT(128), MACHINE_COMBINE_SMAX},
+    {MACHINE_UINT(90), MACHINE_COMBINE_UMIN},
+    {MACHINE_F32, MACHINE_COMBINE_FADD},
+    {MACHINE_F64, MACHINE_COMBINE_FADD},
+    {MACHINE_F32, MACHINE_COMBINE_FMIN},
+    {MACHINE_F64, MACHINE_COMBINE_FMAX},
+};
+enum { CASES = sizeof cases / sizeof *cases };
+
+/* ---- fields ---- */
+
+static uint32_t field_of(const struct set *s, struct machine_type type, const wide *x)
+{
+    uint32_t f = machine_field_allocate(machine, s->id, type.width, MACHINE_STACK);
+    unsigned char *dense = malloc(s->count * machine_element_bytes(type));
+
+    for (uint64_t n = 0; n < s->count; n++)
+        support_element_set(dense, type, n, x[n]);
+    assert_ok(machine_field_upload(machine, f, type, dense), machine);
+    free(dense);
+    return f;
+}
+
+static void field_is(const struct set *s, uint32_t f, struct machine_type type, const wide *x,
+                     const bool *where, const char *what, int which)
+{
+    unsigned char *dense = malloc(s->count * machine_element_bytes(type));
+
+    assert_ok(machine_field_download(machine, f, type, dense), machine);
+    for (uint64_t n = 0; n < s->count; n++) {
+        wide got = support_element(dense, type, n);
+        if ((!where || where[n]) && got != x[n])
+            fail_msg("%s, case %d, width %d: processor %d of %d has %llx, not %llx", what,
+                     which, type.width, (int)n, (int)s->count, (unsigned long long)got,
+                     (unsigned long long)x[n]);
+    }
+    free(dense);
+}
+
+static void numbers(wide *x, uint64_t count, struct machine_type type)
+{
+    uint64_t seed = next(1000000);
+
+    for (uint64_t n = 0; n < count; n++)
+        x[n] = support_word(type, seed, n);
+}
+
+struct scene {
+    struct set from, to;
+    wide address[1024];
+    uint64_t where[1024]; /* indices that the addresses mean */
+    bool active[1024];
+    uint32_t address_field;
+    int width;
+};
+
+static void scene_make(struct scene *c, int round)
+{
+    wide context[1024];
+
+    machine_begin(machine);
+    c->from = set_make(1 + round % 5, round & 1);
+    c->to = round % 3 ? set_make(1 + (round + 2) % 5, round >> 1 & 1) : c->from;
+    c->width = machine_address_bits(machine, c->to.id);
+    for (uint64_t n = 0; n < c->from.count; n++) {
+        uint64_t some = next(c->to.count), few = next(3) * c->to.count / 3;
+        c->address[n] = next(12) == 0 ? next(UINT64_C(1) << c->width)
+                                      : address_of(&c->to, next(3) ? some : few);
+        if (round % 2)
+            c->address[n] |= (wide)next(8) << c->width; /* what nobody looks at */
+        c->where[n] =
+            index_of(&c->to, (uint64_t)c->address[n] & ((UINT64_C(1) << c->width) - 1));
+        c->active[n] = round % 4 == 3 || next(3) > 0;
+        context[n] = c->active[n];
+    }
+    assert_ok(machine_vpset_select(machine, c->from.id), machine);
+    c->address_field = field_of(&c->from, MACHINE_UINT(32), c->address);
+    uint32_t bit = field_of(&c->from, MACHINE_BIT, context);
+    struct machine_value *v =
+        machine_field_value(machine, bit, MACHINE_BIT, MACHINE_EVERYWHERE);
+    if (round % 4 != 3)
+        assert_ok(machine_flag_store(machine, MACHINE_CONTEXT, v, MACHINE_EVERYWHERE), machine);
+}
+
+static void send_case(const struct scene *c, int which)
+{
+    struct machine_type type = cases[which].type;
+    wide source[1024], dest[1024], told[1024] = {0};
+    machine_begin(machine);
+    numbers(source, c->from.count, type);
+    numbers(dest, c->to.count, type);
+    uint32_t s = field_of(&c->from, type, source), d = field_of(&c->to, type, dest);
+    uint32_t notify = machine_field_allocate(machine, c->to.id, 1, MACHINE_STACK);
+    struct machine_value *address =
+        machine_field_value(machine, c->address_field, MACHINE_UINT(32), MACHINE_WHERE_ACTIVE);
+    struct machine_value *v = machine_field_value(machine, s, type, MACHINE_WHERE_ACTIVE);
+
+    assert_ok(machine_send(machine, d, address, v, cases[which].combiner,
+                           which % 2 ? notify : MACHINE_NO_FIELD),
+              machine);
+    for (uint64_t n = 0; n < c->from.count; n++)
+        if (c->active[n] && c->where[n] != UINT64_MAX) {
+            uint64_t at = c->where[n];
+            dest[at] = combined(cases[which].combiner, type, dest[at], source[n]);
+            told[at] = 1;
+        }
+    field_is(&c->to, d, type, dest, NULL, "send", which);
+    if (which % 2)
+        field_is(&c->to, notify, MACHINE_BIT, told, NULL, "notification", which);
+}
+
+static void get_case(const struct scene *c, int which)
+{
+    struct machine_type type = cases[which].type;
+    wide source[1024], got[1024];
+    machine_begin(machine);
+    numbers(source, c->to.count, type);
+    uint32_t s = field_of(&c->to, type, source);
+    uint32_t d = machine_field_allocate(machine, c->from.id, type.width, MACHINE_STACK);
+    struct machine_value *address =
+        machine_field_value(machine, c->address_field, MACHINE_UINT(32), MACHINE_WHERE_ACTIVE);
+    struct machine_value *v = machine_get(machine, address, s, type);
+
+    if (!v)
+        fail_msg("get: %s", machine_error(machine));
+    assert_ok(machine_field_store(machine, d, v, MACHINE_EVERYWHERE), machine);
+    for (uint64_t n = 0; n < c->from.count; n++)
+        got[n] = c->where[n] == UINT64_MAX ? 0 : source[c->where[n]];
+    field_is(&c->from, d, type, got, c->active, "get", which);
+}
+
+static void messages_arrive_as_in_a_loop(void **unused)
+{
+    (void)unused;
+    state = 7;
+    for (int round = 0; round < ROUNDS; round++) {
+        struct scene *c = calloc(1, sizeof *c);
+        uint64_t wrong, expected = 0;
+
+        scene_make(c, round);
+        for (int which = 0; which < CASES; which++) {
+            send_case(c, which);
+            if (cases[which].combiner == MACHINE_COMBINE_OVERWRITE)
+                get_case(c, which);
+        }
+        for (uint64_t n = 0; n < c->from.count; n++)
+            expected += c->active[n] && c->where[n] == UINT64_MAX;
+        machine_begin(machine);
+        assert_ok(
+            machine_addresses_check(machine,
+                                    machine_field_value(machine, c->address_field,
+                                                        MACHINE_UINT(32), MACHINE_WHERE_ACTIVE),
+                                    c->to.id, &wrong),
+            machine);
+        assert_int_equal(wrong, expected);
+        machine_begin(machine);
+        if (c->to.id != c->from.id)
+            assert_ok(machine_vpset_destroy(machine, c->to.id), machine);
+        assert_ok(machine_vpset_destroy(machine, c->from.id), machine);
+        free(c);
+    }
+}
+
+/* What has been recorded and not computed is sent, and numbers are. */
+static void values_that_wait_are_sent(void **unused)
+{
+    (void)unused;
+    int length = 64,
+        set = machine_vpset_create_ordered(machine, &length, 1, MACHINE_SEND_ORDER);
+    uint32_t got[64];
+
+    assert_ok(machine_vpset_select(machine, set), machine);
+    machine_begin(machine);
+    uint32_t d = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    struct machine_value *mine = machine_self_address(machine, 32);
+    struct machine_value *one =
+        machine_constant(machine, MACHINE_UINT(32), (struct machine_scalar){1, 0});
+    struct machine_value *address = machine_binary(
+        machine, MACHINE_XOR, mine,
+        machine_constant(machine, MACHINE_UINT(32), (struct machine_scalar){63, 0}));
+    assert_ok(machine_send(machine, d, address, mine, MACHINE_COMBINE_OVERWRITE, 0), machine);
+    assert_ok(machine_send(machine, d, one, one, MACHINE_COMBINE_ADD, 0), machine);
+    assert_ok(machine_field_download(machine, d, MACHINE_UINT(32), got), machine);
+    for (uint32_t n = 0; n < 64; n++)
+        assert_int_equal(got[n], (n ^ 63) + (n == 1 ? 64 : 0));
+    machine_begin(machine);
+    assert_ok(machine_vpset_destroy(machine, set), machine);
+}
+
+static void geometry_of_a_set_changes(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int rank, lengths[3];
+        enum machine_order order;
+    } shapes[] = {{2, {6, 40}, MACHINE_NEWS_ORDER},
+                  {1, {240}, MACHINE_SEND_ORDER},
+                  {3, {20, 3, 4}, MACHINE_NEWS_ORDER},
+                  {2, {12, 20}, MACHINE_SEND_ORDER}};
+    wide x[240];
+    struct set s = {.count = 240, .ratio = 15};
+
+    s.id = machine_vpset_create(machine, shapes[0].lengths, 2);
+    assert_ok(machine_vpset_select(machine, s.id), machine);
+    machine_begin(machine);
+    for (uint64_t n = 0; n < 240; n++)
+        x[n] = n % PROCESSORS * 15 + n / PROCESSORS;
+    uint32_t f = field_of(&s, MACHINE_UINT(32), x);
+    uint32_t g = machine_field_allocate(machine, s.id, 32, MACHINE_HEAP);
+    assert_ok(
+        machine_field_store(machine, g, machine_self_address(machine, 32), MACHINE_EVERYWHERE),
+        machine);
+    for (int i = 1; i <= 4; i++) {
+        assert_ok(machine_vpset_arrange(machine, s.id, shapes[i % 4].lengths,
+                                        shapes[i % 4].rank, shapes[i % 4].order),
+                  machine);
+        s.order = shapes[i % 4].order;
+        for (uint64_t n = 0; n < 240; n++)
+            x[n] = address_of(&s, n);
+        field_is(&s, f, MACHINE_UINT(32), x, NULL, "after another geometry", i);
+        field_is(&s, g, MACHINE_UINT(32), x, NULL, "what was a number of its own", i);
+        assert_int_equal(machine_vpset_rank(machine, s.id), shapes[i % 4].rank);
+    }
+    assert_int_equal(machine_vpset_arrange(machine, s.id, (int[]){7}, 1, MACHINE_NEWS_ORDER),
+                     MACHINE_BAD_ARGUMENT);
+    machine_error_clear(machine);
+    machine_begin(machine);
+    assert_ok(machine_vpset_destroy(machine, s.id), machine);
+}
+
+static void wrong_messages_are_refused(void **unused)
+{
+    (void)unused;
+    int length = 8, a = machine_vpset_create(machine, &length, 1),
+        b = machine_vpset_create(machine, &length, 1);
+
+    assert_ok(machine_vpset_select(machine, a), machine);
+    machine_begin(machine);
+    uint32_t f = machine_field_allocate(machine, a, 32, MACHINE_HEAP),
+             g = machine_field_allocate(machine, b, 32, MACHINE_HEAP);
+    struct machine_value *v =
+        machine_field_value(machine, f, MACHINE_UINT(32), MACHINE_WHERE_ACTIVE);
+    struct machine_value *w = machine_self_address(machine, 3);
+    assert_int_equal(machine_send(machine, g, w, v, MACHINE_COMBINE_FADD, 0),
+                     MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_send(machine, g + 1, w, v, MACHINE_COMBINE_ADD, 0),
+                     MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_send(machine, g, w, v, MACHINE_COMBINE_ADD, f),
+                     MACHINE_BAD_ARGUMENT);
+    assert_int_equal(machine_send(machine, 12345, w, v, MACHINE_COMBINE_ADD, 0),
+                     MACHINE_BAD_ARGUMENT);
+    assert_null(machine_get(machine, w, 12345, MACHINE_UINT(32)));
+    machine_error_clear(machine);
+    machine_begin(machine);
+    assert_ok(machine_vpset_destroy(machine, a), machine);
+    assert_ok(machine_vpset_destroy(machine, b), machine);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(messages_arrive_as_in_a_loop),
+        cmocka_unit_test(values_that_wait_are_sent),
+        cmocka_unit_test(geometry_of_a_set_changes),
+        cmocka_unit_test(wrong_messages_are_refused),
+    };
+    int failed = 0;
+
+    for (int eager = 0; eager < 2; eager++) {
+        machine = support_machine(eager);
+        failed += cmocka_run_group_tests_name(eager ? "eager" : "lazy", tests, NULL, NULL);
+        if (getenv("LUTETIA_TEST_STATS")) {
+            struct machine_stats stats;
+            machine_stats_get(machine, &stats);
+            fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
+                    (int)stats.kernels_run);
+        }
+        machine_destroy(machine);
+    }
+    return failed;
+}
