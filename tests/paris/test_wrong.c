@@ -147,6 +147,15 @@ static bool wrong(int which, bool run, struct row *row)
             CM_u_add_3_1L(f, f, f, 8);
             CM_store_overflow(stack(1));
         });
+        WRONG(CM_s_subtract_constant_2_1L, "VP set", 0, {
+            CM_vp_set_id_t here = CM_current_vp_set;
+            CM_set_vp_set(set_of(3, 5));
+            CM_field_id_t f = heap(32);
+            CM_my_news_coordinate_1L(f, 0, 32); /* not a constant: its set is known */
+            CM_set_vp_set(here);
+            CM_s_subtract_constant_2_1L(f, 1, 32);
+            CM_store_overflow(stack(1));
+        });
         WRONG(CM_load_test, "VP set", 1, CM_load_test(foreign()));
         WRONG(CM_f_lt_zero_1L, "VP set", 1, CM_f_lt_zero_1L(foreign(), 23, 8));
         WRONG(CM_global_u_max_1L, "VP set", 1, CM_global_u_max_1L(foreign(), 8));
