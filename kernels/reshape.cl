@@ -148,6 +148,12 @@ __kernel void get(SET(c), uint run, uint words, uint start, uint parts, uint out
 #else
 #ifdef PAIR
 #define PART(v, t) (v)
+#elif defined(WIDE)
+inline ulong bits_from(ulong2 v, uint at)
+{
+    return at == 0 ? v.x : at < 64 ? v.x >> at | v.y << (64 - at) : v.y >> (at - 64);
+}
+#define PART(v, t) ((ELEMENT)(bits_from(v, (t)*width) & mask))
 #else
 #define PART(v, t) ((ELEMENT)((ulong)(v) >> (t)*width & mask))
 #endif

@@ -116,11 +116,23 @@ unsigned int CM_fe_from_gray_code(unsigned int code)
 
 /* ---- on the machine ---- */
 
+/* Fields for addresses are longer than those, as a rule, and 0 above: then the whole of 32 bits is stored,
+ * which is the same and a value of one piece. */
+static unsigned int address_room(struct machine *m, CM_field_id_t dest, unsigned int bits)
+{
+    struct machine_field_info info;
+    if (bits >= 32 || !machine_field_lookup(m, dest, &info) || info.bits - info.offset < 32)
+        return bits;
+    struct machine_value *above =
+        machine_field_value(m, dest + bits, MACHINE_UINT(32 - bits), MACHINE_EVERYWHERE);
+    return above && machine_value_is_zero(above) ? 32 : bits;
+}
+
 static void my_send_address(const char *name, CM_field_id_t dest, enum machine_scope scope)
 {
     struct machine *m = paris_begin(name);
     const struct paris_geometry *g = paris_geometry_current();
-    unsigned int bits = paris_address_bits(g);
+    unsigned int bits = address_room(m, dest, paris_address_bits(g));
     paris_store(m, paris_u(dest, bits), machine_self_address(m, (int)bits), scope);
 }
 

@@ -282,6 +282,35 @@ void graph_forget(struct machine *m, struct machine_value *v)
             graph_unref(m, in[i]);
 }
 
+void graph_become(struct machine *m, struct machine_value *v, const struct machine_value *key)
+{
+    INVARIANT(!v->buffer && v->interned && type_equal(v->type, key->type) &&
+              v->set == key->set);
+    struct machine_value *in[3];
+    memcpy(in, v->in, sizeof in);
+    table_remove(m, v);
+    if (is_pending(v))
+        m->nodes_pending--;
+    v->op = key->op;
+    v->axis = key->axis;
+    v->detail = key->detail;
+    v->imm = key->imm;
+    v->hash = hash_of(key);
+    for (int i = 0; i < 3; i++)
+        if ((v->in[i] = key->in[i]))
+            graph_ref(v->in[i]);
+    derive(v, m->epoch);
+    if (is_pending(v))
+        m->nodes_pending++;
+    v->interned = true;
+    v->next = m->table[v->hash & (m->table_size - 1)];
+    m->table[v->hash & (m->table_size - 1)] = v;
+    m->table_count++;
+    for (int i = 0; i < 3; i++)
+        if (in[i])
+            graph_unref(m, in[i]);
+}
+
 void graph_materialised(struct machine *m, struct machine_value *v,
                         struct device_buffer *buffer)
 {

@@ -264,6 +264,9 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                         struct device_buffer *buffer);
 /* The same if there is one, else NULL. */
 struct machine_value *graph_find(struct machine *m, const struct machine_value *key);
+/* A node that waits comes about in another way from now on, which is known to give the same numbers. There
+ * may be two nodes of one key then. */
+void graph_become(struct machine *m, struct machine_value *v, const struct machine_value *key);
 /* A node with a buffer is from now on no more than that. */
 void graph_forget(struct machine *m, struct machine_value *v);
 void graph_ref(struct machine_value *v);

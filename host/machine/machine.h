@@ -241,6 +241,8 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
                                        struct machine_value *value, enum machine_scope scope);
 
 struct machine_type machine_value_type(const struct machine_value *v);
+/* It is known to be 0 everywhere: the number, or bits that nobody wrote. */
+bool machine_value_is_zero(const struct machine_value *v);
 
 /* Constants: bits above the width are ignored. */
 struct machine_value *machine_constant(struct machine *m, struct machine_type type,

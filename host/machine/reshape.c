@@ -229,67 +229,106 @@ static struct machine_value *lift(struct machine *m, struct machine_value *const
     return good ? graph_node(m, &key) : NULL;
 }
 
+/* What k equal expressions have been rolled up into is computed, alone, and each of them is from now on a
+ * slice of it: whoever else holds them need not compute them one by one. */
+static bool unroll(struct machine *m, struct machine_value *whole,
+                   struct machine_value *const *y, uint32_t k)
+{
+    if (node_is_leaf(whole) || node_is_cheap(whole) || whole == y[0])
+        return true;
+    m->stores_evaluated = m->stores; /* nobody else is looked at */
+    if (run_evaluate(m, &whole, 1, false))
+        return false;
+    for (uint32_t i = 0; i < k; i++) {
+        struct machine_value key = {.op = NODE_SLICE,
+                                    .type = y[i]->type,
+                                    .set = y[i]->set,
+                                    .detail = (int32_t)i,
+                                    .imm = {k, 0},
+                                    .in = {whole, NULL, NULL}};
+        if (!y[i]->buffer && y[i]->op != NODE_SLICE && y[i]->interned)
+            graph_become(m, y[i], &key);
+    }
+    return true;
+}
+
 /* ---- weaving ---- */
 
-/* A buffer of the finer set: element i * parts + t of each k is the t-th width bits of y[i]. */
-static struct machine_value *weave(struct machine *m, struct machine_value **y, uint32_t count,
-                                   int coarse, int fine, uint32_t k, uint32_t parts,
-                                   struct machine_type type)
+/* What is woven: words one after the other, each of some elements, lowest first. */
+struct word {
+    struct machine_value *value;
+    uint32_t parts;
+};
+
+/* All values in memory, by one evaluation. */
+static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, int set)
 {
-    const struct vpset *f = &m->sets[fine], *s = &m->sets[coarse];
-    size_t element = type_bytes(type), whole = type_bytes(y[0]->type);
     struct machine_value **wanted = malloc(count * sizeof *wanted);
     int wanted_count = 0;
-    struct device_buffer *out = NULL;
-    enum machine_status status = MACHINE_OK;
     if (!wanted) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reshape a field");
-        return NULL;
+        return false;
     }
     for (uint32_t i = 0; i < count; i++)
-        if (!node_is_leaf(y[i]) && (i == 0 || y[i] != y[i - 1]))
-            wanted[wanted_count++] = y[i];
-    if (wanted_count)
-        status = run_evaluate(m, wanted, wanted_count, false);
+        if (!node_is_leaf(y[i].value) && (i == 0 || y[i].value != y[i - 1].value))
+            wanted[wanted_count++] = y[i].value;
+    bool good = !wanted_count || run_evaluate(m, wanted, wanted_count, false) == MACHINE_OK;
     free(wanted);
-    struct machine_value *known = NULL, *known_buffer = NULL; /* numbers come in long rows */
-    for (uint32_t i = 0; i < count && !status; i++) {
-        struct machine_value *v = y[i];
-        if (v == known)
-            v = known_buffer;
-        else if (!(v = observe_materialise(m, coarse, v)))
-            status = m->status;
-        known = y[i];
-        known_buffer = y[i] = v;
+    struct machine_value *known = NULL, *in_memory = NULL; /* numbers come in long rows */
+    for (uint32_t i = 0; i < count && good; i++) {
+        if (y[i].value != known) {
+            known = y[i].value;
+            in_memory = observe_materialise(m, set, known);
+            good = in_memory != NULL;
+        }
+        y[i].value = in_memory;
     }
-    if (!status && !(out = device_buffer_get(m, observe_buffer_bytes(f, type))))
-        status = m->status;
-    char options[96];
-    snprintf(options, sizeof options, "-DELEMENT=%s -DWHOLE=%s%s", call_element(element),
-             call_element(whole), whole == 16 ? " -DPAIR" : "");
+    return good;
+}
+
+/* A buffer of the finer set. */
+static struct machine_value *weave(struct machine *m, struct word *y, uint32_t count,
+                                   int coarse, int fine, uint32_t k, struct machine_type type)
+{
+    const struct vpset *f = &m->sets[fine], *s = &m->sets[coarse];
+    size_t element = type_bytes(type);
+    struct device_buffer *out = NULL;
+    enum machine_status status = MACHINE_OK;
+    if (!words_evaluate(m, y, count, coarse) ||
+        !(out = device_buffer_get(m, observe_buffer_bytes(f, type))))
+        return NULL;
     m->inside++;
-    for (uint32_t first = 0; first < count && !status; first += BLOCK) {
-        uint32_t n = count - first < BLOCK ? count - first : BLOCK;
+    for (uint32_t at = 0, n, first = 0; at < count && !status;
+         first += n * y[at].parts, at += n) {
+        size_t whole = type_bytes(y[at].value->type);
+        for (n = 1; n < BLOCK && at + n < count; n++)
+            if (y[at + n].parts != y[at].parts || type_bytes(y[at + n].value->type) != whole)
+                break;
+        char options[96];
+        snprintf(options, sizeof options, "-DELEMENT=%s -DWHOLE=%s%s", call_element(element),
+                 call_element(whole),
+                 element == 16 ? " -DPAIR"
+                 : whole == 16 ? " -DWIDE"
+                               : "");
         struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "weave");
         call_set(&c, m, f);
         call_set(&c, m, s);
         call_uint(&c, processors_run(m));
         call_uint(&c, k);
-        call_uint(&c, (uint64_t)first * parts);
+        call_uint(&c, first);
         call_uint(&c, n);
-        call_uint(&c, parts);
+        call_uint(&c, y[at].parts);
         call_uint(&c, type.width);
         call_ulong(&c, type.width < 64 ? (UINT64_C(1) << type.width) - 1 : UINT64_MAX);
         for (uint32_t i = 0; i < BLOCK; i++)
-            call_buffer(&c, y[first + (i < n ? i : 0)]->buffer);
+            call_buffer(&c, y[at + (i < n ? i : 0)].value->buffer);
         call_buffer(&c, out);
         status = call_processors(&c, m, (size_t)s->ratio);
     }
     m->inside--;
     if (!status)
         return graph_buffer_node(m, type, fine, out);
-    if (out)
-        device_buffer_unref(m, out);
+    device_buffer_unref(m, out);
     return NULL;
 }
 
@@ -323,14 +362,6 @@ static unsigned char *marks_make(const struct factor *f, uint32_t *widest)
     return marks;
 }
 
-static bool all_alike(struct machine_value *const *y, uint32_t count)
-{
-    for (uint32_t i = 1; i < count; i++)
-        if (y[i] != y[0])
-            return false;
-    return true;
-}
-
 static struct machine_value *number_of(struct machine *m, uint32_t width, bool ones)
 {
     uint64_t bits = ones ? UINT64_MAX : 0;
@@ -359,29 +390,67 @@ static struct machine_value *piece_of_each(struct machine *m, const struct facto
         if (!(y[i] = machine_reinterpret(m, y[i], MACHINE_UINT(width))))
             return NULL;
     struct machine_value *v = lift(m, y, f->k, f->fine->vpset, &budget);
-    return v ? v : weave(m, y, f->k, f->coarse->vpset, f->fine->vpset, f->k, 1, y[0]->type);
+    if (v && !unroll(m, v, y, f->k))
+        return NULL;
+    struct word *words = v ? NULL : malloc(f->k * sizeof *words);
+    for (uint32_t i = 0; words && i < f->k; i++)
+        words[i] = (struct word){y[i], 1};
+    if (words)
+        v = weave(m, words, f->k, f->coarse->vpset, f->fine->vpset, f->k, y[0]->type);
+    free(words);
+    return v;
 }
 
-/* The same for whole elements of up to 32 bits that lie in wider words. */
-static struct machine_value *words_of_elements(struct machine *m, const struct factor *f,
-                                               struct machine_value **y)
+/* The words that hold whole elements of up to 32 bits: slots as they are where each begins and ends with
+ * an element, so that kernels do not depend on where; else what 64 bits hold. Returns how many. */
+static uint32_t words_of(struct machine *m, const struct factor *f, struct word *out)
 {
-    uint32_t width = f->length, parts = 64 / width, count = (f->k + parts - 1) / parts;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t left = (f->k - i * parts) * width;
-        uint32_t bits = left < parts * width ? left : parts * width;
-        y[i] = field_content(m, f->coarse, f->origin + i * parts * width, bits);
-        y[i] = machine_reinterpret(m, y[i], MACHINE_UINT(bits));
-        y[i] = machine_resize(m, y[i], (int)(parts * width), false);
-        if (!y[i])
-            return NULL;
+    uint32_t width = f->length, end = f->k * width, most = 64 / width * width, count = 0;
+    bool even = true;
+    for (int i = 0; i < f->coarse->slots_count; i++) {
+        const struct slot *s = &f->coarse->slots[i];
+        if (s->offset < f->origin + end && s->offset + s->bits > f->origin)
+            even = even && s->offset >= f->origin && (s->offset - f->origin) % width == 0 &&
+                   s->bits % width == 0 && s->offset + s->bits <= f->origin + end;
     }
-    if (is_zero(y[0]) && all_alike(y, count))
-        return number_of(m, width, false);
-    if (f->k % parts == 0 && y[0] == number_of(m, parts * width, true) && all_alike(y, count))
-        return number_of(m, width, true);
-    return weave(m, y, count, f->coarse->vpset, f->fine->vpset, f->k, parts,
-                 MACHINE_UINT(width));
+    int i = 0;
+    for (uint32_t at = 0, bits; at < end; at += bits) {
+        bits = end - at < most ? end - at : most;
+        while (even && i < f->coarse->slots_count &&
+               f->coarse->slots[i].offset + f->coarse->slots[i].bits <= f->origin + at)
+            i++;
+        if (even && i < f->coarse->slots_count) {
+            uint32_t offset = f->coarse->slots[i].offset - f->origin;
+            if (offset == at)
+                bits = f->coarse->slots[i].bits;
+            else if (offset < at + bits)
+                bits = offset - at; /* nothing is stored there */
+        }
+        struct machine_value *v = field_content(m, f->coarse, f->origin + at, bits);
+        if (!v)
+            return 0;
+        out[count++] = (struct word){v, bits / width};
+    }
+    return count;
+}
+
+static struct machine_value *words_of_elements(struct machine *m, const struct factor *f)
+{
+    struct word *words = malloc(f->k * sizeof *words);
+    uint32_t count = words ? words_of(m, f, words) : 0;
+    bool zeros = true, ones = true;
+    for (uint32_t i = 0; i < count; i++) {
+        zeros = zeros && is_zero(words[i].value);
+        ones = ones && words[i].value == number_of(m, words[i].value->type.width, true);
+    }
+    struct machine_value *v = NULL;
+    if (count && (zeros || ones))
+        v = number_of(m, f->length, ones);
+    else if (count)
+        v = weave(m, words, count, f->coarse->vpset, f->fine->vpset, f->k,
+                  MACHINE_UINT(f->length));
+    free(words);
+    return v;
 }
 
 static struct slot slot_of(const struct machine *m, uint32_t offset, struct machine_value *v)
@@ -407,7 +476,7 @@ static bool fine_from_coarse(struct machine *m, const struct factor *f)
                  (widest > f->length || pieces > PIECES_MANY);
     field_slots_put(m, f->fine, 0, f->fine->bits, NULL, 0);
     if (good && words) {
-        v = words_of_elements(m, f, y);
+        v = words_of_elements(m, f);
         good = v != NULL;
         struct slot s = good ? slot_of(m, 0, v) : (struct slot){.bits = 0};
         if (good)

@@ -144,6 +144,11 @@ static bool bits_type_ok(int width)
     return width >= 1 && width <= 128;
 }
 
+bool machine_value_is_zero(const struct machine_value *v)
+{
+    return v->op == NODE_CONSTANT && !v->imm.lo && !v->imm.hi;
+}
+
 struct machine_type machine_value_type(const struct machine_value *v)
 {
     return v->type;
@@ -436,6 +441,14 @@ static bool fold_bits(enum machine_op op, int width, unsigned __int128 a, unsign
     }
 }
 
+/* One of some numbers: what is done to it is done to them. */
+static bool chooses_number(const struct machine_value *v, int depth)
+{
+    return is_number(v) ||
+           (depth > 0 && !v->buffer && v->op == NODE_SELECT &&
+            chooses_number(v->in[1], depth - 1) && chooses_number(v->in[2], depth - 1));
+}
+
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a)
 {
@@ -456,6 +469,9 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
         return number(m, a->type, narrow(folded));
     if (op == MACHINE_NOT && a->type.width == 1)
         return bit_not(m, a);
+    if (op == MACHINE_NOT && chooses_number(a, 4))
+        return machine_select(m, a->in[0], machine_unary(m, op, a->in[1]),
+                              machine_unary(m, op, a->in[2]));
     if (op == MACHINE_NEG && a->type.width == 1)
         return a;
     return build(m, (int)op, a->type, 0, a, NULL, NULL);
@@ -595,6 +611,9 @@ struct machine_value *machine_extract(struct machine *m, struct machine_value *a
         return a;
     if (is_number(a))
         return number(m, MACHINE_UINT(width), narrow(wide(a->imm) >> offset));
+    if (chooses_number(a, 4))
+        return machine_select(m, a->in[0], machine_extract(m, a->in[1], offset, width),
+                              machine_extract(m, a->in[2], offset, width));
     if (!a->buffer && a->op == NODE_EXTRACT)
         return machine_extract(m, a->in[0], offset + a->detail, width);
     if (!a->buffer && a->op == NODE_CONCAT) {
