@@ -9,5 +9,7 @@
 #define LUTETIA_BENCH_H
 
 int bench_diffusion_main(int argc, char **argv);
+int bench_scan_main(int argc, char **argv);
+int bench_rank_main(int argc, char **argv);
 
 #endif

@@ -14,6 +14,8 @@ static const struct {
 } benches[] = {
     {"diffusion", bench_diffusion_main,
      "the thesis's cycle through the machine, beside its limits"},
+    {"scan", bench_scan_main, "scans along a line, beside plain C"},
+    {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };
