@@ -122,9 +122,12 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
     const bool edge = halo && (column < halo || column + (lanes) > width - halo);
 #define EACH_ELEMENT for (int k = begin; k < end; k++)
 #define HERE const size_t at = row + (size_t)column + (size_t)((long)k * step);
-#define REPEAT_ACROSS(lanes)                                                                   \
+/* When all is written. */
+#define REPEAT_ACROSS(lanes, to)                                                               \
     if (!along && edge)                                                                        \
-        repeat(out + (at - (size_t)column), column, column + (lanes), width, halo);
+        for (int k = begin; k < (to); k++) {                                                   \
+            HERE repeat(out + (at - (size_t)column), column, column + (lanes), width, halo);   \
+        }
 /* Along a row, once for the whole run; going down, element 0 is the last column. */
 #define REPEAT_ALONG(from, to)                                                                 \
     if (along && halo) {                                                                       \
@@ -137,21 +140,12 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
 
 #if PART == 0
 #define PLAIN(combine)                                                                         \
-    if (exclusive) {                                                                           \
-        EACH_ELEMENT                                                                           \
-        {                                                                                      \
-            HERE const V old = acc;                                                            \
-            acc = combine(acc, TAKE(V, LOAD(in, at)));                                         \
-            STORE(out, at, SHOW(V, old));                                                      \
-            REPEAT_ACROSS(LANES)                                                               \
-        }                                                                                      \
-    } else {                                                                                   \
-        EACH_ELEMENT                                                                           \
-        {                                                                                      \
-            HERE acc = combine(acc, TAKE(V, LOAD(in, at)));                                    \
-            STORE(out, at, SHOW(V, acc));                                                      \
-            REPEAT_ACROSS(LANES)                                                               \
-        }                                                                                      \
+    EACH_ELEMENT                                                                               \
+    {                                                                                          \
+        HERE const V old = acc;                                                                \
+        acc = combine(acc, TAKE(V, LOAD(in, at)));                                             \
+        const V shown = exclusive ? old : acc;                                                 \
+        STORE(out, at, SHOW(V, shown));                                                        \
     }
 /* Who takes part, and before whom a segment begins: where the element `back` before has a 1. */
 #define BITS(p, i) (M_OF(LOAD(p, i)) != (M)0)
@@ -172,7 +166,6 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         acc = SEL(active, next, acc);                                                          \
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
-        REPEAT_ACROSS(LANES)                                                                   \
     }
 /* The first element of a segment that takes part. */
 #define COPIED                                                                                 \
@@ -184,7 +177,6 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         has |= active;                                                                         \
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, shown);                                                                 \
-        REPEAT_ACROSS(LANES)                                                                   \
     }
 
 __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride, int length,
@@ -207,6 +199,7 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
         FOR_OP(PLAIN)
     }
     REPEAT_ALONG(begin, end)
+    REPEAT_ACROSS(LANES, end)
     if (keep) {
         const size_t at =
             (line * get_global_size(0) + get_global_id(0)) * (size_t)columns + (size_t)column;
@@ -229,7 +222,7 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
 #else
 typedef JOIN(TYPE, 16) V16;
 #define FINISH_SIXTEENS(combine)                                                               \
-    for (; x + 16 <= stop; x += 16) {                                                          \
+    for (; along && x + 16 <= stop; x += 16) {                                                 \
         const V16 v = combine((V16)(carry), TAKE(V16, vload16(0, out + x)));                   \
         vstore16(SHOW(V16, v), 0, out + x);                                                    \
     }
@@ -238,21 +231,13 @@ typedef JOIN(TYPE, 16) V16;
         vstore16((V16)(v), 0, out + x);
 #endif
 #define FINISH(combine)                                                                        \
-    if (along) {                                                                               \
-        size_t x = step > 0 ? row + (size_t)begin : row - (size_t)(last - 1);                  \
-        const size_t stop = x + (size_t)(last - begin);                                        \
+    {                                                                                          \
         FINISH_SIXTEENS(combine)                                                               \
-        for (; x < stop; x++) {                                                                \
+        for (; x < stop; x += apart) {                                                         \
             const V v = combine(carry, TAKE(V, out[x]));                                       \
             out[x] = SHOW(V, v);                                                               \
         }                                                                                      \
-        REPEAT_ALONG(begin, last)                                                              \
-    } else                                                                                     \
-        for (int k = begin; k < last; k++) {                                                   \
-            HERE const V v = combine(carry, TAKE(V, out[at]));                                 \
-            out[at] = SHOW(V, v);                                                              \
-            REPEAT_ACROSS(1)                                                                   \
-        }
+    }
 
 __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride, int length,
                    int run, int columns, int width, int halo, int along, int lanes, int stage,
@@ -289,11 +274,13 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
         const int last = op == COPY && !(f & HAS) ? begin : min(end, (int)(f & NEVER));
         if (last <= begin)
             return;
-        IF_COPY(FINISH(FORMER))
-        {
-            FOR_OP(FINISH)
-        }
-        return;
+        /* from the least place to the greatest */
+        const size_t apart = (size_t)(step > 0 ? step : -step);
+        const int least = step > 0 ? begin : last - 1;
+        size_t x = row + (size_t)column + (size_t)((long)least * step);
+        const size_t stop = x + (size_t)(last - begin) * apart;
+        IF_COPY(FINISH(FORMER)){FOR_OP(FINISH)} REPEAT_ALONG(begin, last)
+            REPEAT_ACROSS(1, last) return;
     }
 #if KIND != 1
     const __global TYPE *from =
@@ -312,15 +299,15 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
         EACH_ELEMENT
         {
             HERE vstore16(all, 0, out + at);
-            REPEAT_ACROSS(16)
         }
+        REPEAT_ACROSS(16, end)
 #endif
     } else {
         EACH_ELEMENT
         {
             HERE out[at] = v;
-            REPEAT_ACROSS(1)
         }
+        REPEAT_ACROSS(1, end)
     }
 #endif
 }

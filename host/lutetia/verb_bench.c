@@ -15,6 +15,8 @@ static const struct {
     {"diffusion", bench_diffusion_main,
      "the thesis's cycle through the machine, beside its limits"},
     {"calls", bench_calls_main, "what a C/Paris call costs the front end"},
+    {"scan", bench_scan_main, "scans along a line, beside plain C"},
+    {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };

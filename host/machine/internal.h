@@ -456,6 +456,8 @@ struct machine_value *scan_boundaries(struct machine *m, const struct machine_sc
 /* false: error set. */
 bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
                          const struct machine_value *value, const struct machine_value *bits);
+/* What has the same bits in memory already, where something has. */
+struct machine_value *in_memory(struct machine_value *v);
 /* Bits in the order of the floats; NaNs become nan. */
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 size_t set_bytes(const struct vpset *s, size_t element);

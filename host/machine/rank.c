@@ -18,7 +18,8 @@ struct words {
     int count;
 };
 
-static bool words_add(struct machine *m, struct words *w, struct machine_value *key)
+/* Only the low bits of the last word are looked at, of which there are so many. */
+static bool words_add(struct machine *m, struct words *w, struct machine_value *key, int last)
 {
     for (int at = 0; key && at < key->type.width; at += 32) {
         int bits = key->type.width - at < 32 ? key->type.width - at : 32;
@@ -26,10 +27,8 @@ static bool words_add(struct machine *m, struct words *w, struct machine_value *
             machine_resize(m, machine_extract(m, key, at, bits), 32, false);
         if (!word)
             return false;
-        if (word->op == NODE_REINTERPRET && !word->buffer && word->in[0]->buffer)
-            word = word->in[0];
-        w->values[w->count] = word;
-        w->bits[w->count++] = bits;
+        w->values[w->count] = in_memory(word);
+        w->bits[w->count++] = at + 32 < key->type.width ? 32 : last;
     }
     return key != NULL;
 }
@@ -77,25 +76,26 @@ static bool words_of(struct machine *m, const struct machine_scan *how,
     if (!key || !inactive)
         return false;
     bool all = inactive->op == NODE_CONSTANT && !inactive->buffer && !inactive->imm.lo;
+    int last = (key->type.width - 1) % 32 + 1, above_bits = 1;
     if (how->segments == MACHINE_UNSEGMENTED && all)
-        return words_add(m, w, key);
+        return words_add(m, w, key, last);
     if (how->segments == MACHINE_UNSEGMENTED && key->type.width < 128)
-        return words_add(m, w, machine_concat(m, key, inactive));
+        return words_add(m, w, machine_concat(m, key, inactive), key->type.width % 32 + 1);
     struct machine_value *above = inactive;
     struct machine_value *everyone =
         machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0});
     if (how->segments != MACHINE_UNSEGMENTED) {
-        int bits = bits_of(length);
         struct machine_scan number = {
             .combiner = MACHINE_COMBINE_ADD, .axis = how->axis, .bits = NULL};
         struct machine_value *begins = scan_boundaries(m, how);
         struct machine_value *segment =
             begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone)
                    : NULL;
-        segment = machine_resize(m, segment, bits, false);
+        segment = machine_resize(m, segment, 31, false);
+        above_bits += bits_of(length);
         above = segment ? machine_concat(m, inactive, segment) : NULL;
     }
-    return above && words_add(m, w, key) && words_add(m, w, above);
+    return above && words_add(m, w, key, last) && words_add(m, w, above, above_bits);
 }
 
 struct sort {

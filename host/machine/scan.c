@@ -354,6 +354,11 @@ static struct machine_value *float_unordered(struct machine *m, struct machine_v
     return machine_reinterpret(m, bits, width == 32 ? MACHINE_F32 : MACHINE_F64);
 }
 
+struct machine_value *in_memory(struct machine_value *v)
+{
+    return v->op == NODE_REINTERPRET && !v->buffer && v->in[0]->buffer ? v->in[0] : v;
+}
+
 static bool combiner_fits(enum machine_combiner c, struct machine_type type)
 {
     if (c == MACHINE_COMBINE_COPY)
@@ -375,7 +380,7 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         f->op = c == MACHINE_COMBINE_FADD ? ADD : MULTIPLY;
         if (f->op == MULTIPLY)
             f->identity.lo = single ? 0x3f800000u : 0x3ff0000000000000u;
-        return v;
+        return v ? in_memory(v) : NULL;
     }
     f->element = bits_element(f->width);
     f->cut = ones(f->width);
@@ -425,8 +430,7 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
         f->op = COPY;
         break;
     }
-    if (v && v->op == NODE_REINTERPRET && !v->buffer && v->in[0]->buffer)
-        v = v->in[0]; /* its memory as it is */
+    v = v ? in_memory(v) : NULL;
     return v && type_bytes(v->type) != f->element->bytes ? machine_resize(m, v, 32, false) : v;
 }
 

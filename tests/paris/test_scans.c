@@ -105,22 +105,29 @@ static number *numbers_new(int count)
     return n;
 }
 
-static void put(const struct set *s, CM_field_id_t field, int width, const number *n)
+static struct machine_type type_of(char letter, int width)
+{
+    return letter != 'f' ? MACHINE_UINT(width) : width == 32 ? MACHINE_F32 : MACHINE_F64;
+}
+
+static void put(const struct set *s, CM_field_id_t field, char letter, int width,
+                const number *n)
 {
     size_t bytes = machine_element_bytes(MACHINE_UINT(width));
     unsigned char *dense = calloc((size_t)s->grid.count, bytes);
     for (int i = 0; i < s->grid.count; i++)
         memcpy(dense + (size_t)i * bytes, &n[i], bytes);
-    assert_int_equal(machine_field_upload(paris_machine(), field, MACHINE_UINT(width), dense),
-                     MACHINE_OK);
+    assert_int_equal(
+        machine_field_upload(paris_machine(), field, type_of(letter, width), dense),
+        MACHINE_OK);
     free(dense);
 }
 
-static void get(const struct set *s, CM_field_id_t field, int width, number *n)
+static void get(const struct set *s, CM_field_id_t field, char letter, int width, number *n)
 {
     size_t bytes = machine_element_bytes(MACHINE_UINT(width));
     unsigned char *dense = calloc((size_t)s->grid.count, bytes);
-    if (machine_field_download(paris_machine(), field, MACHINE_UINT(width), dense) !=
+    if (machine_field_download(paris_machine(), field, type_of(letter, width), dense) !=
         MACHINE_OK)
         fail_msg("%s", machine_error(paris_machine()));
     memset(n, 0, (size_t)s->grid.count * sizeof *n);
@@ -141,8 +148,6 @@ static struct set set_new(int rank, const int *dimensions)
     CM_set_vp_set(s.id);
     s.context = CM_allocate_heap_field(1);
     s.sbit = CM_allocate_heap_field(1);
-    s.source = CM_allocate_heap_field(160);
-    s.dest = CM_allocate_heap_field(160);
     s.context_bits = numbers_new(s.grid.count);
     s.sbits = numbers_new(s.grid.count);
     s.numbers = numbers_new(s.grid.count);
@@ -151,8 +156,19 @@ static struct set set_new(int rank, const int *dimensions)
     return s;
 }
 
+/* For numbers of that width and nothing else: a field that held others before would be cut up. */
+static void fields_new(struct set *s, int width)
+{
+    if (s->source)
+        CM_deallocate_stack_through(s->source);
+    s->source = CM_allocate_stack_field((unsigned)width);
+    s->dest = CM_allocate_stack_field((unsigned)width);
+}
+
 static void set_free(struct set *s)
 {
+    if (s->source)
+        CM_deallocate_stack_through(s->source);
     CM_set_context();
     CM_deallocate_vp_set(s->id);
     free(s->context_bits);
@@ -185,8 +201,8 @@ static void set_masks(struct set *s, int who, int length)
         s->context_bits[i] = who == 1 || (device_random() >> 20) % 4 < (who ? 3u : 1u);
         s->sbits[i] = (device_random() >> 20) % (unsigned)length == 0;
     }
-    put(s, s->sbit, 1, s->sbits);
-    put(s, s->context, 1, s->context_bits);
+    put(s, s->sbit, 'b', 1, s->sbits);
+    put(s, s->context, 'b', 1, s->context_bits);
     CM_set_context();
     if (who != 1)
         CM_load_context(s->context);
@@ -194,7 +210,7 @@ static void set_masks(struct set *s, int who, int length)
 
 static void compare(const struct set *s, const char *what, const struct scan_case *c)
 {
-    get(s, s->dest, c->width, s->got);
+    get(s, s->dest, c->letter, c->width, s->got);
     for (int i = 0; i < s->grid.count; i++)
         if (s->got[i] != s->old[i])
             fail_msg("%s_%c_%s, %d bits, axis %d of %d (%d %d %d), direction %d, inclusion %d, "
@@ -216,9 +232,7 @@ enum { SCAN, SPREAD, MULTISPREAD, REDUCE };
 static void try_row(struct set *s, const struct row *row, int form, int width)
 {
     bool floats = row->letter == 'f', in_place = below(4) == 0;
-    struct call call = {.dest = s->dest,
-                        .source = in_place ? s->dest : s->source,
-                        .sbit = s->sbit,
+    struct call call = {.sbit = s->sbit,
                         .axis = below((unsigned)s->grid.rank),
                         .len = (unsigned)width,
                         .s = width == 32 ? 23 : 52,
@@ -228,6 +242,9 @@ static void try_row(struct set *s, const struct row *row, int form, int width)
                         .smode = below(3),
                         .mask = below(1u << s->grid.rank)};
     unsigned int length = (unsigned)s->grid.dimensions[call.axis];
+    fields_new(s, width);
+    call.dest = s->dest;
+    call.source = in_place ? s->dest : s->source;
     call.to = below(length);
     call.from = below(length);
     struct scan_case c = {.letter = row->letter,
@@ -243,8 +260,8 @@ static void try_row(struct set *s, const struct row *row, int form, int width)
     numbers_random(s->old, s->grid.count, width, floats);
     if (in_place)
         memcpy(s->numbers, s->old, (size_t)s->grid.count * sizeof *s->old);
-    put(s, s->source, width, s->numbers);
-    put(s, s->dest, width, s->old);
+    put(s, s->source, row->letter, width, s->numbers);
+    put(s, s->dest, row->letter, width, s->old);
     c.source = s->numbers;
     if (call.smode == CM_none)
         call.sbit = CM_no_field;
@@ -350,10 +367,11 @@ static void a_very_long_line_is_right(void **unused)
         set_masks(&s, turn == 1 ? 2 : 1, 9000);
         for (int i = 0; i < length; i++)
             s.numbers[i] = device_random() & mask;
-        put(&s, s.source, width, s.numbers);
+        fields_new(&s, width);
+        put(&s, s.source, 'u', width, s.numbers);
         CM_scan_with_u_add_1L(s.dest, s.source, 0, (unsigned)width, CM_upward, CM_inclusive,
                               turn ? CM_segment_bit : CM_none, turn ? s.sbit : CM_no_field);
-        get(&s, s.dest, width, s.got);
+        get(&s, s.dest, 'u', width, s.got);
         sum = 0;
         for (int i = 0; i < length; i++) {
             if (turn && s.sbits[i])
@@ -367,7 +385,7 @@ static void a_very_long_line_is_right(void **unused)
         }
         CM_scan_with_copy_1L(s.dest, s.source, 0, (unsigned)width, CM_downward, CM_inclusive,
                              CM_segment_bit, s.sbit);
-        get(&s, s.dest, width, s.got);
+        get(&s, s.dest, 'u', width, s.got);
         bool has = false;
         for (int i = length - 1; i >= 0; i--) {
             if (s.context_bits[i] && !has) {
@@ -411,11 +429,14 @@ static void try_rank(struct set *s, struct scan_case c)
     for (int i = 0; i < s->grid.count; i++)
         if (device_random() % 4 == 0) /* equal ones */
             s->numbers[i] = s->numbers[below((unsigned)s->grid.count)];
-    put(s, s->source, c.width, s->numbers);
+    fields_new(s, c.width);
+    s->dest = CM_allocate_stack_field(20);
+    put(s, s->source, c.letter, c.width, s->numbers);
     numbers_random(s->old, s->grid.count, 20, false);
-    put(s, s->dest, 20, s->old);
+    put(s, s->dest, 'u', 20, s->old);
     rank_call(s, &c, 20);
     oracle_rank(&s->grid, &c, s->old);
+    c.letter = 'u';
     c.width = 20;
     compare(s, "rank", &c);
 }
@@ -463,9 +484,11 @@ static void ranks_of_a_very_long_line_are_right(void **unused)
         set_masks(&s, turn == 2 ? 2 : 1, 1000);
         for (int i = 0; i < length; i++)
             s.numbers[i] = device_random() & (uint64_t)oracle_mask(width);
-        put(&s, s.source, width, s.numbers);
+        fields_new(&s, width);
+        s.dest = CM_allocate_stack_field(32);
+        put(&s, s.source, 'u', width, s.numbers);
         CM_u_rank_2L(s.dest, s.source, 0, 32, (unsigned)width, CM_upward, CM_none, CM_no_field);
-        get(&s, s.dest, 32, s.got);
+        get(&s, s.dest, 'u', 32, s.got);
         for (int i = 0; i < length; i++)
             if (s.context_bits[i])
                 order[active++] = i;
@@ -502,7 +525,8 @@ static void enumeration_counts_the_active(void **unused)
         for (int i = 0; i < s.grid.count; i++)
             s.numbers[i] = 1;
         numbers_random(s.old, s.grid.count, 17, false);
-        put(&s, s.dest, 17, s.old);
+        fields_new(&s, 17);
+        put(&s, s.dest, 'u', 17, s.old);
         (turn % 2 ? CM_enumerate_1L
                   : CM_enumerate)(s.dest, (unsigned)c.axis, 17, (unsigned)c.direction,
                                   (unsigned)c.inclusion, (unsigned)c.smode, s.sbit);
@@ -528,13 +552,14 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
                           .sbit = s.sbits};
     static const int parts[] = {64, 64, 17};
     number *halves[3], *olds[3];
+    fields_new(&s, 145);
     for (int i = 0, offset = 0; i < 3; offset += parts[i++]) {
         halves[i] = numbers_new(s.grid.count);
         olds[i] = numbers_new(s.grid.count);
         numbers_random(halves[i], s.grid.count, parts[i], false);
         numbers_random(olds[i], s.grid.count, parts[i], false);
-        put(&s, s.source + (unsigned)offset, parts[i], halves[i]);
-        put(&s, s.dest + (unsigned)offset, parts[i], olds[i]);
+        put(&s, s.source + (unsigned)offset, 'b', parts[i], halves[i]);
+        put(&s, s.dest + (unsigned)offset, 'b', parts[i], olds[i]);
     }
     CM_scan_with_copy_1L(s.dest, s.source, 2, 145, CM_upward, CM_inclusive, CM_segment_bit,
                          s.sbit);
@@ -564,11 +589,12 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
                            .inclusion = CM_exclusive,
                            .context = s.context_bits,
                            .sbit = s.sbits};
+    fields_new(&s, 128);
     for (int i = 0; i < 2; i++) {
         numbers_random(halves[i], s.grid.count, 64, true);
         numbers_random(olds[i], s.grid.count, 64, true);
-        put(&s, s.source + 64u * (unsigned)i, 64, halves[i]);
-        put(&s, s.dest + 64u * (unsigned)i, 64, olds[i]);
+        put(&s, s.source + 64u * (unsigned)i, 'f', 64, halves[i]);
+        put(&s, s.dest + 64u * (unsigned)i, 'f', 64, olds[i]);
     }
     CM_scan_with_c_add_1L(s.dest, s.source, 1, 52, 11, CM_upward, CM_exclusive, CM_none,
                           CM_no_field);
@@ -582,7 +608,8 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
     }
     unsigned int longest = 0, longest_signed = 0;
     numbers_random(s.numbers, s.grid.count, 70, false);
-    put(&s, s.source, 70, s.numbers);
+    fields_new(&s, 70);
+    put(&s, s.source, 'u', 70, s.numbers);
     for (int n = 0; n < s.grid.count; n++) {
         number x = s.numbers[n], y = x >> 69 ? ~x & oracle_mask(70) : x;
         for (unsigned int b = 0; s.context_bits[n] && b < 70; b++) {
@@ -608,6 +635,7 @@ static void what_is_wrong_is_said(void **unused)
     (void)unused;
     static const int shape[3] = {3, 5, 21};
     struct set s = set_new(3, shape);
+    fields_new(&s, 160);
     CM_set_error_handler(device_error_catch);
 #define SAYS(text, call)                                                                       \
     device_message[0] = 0;                                                                     \
