@@ -403,7 +403,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
              : wide   ? "ulong"
                       : elements[type_bytes(v->type)],
              is_float ? real : "ulong");
-    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", kernel_reduce_cl};
+    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", "", kernel_reduce_cl};
     cl_kernel kernel = device_kernel(m, parts, options, "reduce");
     size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
     size_t element = is_float ? type_bytes(v->type) : wide ? 16 : 8;
