@@ -500,7 +500,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
     uint32_t offset;
     if (type.s && soft_type_good(type))
         return soft_unpacked(
-            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope), type);
+            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope),
+            type);
     struct field *f = field_part(m, field, type, &offset);
     if (!f)
         return NULL;

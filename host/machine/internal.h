@@ -49,8 +49,8 @@ enum node_op {
     NODE_F_TO_U,
     NODE_F_TO_S,
     NODE_F_TO_F,
-    NODE_PACK,   /* a float of another format -> its bits; soft.c */
-    NODE_UNPACK, /* and back */
+    NODE_PACK,          /* a float of another format -> its bits; soft.c */
+    NODE_UNPACK,        /* and back */
     NODE_OVERFLOW_UADD, /* operands -> bit: the result does not fit */
     NODE_OVERFLOW_USUB,
     NODE_OVERFLOW_UMUL,

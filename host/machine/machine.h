@@ -72,7 +72,8 @@ struct machine_type {
  * fields they have s + e + 1 bits. Operations on them are rounded once, to nearest even, to the
  * format: FADD, FSUB, FMUL, FDIV, FSQRT and conversions from whole numbers from the exact
  * result, others from the double's. Reductions add in double and round the sum. */
-#define MACHINE_SOFT(s, e) ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
+#define MACHINE_SOFT(s, e)                                                                     \
+    ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
 /* The type of floats with s and e: the native ones for 23, 8 and 52, 11. */
 struct machine_type machine_float_type(int s, int e);
 /* How many bits of a field a value of the type takes. */
