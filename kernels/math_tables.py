@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""math_tables.py > math_tables.cl: the numbers of math.cl. Needs mpmath (Debian: python3-mpmath); run it only
-to change them.
+"""math_tables.py > math_tables.cl, then clang-format: the numbers of math.cl. Needs mpmath (Debian:
+python3-mpmath); run it only to change them.
 
 Polynomials are near-minimax (Chebyshev) fits with coefficients rounded to double; tables are pairs of doubles,
 the second one what the first lacks.

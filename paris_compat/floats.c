@@ -347,6 +347,78 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
     }
 }
 
+/* ---- VAX ---- */
+
+/* Both formats have sign, exponent and fraction in this order; a VAX number with exponent field E
+ * is the IEEE number with E - 2, and in memory its 16-bit words stand from the highest to the
+ * lowest. Exponent 0 is the number 0, or with the sign the reserved operand. */
+static struct machine_value *words_reversed(struct machine *m, struct machine_value *v)
+{
+    int width = machine_value_type(v).width;
+    struct machine_value *r = machine_extract(m, v, width - 16, 16);
+    for (int at = width - 32; r && at >= 0; at -= 16)
+        r = machine_concat(m, r, machine_extract(m, v, at, 16));
+    return r;
+}
+
+static struct machine_value *scaled_bits(struct machine *m, struct machine_value *bits,
+                                         struct machine_type type, double factor)
+{
+    struct machine_value *x = machine_reinterpret(m, bits, type);
+    x = x ? machine_binary(m, MACHINE_FMUL, x, machine_constant_float(m, type, factor)) : NULL;
+    return x ? machine_reinterpret(m, x, MACHINE_UINT(type.width)) : NULL;
+}
+
+void paris_float_vax(const struct paris_instruction *self, struct paris_operand dest,
+                     struct paris_operand a)
+{
+    struct machine *m = paris_begin(self->name);
+    struct machine_type type;
+    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
+        !paris_check_overlap(dest, a))
+        return;
+    int w = type.width, s = significand_bits(type), e = w - 1 - s;
+    bool to_vax = self->op == PARIS_IEEE_TO_VAX;
+    struct machine_value *bits =
+        paris_load(m, paris_b(a.field, (unsigned int)w), "source", self->scope);
+    if (!bits)
+        return;
+    if (!to_vax)
+        bits = words_reversed(m, bits);
+    struct machine_value *exponent_bits = bits ? machine_extract(m, bits, s, e) : NULL;
+    struct machine_value *two = number(m, w, (int64_t)2 << s), *none = number(m, w, 0);
+    /* An exponent field below this is not the other format's plus or minus 2. */
+    struct machine_value *low = exponent_bits ? machine_binary(m, MACHINE_ULT, exponent_bits,
+                                                               number(m, e, to_vax ? 1 : 3))
+                                              : NULL;
+    struct machine_value *small = bits ? scaled_bits(m, bits, type, to_vax ? 4 : 0.25) : NULL;
+    if (!two || !none || !low || !small) {
+        paris_fail_machine();
+        return;
+    }
+    struct machine_value *r, *wrong;
+    if (to_vax) {
+        struct machine_value *vanishes =
+            machine_binary(m, MACHINE_EQ, machine_extract(m, small, s, e), number(m, e, 0));
+        r = machine_select(m, low, machine_select(m, vanishes, none, small),
+                           machine_binary(m, MACHINE_ADD, bits, two));
+        wrong =
+            machine_binary(m, MACHINE_ULE, number(m, e, ((int64_t)1 << e) - 2), exponent_bits);
+        r = machine_select(m, wrong, number(m, w, (int64_t)((uint64_t)1 << (w - 1))), r);
+        r = r ? words_reversed(m, r) : NULL;
+    } else {
+        struct machine_value *zero =
+            machine_binary(m, MACHINE_EQ, exponent_bits, number(m, e, 0));
+        wrong = machine_binary(m, MACHINE_AND, zero, machine_extract(m, bits, w - 1, 1));
+        r = machine_select(m, low, small, machine_binary(m, MACHINE_SUB, bits, two));
+        r = machine_select(m, zero, none, r);
+        r = machine_select(m, wrong,
+                           number(m, w, w == 32 ? 0x7fc00000 : INT64_C(0x7ff8000000000000)), r);
+    }
+    if (!r || paris_flag_put(m, MACHINE_OVERFLOW, wrong, MACHINE_WHERE_ACTIVE))
+        paris_store(m, dest, r, self->scope);
+}
+
 /* ---- tests ---- */
 
 void paris_float_test(const struct paris_instruction *self, struct paris_operand a)

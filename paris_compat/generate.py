@@ -549,11 +549,15 @@ def float_part(types, name, op, flags, doc):
                                  flags, always, "PART", type=T, op=name, operands=2, lengths=2)
 
 
-def float_made(_, name, op, flags, doc):
-    """CM_f_name_1_1L, _2_1L: a float made of one, by paris_float_made."""
+def float_vax(types, name, op, flags, doc):
+    return float_made(types, name, op, flags, doc, "paris_float_vax")
+
+
+def float_made(_, name, op, flags, doc, action="paris_float_made"):
+    """CM_f_name_1_1L, _2_1L: a float made of one."""
     for always in (False, True):
         for suffix, params, source in (("1_1L", [DEST], FLOAT_DEST), ("2_1L", [DEST, SOURCE], FLOAT_SOURCE)):
-            yield float_function(f"CM_f_{name}{mid(always)}_{suffix}", params + F, doc, "paris_float_made",
+            yield float_function(f"CM_f_{name}{mid(always)}_{suffix}", params + F, doc, action,
                                  [FLOAT_DEST, source], f"PARIS_{op}", flags, always, "MADE", type="f", op=name,
                                  operands=len(params), lengths=1)
 
@@ -572,7 +576,7 @@ def float_swap(_, name, op, flags, doc):
 
 SHAPES = {"float_unary": float_unary, "float_binary": float_binary, "float_by_integer": float_by_integer,
           "float_pair": float_pair, "float_part": float_part, "float_made": float_made, "float_test": float_test,
-          "float_swap": float_swap}
+          "float_swap": float_swap, "float_vax": float_vax}
 
 SHAPES |= {"binary": binary, "unary": unary, "compare": compare, "move": move, "convert": convert,
           "logical": logical, "not": complement, "flag": flag, "news": news, "own": own, "processor": processor,

@@ -195,7 +195,9 @@ enum paris_float_op {
     PARIS_IS_ZERO,
     PARIS_IS_NEGATIVE,
     PARIS_IS_NORMAL,
-    PARIS_IS_SUBNORMAL
+    PARIS_IS_SUBNORMAL,
+    PARIS_IEEE_TO_VAX,
+    PARIS_VAX_TO_IEEE
 };
 /* Records the overflow of MACHINE_FEXP .. MACHINE_FSCALE: infinite from finite, and for the
  * remainders a divisor of 0. b NULL: one operand. */
@@ -214,6 +216,8 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
                       struct paris_operand a);
 void paris_float_made(const struct paris_instruction *self, struct paris_operand dest,
                       struct paris_operand a);
+void paris_float_vax(const struct paris_instruction *self, struct paris_operand dest,
+                     struct paris_operand a);
 void paris_float_test(const struct paris_instruction *self, struct paris_operand a);
 void paris_float_swap(const struct paris_instruction *self, struct paris_operand dest,
                       struct paris_operand source);

@@ -2,7 +2,7 @@
  *
  * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never
  * rearranged. No rule looks at the value of a number other than a bit's 0 or 1 (and widths of
- * 128 at most fold where all operands are numbers), so that a program with other constants has
+ * 128 at most, and transcendental functions, fold where all operands are numbers), so that a program with other constants has
  * the same graph and the same kernels.
  *
  * The rules that matter: a store under context c is select(c, new, old), and

@@ -110,9 +110,29 @@ static float single_of(uint64_t bits)
  * pi/2 and other places where functions are 0 or bend. */
 static double point(const struct function *f, bool single, int kind)
 {
+    /* nearest to a multiple of pi/2 of all doubles, and others that lie near one; the ends */
+    static const double hard[] = {0x1.6ac5b262ca1ffp+849,
+                                  0x1.921fb54442d18p+0,
+                                  0x1.921fb54442d18p+1,
+                                  0x1.2d97c7f3321d2p+2,
+                                  0x1.f6a7a2955385ep+2,
+                                  0x1.fffffffffffffp+1023,
+                                  0x1p1023,
+                                  0x1p26,
+                                  0x1.921fb54442d18p+26,
+                                  0x1.2p-1074,
+                                  0x1p-1022,
+                                  0x1.fffffep+127,
+                                  0x1.1475ccp+95,
+                                  0x1.62e42fefa39efp+9};
     double x;
     switch (kind) {
     case 0:
+        if (any() % 16 == 0) {
+            x = hard[any() % (sizeof hard / sizeof hard[0])];
+            x = f->low < 0 && any() % 2 ? -x : x;
+            return single ? (double)(float)x : x;
+        }
         return single ? (double)single_of(any()) : double_of(any());
     case 1:
         x = ldexp(unit() * 2 - 1, (int)(any() % 60) - 50);

@@ -148,11 +148,18 @@ static void singles_have_the_front_ends_bits(void **unused)
     compare(32, 0, 3);
 }
 
+static void alone_they_have_them_too(void **unused)
+{
+    (void)unused;
+    compare(64, 1, 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doubles_have_the_front_ends_bits),
         cmocka_unit_test(singles_have_the_front_ends_bits),
+        cmocka_unit_test(alone_they_have_them_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

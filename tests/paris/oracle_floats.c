@@ -113,10 +113,41 @@ struct oracle_float oracle_pair(const char *op, int width, number a, number b, n
                                  finite && (isinf(r) || isinf(t))};
 }
 
+/* A VAX number is (-1)^sign 0.1fraction 2^(exponent - bias), its 16-bit words reversed. */
+static struct oracle_float vax(const char *op, int width, number a)
+{
+    int s = width == 32 ? 23 : 52, e = width - 1 - s, bias = 1 << (e - 1), n = 0;
+    number r = 0, plain = 0;
+    if (is(op, "ieee_to_vax")) {
+        double x = oracle_float_value(width, a);
+        double f = isfinite(x) ? frexp(fabs(x), &n) : 0; /* 1/2 <= f < 1 */
+        if (!isfinite(x) || n + bias >= 1 << e)
+            plain = (number)1 << (width - 1);
+        else if (x != 0 && n + bias > 0)
+            plain = (number)signbit(x) * ((number)1 << (width - 1)) | (number)(n + bias) << s |
+                    ((number)ldexp(f, s + 1) & oracle_mask(s));
+        for (int i = 0; i < width / 16; i++)
+            r |= (plain >> (16 * i) & 0xffff) << (width - 16 - 16 * i);
+        return (struct oracle_float){r, 0, !isfinite(x) || n + bias >= 1 << e};
+    }
+    for (int i = 0; i < width / 16; i++)
+        plain |= (a >> (16 * i) & 0xffff) << (width - 16 - 16 * i);
+    bool negative = plain >> (width - 1) & 1;
+    n = (int)(plain >> s & oracle_mask(e));
+    if (n == 0)
+        return (struct oracle_float){negative ? oracle_float_bits(width, (double)NAN) : 0, 0,
+                                     negative};
+    double f = (double)((plain & oracle_mask(s)) | (number)1 << s);
+    double x = ldexp(negative ? -f : f, n - bias - s - 1);
+    return (struct oracle_float){oracle_float_bits(width, x), 0, false};
+}
+
 struct oracle_float oracle_made(const char *op, int width, number a)
 {
     double x = oracle_float_value(width, a);
     int n;
+    if (strstr(op, "vax"))
+        return vax(op, width, a);
     if (!is(op, "f_significand"))
         return result(width, x > 0 ? 1 : x < 0 ? -1 : (long double)x, 0, false);
     if (!isfinite(x) || x == 0)
@@ -137,9 +168,7 @@ struct oracle_result oracle_part(const char *op, int width, number a, int dlen, 
         r = (__int128)ldexp(is_signed ? m : fabs(m), s + 1);
         out.overflow = !isfinite(x);
     } else if (is_signed) { /* exponent */
-        r = x == 0 ? -(((__int128)1) << (dlen - 1)) : isfinite(x) ? n - 1 : 0;
-        if (dlen == 128 && x == 0)
-            r = (__int128)((number)1 << 127);
+        r = x == 0 ? (__int128)(~(number)0 << (dlen - 1)) : isfinite(x) ? n - 1 : 0;
         out.overflow = x == 0 || !isfinite(x);
     } else {
         r = (__int128)((a >> s) & oracle_mask(width - 1 - s));

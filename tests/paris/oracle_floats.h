@@ -18,7 +18,7 @@ struct oracle_float oracle_by_integer(const char *op, int width, number x, numbe
                                       bool is_signed);
 /* mult_add ... subf_mult */
 struct oracle_float oracle_pair(const char *op, int width, number x, number y, number z);
-/* f_signum, signum, f_significand */
+/* f_signum, signum, f_significand, ieee_to_vax, vax_to_ieee */
 struct oracle_float oracle_made(const char *op, int width, number x);
 /* signum, exponent, significand of dlen bits */
 struct oracle_result oracle_part(const char *op, int width, number x, int dlen, bool is_signed);
