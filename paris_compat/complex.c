@@ -14,10 +14,24 @@ static bool type_of(struct paris_complex a, const char *role, struct machine_typ
     return paris_type(a.re, role, type);
 }
 
+/* In either mode that both parts are there: an instruction stores both or none. */
 static bool check(struct paris_complex a, const char *role)
 {
-    return a.re.is_constant ||
-           paris_check_field(a.re.field, 2 * paris_operand_bits(a.re), role);
+    struct machine_field_info info;
+    unsigned int bits = 2 * paris_operand_bits(a.re);
+    if (a.re.is_constant)
+        return true;
+    if (!paris_check_field(a.re.field, bits, role))
+        return false;
+    if (machine_field_lookup(paris_the.machine, a.re.field, &info) &&
+        bits > info.bits - info.offset) {
+        paris_fail(
+            "%s: a complex number of %u bits reaches beyond its field, which has %u from "
+            "here: allocate a longer one",
+            role, bits, info.bits - info.offset);
+        return false;
+    }
+    return true;
 }
 
 static bool check_overlap(struct paris_complex dest, struct paris_complex source)
@@ -205,7 +219,8 @@ void paris_complex_raise(const struct paris_instruction *self, struct paris_comp
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!type_of(dest, "dest", &type) || !check(dest, "dest") || !check_overlap(dest, a))
+    if (!type_of(dest, "dest", &type) || !check(dest, "dest") || !check_overlap(dest, a) ||
+        !paris_check_overlap(paris_b(dest.re.field, 2 * paris_operand_bits(dest.re)), b))
         return;
     struct paris_cvalue z = load(m, a, "source1", self->scope), r, w = nothing;
     struct machine_value *n =

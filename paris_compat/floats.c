@@ -377,6 +377,10 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
     if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
         !paris_check_overlap(dest, a))
         return;
+    if (type.s) {
+        paris_fail("s, e: the VAX's floats are 23, 8 or 52, 11 (got %u, %u)", dest.len, dest.e);
+        return;
+    }
     int w = type.width, s = significand_bits(type), e = w - 1 - s;
     bool to_vax = self->op == PARIS_IEEE_TO_VAX;
     struct machine_value *bits =

@@ -330,7 +330,8 @@ struct paris_block {
 };
 #define PARIS_BLOCK                                                                            \
     ((struct paris_block){offset_vector.ints, start_vector.ints, end_vector.ints,              \
-                          axis_vector.ints, dimension_vector.ints, rank, format, false, false})
+                          axis_vector.ints, dimension_vector.ints, rank, format, false,        \
+                          false})
 void paris_array_write(const struct paris_instruction *self, const void *array,
                        struct paris_block block, struct paris_operand dest);
 void paris_array_read(const struct paris_instruction *self, void *array,

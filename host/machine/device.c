@@ -578,6 +578,9 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
 cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
                                 const char *name)
 {
-    const char *parts[DEVICE_PARTS] = {"", "", "", "", "", text};
+    const char *parts[DEVICE_PARTS];
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        parts[i] = "";
+    parts[DEVICE_PARTS - 1] = text;
     return device_kernel(m, parts, options, name);
 }

@@ -87,7 +87,7 @@ struct emitter {
     int arguments_count, arguments_capacity;
     int inputs, constants_count, names;
     int reach; /* furthest column */
-    bool wide, soft, math, integers, axes_used, failed;
+    bool wide, soft, formats, math, integers, axes_used, failed;
     int ops, loads;
 };
 
@@ -415,10 +415,10 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
         const char *a = in[0].text, *b = in[1].text;
         e->ops++;
         e->wide = e->wide || spell_letter(from) == 'Q';
-        e->soft = e->soft || n->type.s || from.s;
-        bool spelt = spell_soft(expression, sizeof expression, n, from, a, b);
+        enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
+        bool spelt = soft != SPELL_SOFT_NOT;
         if (spelt)
-            e->soft = true;
+            ; /* by that */
         else if (n->op == NODE_SELECT)
             snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
                      in[2].text);
@@ -461,7 +461,9 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
             spell_conversion(expression, sizeof expression, n, from, a);
         }
         if (!spelt)
-            spell_soft_rounding(expression, sizeof expression, n);
+            soft = spell_soft_rounding(expression, sizeof expression, n);
+        e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
+        e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
     }
     int name = variable_add(e, node, row, dx, canonical);
     bool box = !loads && note_box(e, n, row, dx);
@@ -557,6 +559,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->wraps = wraps;
     out->wide = e->wide;
     out->soft = e->soft;
+    out->formats = e->formats;
     out->math = e->math;
     struct text t = {0};
     if (e->integers)

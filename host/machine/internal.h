@@ -408,7 +408,7 @@ struct kernel_text {
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
-    bool wide, soft, wraps, math;
+    bool wide, soft, formats, wraps, math;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
 };
@@ -513,7 +513,7 @@ void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 /* The kernel of that name in a program of these parts, all but the last the same for many; from
  * memory, from disk, or built. Belongs to the device. NULL: error set. */
-enum { DEVICE_PARTS = 6 };
+enum { DEVICE_PARTS = 7 };
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
 /* The same for one that is written by hand, in a text of its own. */

@@ -280,6 +280,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
                                        k.wide ? kernel_wide_cl : "",
                                        k.soft ? kernel_soft_cl : "",
+                                       k.formats ? kernel_formats_cl : "",
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};

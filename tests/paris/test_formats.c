@@ -299,6 +299,8 @@ static void front_end_agrees(void **unused)
     CM_f_write_to_news_array_1L(singles, none, none, all, both, r, 10, 5, 2, all,
                                 CM_float_single);
     assert_true(CM_global_f_max_1L(r, 10, 5) == value(bits_of(singles[MANY - 1])));
+    CM_f_ieee_to_vax_1_1L(r, 10, 5);
+    assert_non_null(strstr(device_message, "VAX's floats are"));
     CM_f_add_2_1L(r, r, 53, 5);
     assert_non_null(strstr(device_message, "significand must be 1..52"));
 }
