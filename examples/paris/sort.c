@@ -6,7 +6,8 @@
  *
  * Bitonic: in round k, blocks of 2^k keys that rise and then fall become blocks that only rise, or only
  * fall: each processor compares its key with that of the processor 2^(k-1) away, then 2^(k-2), ... 1
- * (CM_get_from_power_two), and keeps the lesser or the greater one.  Nobody needs to know an address.
+ * (CM_get_from_power_two), and takes it if it is to have the lesser, or the greater, and has not.  Nobody
+ * needs to know an address.
  *
  * By rank: CM_u_rank_2L gives each processor the place of its key among all; a send takes it there.
  *
@@ -20,41 +21,53 @@
 
 static int counts[1], zero[1], axis[1];
 
-/* other = the key of the processor whose coordinate differs in bit b. */
-void meet (other, key, place, b)
-    CM_field_id_t other, key, place;
+/* test = bit b of the place is 1 */
+void test_bit (place, b)
+    CM_field_id_t place;
     int b;
 {
-    CM_get_from_power_two_1L (other, key, 0, b, CM_upward, KEY);
-    CM_load_context (CM_add_offset_to_field_id (place, b));
-    CM_get_from_power_two_1L (other, key, 0, b, CM_downward, KEY);
-    CM_set_context ();
+    CM_field_id_t bit = CM_allocate_stack_field (KEY);
+
+    CM_logand_constant_3_1L (bit, place, 1 << b, KEY);
+    CM_u_ne_zero_1L (bit, KEY);
+    CM_deallocate_stack_through (bit);
 }
 
-void bitonic (key, bits)
+/* Returns how many pairs were the wrong way round. */
+double bitonic (key, bits)
     CM_field_id_t key;
     int bits;
 {
     CM_field_id_t place = CM_allocate_stack_field (KEY), other = CM_allocate_stack_field (KEY);
-    CM_field_id_t take_greater = CM_allocate_stack_field (1);
+    CM_field_id_t takes_greater = CM_allocate_stack_field (1);
+    double exchanges = 0.0;
     int k, b;
 
     CM_my_news_coordinate_1L (place, 0, KEY);
     for (k = 1; k <= bits; k++)
         for (b = k - 1; b >= 0; b--) {
-            meet (other, key, place, b);
-            /* Blocks whose number is odd fall; the upper one of two takes the greater if it rises. */
-            CM_u_move_zero_1L (take_greater, 1);
-            CM_logxor_2_1L (take_greater, CM_add_offset_to_field_id (place, b), 1);
-            if (k < bits)
-                CM_logxor_2_1L (take_greater, CM_add_offset_to_field_id (place, k), 1);
-            CM_load_context (take_greater);
-            CM_u_max_2_1L (key, other, KEY);
-            CM_invert_context ();
-            CM_u_min_2_1L (key, other, KEY);
+            /* Bit b: the upper one of two.  Bit k: the block is to fall. */
+            CM_get_from_power_two_1L (other, key, 0, b, CM_upward, KEY);
+            test_bit (place, b);
+            CM_store_test (takes_greater);
+            CM_load_context (takes_greater);
+            CM_get_from_power_two_1L (other, key, 0, b, CM_downward, KEY);
+            CM_set_context ();
+            test_bit (place, k);
+            CM_logxor_test (takes_greater);
+            CM_store_test (takes_greater);
+
+            CM_u_ne_1L (key, other, KEY);
+            CM_logand_context_with_test ();
+            CM_u_gt_1L (key, other, KEY);
+            CM_logxor_test (takes_greater);
+            CM_logand_context_with_test ();
+            CM_u_move_1L (key, other, KEY);
+            exchanges += CM_global_count_context () / 2;
             CM_set_context ();
         }
     CM_deallocate_stack_through (place);
+    return exchanges;
 }
 
 void by_rank (key, bits)
@@ -102,7 +115,7 @@ int main (argc, argv)
         CM_u_write_to_news_array_1L (keys, zero, zero, counts, axis, key, KEY, 1, counts,
                                      CM_32_bit);
         if (way == 0)
-            bitonic (key, bits);
+            printf ("%.0f exchanges\n", bitonic (key, bits));
         else
             by_rank (key, bits);
         CM_u_read_from_news_array_1L (sorted, zero, zero, counts, axis, key, KEY, 1, counts,

@@ -680,7 +680,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
     struct machine_value *v = field_content(m, f, offset, type.width);
     if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->set_current)
         v = simplify_under(m, v, m->sets[f->vpset].flags[MACHINE_CONTEXT].value, 12);
-    return machine_reinterpret(m, v, type);
+    v = machine_reinterpret(m, v, type);
+    return v ? graph_borrow(m, v) : NULL; /* a part of the content may outlive it */
 }
 
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
@@ -746,7 +747,7 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
     struct machine_value *v = graph_borrow(m, flag_resolved(m, s, flag));
     if (scope == MACHINE_WHERE_ACTIVE && flag != MACHINE_CONTEXT)
         v = simplify_under(m, v, s->flags[MACHINE_CONTEXT].value, 12);
-    return v;
+    return v ? graph_borrow(m, v) : NULL;
 }
 
 enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,

@@ -573,6 +573,8 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **wante
                                  bool all)
 {
     m->inside++;
+    for (int i = 0; i < count; i++) /* what it is a part of may let go of it */
+        graph_borrow(m, wanted[i]);
     enum machine_status status = evaluate(m, wanted, count, all);
     m->inside--;
     return status;
