@@ -55,6 +55,40 @@ static bool less(bool is_signed, wide a, wide b)
     return is_signed ? (signed_wide)a < (signed_wide)b : a < b;
 }
 
+/* Zero's quotient is 0 and leaves all; the least number over -1 is its own negative. */
+static wide divided(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows)
+{
+    signed_wide x = (signed_wide)a, y = (signed_wide)b;
+    wide q = 0, left = a;
+
+    *overflows = b == 0;
+    if (b && !is_signed) {
+        q = a / b;
+        left = a % b;
+    } else if (b) {
+        q = y == -1 ? -a : (wide)(x / y);
+        signed_wide r = y == -1 ? 0 : x % y;
+        left = (wide)(r && (r < 0) != (y < 0) ? r + y : r);
+    }
+    wide result = op == OP_MOD ? left : q;
+    bool out_of_128 = op == OP_TRUNCATE && is_signed && y == -1 && x < 0 && (signed_wide)q < 0;
+    *overflows = *overflows || out_of_128 || !fits(result, is_signed, bits);
+    return result & wide_mask(bits);
+}
+
+/* One place at a time. */
+static wide shifted(signed_wide a, signed_wide count, int bits, bool *overflows)
+{
+    *overflows = false;
+    for (; count > 0 && a; count--) {
+        *overflows = *overflows || bits < 2 || !fits((wide)a, true, bits - 1);
+        a = wide_signed((wide)a * 2, bits);
+    }
+    for (; count < 0 && a && a != -1; count++)
+        a = a >> 1;
+    return (wide)a & wide_mask(bits);
+}
+
 wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows)
 {
     bool wraps = false;
@@ -74,6 +108,11 @@ wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *
             return number_integer(OP_SUBTRACT, is_signed, 0, a, bits, overflows);
         *overflows = !fits(a, is_signed, bits);
         return a & wide_mask(bits);
+    case OP_TRUNCATE:
+    case OP_MOD:
+        return divided(op, is_signed, a, b, bits, overflows);
+    case OP_SHIFT:
+        return shifted((signed_wide)a, (signed_wide)b, bits, overflows);
     case OP_MIN:
         return (less(is_signed, a, b) ? a : b) & wide_mask(bits);
     case OP_MAX:

@@ -77,6 +77,8 @@ enum op {
     OP_SUBTRACT,
     OP_MULTIPLY,
     OP_DIVIDE,
+    OP_MOD,
+    OP_SHIFT,
     OP_MIN,
     OP_MAX,
     OP_AND,

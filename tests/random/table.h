@@ -50,6 +50,10 @@
     X(CM_##t##_eq_zero_1L, INT_COMPARE_ZERO, N, EQ, 0)                                         \
     X(CM_##t##_gt_zero_1L, INT_COMPARE_ZERO, N, GT, 0)                                         \
     X(CM_##t##_lt_zero_1L, INT_COMPARE_ZERO, N, LT, 0)                                         \
+    X(CM_##t##_truncate_2_1L, INT_2, N, TRUNCATE, 0)                                           \
+    X(CM_##t##_truncate_3_3L, INT_3_3L, N, TRUNCATE, 0)                                        \
+    X(CM_##t##_mod_3_1L, INT_3, N, MOD, 0)                                                     \
+    X(CM_##t##_mod_constant_2_1L, INT_CONSTANT_2, N, MOD, 0)                                   \
     X(CM_f_##t##_float_2_2L, INT_TO_FLOAT, N, CONVERT, 0)                                      \
     X(CM_##t##_f_truncate_2_2L, FLOAT_TO_INT, N, TRUNCATE, 0)                                  \
     X(CM_##t##_f_floor_2_2L, FLOAT_TO_INT, N, FLOOR, 0)                                        \
@@ -77,6 +81,7 @@
     RANDOM_INTEGER_ROWS(X, s, S)                                                               \
     X(CM_s_negate_1_1L, INT_1, S, NEGATE, 0)                                                   \
     X(CM_s_negate_2_1L, INT_MOVE, S, NEGATE, 0)                                                \
+    X(CM_s_s_shift_2_1L, INT_2, S, SHIFT, 0)                                                   \
     X(CM_s_abs_2_1L, INT_MOVE, S, ABS, 0)                                                      \
     X(CM_logand_2_1L, INT_2, B, AND, 0)                                                        \
     X(CM_logand_3_1L, INT_3, B, AND, 0)                                                        \
