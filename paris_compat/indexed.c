@@ -130,10 +130,8 @@ static void indexed_do(struct machine *m, const struct indexed *x, CM_field_id_t
     }
 }
 
-/* The names are macros that fill the last arguments in. */
-void(CM_aref_2L)(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
-                 unsigned int dlen, unsigned int index_len, unsigned int index_limit,
-                 unsigned int element_len, ...)
+void CM_aref_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index, unsigned int dlen,
+                unsigned int index_len, unsigned int index_limit, unsigned int element_len)
 {
     struct machine *m = paris_begin("CM_aref_2L");
     struct indexed x = {dest,      array,
@@ -142,9 +140,9 @@ void(CM_aref_2L)(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
     indexed_do(m, &x, index, false);
 }
 
-void(CM_aset_2L)(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
-                 unsigned int slen, unsigned int index_len, unsigned int index_limit,
-                 unsigned int element_len, ...)
+void CM_aset_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
+                unsigned int slen, unsigned int index_len, unsigned int index_limit,
+                unsigned int element_len)
 {
     struct machine *m = paris_begin("CM_aset_2L");
     struct indexed x = {source,    array,

@@ -214,7 +214,7 @@ static void arrays_are_the_oracles(void **unused)
     device_put(x, 7, index);
     device_put(d, 64, dest);
     device_put(e, 64, dest);
-    CM_aref_2L(d, a, x, LEN, 7, LIMIT);
+    CM_aref_2L(d, a, x, LEN, 7, LIMIT, LEN);
     CM_aref_2L(e, a, x, SHORT, 7, LIMIT, LEN);
     for (int pass = 0; pass < 2; pass++) {
         int len = pass ? SHORT : LEN;
@@ -228,7 +228,7 @@ static void arrays_are_the_oracles(void **unused)
     }
     device_integers(source, 64);
     device_put(d, 64, source);
-    CM_aset_2L(d, a, x, LEN, 7, LIMIT);
+    CM_aset_2L(d, a, x, LEN, 7, LIMIT, LEN);
     CM_aset32_2L(d + 32, a, x, LEN, 3, 8); /* by the index's low bits */
     for (int i = 0; i < COUNT; i++) {
         if (active[i] && index[i] < LIMIT)
