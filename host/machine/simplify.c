@@ -439,7 +439,8 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
         !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation takes two operands of one type, which these are not");
     if (op_is_integer(op))
-        return integer_value(m, op, a, b);
+        return op >= MACHINE_USHIFT && op <= MACHINE_ROTATE ? machine_bits_shift(m, op, a, b)
+                                                            : integer_value(m, op, a, b);
     bool compares = (op >= MACHINE_EQ && op <= MACHINE_SLE) || op >= MACHINE_FEQ;
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
