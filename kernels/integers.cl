@@ -2,8 +2,8 @@
  *
  * Names end in the container: U for 2..32 bits, L for 33..64, Q for 65..128 (after wide.cl, one
  * lane). Operands have their unused high bits 0; so have results of the functions that take a
- * width w, those of the others are cut by the caller. Nothing divides by zero: a quotient by zero
- * is 0, what is left of a division by zero is the dividend; signed numbers are divided as
+ * width w, those of the others are cut by the caller. Nothing divides by zero: a quotient by
+ * zero is 0, what is left of a division by zero is the dividend; signed numbers are divided as
  * magnitudes, so that the least one over -1 is like any other. */
 
 /* Called rather than copied into each place: kernels of many such would compile for seconds. */
@@ -22,7 +22,7 @@ HEAVY VU quotient_U(VU a, VU b)
     VU d = SEL_U(none, (VU)(1), b);
 #if VECTOR == 1
     VU q = a / d;
-#else /* exact: where it is not whole it is further from the next number than a double's rounding */
+#else /* exact: what is not whole is further from the next number than a double is rounded */
     VU q = CONVERT(uint, CONVERT(double, a) / CONVERT(double, d));
 #endif
     return SEL_U(none, (VU)(0), q);

@@ -44,7 +44,8 @@ static struct paris_operand piece(struct paris_operand a, unsigned int offset, u
     return a;
 }
 
-/* What is stored in the piece of dest that begins at bit at. NULL: it is wrong, and that has been said. */
+/* What is stored in the piece of dest that begins at bit at. NULL: it is wrong, and that has
+ * been said. */
 typedef struct machine_value *piece_value(struct machine *m,
                                           const struct paris_instruction *self,
                                           const struct paris_operand *sources,

@@ -5,17 +5,17 @@
  *
  *     dest = index is 0 ? element 0 : index is 1 ? element 1 : ... : dest
  *
- * which is as much work as the machine had, that had no addresses of its own in each processor. The
- * choice is made in parts of CHUNK elements, each evaluated before the next: they are alike, so one
- * small kernel does them all.
+ * which is as much work as the machine had, that had no addresses of its own in each processor.
+ * The choice is made in parts of CHUNK elements, each evaluated before the next: they are
+ * alike, so one small kernel does them all.
  *
- * The original kept arrays for fast access "slicewise", 32 processors together: bit k of a number in
- * the memory of the k-th of them. CM_transpose32 went to and from that layout, and aref32 wanted it.
- * Here aref32 takes arrays as they are and the transposition leaves them so: whoever fills an array
- * by aset32, or by moves and a transposition, finds in it what he put there. A shared array of n
- * elements belongs to 32 physical processors (all, if there are fewer): processor p of them has the
- * elements p, p + 32, p + 64, ... one after the other, which is what transposing moved there. VP k of
- * each shares with VP k of the others. */
+ * The original kept arrays for fast access "slicewise", 32 processors together: bit k of a
+ * number in the memory of the k-th of them. CM_transpose32 went to and from that layout, and
+ * aref32 wanted it. Here aref32 takes arrays as they are and the transposition leaves them so:
+ * whoever fills an array by aset32, or by moves and a transposition, finds in it what he put
+ * there. A shared array of n elements belongs to 32 physical processors (all, if there are
+ * fewer): processor p of them has the elements p, p + 32, p + 64, ... one after the other,
+ * which is what transposing moved there. VP k of each shares with VP k of the others. */
 #include "paris_state.h"
 
 #include <stdlib.h>

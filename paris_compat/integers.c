@@ -1,11 +1,12 @@
 /* Quotients, remainders, powers, shifts and counts of integers: rows of the families integer,
  * integer1, power, shift, rotate.
  *
- * Lengths are as in arithmetic.c: sources are filled to the longest of the lengths, the operation is
- * done there, the result is cut off to dest's. Overflow is 1 where the true result is none of dest's
- * numbers, or there is none (a divisor of zero, the square root of a negative number, zero to a
- * negative power), else 0; it is computed only if somebody looks. What is stored then:
- *     a quotient by zero is 0, and what remains of a division by zero is the dividend
+ * Lengths are as in arithmetic.c: sources are filled to the longest of the lengths, the
+ * operation is done there, the result is cut off to dest's. Overflow is 1 where the true result
+ * is none of dest's numbers, or there is none (a divisor of zero, the square root of a negative
+ * number, zero to a negative power), else 0; it is computed only if somebody looks. What is
+ * stored then:
+ *     a quotient by zero is 0, what remains of a division by zero is the dividend
  *     the square root of a negative number is 0, and so is zero to a negative power
  *     the low bits of the true result, otherwise
  * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1. */

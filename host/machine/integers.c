@@ -1,8 +1,9 @@
-/* integers.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl computes
- * them, and numbers among each other are computed here.
+/* integers.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
+ * computes them, and numbers among each other are computed here.
  *
- * One bit is held otherwise than more are (spell.c), so these operations are done on two where one
- * was given: sign and value are the same there, and the low bit of what comes out is the result. */
+ * One bit is held otherwise than more are (spell.c), so these operations are done on two where
+ * one was given: sign and value are the same there, and the low bit of what comes out is the
+ * result. */
 #include "internal.h"
 
 typedef unsigned __int128 number;

@@ -289,9 +289,10 @@ enum machine_op {
     MACHINE_SLT,
     MACHINE_SLE,
     /* Integers beyond these: integers.c.
-       bits, bits -> bits, all of one width. Quotients are rounded toward zero (DIV), down (FLOOR), up
-       (CEIL), to nearest with halves to even (ROUND); REM has the sign of a, MOD that of b. A
-       quotient by zero is 0, what remains of a by zero is a. POW: modulo 2^width, b unsigned. */
+       bits, bits -> bits, all of one width. Quotients are rounded toward zero (DIV), down
+       (FLOOR), up (CEIL), to nearest with halves to even (ROUND); REM has the sign of a, MOD
+       that of b. A quotient by zero is 0, what remains of a by zero is a. POW: modulo 2^width,
+       b unsigned. */
     MACHINE_UDIV,
     MACHINE_UCEIL,
     MACHINE_UROUND,
@@ -306,8 +307,9 @@ enum machine_op {
     /* bits, bits -> bit: a to the b (b unsigned) is not a number of that width */
     MACHINE_UPOW_BEYOND,
     MACHINE_SPOW_BEYOND,
-    /* bits, and a signed number of 32 bits (-128..128) -> bits: to the left by so many, to the right
-       where it is negative; S keeps the sign. ROTATE: 0 to width - 1 */
+    /* bits, and a signed number of 32 bits (-128..128) -> bits: to the left by so many, to the
+       right where it is negative; S keeps the sign. ROTATE: 0 to width - 1. Made by
+       machine_bits_shift() */
     MACHINE_USHIFT,
     MACHINE_SSHIFT,
     MACHINE_ROTATE,
@@ -371,8 +373,8 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a);
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,
                                      struct machine_value *a, struct machine_value *b);
-/* USHIFT, SSHIFT, ROTATE by a count of any width: signed for shifts (what is beyond the width counts
- * as the width), for ROTATE too, modulo the width. */
+/* USHIFT, SSHIFT, ROTATE by a signed count of any width: what is beyond the value's width counts
+ * as that width, for ROTATE modulo it. */
 struct machine_value *machine_bits_shift(struct machine *m, enum machine_op op,
                                          struct machine_value *a, struct machine_value *count);
 /* condition ? a : b for each processor; a and b have one type. */
@@ -420,8 +422,8 @@ enum machine_status machine_overflow_record_result(struct machine *m,
 enum machine_status machine_overflow_record_value(struct machine *m,
                                                   struct machine_value *overflows);
 
-/* Computes these now, so that what is made of them finds them in memory. Never needed for the right
- * result: a long chain of equal parts becomes one kernel that runs often. */
+/* Computes these now, so that what is made of them finds them in memory. Never needed for the
+ * right result: a long chain of equal parts becomes one kernel that runs often. */
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count);
 
 /* ---- combining, by the router and along axes ---- */

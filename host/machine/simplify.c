@@ -494,7 +494,8 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
         math_fold(op, a->type, a->imm, b->imm, &math))
         return number(m, a->type, soft_rounded_scalar(math, a->type));
     if (op_is_integer(op))
-        return integer_value(m, op, a, b);
+        return op >= MACHINE_USHIFT && op <= MACHINE_ROTATE ? machine_bits_shift(m, op, a, b)
+                                                            : integer_value(m, op, a, b);
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
         fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))

@@ -1,5 +1,5 @@
-/* Moves and logical operations of fields of any length, swapped and reversed ones, and arrays in each
- * processor, against the same done on arrays of bits. */
+/* Moves and logical operations of fields of any length, swapped and reversed ones, and arrays
+ * in each processor, against the same done on arrays of bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static void begin(void)
     CM_deallocate_stack_through(f);
 }
 
-/* Copies first, all at once: a download of other bits than were stored is a kernel of its own. */
+/* Copies first, all at once: a download of other bits than were stored is its own kernel. */
 static void expect(const char *what)
 {
     enum { PIECES = BITS / 100 };

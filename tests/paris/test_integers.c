@@ -1,10 +1,12 @@
-/* The rows of paris_compat/integers.c and bits.c, and arrays in each processor, against the oracle.
+/* The rows of paris_compat/integers.c and bits.c, and arrays in each processor, against the
+ * oracle.
  *
- * Thousands of processors hold pairs of numbers that are special at some width or other: ends, powers
- * of two, divisors of zero and -1. Every case takes the low bits of the same two fields, so cases
- * that differ only in form are one computation, and a kernel does dozens of them. Rows are done at
- * one set of lengths each; some of them at all widths, on VP ratios 1, 2 and 8, whose kernels are
- * the same. The rows of 13 processors make kernels of one lane; vectors have a test of their own. */
+ * Thousands of processors hold pairs of numbers that are special at some width or other: ends,
+ * powers of two, divisors of zero and -1. Every case takes the low bits of the same two fields,
+ * so cases that differ only in form are one computation, and a kernel does dozens of them. Rows
+ * are done at one set of lengths each; some of them at all widths, on VP ratios 1, 2 and 8,
+ * whose kernels are the same. The rows of 13 processors make kernels of one lane; vectors have
+ * a test of their own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
