@@ -13,7 +13,7 @@
  *     edges      fills the halo
  *
  * -DFLAT=1: an index is an address, and both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
- * 64, 1 float or double, 2 pairs of 64; -DOP= as in machine_send(). */
+ * 64, 1 float or double, 2 pairs of 64. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -145,7 +145,7 @@ __kernel void edges(LAYOUT(d), __global ELEMENT *out)
     }
 }
 
-#ifndef OP
+#ifndef KIND
 __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner,
                       const __global ELEMENT *from, const __global ELEMENT *old,
                       __global ELEMENT *out)
@@ -159,39 +159,34 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
 }
 #else
 
-/* AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
+/* op: AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
  * bit, mask: all bits, of the width. */
 #if KIND == 0
-inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
-#if OP == 1
-    return a & b;
-#elif OP == 2
-    return a | b;
-#elif OP == 3
-    return a ^ b;
-#elif OP == 4
-    return (ELEMENT)((a + b) & mask.x);
-#elif OP == 5
-    return a < b ? a : b;
-#elif OP == 6
-    return a > b ? a : b;
-#elif OP == 7
-    return (a ^ sign.x) < (b ^ sign.x) ? a : b;
-#else
-    return (a ^ sign.x) > (b ^ sign.x) ? a : b;
-#endif
+    switch (op) {
+    case 1:
+        return a & b;
+    case 2:
+        return a | b;
+    case 3:
+        return a ^ b;
+    case 4:
+        return (ELEMENT)((a + b) & mask.x);
+    case 5:
+        return a < b ? a : b;
+    case 6:
+        return a > b ? a : b;
+    case 7:
+        return (a ^ sign.x) < (b ^ sign.x) ? a : b;
+    default:
+        return (a ^ sign.x) > (b ^ sign.x) ? a : b;
+    }
 }
 #elif KIND == 1
-inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
-#if OP == 9
-    const ELEMENT c = a + b;
-#elif OP == 10
-    const ELEMENT c = a < b ? a : b;
-#else
-    const ELEMENT c = a > b ? a : b;
-#endif
+    const ELEMENT c = op == 9 ? a + b : op == 10 ? (a < b ? a : b) : (a > b ? a : b);
     return c == c ? c : CANONICAL;
 }
 #else
@@ -201,35 +196,37 @@ inline int less(ulong2 a, ulong2 b, ulong2 sign)
     b ^= sign;
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
-inline ulong2 join(ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
+inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
 {
-#if OP == 1
-    return a & b;
-#elif OP == 2
-    return a | b;
-#elif OP == 3
-    return a ^ b;
-#elif OP == 4
     const ulong low = a.x + b.x;
-    return (ulong2)(low, a.y + b.y + (low < a.x)) & mask;
-#elif OP == 5
-    return less(b, a, (ulong2)(0)) ? b : a;
-#elif OP == 6
-    return less(a, b, (ulong2)(0)) ? b : a;
-#elif OP == 7
-    return less(b, a, sign) ? b : a;
-#else
-    return less(a, b, sign) ? b : a;
-#endif
+    switch (op) {
+    case 1:
+        return a & b;
+    case 2:
+        return a | b;
+    case 3:
+        return a ^ b;
+    case 4:
+        return (ulong2)(low, a.y + b.y + (low < a.x)) & mask;
+    case 5:
+        return less(b, a, (ulong2)(0)) ? b : a;
+    case 6:
+        return less(a, b, (ulong2)(0)) ? b : a;
+    case 7:
+        return less(b, a, sign) ? b : a;
+    default:
+        return less(a, b, sign) ? b : a;
+    }
 }
 #endif
 
 /* What others have is done too, to a place of no use (trash, apart for each work-item): which
  * destinations are its own no processor can foresee. */
-__kernel void combine(LAYOUT(d), LAYOUT(s), uint senders, uint share, uint notifies, uint trash,
-                      ulong sign_low, ulong sign_high, ulong mask_low, ulong mask_high,
-                      const __global uint *restrict to, const __global ELEMENT *restrict from,
-                      __global ELEMENT *restrict out, __global uint *restrict owner)
+__kernel void combine(LAYOUT(d), LAYOUT(s), uint op, uint senders, uint share, uint notifies,
+                      uint trash, ulong sign_low, ulong sign_high, ulong mask_low,
+                      ulong mask_high, const __global uint *restrict to,
+                      const __global ELEMENT *restrict from, __global ELEMENT *restrict out,
+                      __global uint *restrict owner)
 {
     const uint low = get_global_id(0) * share, lost = get_global_id(0) * 64;
     const ulong2 sign = (ulong2)(sign_low, sign_high), mask = (ulong2)(mask_low, mask_high);
@@ -239,7 +236,7 @@ __kernel void combine(LAYOUT(d), LAYOUT(s), uint senders, uint share, uint notif
         if (!trash && !mine)
             continue;
         const size_t at = mine ? PLACE(d, d) : (size_t)trash + lost;
-        out[at] = join(out[at], from[PLACE(s, i)], sign, mask);
+        out[at] = join(op, out[at], from[PLACE(s, i)], sign, mask);
         if (notifies && mine)
             owner[d] = 1;
     }

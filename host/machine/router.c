@@ -71,12 +71,13 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
     return g->context != NULL;
 }
 
+/* element NULL: not asked for. Where elements are moved too a kernel of its own pays for flat sets. */
 static void address_options(char *out, size_t size, const struct message *g,
                             const struct machine_value *element)
 {
     size_t bytes = type_bytes(g->address->type);
-    int n = snprintf(out, size, "-DFLAT=%d -DADDRESS=%s -DLOW=%s", g->flat, call_element(bytes),
-                     bytes == 16 ? ".x" : "");
+    int n = snprintf(out, size, "-DFLAT=%d -DADDRESS=%s -DLOW=%s", g->flat && element,
+                     call_element(bytes), bytes == 16 ? ".x" : "");
     if (element && n > 0)
         snprintf(out + n, size - (size_t)n, " -DELEMENT=%s",
                  call_element(type_bytes(element->type)));
@@ -148,7 +149,7 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
                                    const struct device_buffer *out)
 {
     char options[64];
-    snprintf(options, sizeof options, "-DFLAT=%d -DELEMENT=%s", g->from->rows == 1,
+    snprintf(options, sizeof options, "-DFLAT=0 -DELEMENT=%s",
              call_element(type_bytes(g->source->type)));
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "deliver");
     call_layout(&c, g->to);
@@ -218,18 +219,18 @@ static enum machine_status scatter(struct machine *m, const struct message *g,
     return status ? status : edges(m, g->to, type, out);
 }
 
-static void combine_options(char *out, size_t size, const struct message *g, int op)
+static void combine_options(char *out, size_t size, const struct message *g)
 {
     struct machine_type type = g->source->type;
     size_t bytes = type_bytes(type);
     if (type.kind == MACHINE_FLOAT)
-        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=1 -DCANONICAL=%s -DOP=%d",
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=1 -DCANONICAL=%s",
                  type.width == 32 ? "float" : "double",
-                 type.width == 32 ? "as_float(0x7fc00000u)" : "as_double(0x7ff8000000000000UL)",
-                 op);
+                 type.width == 32 ? "as_float(0x7fc00000u)"
+                                  : "as_double(0x7ff8000000000000UL)");
     else
-        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=%d -DOP=%d", call_element(bytes),
-                 bytes == 16 ? 2 : 0, op);
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=%d", call_element(bytes),
+                 bytes == 16 ? 2 : 0);
 }
 
 /* out already holds the old dest. */
@@ -239,12 +240,13 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
                                    const struct device_buffer *owner, bool notifies)
 {
     char options[160];
-    combine_options(options, sizeof options, g, op);
+    combine_options(options, sizeof options, g);
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "combine");
     size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
     int width = type.width;
     call_layout(&c, g->to);
     call_layout(&c, g->from);
+    call_uint(&c, (uint64_t)op);
     call_uint(&c, g->from->count);
     call_uint(&c, share);
     call_uint(&c, notifies);
