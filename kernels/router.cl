@@ -4,6 +4,7 @@
  * begin and end with `halo` columns which repeat the other end.
  *
  *     claim      owner[d] = 1 + the highest index that sends to d
+ *     scatter    dest[d] = source of the last that sends to d; for few work-items
  *     deliver    dest[d] = source of its owner, or old[d]
  *     route      to[i] = the processor that i sends to
  *     combine    each work-item has some of the destinations, and passes all senders in order
@@ -11,8 +12,8 @@
  *     arrived    1 where there is an owner
  *     edges      fills the halo
  *
- * -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
- * 64, 1 float or double, 2 pairs of 64; -DOP= as in machine_send(). */
+ * -DFLAT=1: an index is an address, and both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
+ * 64, 1 float or double, 2 pairs of 64. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -24,13 +25,16 @@
 
 inline size_t place(uint n, uint width, uint pitch, uint halo)
 {
+#if FLAT
+    return (size_t)n + halo;
+#endif
     return n < width ? n + halo : (size_t)(n / width) * pitch + halo + n % width;
 }
 #define PLACE(s, n) place(n, s##_width, s##_pitch, s##_halo)
 
 inline uint index_of(uint a, ORDER)
 {
-    if (!send && ratio > 1) {
+    if (!FLAT && !send && ratio > 1) {
         const uint processor = a / ratio;
         if (processor >> plog2)
             return NOBODY;
@@ -44,20 +48,12 @@ inline uint index_of(uint a, ORDER)
                end = min(begin + run, s##_width);                                              \
     const size_t first = (size_t)row * s##_pitch + s##_halo
 
-/* Column x of a row, and where it is repeated. */
-#define PUT(s, p, x, v)                                                                        \
-    do {                                                                                       \
-        p[first + x] = v;                                                                      \
-        if (x < s##_halo)                                                                      \
-            p[first + x + s##_width] = v;                                                      \
-        if (x + s##_halo >= s##_width)                                                         \
-            p[first + x - s##_width] = v;                                                      \
-    } while (0)
-
 #ifdef ADDRESS
 #define ADDRESS_OF(a) ((uint)(a)LOW)
 
-__kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all,
+/* First everybody writes; then whoever finds a lower index there than his own puts that right. Where
+ * nobody collides no atomic operation is done. */
+__kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second,
                     const __global ADDRESS *address, const __global uchar *context,
                     volatile __global uint *owner)
 {
@@ -68,7 +64,11 @@ __kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all,
             continue;
         const uint d =
             index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
-        if (d < NOBODY && owner[d] < i)
+        if (d >= NOBODY)
+            continue;
+        if (!second)
+            owner[d] = i;
+        else if (owner[d] < i)
             atomic_max(&owner[d], i);
     }
 }
@@ -86,16 +86,39 @@ __kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
 }
 
 #ifdef ELEMENT
+/* out holds the old dest. Each work-item has a share of the destinations and passes all senders in order;
+ * what is for others it puts to no use (trash, apart for each): no processor could foresee which. */
+__kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint all, uint share,
+                      uint notifies, uint trash, const __global ADDRESS *restrict address,
+                      const __global uchar *restrict context,
+                      const __global ELEMENT *restrict from, __global ELEMENT *restrict out,
+                      __global uint *restrict owner)
+{
+    const uint low = get_global_id(0) * share;
+    const size_t lost = (size_t)trash + get_global_id(0) * 64;
+    for (uint row = 0; row < rows; row++) {
+        const size_t first = (size_t)row * s_pitch + s_halo;
+        for (uint x = 0; x < s_width; x++) {
+            const uint d =
+                index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+            const int mine = (d - low < share) & (d < NOBODY) & (all || context[first + x]);
+            out[mine ? PLACE(d, d) : lost] = from[first + x];
+            if (notifies && mine)
+                owner[d] = 1;
+        }
+    }
+}
+
 __kernel void fetch(LAYOUT(s), uint run, uint mask, ORDER, LAYOUT(f),
-                    const __global ADDRESS *address, const __global ELEMENT *from,
-                    __global ELEMENT *out)
+                    const __global ADDRESS *address, const __global ELEMENT *restrict from,
+                    __global ELEMENT *restrict out)
 {
     COLUMNS(s);
     for (uint x = begin; x < end; x++) {
         const uint d =
             index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
         const ELEMENT v = d < NOBODY ? from[PLACE(f, d)] : (ELEMENT)(0);
-        PUT(s, out, x, v);
+        out[first + x] = v;
     }
 }
 #endif
@@ -106,23 +129,23 @@ __kernel void arrived(LAYOUT(d), uint run, const __global uint *owner, __global 
     COLUMNS(d);
     for (uint x = begin; x < end; x++) {
         const uchar v = owner[row * d_width + x] != 0;
-        PUT(d, out, x, v);
+        out[first + x] = v;
     }
 }
 #endif
 
 #if defined(ELEMENT) && !defined(ADDRESS)
-__kernel void edges(LAYOUT(d), uint run, __global ELEMENT *out)
+/* A work-item for each row. */
+__kernel void edges(LAYOUT(d), __global ELEMENT *out)
 {
-    COLUMNS(d);
-    for (uint x = begin; x < end; x++)
-        if (x < d_halo || x + d_halo >= d_width) {
-            const ELEMENT v = out[first + x];
-            PUT(d, out, x, v);
-        }
+    const size_t first = (size_t)get_global_id(1) * d_pitch + d_halo;
+    for (uint x = 0; x < d_halo; x++) {
+        out[first + d_width + x] = out[first + x];
+        out[first - d_halo + x] = out[first + d_width - d_halo + x];
+    }
 }
 
-#ifndef OP
+#ifndef KIND
 __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner,
                       const __global ELEMENT *from, const __global ELEMENT *old,
                       __global ELEMENT *out)
@@ -131,44 +154,39 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
     for (uint x = begin; x < end; x++) {
         const uint o = owner[row * d_width + x];
         const ELEMENT v = o ? from[PLACE(s, o - 1)] : old[first + x];
-        PUT(d, out, x, v);
+        out[first + x] = v;
     }
 }
 #else
 
-/* AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
+/* op: AND, OR, XOR, ADD, UMIN, UMAX, SMIN, SMAX, FADD, FMIN, FMAX are 1 .. 11. sign: the highest
  * bit, mask: all bits, of the width. */
 #if KIND == 0
-inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
-#if OP == 1
-    return a & b;
-#elif OP == 2
-    return a | b;
-#elif OP == 3
-    return a ^ b;
-#elif OP == 4
-    return (ELEMENT)((a + b) & mask.x);
-#elif OP == 5
-    return a < b ? a : b;
-#elif OP == 6
-    return a > b ? a : b;
-#elif OP == 7
-    return (a ^ sign.x) < (b ^ sign.x) ? a : b;
-#else
-    return (a ^ sign.x) > (b ^ sign.x) ? a : b;
-#endif
+    switch (op) {
+    case 1:
+        return a & b;
+    case 2:
+        return a | b;
+    case 3:
+        return a ^ b;
+    case 4:
+        return (ELEMENT)((a + b) & mask.x);
+    case 5:
+        return a < b ? a : b;
+    case 6:
+        return a > b ? a : b;
+    case 7:
+        return (a ^ sign.x) < (b ^ sign.x) ? a : b;
+    default:
+        return (a ^ sign.x) > (b ^ sign.x) ? a : b;
+    }
 }
 #elif KIND == 1
-inline ELEMENT join(ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
+inline ELEMENT join(uint op, ELEMENT a, ELEMENT b, ulong2 sign, ulong2 mask)
 {
-#if OP == 9
-    const ELEMENT c = a + b;
-#elif OP == 10
-    const ELEMENT c = a < b ? a : b;
-#else
-    const ELEMENT c = a > b ? a : b;
-#endif
+    const ELEMENT c = op == 9 ? a + b : op == 10 ? (a < b ? a : b) : (a > b ? a : b);
     return c == c ? c : CANONICAL;
 }
 #else
@@ -178,42 +196,49 @@ inline int less(ulong2 a, ulong2 b, ulong2 sign)
     b ^= sign;
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
-inline ulong2 join(ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
+inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
 {
-#if OP == 1
-    return a & b;
-#elif OP == 2
-    return a | b;
-#elif OP == 3
-    return a ^ b;
-#elif OP == 4
     const ulong low = a.x + b.x;
-    return (ulong2)(low, a.y + b.y + (low < a.x)) & mask;
-#elif OP == 5
-    return less(b, a, (ulong2)(0)) ? b : a;
-#elif OP == 6
-    return less(a, b, (ulong2)(0)) ? b : a;
-#elif OP == 7
-    return less(b, a, sign) ? b : a;
-#else
-    return less(a, b, sign) ? b : a;
-#endif
+    switch (op) {
+    case 1:
+        return a & b;
+    case 2:
+        return a | b;
+    case 3:
+        return a ^ b;
+    case 4:
+        return (ulong2)(low, a.y + b.y + (low < a.x)) & mask;
+    case 5:
+        return less(b, a, (ulong2)(0)) ? b : a;
+    case 6:
+        return less(a, b, (ulong2)(0)) ? b : a;
+    case 7:
+        return less(b, a, sign) ? b : a;
+    default:
+        return less(a, b, sign) ? b : a;
+    }
 }
 #endif
 
-__kernel void combine(LAYOUT(d), LAYOUT(s), uint senders, uint share, ulong sign_low,
-                      ulong sign_high, ulong mask_low, ulong mask_high, const __global uint *to,
-                      const __global ELEMENT *from, __global ELEMENT *out, __global uint *owner)
+/* What others have is done too, to a place of no use (trash, apart for each work-item): which
+ * destinations are its own no processor can foresee. */
+__kernel void combine(LAYOUT(d), LAYOUT(s), uint op, uint senders, uint share, uint notifies,
+                      uint trash, ulong sign_low, ulong sign_high, ulong mask_low,
+                      ulong mask_high, const __global uint *restrict to,
+                      const __global ELEMENT *restrict from, __global ELEMENT *restrict out,
+                      __global uint *restrict owner)
 {
-    const uint low = get_global_id(0) * share;
+    const uint low = get_global_id(0) * share, lost = get_global_id(0) * 64;
     const ulong2 sign = (ulong2)(sign_low, sign_high), mask = (ulong2)(mask_low, mask_high);
     for (uint i = 0; i < senders; i++) {
         const uint d = to[i];
-        if (d - low >= share || d >= NOBODY)
+        const int mine = d - low < share && d < NOBODY;
+        if (!trash && !mine)
             continue;
-        const size_t at = PLACE(d, d);
-        out[at] = join(out[at], from[PLACE(s, i)], sign, mask);
-        owner[d] = 1;
+        const size_t at = mine ? PLACE(d, d) : (size_t)trash + lost;
+        out[at] = join(op, out[at], from[PLACE(s, i)], sign, mask);
+        if (notifies && mine)
+            owner[d] = 1;
     }
 }
 #endif

@@ -1,12 +1,12 @@
 /* router.c - messages to other processors: see kernels/router.cl.
  *
- * A send without a combiner is two passes: each sender claims its destination with an atomic
- * maximum of indices, then each destination fetches its owner's message; so it costs about what a
- * scatter and a gather do, and collisions end the same way on every device.
+ * With a combiner, or on a device of few compute units, the destinations are shared out among as many
+ * work-items as it has units (on a GPU some thousands), and each passes over all senders in order: no
+ * atomics, any type, and float sums have one order.
  *
- * With a combiner the destinations are shared out among a few work-items, and each passes over all
- * senders in order: no atomics, any type, and float sums have one order. Work-items are as many as the
- * device has compute units, on a GPU some thousands. */
+ * Else a send is three passes: each sender writes its index to its destination; those that find a lower
+ * one there put it right with an atomic maximum; each destination fetches its owner's message. So
+ * collisions end the same way on every device. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -15,13 +15,14 @@
 #include "call.h"
 #include "kernels.h"
 
-enum { GPU_SHARES = 4096, NO_PROCESSOR = -2 };
+enum { GPU_SHARES = 4096, SCATTER_UNITS = 8, NO_PROCESSOR = -2 };
 
 struct message {
     const struct vpset *from, *to;
     int from_set, to_set;
     struct machine_value *address, *source, *old, *context;
-    bool all; /* the context is 1 everywhere */
+    bool flat; /* see -DFLAT */
+    bool all;  /* the context is 1 everywhere */
     uint32_t mask;
 };
 
@@ -62,18 +63,21 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         g->context = observe_materialise(m, g->from_set, g->context);
     g->from = &m->sets[g->from_set];
     g->to = &m->sets[to_set];
+    g->flat = g->from->rows == 1 && g->to->rows == 1 &&
+              (g->to->order == MACHINE_SEND_ORDER || g->to->ratio == 1);
     int bits = machine_address_bits(m, to_set), width = address->type.width;
     bits = bits < width ? bits : width;
     g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
     return g->context != NULL;
 }
 
+/* element NULL: not asked for. Where elements are moved too a kernel of its own pays for flat sets. */
 static void address_options(char *out, size_t size, const struct message *g,
                             const struct machine_value *element)
 {
     size_t bytes = type_bytes(g->address->type);
-    int n = snprintf(out, size, "-DADDRESS=%s -DLOW=%s", call_element(bytes),
-                     bytes == 16 ? ".x" : "");
+    int n = snprintf(out, size, "-DFLAT=%d -DADDRESS=%s -DLOW=%s", g->flat && element,
+                     call_element(bytes), bytes == 16 ? ".x" : "");
     if (element && n > 0)
         snprintf(out + n, size - (size_t)n, " -DELEMENT=%s",
                  call_element(type_bytes(element->type)));
@@ -90,20 +94,29 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
     if (!b)
         return NULL;
     address_options(options, sizeof options, g, NULL);
-    struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
     cl_uint zero = 0;
-    if (claims && c.kernel)
-        c.error = clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero, 0, bytes, 0,
-                                      NULL, NULL);
-    call_layout(&c, g->from);
-    call_uint(&c, call_run(m));
-    call_uint(&c, g->mask);
-    call_order(&c, m, g->to);
-    call_uint(&c, g->all);
-    call_buffer(&c, g->address->buffer);
-    call_buffer(&c, g->context->buffer);
-    call_buffer(&c, b);
-    if (call_over(&c, m, g->from, "sending")) {
+    enum machine_status status = MACHINE_OK;
+    if (claims)
+        status = device_check(m,
+                              clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero,
+                                                  0, bytes, 0, NULL, NULL),
+                              "sending");
+    for (uint64_t pass = claims && !m->device.is_cpu; pass < (claims ? 2 : 1) && !status;
+         pass++) {
+        struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
+        call_layout(&c, g->from);
+        call_uint(&c, call_run(m));
+        call_uint(&c, g->mask);
+        call_order(&c, m, g->to);
+        call_uint(&c, g->all);
+        if (claims)
+            call_uint(&c, pass);
+        call_buffer(&c, g->address->buffer);
+        call_buffer(&c, g->context->buffer);
+        call_buffer(&c, b);
+        status = call_over(&c, m, g->from, "sending");
+    }
+    if (status) {
         device_buffer_unref(m, b);
         return NULL;
     }
@@ -117,12 +130,26 @@ static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
     return device_buffer_get(m, observe_buffer_bytes(s, type));
 }
 
+/* The columns that repeat the other end. */
+static enum machine_status edges(struct machine *m, const struct vpset *s,
+                                 struct machine_type type, const struct device_buffer *out)
+{
+    char options[64];
+    if (!s->halo)
+        return MACHINE_OK;
+    snprintf(options, sizeof options, "-DFLAT=0 -DELEMENT=%s", call_element(type_bytes(type)));
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "edges");
+    call_layout(&c, s);
+    call_buffer(&c, out);
+    return call_start(&c, m, 1, (size_t)s->rows, "sending");
+}
+
 static enum machine_status deliver(struct machine *m, const struct message *g,
                                    const struct device_buffer *owner,
                                    const struct device_buffer *out)
 {
     char options[64];
-    snprintf(options, sizeof options, "-DELEMENT=%s",
+    snprintf(options, sizeof options, "-DFLAT=0 -DELEMENT=%s",
              call_element(type_bytes(g->source->type)));
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "deliver");
     call_layout(&c, g->to);
@@ -132,39 +159,11 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
     call_buffer(&c, g->source->buffer);
     call_buffer(&c, g->old->buffer);
     call_buffer(&c, out);
-    return call_over(&c, m, g->to, "sending");
+    enum machine_status status = call_over(&c, m, g->to, "sending");
+    return status ? status : edges(m, g->to, g->source->type, out);
 }
 
-static void combine_options(char *out, size_t size, struct machine_type type, int op)
-{
-    size_t bytes = type_bytes(type);
-    if (type.kind == MACHINE_FLOAT && type.width == 32)
-        snprintf(out, size,
-                 "-DELEMENT=float -DKIND=1 -DCANONICAL=as_float(0x7fc00000u) -DOP=%d", op);
-    else if (type.kind == MACHINE_FLOAT)
-        snprintf(
-            out, size,
-            "-DELEMENT=double -DKIND=1 -DCANONICAL=as_double(0x7ff8000000000000UL) -DOP=%d",
-            op);
-    else
-        snprintf(out, size, "-DELEMENT=%s -DKIND=%d -DOP=%d", call_element(bytes),
-                 bytes == 16 ? 2 : 0, op);
-}
-
-static enum machine_status edges(struct machine *m, const struct vpset *s,
-                                 struct machine_type type, const struct device_buffer *out)
-{
-    char options[64];
-    if (!s->halo)
-        return MACHINE_OK;
-    snprintf(options, sizeof options, "-DELEMENT=%s", call_element(type_bytes(type)));
-    struct kernel_call c = call_begin(m, kernel_router_cl, options, "edges");
-    call_layout(&c, s);
-    call_uint(&c, call_run(m));
-    call_buffer(&c, out);
-    return call_over(&c, m, s, "sending");
-}
-
+/* Work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
     cl_uint units = 1;
@@ -173,25 +172,85 @@ static size_t shares(const struct machine *m, const struct vpset *to)
     return count < to->count ? count : (size_t)to->count;
 }
 
+static bool scatters(const struct machine *m)
+{
+    cl_uint units = 1;
+    const char *forced = getenv("LUTETIA_SCATTER");
+    if (forced && *forced)
+        return *forced != '0';
+    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    return m->device.is_cpu && units <= SCATTER_UNITS;
+}
+
+static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
+{
+    cl_uint zero = 0;
+    return device_check(m,
+                        clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero, 0,
+                                            b->bytes, 0, NULL, NULL),
+                        "sending");
+}
+
+/* out already holds the old dest. */
+static enum machine_status scatter(struct machine *m, const struct message *g,
+                                   const struct device_buffer *out,
+                                   const struct device_buffer *owner, bool notifies)
+{
+    char options[128];
+    struct machine_type type = g->source->type;
+    size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
+    address_options(options, sizeof options, g, g->source);
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "scatter");
+    call_layout(&c, g->from);
+    call_uint(&c, g->from->rows);
+    call_uint(&c, g->mask);
+    call_order(&c, m, g->to);
+    call_layout(&c, g->to);
+    call_uint(&c, g->all);
+    call_uint(&c, share);
+    call_uint(&c, notifies);
+    call_uint(&c, observe_buffer_bytes(g->to, type) / type_bytes(type));
+    call_buffer(&c, g->address->buffer);
+    call_buffer(&c, g->context->buffer);
+    call_buffer(&c, g->source->buffer);
+    call_buffer(&c, out);
+    call_buffer(&c, owner);
+    enum machine_status status = call_start(&c, m, count, 1, "sending");
+    return status ? status : edges(m, g->to, type, out);
+}
+
+static void combine_options(char *out, size_t size, const struct message *g)
+{
+    struct machine_type type = g->source->type;
+    size_t bytes = type_bytes(type);
+    if (type.kind == MACHINE_FLOAT)
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=1 -DCANONICAL=%s",
+                 type.width == 32 ? "float" : "double",
+                 type.width == 32 ? "as_float(0x7fc00000u)"
+                                  : "as_double(0x7ff8000000000000UL)");
+    else
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=%d", call_element(bytes),
+                 bytes == 16 ? 2 : 0);
+}
+
 /* out already holds the old dest. */
 static enum machine_status combine(struct machine *m, const struct message *g, int op,
                                    const struct device_buffer *to, struct machine_type type,
                                    const struct device_buffer *out,
-                                   const struct device_buffer *owner)
+                                   const struct device_buffer *owner, bool notifies)
 {
     char options[160];
-    combine_options(options, sizeof options, type, op);
+    combine_options(options, sizeof options, g);
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "combine");
-    cl_uint zero = 0;
-    if (c.kernel)
-        c.error = clEnqueueFillBuffer(m->device.queue, owner->mem, &zero, sizeof zero, 0,
-                                      g->to->count * sizeof zero, 0, NULL, NULL);
     size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
     int width = type.width;
     call_layout(&c, g->to);
     call_layout(&c, g->from);
+    call_uint(&c, (uint64_t)op);
     call_uint(&c, g->from->count);
     call_uint(&c, share);
+    call_uint(&c, notifies);
+    call_uint(&c, m->device.is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
     call_ulong(&c, width <= 64 ? UINT64_C(1) << (width - 1) : 0);
     call_ulong(&c, width > 64 ? UINT64_C(1) << (width - 65) : 0);
     call_ulong(&c, width < 64 ? (UINT64_C(1) << width) - 1 : UINT64_MAX);
@@ -213,12 +272,12 @@ static struct machine_value *arrivals(struct machine *m, const struct message *g
     struct device_buffer *b = fresh(m, g->to, MACHINE_BIT);
     if (!b)
         return NULL;
-    struct kernel_call c = call_begin(m, kernel_router_cl, "", "arrived");
+    struct kernel_call c = call_begin(m, kernel_router_cl, "-DFLAT=0", "arrived");
     call_layout(&c, g->to);
     call_uint(&c, call_run(m));
     call_buffer(&c, owner);
     call_buffer(&c, b);
-    if (call_over(&c, m, g->to, "sending")) {
+    if (call_over(&c, m, g->to, "sending") || edges(m, g->to, MACHINE_BIT, b)) {
         device_buffer_unref(m, b);
         return NULL;
     }
@@ -230,21 +289,29 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
                                       struct machine_value **notification)
 {
     struct machine_type type = g->source->type;
-    struct device_buffer *out = fresh(m, g->to, type), *owner = NULL, *to = NULL;
+    bool combines = combiner != MACHINE_COMBINE_OVERWRITE, in_order = combines || scatters(m);
+    size_t bytes = observe_buffer_bytes(g->to, type);
+    size_t trash = in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0;
+    struct device_buffer *out = device_buffer_get(m, bytes + trash), *owner = NULL, *to = NULL;
     enum machine_status status = out ? MACHINE_OK : m->status;
-    if (!status && combiner == MACHINE_COMBINE_OVERWRITE) {
-        owner = addresses_pass(m, g, "claim");
-        status = owner ? deliver(m, g, owner, out) : m->status;
-    } else if (!status) {
-        to = addresses_pass(m, g, "route");
-        owner = to ? device_buffer_get(m, g->to->count * sizeof(cl_uint)) : NULL;
+    if (!status && in_order) {
+        owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);
         status = owner ? device_check(m,
-                                      clEnqueueCopyBuffer(
-                                          m->device.queue, g->old->buffer->mem, out->mem, 0, 0,
-                                          observe_buffer_bytes(g->to, type), 0, NULL, NULL),
+                                      clEnqueueCopyBuffer(m->device.queue, g->old->buffer->mem,
+                                                          out->mem, 0, 0, bytes, 0, NULL, NULL),
                                       "sending")
                        : m->status;
-        status = status ? status : combine(m, g, (int)combiner, to, type, out, owner);
+        if (!status && notifies)
+            status = zero_fill(m, owner);
+    }
+    if (!status && combines) {
+        to = addresses_pass(m, g, "route");
+        status = to ? combine(m, g, (int)combiner, to, type, out, owner, notifies) : m->status;
+    } else if (!status && in_order) {
+        status = scatter(m, g, out, owner, notifies);
+    } else if (!status) {
+        owner = addresses_pass(m, g, "claim");
+        status = owner ? deliver(m, g, owner, out) : m->status;
     }
     if (!status && notifies) {
         *notification = arrivals(m, g, owner);
@@ -337,7 +404,7 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
     call_buffer(&c, g->address->buffer);
     call_buffer(&c, g->source->buffer);
     call_buffer(&c, out);
-    if (call_over(&c, m, g->from, "getting")) {
+    if (call_over(&c, m, g->from, "getting") || edges(m, g->from, type, out)) {
         device_buffer_unref(m, out);
         return NULL;
     }
