@@ -17,9 +17,18 @@
 #include "oracle_soft.h"
 
 typedef long double complex number_c;
+
+/* Keeps the signs of zeros, as re + im * I does not. */
+static number_c complex_of(long double re, long double im)
+{
+    union {
+        long double parts[2];
+        number_c whole;
+    } z = {{re, im}};
+    return z.whole;
+}
+
 typedef void (*unary_call)(CM_field_id_t, CM_field_id_t, unsigned int, unsigned int);
-typedef void (*binary_call)(CM_field_id_t, CM_field_id_t, CM_field_id_t, unsigned int,
-                            unsigned int);
 
 enum { SIDE = 48, MANY = SIDE * SIDE, SPECIALS = 16 };
 
@@ -81,7 +90,7 @@ static void samples_make(struct format f)
 
 static number_c of_parts(const double *p, int n)
 {
-    return CMPLXL(p[2 * n], p[2 * n + 1]);
+    return complex_of(p[2 * n], p[2 * n + 1]);
 }
 
 /* ---- fields ---- */
@@ -185,11 +194,11 @@ static number_c minus(number_c z)
 }
 static number_c reciprocal(number_c z)
 {
-    return z == 0 ? CMPLXL(NAN, NAN) : 1 / z;
+    return z == 0 ? complex_of(NAN, NAN) : 1 / z;
 }
 static number_c direction(number_c z)
 {
-    return z == 0 ? z : CMPLXL(creall(z) / cabsl(z), cimagl(z) / cabsl(z));
+    return z == 0 ? z : complex_of(creall(z) / cabsl(z), cimagl(z) / cabsl(z));
 }
 static number_c itself(number_c z)
 {
@@ -307,7 +316,7 @@ static void powers_agree(struct format f)
                          : k == 2 ? -2
                          : k == 3 ? 3
                                   : creall(b);
-            number_c wanted = k == 5 ? CMPLXL(cosl(creall(b)), sinl(creall(b)))
+            number_c wanted = k == 5 ? complex_of(cosl(creall(b)), sinl(creall(b)))
                               : k == 1 || k == 2 || k == 3 ? whole_power(a, (int)creall(c))
                                                            : cpowl(a, c);
             long double size = cabsl(wanted);
