@@ -306,7 +306,8 @@ static inline struct machine_scalar soft_rounded_scalar(struct machine_scalar x,
 }
 static inline int node_cost(int op, struct machine_type type)
 {
-    return node_ops[op].cost + (type.s && node_ops[op].inputs && op != NODE_SELECT ? 30 : 0);
+    bool rounds = type.s && node_ops[op].inputs && op != NODE_SELECT;
+    return node_ops[op].cost + (rounds ? type.s <= 24 && type.e <= 9 ? 8 : 40 : 0);
 }
 
 /* simplify.c */

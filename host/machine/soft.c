@@ -83,7 +83,10 @@ struct machine_value *soft_unpacked(struct machine *m, struct machine_value *bit
     if (bits->op == NODE_CONSTANT)
         return machine_constant(
             m, type, (struct machine_scalar){soft_unpack(bits->imm.lo, type.s, type.e), 0});
-    if (bits->op == NODE_PACK && !bits->buffer && type_equal(bits->in[0]->type, type))
+    /* What is in a buffer may have been brought there by something that does not round, such as
+     * an upload. */
+    if (bits->op == NODE_PACK && !bits->buffer && type_equal(bits->in[0]->type, type) &&
+        bits->in[0]->op != NODE_BUFFER)
         return bits->in[0];
     return node(m, NODE_UNPACK, type, bits);
 }

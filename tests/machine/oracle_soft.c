@@ -195,7 +195,7 @@ uint64_t oracle_soft_sample(struct soft_format f, uint64_t which)
                               infinite,
                               infinite | 1,
                               oracle_soft_nan(f),
-                              one + (1 << f.s),
+                              one + (UINT64_C(1) << f.s),
                               one ^ 3,
                               infinite - 1 - ones};
     switch (r % 4) {

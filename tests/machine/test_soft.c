@@ -282,6 +282,11 @@ static void doubles_go_in_and_out(void **unused)
     machine_begin(m);
     uint32_t field = machine_field_allocate(m, set, 16, MACHINE_HEAP);
     assert_ok(machine_field_upload(m, field, type, in), m);
+    assert_ok(machine_field_download(m, field, type, out), m);
+    for (int i = 0; i < 6; i++) {
+        double wanted = oracle_soft_value(f, oracle_soft_of(f, in[i]));
+        assert_memory_equal(&out[i], &wanted, sizeof wanted);
+    }
     assert_ok(
         machine_field_write(m, field, type, 1, (struct machine_scalar){0x4000000000000001, 0}),
         m); /* a little over 2 */
