@@ -14,7 +14,7 @@
 
 #include "kernels.h"
 
-enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 8192, LANES = 16 };
+enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
 /* As in kernels/scan.cl. */
 enum { COPY, ADD, MULTIPLY, MIN, OR, XOR };
 enum { JOINS, FINISHES, FILLS };
