@@ -18,7 +18,7 @@ size_t machine_element_bytes(struct machine_type type)
 
 static size_t buffer_bytes(const struct vpset *s, struct machine_type type)
 {
-    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
+    return set_bytes(s, type_bytes(type));
 }
 
 static double wait_begin(struct machine *m)

@@ -451,6 +451,7 @@ static void ranks_are_the_oracles(void **unused)
     static const struct scan_case cases[] = {
         {.letter = 'u', .width = 32, .direction = CM_upward, .smode = CM_none},
         {.letter = 'u', .width = 9, .direction = CM_downward, .smode = CM_segment_bit},
+        {.letter = 'u', .width = 1, .direction = CM_downward, .smode = CM_none},
         {.letter = 's', .width = 50, .direction = CM_upward, .smode = CM_start_bit},
         {.letter = 's', .width = 128, .direction = CM_downward, .smode = CM_none},
         {.letter = 'f', .width = 32, .direction = CM_upward, .smode = CM_segment_bit},
@@ -460,7 +461,7 @@ static void ranks_are_the_oracles(void **unused)
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 3; turn++) {
             set_masks(&s, turn, 4 + (int)below(20));
-            for (int i = 0; i < (turn == 1 ? 2 : 6); i++)
+            for (int i = 0; i < (turn == 1 ? 3 : 7); i++)
                 try_rank(&s, cases[i]);
         }
         set_free(&s);
