@@ -16,9 +16,9 @@ size_t machine_element_bytes(struct machine_type type)
     return type_bytes(type);
 }
 
-static size_t buffer_bytes(const struct vpset *s, struct machine_type type)
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
 {
-    return set_bytes(s, type_bytes(type));
+    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
 }
 
 static double wait_begin(struct machine *m)
@@ -45,7 +45,7 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
                                           const void *in)
 {
     const struct vpset *s = &m->sets[set];
-    size_t element = type_bytes(type), bytes = buffer_bytes(s, type);
+    size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
     unsigned char *image = calloc(1, bytes);
     struct device_buffer *b = image ? device_buffer_get(m, bytes) : NULL;
     if (!b) {
@@ -90,42 +90,27 @@ static void cut_scalar(struct machine_scalar *x, int width)
         x->hi &= (UINT64_C(1) << (width - 64)) - 1;
 }
 
-/* One number for all, in a buffer: the device writes it. */
-static struct machine_value *fill(struct machine *m, int set, struct machine_value *v)
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
-    size_t element = type_bytes(v->type), bytes = buffer_bytes(&m->sets[set], v->type);
-    unsigned char pattern[16];
-    struct device_buffer *b = device_buffer_get(m, bytes);
-    if (!b)
-        return NULL;
-    put_scalar(pattern, v->imm, element);
-    cl_int error =
-        clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes, 0, NULL, NULL);
-    if (device_check(m, error, "filling a field")) {
-        device_buffer_unref(m, b);
-        return NULL;
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        size_t element = type_bytes(v->type),
+               bytes = observe_buffer_bytes(&m->sets[set], v->type);
+        unsigned char pattern[16];
+        struct device_buffer *b = device_buffer_get(m, bytes);
+        if (!b)
+            return NULL;
+        put_scalar(pattern, v->imm, element);
+        cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes,
+                                           0, NULL, NULL);
+        if (device_check(m, error, "filling a field")) {
+            device_buffer_unref(m, b);
+            return NULL;
+        }
+        return graph_buffer_node(m, v->type, set, b);
     }
-    return graph_buffer_node(m, v->type, set, b);
-}
-
-bool values_materialise(struct machine *m, int set, struct machine_value **values, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (values[i]->op == NODE_CONSTANT && !values[i]->buffer)
-            values[i] = fill(m, set, values[i]);
-        if (!values[i])
-            return false;
-    }
-    for (int i = 0; i < count; i++)
-        if (!values[i]->buffer)
-            return run_evaluate(m, values, count, false) == MACHINE_OK;
-    return true;
-}
-
-/* The value with its numbers in a buffer of the VP set. NULL: error set. */
-static struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
-{
-    return values_materialise(m, set, &v, 1) ? v : NULL;
+    if (!v->buffer && run_evaluate(m, &v, 1, false))
+        return NULL;
+    return v;
 }
 
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
@@ -157,7 +142,7 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
             put_scalar((unsigned char *)out + i * element, v->imm, element);
         return MACHINE_OK;
     }
-    v = materialise(m, f->vpset, v);
+    v = observe_materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
@@ -226,7 +211,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
         *out = v->imm;
         return MACHINE_OK;
     }
-    v = materialise(m, f->vpset, v);
+    v = observe_materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
@@ -243,7 +228,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 /* A buffer of the same content that nobody else looks at. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
-    size_t bytes = buffer_bytes(&m->sets[set], v->type);
+    size_t bytes = observe_buffer_bytes(&m->sets[set], v->type);
     struct device_buffer *b = device_buffer_get(m, bytes);
     if (!b)
         return NULL;
@@ -269,7 +254,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
-    v = v ? materialise(m, f->vpset, v) : NULL;
+    v = v ? observe_materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
     /* In place where this field alone holds the buffer: the slot's reference, and those of this
@@ -490,7 +475,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_value *none = machine_constant(m, type, identity);
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
     value = value && none ? machine_select(m, context, value, none) : NULL;
-    value = value ? materialise(m, m->set_current, value) : NULL;
+    value = value ? observe_materialise(m, m->set_current, value) : NULL;
     if (!value || reduce_buffer(m, s, value, info->op, identity, out))
         return m->status;
     if (info->is_signed) {
