@@ -140,40 +140,47 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
 
 #if PART == 0
 #define PLAIN(combine)                                                                         \
-    EACH_ELEMENT                                                                               \
-    {                                                                                          \
-        HERE const V old = acc;                                                                \
+    for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
+        const V old = acc;                                                                     \
         acc = combine(acc, TAKE(V, LOAD(in, at)));                                             \
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
-/* Who takes part, and before whom a segment begins: where the element `back` before has a 1. */
+/* Who takes part, and before whom a segment begins: where the element `back` before has a 1 (at
+ * element 0 it does not matter). What there is none of is read at 0 and passed over, and choices
+ * between whole numbers are made with masks: branches are slower. */
+#if LANES == 1 && KIND == 0
+#define CHOOSE(m, a, b) (((a) & (V)(-(MASK)(m))) | ((b) & ~(V)(-(MASK)(m))))
+#else
+#define CHOOSE SEL
+#endif
 #define BITS(p, i) (M_OF(LOAD(p, i)) != (M)0)
 #define FLAGS                                                                                  \
-    const M active = masked ? BITS(context, at) : (M)0 == (M)0;                                \
-    M begins = (M)0;                                                                           \
-    if (segmented && (k > 0 || !back))                                                         \
-        begins = BITS(bits, at - (size_t)back);                                                \
-    if (starts)                                                                                \
-        begins &= active;                                                                      \
-    const U fresh = U_OF(begins) & U_OF(first == (U)NEVER);                                    \
-    first = (first & ~fresh) | ((U)((uint)k) & fresh);                                         \
-    acc = SEL(begins, none, acc);
+    const M active = BITS(context, at & context_mask) | everyone;                              \
+    const M begins =                                                                           \
+        BITS(bits, (at - (size_t)back) & bits_mask) & somewhere & (active | anywhere);         \
+    first = MIN_U(first, (U)((uint)k) | (~U_OF(begins) & (U)NEVER));                           \
+    acc = CHOOSE(begins, none, acc);                                                           \
+    back = whole_back;
+#if LANES == 1
+#define MIN_U(a, b) ((a) < (b) ? (a) : (b))
+#else
+#define MIN_U(a, b) min(a, b)
+#endif
 #define FLAGGED(combine)                                                                       \
-    EACH_ELEMENT                                                                               \
-    {                                                                                          \
-        HERE FLAGS const V old = acc, next = combine(acc, TAKE(V, LOAD(in, at)));              \
-        acc = SEL(active, next, acc);                                                          \
+    for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
+        FLAGS const V old = acc, own = TAKE(V, LOAD(in, at));                                  \
+        acc = combine(acc, CHOOSE(active, own, none));                                         \
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
 /* The first element of a segment that takes part. */
 #define COPIED                                                                                 \
-    EACH_ELEMENT                                                                               \
-    {                                                                                          \
-        HERE FLAGS has &= begins == (M)0;                                                      \
-        const V old = acc;                                                                     \
-        acc = SEL(active & (has == (M)0), LOAD(in, at), acc);                                  \
+    for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
+        FLAGS has &= begins == (M)0;                                                           \
+        const V old = acc, own = LOAD(in, at);                                                 \
+        const M takes = active & (has == (M)0);                                                \
+        acc = CHOOSE(takes, own, acc);                                                         \
         has |= active;                                                                         \
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, shown);                                                                 \
@@ -187,7 +194,13 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
                    __global uint *firsts)
 {
     PLACE(LANES)
-    const long back = backward ? step : 0;
+    const long whole_back = backward ? step : 0;
+    long back = begin ? whole_back : 0;
+    size_t at = row + (size_t)column + (size_t)((long)begin * step);
+    const size_t context_mask = masked ? ~(size_t)0 : 0, bits_mask = segmented ? ~(size_t)0 : 0;
+    const M yes = (M)0 == (M)0, no = (M)0;
+    const M everyone = masked ? no : yes, somewhere = segmented ? yes : no,
+            anywhere = starts ? no : yes;
     const V none = (V)(identity);
     V acc = none;
     U first = (U)NEVER;
@@ -201,10 +214,10 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
     REPEAT_ALONG(begin, end)
     REPEAT_ACROSS(LANES, end)
     if (keep) {
-        const size_t at =
+        const size_t mine =
             (line * get_global_size(0) + get_global_id(0)) * (size_t)columns + (size_t)column;
-        STORE(totals, at, acc);
-        STORE(firsts, at, first | (U_OF(has != (M)0) & (U)HAS));
+        STORE(totals, mine, acc);
+        STORE(firsts, mine, first | (U_OF(has != (M)0) & (U)HAS));
     }
 }
 

@@ -468,6 +468,18 @@ COMPLEX_SHAPES = {"cbinary": cbinary, "cunary": cunary, "ccompare": ccompare, "c
                   "cpart": cpart, "cangle": cangle, "cfrontend": cfrontend}
 # ---- along axes ----
 
+NOTES = {"Scans, spreads, reductions, ranks": """\
+Inactive processors neither take part nor change; overflow stays as it is. A *scan* gives each active processor the
+combination of those from the beginning of its segment to itself (`CM_inclusive`) or before it (`CM_exclusive`: the
+operation's identity in the first), along the axis, `CM_upward` or `CM_downward`. `CM_none`: a line is one segment.
+`CM_start_bit`: one begins where an active processor's sbit is 1, in the direction of the scan. `CM_segment_bit`: a
+1, in an inactive processor too, marks the segment's processor of least coordinate, in both directions. A *spread*
+gives all active processors on a line the combination of them all, a *multispread* all that differ only on the axes
+of the mask (bit 0: axis 0), a *reduction* the one with to_coordinate, if it is active. *Ranks* with segments are
+absolute: the segment's first coordinate plus the rank in it. dest may be the source. Floats are added and multiplied
+in a fixed order: one after the other in runs of 512 processors, and then these results, as machine.h says in full.
+"""}
+
 SCAN = [(LEN, n) for n in ("direction", "inclusion", "smode")] + [(FIELD, "sbit")]
 SCAN_ARGS = ["direction, inclusion, smode, sbit"]
 
@@ -989,12 +1001,13 @@ def reference(sections):
            "Generated from `paris_compat/instructions.tab`. Context: an instruction changes dest, test and overflow "
            "only in active processors; `always` forms change dest in all. `constant` is spelt `const` too.", ""]
     for title, rows in sections:
-        out += [f"## {title}", ""]
+        out += [f"## {title}", ""] + ([NOTES[title]] if title in NOTES else [])
         for cells, functions in rows:
             if cells[0] == "call":
                 out.append(f"- `{cells[1]}`: {cells[2]}")
                 continue
             name = cells[2] if cells[2] != "-" else cells[0]
+            name = f"scan, spread, multispread, reduce with {name}" if cells[0] == "combine" else name
             note = " Sets overflow." if "overflow" in cells[4].split() else ""
             out += ["", f"### {name}", "", f"{cells[5]}.{note}", ""]
             out += [f"- `{prototype(f)}`" for f in functions if "_const_" not in f.name]

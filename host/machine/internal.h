@@ -429,8 +429,11 @@ void run_init(struct machine *m);
 void run_finish(struct machine *m);
 
 /* observe.c */
-/* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
-bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
+/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
+ * everywhere the same). Does not wait. NULL: error set. */
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
+/* Of a buffer for one value of that type. */
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
 
 /* scan.c */
 /* Lines of elements in a buffer: see kernels/scan.cl. */
@@ -461,7 +464,8 @@ bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
 struct machine_value *in_memory(struct machine_value *v);
 /* Bits in the order of the floats; NaNs become nan. */
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
-size_t set_bytes(const struct vpset *s, size_t element);
+/* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
+bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
 int device_units(const struct machine *m);
 struct kernel_arguments {
     cl_kernel kernel;

@@ -90,41 +90,27 @@ static void cut_scalar(struct machine_scalar *x, int width)
         x->hi &= (UINT64_C(1) << (width - 64)) - 1;
 }
 
-/* One number for all, in a buffer: the device writes it. */
-static struct machine_value *fill(struct machine *m, int set, struct machine_value *v)
-{
-    size_t element = type_bytes(v->type), bytes = observe_buffer_bytes(&m->sets[set], v->type);
-    unsigned char pattern[16];
-    struct device_buffer *b = device_buffer_get(m, bytes);
-    if (!b)
-        return NULL;
-    put_scalar(pattern, v->imm, element);
-    cl_int error =
-        clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes, 0, NULL, NULL);
-    if (device_check(m, error, "filling a field")) {
-        device_buffer_unref(m, b);
-        return NULL;
-    }
-    return graph_buffer_node(m, v->type, set, b);
-}
-
-bool values_materialise(struct machine *m, int set, struct machine_value **values, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (values[i]->op == NODE_CONSTANT && !values[i]->buffer)
-            values[i] = fill(m, set, values[i]);
-        if (!values[i])
-            return false;
-    }
-    for (int i = 0; i < count; i++)
-        if (!values[i]->buffer)
-            return run_evaluate(m, values, count, false) == MACHINE_OK;
-    return true;
-}
-
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
-    return values_materialise(m, set, &v, 1) ? v : NULL;
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        size_t element = type_bytes(v->type),
+               bytes = observe_buffer_bytes(&m->sets[set], v->type);
+        unsigned char pattern[16];
+        struct device_buffer *b = device_buffer_get(m, bytes);
+        if (!b)
+            return NULL;
+        put_scalar(pattern, v->imm, element);
+        cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes,
+                                           0, NULL, NULL);
+        if (device_check(m, error, "filling a field")) {
+            device_buffer_unref(m, b);
+            return NULL;
+        }
+        return graph_buffer_node(m, v->type, set, b);
+    }
+    if (!v->buffer && run_evaluate(m, &v, 1, false))
+        return NULL;
+    return v;
 }
 
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,

@@ -213,7 +213,7 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
     size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
     struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
     const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
-                             set_bytes(s, 4)};
+                             observe_buffer_bytes(s, MACHINE_UINT(32))};
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < 4 && !status; i++)
         if (!(*all[i] = device_buffer_get(m, bytes[i])))

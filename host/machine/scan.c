@@ -14,7 +14,7 @@
 
 #include "kernels.h"
 
-enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 8192, LANES = 16 };
+enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
 /* As in kernels/scan.cl. */
 enum { COPY, ADD, MULTIPLY, MIN, OR, XOR };
 enum { JOINS, FINISHES, FILLS };
@@ -33,9 +33,22 @@ static const struct element elements[] = {
 
 /* ---- lines and launches ---- */
 
-size_t set_bytes(const struct vpset *s, size_t element)
+bool values_materialise(struct machine *m, int set, struct machine_value **values, int count)
 {
-    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * element;
+    for (int i = 0; i < count; i++)
+        if (values[i]->op == NODE_CONSTANT &&
+            !(values[i] = observe_materialise(m, set, values[i])))
+            return false;
+    for (int i = 0; i < count; i++)
+        if (!values[i]->buffer)
+            return run_evaluate(m, values, count, false) == MACHINE_OK;
+    return true;
+}
+
+static struct device_buffer *buffer_for(struct machine *m, const struct element *e)
+{
+    const struct vpset *s = &m->sets[m->set_current];
+    return device_buffer_get(m, observe_buffer_bytes(s, MACHINE_UINT(8 * (int)e->bytes)));
 }
 
 struct lines lines_of(const struct vpset *s, int axis, bool downward)
@@ -510,7 +523,7 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
     if (!values[0] || !values_materialise(m, m->set_current, values, count))
         return NULL;
     s = &m->sets[m->set_current];
-    struct device_buffer *out = device_buffer_get(m, set_bytes(s, f.element->bytes));
+    struct device_buffer *out = buffer_for(m, f.element);
     if (!out)
         return NULL;
     struct lines l = lines_of(s, how->axis, how->downward);
@@ -569,7 +582,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_combiner co
         struct lines l = lines_of(s, axis, false);
         struct device_buffer *in = out;
         struct device_buffer *sums = device_buffer_get(m, lines_count(&l) * f.element->bytes);
-        out = sums ? device_buffer_get(m, set_bytes(s, f.element->bytes)) : NULL;
+        out = sums ? buffer_for(m, f.element) : NULL;
         struct line_scan j = {.element = f.element,
                               .op = f.op,
                               .identity = f.identity,
@@ -604,8 +617,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
     struct machine_value *v = formed(m, MACHINE_COMBINE_COPY, value, &f);
     if (!v || !values_materialise(m, m->set_current, &v, 1))
         return NULL;
-    const struct vpset *s = &m->sets[m->set_current];
-    struct device_buffer *out = device_buffer_get(m, set_bytes(s, f.element->bytes));
+    struct device_buffer *out = buffer_for(m, f.element);
     if (!out)
         return NULL;
     if (fill_lines(m, l, f.element, v->buffer, from, out)) {

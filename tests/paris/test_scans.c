@@ -302,15 +302,18 @@ static void every_operation_is_the_oracles(void **unused)
     for (int k = 0; k < 4; k++) {
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 4; turn++) {
-            set_masks(&s, (turn + k) % 3, 3 + (int)below(9));
+            set_masks(&s, k == 0 && turn == 3 ? 1 : 2 * (turn / 2), 3 + (int)below(9));
             for (int r = 0; r < ROWS_COUNT; r++) {
                 int form = (r + turn) % 4;
                 try_row(&s, &rows[r], SCAN, widths[r][turn % 2]);
                 try_row(&s, &rows[r], SCAN, widths[r][turn % 2]);
-                try_row(&s, &rows[r], form == REDUCE && r % 3 ? SPREAD : form,
-                        widths[r][turn % 2]);
+                try_row(&s, &rows[r], form == REDUCE ? SPREAD : form, widths[r][turn % 2]);
             }
         }
+        for (int r = 0; r < ROWS_COUNT; r++) /* all in the same elements */
+            if (rows[r].letter != 'f')
+                try_row(&s, &rows[r], REDUCE, 17 + r);
+        try_row(&s, &rows[9], REDUCE, 64);
         set_free(&s);
     }
 }
@@ -323,12 +326,12 @@ static void any_rank_of_geometry_is_the_oracles(void **unused)
         int rank, dimensions[SCAN_AXES_MAX];
     } shapes[] = {
         {1, {301}}, {2, {19, 33}}, {4, {3, 4, 2, 18}}, {5, {2, 3, 1, 5, 20}}, {3, {5, 30, 3}}};
-    static const int some[] = {3, 9, 13}; /* s_add, f_add, copy */
+    static const int some[] = {3, 13}; /* s_add, copy */
     for (int k = 0; k < 5; k++) {
         struct set s = set_new(shapes[k].rank, shapes[k].dimensions);
         for (int turn = 0; turn < 6; turn++) {
             set_masks(&s, turn % 2 ? 2 : 0, 5);
-            for (int i = 0; i < 3; i++)
+            for (int i = 0; i < 2; i++)
                 try_row(&s, &rows[some[i]], turn % 3 == 2 ? SPREAD : SCAN, 32);
         }
         set_free(&s);
@@ -448,6 +451,7 @@ static void ranks_are_the_oracles(void **unused)
     static const struct scan_case cases[] = {
         {.letter = 'u', .width = 32, .direction = CM_upward, .smode = CM_none},
         {.letter = 'u', .width = 9, .direction = CM_downward, .smode = CM_segment_bit},
+        {.letter = 'u', .width = 1, .direction = CM_downward, .smode = CM_none},
         {.letter = 's', .width = 50, .direction = CM_upward, .smode = CM_start_bit},
         {.letter = 's', .width = 128, .direction = CM_downward, .smode = CM_none},
         {.letter = 'f', .width = 32, .direction = CM_upward, .smode = CM_segment_bit},
@@ -457,7 +461,7 @@ static void ranks_are_the_oracles(void **unused)
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 3; turn++) {
             set_masks(&s, turn, 4 + (int)below(20));
-            for (int i = 0; i < (turn == 1 ? 2 : 6); i++)
+            for (int i = 0; i < (turn == 1 ? 3 : 7); i++)
                 try_rank(&s, cases[i]);
         }
         set_free(&s);
