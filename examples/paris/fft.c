@@ -104,7 +104,7 @@ int main (argc, argv)
     double *given[2], *got[2], worst = 0.0, back = 0.0, d;
     CM_field_id_t value;
 
-    bits = argc > 1 ? atoi (argv[1]) : 16;
+    bits = argc > 1 ? atoi (argv[1]) : 14;
     if (bits < 1 || bits > 24) {
         fprintf (stderr, "usage: fft [bits], for 2^bits samples, bits from 1 to 24\n");
         return 2;
