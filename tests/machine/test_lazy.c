@@ -244,9 +244,45 @@ static void finish_leaves_nothing_to_compute(void **state)
     free(out);
 }
 
+/* A value that was read is good until the next instruction, even if the content that it was a part
+ * of is computed in between. */
+static void value_outlives_the_content_it_is_a_part_of(void **state)
+{
+    struct sheet s;
+    const struct machine_type word = MACHINE_UINT(32);
+    uint32_t *water = malloc(COUNT * sizeof *water), *out = malloc(COUNT * sizeof *out);
+
+    (void)state;
+    assert_true(water && out);
+    sheet_open(&s, 0);
+    look(&s, water);
+    machine_begin(s.m);
+    struct machine_value *some = machine_binary(
+        s.m, MACHINE_ULT, support_value(s.m, s.water, word), constant(s.m, 1u << 31));
+    assert_ok(machine_flag_store(s.m, MACHINE_CONTEXT, some, MACHINE_EVERYWHERE), s.m);
+    machine_begin(s.m);
+    store(
+        &s, s.flow,
+        machine_binary(s.m, MACHINE_MUL, support_value(s.m, s.water, word), constant(s.m, 9)));
+
+    struct machine_value *product =
+        machine_field_value(s.m, s.flow, word, MACHINE_WHERE_ACTIVE);
+    assert_ok(machine_flush(s.m), s.m);
+    for (uint64_t i = 0; i < 8; i++) /* takes the memory that a node gave back */
+        machine_binary(s.m, MACHINE_XOR, support_value(s.m, s.water, word), constant(s.m, i));
+    store(&s, s.scratch, product);
+    assert_ok(machine_field_download(s.m, s.scratch, word, out), s.m);
+    for (int i = 0; i < COUNT; i++)
+        assert_int_equal(out[i], water[i] < 1u << 31 ? water[i] * 9 : 0);
+    machine_destroy(s.m);
+    free(water);
+    free(out);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(value_outlives_the_content_it_is_a_part_of),
         cmocka_unit_test(unobserved_values_are_never_computed),
         cmocka_unit_test(repeated_step_builds_nothing_new),
         cmocka_unit_test(unobserved_steps_stay_bounded),
