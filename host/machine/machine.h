@@ -308,20 +308,20 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
 
 /* ---- along axes: scans, spreads, ranks ---- */
 
-enum machine_combiner {
-    MACHINE_COMBINE_COPY, /* the first; any type */
-    MACHINE_COMBINE_AND,
-    MACHINE_COMBINE_OR,
-    MACHINE_COMBINE_XOR,
-    MACHINE_COMBINE_ADD, /* modulo 2^width */
-    MACHINE_COMBINE_UMIN,
-    MACHINE_COMBINE_UMAX,
-    MACHINE_COMBINE_SMIN,
-    MACHINE_COMBINE_SMAX,
-    MACHINE_COMBINE_FADD,
-    MACHINE_COMBINE_FMUL,
-    MACHINE_COMBINE_FMIN, /* pass over NaNs; -0 is less than 0 */
-    MACHINE_COMBINE_FMAX
+enum machine_scan_op {
+    MACHINE_SCAN_COPY, /* the first; any type */
+    MACHINE_SCAN_AND,
+    MACHINE_SCAN_OR,
+    MACHINE_SCAN_XOR,
+    MACHINE_SCAN_ADD, /* modulo 2^width */
+    MACHINE_SCAN_UMIN,
+    MACHINE_SCAN_UMAX,
+    MACHINE_SCAN_SMIN,
+    MACHINE_SCAN_SMAX,
+    MACHINE_SCAN_FADD,
+    MACHINE_SCAN_FMUL,
+    MACHINE_SCAN_FMIN, /* pass over NaNs; -0 is less than 0 */
+    MACHINE_SCAN_FMAX
 };
 enum machine_segments {
     MACHINE_UNSEGMENTED,
@@ -330,7 +330,7 @@ enum machine_segments {
                            with the least coordinate, in both directions */
 };
 struct machine_scan {
-    enum machine_combiner combiner;
+    enum machine_scan_op op;
     int axis;
     bool downward;  /* from the greatest coordinate to the least */
     bool exclusive; /* without the processor's own */
@@ -350,7 +350,7 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 /* In each processor, the combination of all active ones that differ from it only on the axes of
  * the mask (bit 0: axis 0). The order is that of a scan up the greatest axis of the mask, then
  * of these results along the next, and so on. Not COPY. */
-struct machine_value *machine_spread(struct machine *m, enum machine_combiner combiner,
+struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
                                      uint32_t axes, struct machine_value *value);
 /* In each processor, the value of the one on its line along the axis with that coordinate, active
  * or not. The value is taken EVERYWHERE. */
