@@ -490,7 +490,7 @@ def combine(types, name, op, flags, doc):
         L = length_names("f" if floats else T, "len")
         lens = lengths("f" if floats else T, "len")
         letter = "f" if floats else T
-        row = "MACHINE_COMBINE_" + machine_op(op, T).removeprefix("MACHINE_")
+        row = "MACHINE_SCAN_" + machine_op(op, T).removeprefix("MACHINE_")
         d, a = operand(letter, "dest", *L), operand(letter, "source", *L)
         parts = "2" if T == "c" else "1"
 

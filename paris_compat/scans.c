@@ -113,7 +113,7 @@ void paris_scan(const struct paris_instruction *self, int parts, struct paris_op
                 unsigned int inclusion, unsigned int smode, CM_field_id_t sbit)
 {
     struct machine *m = paris_begin(self->name);
-    struct machine_scan how = {.combiner = self->op};
+    struct machine_scan how = {.op = self->op};
     struct pieces p;
     if (!scan_load(m, axis, direction, inclusion, smode, sbit, &how) ||
         !pieces_begin(&p, parts, dest, source))
@@ -130,7 +130,7 @@ static struct machine_value *spread(struct machine *m, const struct paris_instru
                                     struct paris_operand source, unsigned int axis,
                                     unsigned int coordinate)
 {
-    bool copies = self->op == MACHINE_COMBINE_COPY;
+    bool copies = self->op == MACHINE_SCAN_COPY;
     struct machine_value *v =
         paris_load(m, source, "source", copies ? MACHINE_EVERYWHERE : MACHINE_WHERE_ACTIVE);
     if (!v)
@@ -228,7 +228,7 @@ static void enumerate(const char *name, CM_field_id_t dest, unsigned int axis, u
                       CM_field_id_t sbit)
 {
     struct machine *m = paris_begin(name);
-    struct machine_scan how = {.combiner = MACHINE_COMBINE_ADD};
+    struct machine_scan how = {.op = MACHINE_SCAN_ADD};
     struct machine_type type;
     if (!scan_load(m, axis, direction, inclusion, smode, sbit, &how) ||
         !paris_type(paris_u(dest, len), "dest", &type))

@@ -426,10 +426,10 @@ enum machine_status machine_overflow_record_value(struct machine *m,
  * right result: a long chain of equal parts becomes one kernel that runs often. */
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count);
 
-/* ---- combining, by the router and along axes ---- */
+/* ---- the router ---- */
 
 enum machine_combiner {
-    MACHINE_COMBINE_OVERWRITE, /* the router: the last one; any type */
+    MACHINE_COMBINE_OVERWRITE, /* the last one; any type */
     MACHINE_COMBINE_AND,
     MACHINE_COMBINE_OR,
     MACHINE_COMBINE_XOR,
@@ -439,14 +439,9 @@ enum machine_combiner {
     MACHINE_COMBINE_SMIN,
     MACHINE_COMBINE_SMAX,
     MACHINE_COMBINE_FADD,
-    MACHINE_COMBINE_FMIN, /* along axes: pass over NaNs; -0 is less than 0 */
-    MACHINE_COMBINE_FMAX,
-    MACHINE_COMBINE_FMUL, /* along axes */
-    MACHINE_COMBINE_COPY  /* along axes: the first one; any type */
+    MACHINE_COMBINE_FMIN,
+    MACHINE_COMBINE_FMAX
 };
-
-/* ---- the router ---- */
-
 /* Each active processor of the current VP set sends source to dest in the processor at the send
  * address; dest may be in another VP set, whose context does not matter. As if one sender after the
  * other, in the order of their row-major indices, did dest = combine (dest, its source) there, with
@@ -469,6 +464,21 @@ enum machine_status machine_addresses_check(struct machine *m,
 
 /* ---- along axes: scans, spreads, ranks ---- */
 
+enum machine_scan_op {
+    MACHINE_SCAN_COPY, /* the first; any type */
+    MACHINE_SCAN_AND,
+    MACHINE_SCAN_OR,
+    MACHINE_SCAN_XOR,
+    MACHINE_SCAN_ADD, /* modulo 2^width */
+    MACHINE_SCAN_UMIN,
+    MACHINE_SCAN_UMAX,
+    MACHINE_SCAN_SMIN,
+    MACHINE_SCAN_SMAX,
+    MACHINE_SCAN_FADD,
+    MACHINE_SCAN_FMUL,
+    MACHINE_SCAN_FMIN, /* pass over NaNs; -0 is less than 0 */
+    MACHINE_SCAN_FMAX
+};
 enum machine_segments {
     MACHINE_UNSEGMENTED,
     MACHINE_START_BIT,  /* where an active processor has a 1, in the scan's direction */
@@ -476,7 +486,7 @@ enum machine_segments {
                            with the least coordinate, in both directions */
 };
 struct machine_scan {
-    enum machine_combiner combiner;
+    enum machine_scan_op op;
     int axis;
     bool downward;  /* from the greatest coordinate to the least */
     bool exclusive; /* without the processor's own */
@@ -496,7 +506,7 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 /* In each processor, the combination of all active ones that differ from it only on the axes of
  * the mask (bit 0: axis 0). The order is that of a scan up the greatest axis of the mask, then
  * of these results along the next, and so on. Not COPY. */
-struct machine_value *machine_spread(struct machine *m, enum machine_combiner combiner,
+struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
                                      uint32_t axes, struct machine_value *value);
 /* In each processor, the value of the one on its line along the axis with that coordinate, active
  * or not. The value is taken EVERYWHERE. */

@@ -85,8 +85,7 @@ static bool words_of(struct machine *m, const struct machine_scan *how,
     struct machine_value *everyone =
         machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0});
     if (how->segments != MACHINE_UNSEGMENTED) {
-        struct machine_scan number = {
-            .combiner = MACHINE_COMBINE_ADD, .axis = how->axis, .bits = NULL};
+        struct machine_scan number = {.op = MACHINE_SCAN_ADD, .axis = how->axis, .bits = NULL};
         struct machine_value *begins = scan_boundaries(m, how);
         struct machine_value *segment =
             begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone)

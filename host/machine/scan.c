@@ -372,25 +372,24 @@ struct machine_value *in_memory(struct machine_value *v)
     return v->op == NODE_REINTERPRET && !v->buffer && v->in[0]->buffer ? v->in[0] : v;
 }
 
-static bool combiner_fits(enum machine_combiner c, struct machine_type type)
+static bool op_fits(enum machine_scan_op c, struct machine_type type)
 {
-    if (c == MACHINE_COMBINE_COPY)
+    if (c == MACHINE_SCAN_COPY)
         return true;
-    return c != MACHINE_COMBINE_OVERWRITE &&
-           (c >= MACHINE_COMBINE_FADD) == (type.kind == MACHINE_FLOAT);
+    return (c >= MACHINE_SCAN_FADD) == (type.kind == MACHINE_FLOAT);
 }
 
 /* The value as the kernels take it, without regard to who takes part. */
-static struct machine_value *formed(struct machine *m, enum machine_combiner c,
+static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
                                     struct machine_value *v, struct form *f)
 {
     *f = (struct form){.type = v->type, .width = v->type.width};
     if (v->type.kind == MACHINE_FLOAT && !(v = native_float(m, v)))
         return NULL;
-    if (c == MACHINE_COMBINE_FADD || c == MACHINE_COMBINE_FMUL) {
+    if (c == MACHINE_SCAN_FADD || c == MACHINE_SCAN_FMUL) {
         bool single = f->width == 32;
         f->element = &elements[single ? FLOAT32 : FLOAT64];
-        f->op = c == MACHINE_COMBINE_FADD ? ADD : MULTIPLY;
+        f->op = c == MACHINE_SCAN_FADD ? ADD : MULTIPLY;
         if (f->op == MULTIPLY)
             f->identity.lo = single ? 0x3f800000u : 0x3ff0000000000000u;
         return v ? in_memory(v) : NULL;
@@ -399,46 +398,45 @@ static struct machine_value *formed(struct machine *m, enum machine_combiner c,
     f->cut = ones(f->width);
     struct machine_scalar all = ones(f->width), sign = sign_of(f->width);
     switch (c) {
-    case MACHINE_COMBINE_FMIN:
-    case MACHINE_COMBINE_FMAX:
+    case MACHINE_SCAN_FMIN:
+    case MACHINE_SCAN_FMAX:
         /* infinity of the one sign in its order, of the other in the reverse order: the same */
         f->ordered_floats = true;
         f->op = MIN;
         f->identity.lo = f->width == 32 ? 0xff800000u : 0xfff0000000000000u;
-        if (c == MACHINE_COMBINE_FMAX)
+        if (c == MACHINE_SCAN_FMAX)
             f->flip = all;
         v = float_order(m, v, (f->identity.lo ^ f->flip.lo) & all.lo);
         break;
-    case MACHINE_COMBINE_AND:
+    case MACHINE_SCAN_AND:
         f->op = OR;
         f->flip = all;
         break;
-    case MACHINE_COMBINE_OR:
+    case MACHINE_SCAN_OR:
         f->op = OR;
         break;
-    case MACHINE_COMBINE_XOR:
+    case MACHINE_SCAN_XOR:
         f->op = XOR;
         break;
-    case MACHINE_COMBINE_ADD:
+    case MACHINE_SCAN_ADD:
         f->op = ADD;
         break;
-    case MACHINE_COMBINE_UMIN:
-    case MACHINE_COMBINE_UMAX:
-    case MACHINE_COMBINE_SMIN:
-    case MACHINE_COMBINE_SMAX:
+    case MACHINE_SCAN_UMIN:
+    case MACHINE_SCAN_UMAX:
+    case MACHINE_SCAN_SMIN:
+    case MACHINE_SCAN_SMAX:
         f->op = MIN;
         f->identity = all;
-        if (c == MACHINE_COMBINE_UMAX || c == MACHINE_COMBINE_SMAX)
+        if (c == MACHINE_SCAN_UMAX || c == MACHINE_SCAN_SMAX)
             f->flip = all;
-        if (c == MACHINE_COMBINE_SMIN || c == MACHINE_COMBINE_SMAX) {
+        if (c == MACHINE_SCAN_SMIN || c == MACHINE_SCAN_SMAX) {
             f->flip.lo ^= sign.lo;
             f->flip.hi ^= sign.hi;
         }
         break;
-    case MACHINE_COMBINE_COPY:
-    case MACHINE_COMBINE_OVERWRITE: /* does not come here */
-    case MACHINE_COMBINE_FADD:
-    case MACHINE_COMBINE_FMUL:
+    case MACHINE_SCAN_COPY:
+    case MACHINE_SCAN_FADD:
+    case MACHINE_SCAN_FMUL:
         v = v ? machine_reinterpret(m, v, MACHINE_UINT(v->type.width)) : NULL;
         f->op = COPY;
         break;
@@ -511,10 +509,10 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         return NULL;
     if (!scan_arguments_good(m, s, how->axis, value, segmented ? how->bits : NULL))
         return NULL;
-    if (!combiner_fits(how->combiner, value->type))
+    if (!op_fits(how->op, value->type))
         return wrong(m, "this scan does not take values of this type");
     struct form f;
-    struct machine_value *values[3] = {formed(m, how->combiner, value, &f)};
+    struct machine_value *values[3] = {formed(m, how->op, value, &f)};
     int count = 1, masked = 0, bits = 0;
     if (!is_constant(context, 1))
         values[masked = count++] = context;
@@ -555,21 +553,21 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 
 /* ---- spreads ---- */
 
-struct machine_value *machine_spread(struct machine *m, enum machine_combiner combiner,
-                                     uint32_t axes, struct machine_value *value)
+struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
+                                     struct machine_value *value)
 {
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s || !scan_arguments_good(m, s, 0, value, NULL))
         return NULL;
     if (s->rank < 32 && axes >> s->rank)
         return wrong(m, "there is no such axis");
-    if (combiner == MACHINE_COMBINE_COPY || !combiner_fits(combiner, value->type))
+    if (op == MACHINE_SCAN_COPY || !op_fits(op, value->type))
         return wrong(m, "this spread does not take values of this type");
     if (!axes)
         return value;
     struct form f;
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    struct machine_value *values[2] = {formed(m, combiner, value, &f), context};
+    struct machine_value *values[2] = {formed(m, op, value, &f), context};
     bool masked = !is_constant(context, 1);
     if (!values[0] || !values_materialise(m, m->set_current, values, 1 + masked))
         return NULL;
@@ -614,7 +612,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
                                          struct origin from, struct machine_value *value)
 {
     struct form f;
-    struct machine_value *v = formed(m, MACHINE_COMBINE_COPY, value, &f);
+    struct machine_value *v = formed(m, MACHINE_SCAN_COPY, value, &f);
     if (!v || !values_materialise(m, m->set_current, &v, 1))
         return NULL;
     struct device_buffer *out = buffer_for(m, f.element);

@@ -115,8 +115,6 @@ static wide combined(enum machine_combiner c, struct machine_type type, wide a, 
     case MACHINE_COMBINE_FADD:
     case MACHINE_COMBINE_FMIN:
     case MACHINE_COMBINE_FMAX:
-    case MACHINE_COMBINE_FMUL:
-    case MACHINE_COMBINE_COPY:
     default:
         return combined_float(c, type.width, a, b);
     }

@@ -38,9 +38,9 @@ static void results_go_on_like_any_value_and_nothing_waits(void **unused)
         machine_begin(m);
         struct machine_value *x =
             machine_field_value(m, turn ? g : f, MACHINE_UINT(32), MACHINE_WHERE_ACTIVE);
-        struct machine_scan how = {.combiner = MACHINE_COMBINE_ADD, .axis = 1};
+        struct machine_scan how = {.op = MACHINE_SCAN_ADD, .axis = 1};
         struct machine_value *sum = machine_scan(m, &how, x);
-        struct machine_value *greatest = machine_spread(m, MACHINE_COMBINE_UMAX, 3, sum);
+        struct machine_value *greatest = machine_spread(m, MACHINE_SCAN_UMAX, 3, sum);
         struct machine_value *here = machine_binary(m, MACHINE_XOR, sum, greatest);
         assert_ok(machine_field_store(m, g, here, MACHINE_WHERE_ACTIVE), m);
     }
@@ -73,7 +73,7 @@ static void repeated_columns_are_written(void **unused)
         struct machine_value *x =
             machine_field_value(m, f, MACHINE_UINT(32), MACHINE_EVERYWHERE);
         struct machine_scan how = {
-            .combiner = MACHINE_COMBINE_XOR, .axis = form % 2, .downward = form >= 2};
+            .op = MACHINE_SCAN_XOR, .axis = form % 2, .downward = form >= 2};
         struct machine_value *v =
             form < 4 ? machine_scan(m, &how, x)
                      : machine_rank(m, 1, false, false, MACHINE_UNSEGMENTED, NULL, x);
@@ -113,19 +113,19 @@ static void what_is_wrong_is_said(void **unused)
     struct machine_value *of_other =
         machine_field_value(m, foreign, MACHINE_UINT(32), MACHINE_EVERYWHERE);
     support_set(m, 2, ROWS, COLUMNS);
-    struct machine_scan how = {.combiner = MACHINE_COMBINE_ADD, .axis = 2};
+    struct machine_scan how = {.op = MACHINE_SCAN_ADD, .axis = 2};
     said(machine_scan(m, &how, number(1)), "no such axis");
     how.axis = -1;
     said(machine_scan(m, &how, number(1)), "no such axis");
     how.axis = 0;
     said(machine_scan(m, &how, of_other), "another VP set");
-    how.combiner = MACHINE_COMBINE_FADD;
+    how.op = MACHINE_SCAN_FADD;
     said(machine_scan(m, &how, number(1)), "values of this type");
     how = (struct machine_scan){
-        .combiner = MACHINE_COMBINE_OR, .segments = MACHINE_SEGMENT_BIT, .bits = number(1)};
+        .op = MACHINE_SCAN_OR, .segments = MACHINE_SEGMENT_BIT, .bits = number(1)};
     said(machine_scan(m, &how, number(1)), "segments begin at bits");
-    said(machine_spread(m, MACHINE_COMBINE_ADD, 4, number(1)), "no such axis");
-    said(machine_spread(m, MACHINE_COMBINE_COPY, 1, number(1)), "values of this type");
+    said(machine_spread(m, MACHINE_SCAN_ADD, 4, number(1)), "no such axis");
+    said(machine_spread(m, MACHINE_SCAN_COPY, 1, number(1)), "values of this type");
     said(machine_spread_coordinate(m, 1, COLUMNS, number(1)), "no such coordinate");
     said(machine_spread_index(m, COUNT, number(1)), "no such processor");
     said(machine_rank(m, 2, false, false, MACHINE_UNSEGMENTED, NULL, number(1)),

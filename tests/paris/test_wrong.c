@@ -134,7 +134,6 @@ static bool wrong(int which, bool run, struct row *row)
         });
         WRONG(CM_deallocate_stack_through, "stack", 0,
               CM_deallocate_stack_through(CM_no_field));
-        WRONG(CM_allocate_heap_field, "len", 0, heap(0));
         WRONG(CM_allocate_stack_field, "bits", 0, stack(0x80000000u));
         WRONG(CM_allocate_stack_field_vp_set, "vp_set", 0,
               CM_allocate_stack_field_vp_set(8, dead_set()));
