@@ -246,6 +246,9 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
+    bool sliced;   /* there has been a slice: see reshape.c */
+    bool rolling;  /* in reshape_roll() */
+    uint64_t roll_after; /* values waiting before the next try */
     uint64_t stores, stores_evaluated, flushes, plans_built;
     double busy_s;
 };
@@ -498,6 +501,9 @@ bool reshape_unpack(struct machine *m, struct machine_value *slice);
 /* The same numbers for the same processors in rows of another geometry; v is of the set as it is. */
 struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v, int set,
                                       const struct vpset *to);
+/* Finds loops over the elements of a processor among what waits in fields, and computes each as one value.
+ * *partial: there are some that have only begun. */
+bool reshape_roll(struct machine *m, bool *partial);
 /* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
  * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);

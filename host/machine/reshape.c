@@ -110,6 +110,7 @@ static struct machine_value *slice_of(struct machine *m, struct machine_value *f
 {
     if (fine->op == NODE_CONSTANT || (k == 1 && fine->set == set))
         return fine;
+    m->sliced = true;
     struct machine_value key = {.op = NODE_SLICE,
                                 .type = fine->type,
                                 .set = (uint16_t)set,
@@ -236,10 +237,11 @@ static bool unroll(struct machine *m, struct machine_value *whole,
 {
     if (node_is_leaf(whole) || node_is_cheap(whole) || whole == y[0])
         return true;
+    uint64_t evaluated = m->stores_evaluated;
     m->stores_evaluated = m->stores; /* nobody else is looked at */
-    if (run_evaluate(m, &whole, 1, false))
-        return false;
-    for (uint32_t i = 0; i < k; i++) {
+    enum machine_status status = run_evaluate(m, &whole, 1, false);
+    m->stores_evaluated = evaluated;
+    for (uint32_t i = 0; i < k && !status; i++) {
         struct machine_value key = {.op = NODE_SLICE,
                                     .type = y[i]->type,
                                     .set = y[i]->set,
@@ -249,7 +251,96 @@ static bool unroll(struct machine *m, struct machine_value *whole,
         if (!y[i]->buffer && y[i]->op != NODE_SLICE && y[i]->interned)
             graph_become(m, y[i], &key);
     }
-    return true;
+    return status == MACHINE_OK;
+}
+
+/* ---- rolling up what waits ---- */
+
+static bool waits(const struct machine_value *v)
+{
+    return !node_is_leaf(v) && v->op != NODE_SLICE && !node_is_cheap(v);
+}
+
+/* A first slice somewhere in v; NULL: none is found. */
+static const struct machine_value *first_slice(const struct machine_value *v, int *budget)
+{
+    if (v->op == NODE_SLICE)
+        return v->detail == 0 ? v : NULL;
+    if (v->buffer || --*budget < 0)
+        return NULL;
+    for (int n = 0; n < node_ops[v->op].inputs; n++) {
+        const struct machine_value *found = first_slice(v->in[n], budget);
+        if (found)
+            return found;
+    }
+    return NULL;
+}
+
+static bool same_shape(const struct machine_value *a, const struct machine_value *b)
+{
+    return a->op == b->op && type_equal(a->type, b->type) && a->detail == b->detail &&
+           a->height == b->height;
+}
+
+/* k slots that a loop has gone through, or is going through: then those before the place where it is hold
+ * what the others do as an operand. *partial: it has only begun. False: error set. */
+static bool roll_slots(struct machine *m, const struct slot *slots, uint32_t k, int set,
+                       bool *partial)
+{
+    struct machine_value **y = malloc(k * sizeof *y), *whole = NULL;
+    const struct machine_value *last = slots[k - 1].value;
+    uint32_t cut = 0;
+    bool good = y != NULL;
+    if (!good)
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    while (cut < k - 1 && !same_shape(slots[cut].value, last))
+        cut++;
+    *partial = *partial || cut >= BLOCK;
+    for (int n = 0; good && waits(last) && n < (cut ? 3 : 1) && !whole; n++) {
+        int budget = LIFT_NODES;
+        bool there = true;
+        for (uint32_t i = 0; i < k && there; i++) {
+            y[i] = i < cut ? slots[i].value->in[n] : slots[i].value;
+            there = y[i] && type_equal(y[i]->type, last->type);
+        }
+        whole = there ? lift(m, y, k, set, &budget) : NULL;
+        good = !whole || unroll(m, whole, y, k);
+    }
+    free(y);
+    return good;
+}
+
+bool reshape_roll(struct machine *m, bool *partial)
+{
+    *partial = false;
+    if (!m->sliced || m->rolling)
+        return true;
+    m->rolling = true;
+    bool good = true;
+    for (int i = 0; i < m->fields_count && good; i++) {
+        const struct field *f = m->fields[i];
+        uint32_t k;
+        for (int at = 0; at < f->slots_count && good; at += (int)k) {
+            const struct slot *slots = &f->slots[at];
+            int budget = 64;
+            const struct machine_value *slice =
+                waits(slots[0].value) ? first_slice(slots[0].value, &budget) : NULL;
+            k = slice ? (uint32_t)slice->imm.lo : 1;
+            if (k < 2 || k > (uint32_t)(f->slots_count - at)) {
+                k = 1;
+                continue;
+            }
+            bool even = slots[k - 1].offset == slots[0].offset + (k - 1) * slots[0].bits;
+            for (uint32_t n = 1; n < k && even; n++)
+                even = slots[n].bits == slots[0].bits;
+            if (even)
+                good = roll_slots(m, slots, k, slice->in[0]->set, partial);
+            else
+                k = 1;
+        }
+    }
+    m->rolling = false;
+    return good;
 }
 
 /* ---- weaving ---- */

@@ -27,6 +27,7 @@ enum {
     PENDING_MANY = 384,
     PENDING_AGAIN = 48,
     PENDING_MOST = 2048,
+    PENDING_LOOP = 16384,
     HEIGHT_DEFERRED = 96,
     HEIGHT_MOST = 1500,
     RUN_COLUMNS = 4096,
@@ -528,7 +529,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     struct targets t = {0};
     struct reach r = {0};
     enum machine_status status = MACHINE_OK;
-    bool good = true;
+    bool partial, good = reshape_roll(m, &partial);
     for (int i = 0; i < count && good; i++)
         if (wanted[i]->op == NODE_SLICE && !wanted[i]->buffer)
             good = reshape_unpack(m, wanted[i]);
@@ -606,6 +607,18 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     bool many = m->nodes_pending >= (m->flush_hash ? PENDING_MOST : PENDING_MANY);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
+    if (m->sliced && v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
+        bool partial;
+        if (m->nodes_pending < m->roll_after)
+            return MACHINE_OK;
+        if (!reshape_roll(m, &partial))
+            return m->status;
+        m->roll_after = 0;
+        if (partial && m->nodes_pending < PENDING_LOOP)
+            m->roll_after = 2 * m->nodes_pending + PENDING_MANY;
+        if (m->roll_after || m->nodes_pending < PENDING_AGAIN)
+            return MACHINE_OK;
+    }
     uint64_t here = m->trace_hash;
     enum machine_status status = run_evaluate(m, NULL, 0, false);
     m->flush_hash = here;
