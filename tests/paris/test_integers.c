@@ -342,6 +342,28 @@ static const struct integer_row *row_named(const char *name)
     return NULL;
 }
 
+/* The form with all lengths, of every operation at several; PARIS_TEST_FULL=1: at hundreds. */
+static void lengths_are_the_oracles(void **unused)
+{
+    static const int lengths[][3] = {{13, 30, 9}, {128, 100, 66}};
+    int turns = getenv("PARIS_TEST_FULL") ? 200 : 2;
+    (void)unused;
+    arrange(157, 13);
+    begin();
+    for (int turn = 0; turn < turns; turn++)
+        for (int r = 0; r < ROW_COUNT; r++) {
+            const struct integer_row *row = &integer_rows[r];
+            if (!is_number(row) || row->constant || row->always ||
+                row->lengths != (is_unary(row) ? 2 : 3))
+                continue;
+            int l[3];
+            for (int k = 0; k < 3; k++)
+                l[k] = turns > 2 ? 2 + (int)(any() % (turn % 4 ? 63 : 127)) : lengths[turn][k];
+            trial(row, l[0], l[1], l[2], 0, true);
+        }
+    finish();
+}
+
 /* Rows of arithmetic.c at all widths, a dest and a test bit each. */
 static void common_rows_at(int width, CM_field_id_t out[3])
 {
@@ -391,7 +413,7 @@ static void common_rows_run(int step)
 /* Rows of 64 processors make kernels of whole vectors. */
 static void vectors_are_the_oracles(void **unused)
 {
-    static const int lengths[] = {32, 11, 47};
+    static const int lengths[] = {32, 47, 47};
     (void)unused;
     arrange(30, 64);
     begin();
@@ -412,7 +434,7 @@ static void widths_run(int step)
                                         "CM_u_s_shift_3_1L", "CM_s_s_shift_3_1L"};
     for (int width = 1; width <= 128; width += step)
         for (int i = 0; i < 4; i++)
-            if (width <= 64 || (width + i) % 2)
+            if (width <= 32 || (width + i) % 2)
                 trial(row_named(names[i]), width, width, width, 0, width % 16 == 1);
     finish();
 }
@@ -431,12 +453,18 @@ static void all_widths_are_the_oracles(void **unused)
     }
 }
 
-int main(void)
+/* In two runs, "widths" and "forms", that a machine with two cores does beside each other. */
+int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
+    const struct CMUnitTest widths[] = {
         cmocka_unit_test(all_widths_are_the_oracles),
+    };
+    const struct CMUnitTest forms[] = {
         cmocka_unit_test(every_row_is_the_oracles),
+        cmocka_unit_test(lengths_are_the_oracles),
         cmocka_unit_test(vectors_are_the_oracles),
     };
-    return cmocka_run_group_tests(tests, start, NULL);
+    if (argc == 2 && strcmp(argv[1], "widths") == 0)
+        return cmocka_run_group_tests(widths, start, NULL);
+    return cmocka_run_group_tests(forms, start, NULL);
 }
