@@ -174,6 +174,16 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
+/* Where all take part, and segments begin at a 1. */
+#define SEGMENTED(combine)                                                                     \
+    for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
+        const M begins = BITS(bits, at);                                                       \
+        first = MIN_U(first, (U)((uint)k) | (~U_OF(begins) & (U)NEVER));                       \
+        const V old = SEL(begins, none, acc);                                                  \
+        acc = combine(old, TAKE(V, LOAD(in, at)));                                             \
+        const V shown = exclusive ? old : acc;                                                 \
+        STORE(out, at, SHOW(V, shown));                                                        \
+    }
 /* The first element of a segment that takes part. */
 #define COPIED                                                                                 \
     for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
@@ -206,8 +216,10 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
     U first = (U)NEVER;
     M has = (M)0;
     IF_COPY(COPIED)
-    if (masked || segmented) {
+    if (masked || backward) {
         FOR_OP(FLAGGED)
+    } else if (segmented) {
+        FOR_OP(SEGMENTED)
     } else {
         FOR_OP(PLAIN)
     }

@@ -506,8 +506,8 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 /* In each processor, the combination of all active ones that differ from it only on the axes of
  * the mask (bit 0: axis 0). The order is that of a scan up the greatest axis of the mask, then
  * of these results along the next, and so on. Not COPY. */
-struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
-                                     uint32_t axes, struct machine_value *value);
+struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
+                                     struct machine_value *value);
 /* In each processor, the value of the one on its line along the axis with that coordinate, active
  * or not. The value is taken EVERYWHERE. */
 struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,

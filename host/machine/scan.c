@@ -529,7 +529,8 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
                           .op = f.op,
                           .exclusive = how->exclusive,
                           .starts = how->segments == MACHINE_START_BIT,
-                          .backward = how->segments == MACHINE_SEGMENT_BIT && how->downward,
+                          .backward =
+                              bits && how->segments == MACHINE_SEGMENT_BIT && how->downward,
                           .identity = f.identity,
                           .flip = f.flip,
                           .cut = f.cut,

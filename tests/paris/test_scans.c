@@ -302,7 +302,7 @@ static void every_operation_is_the_oracles(void **unused)
     for (int k = 0; k < 4; k++) {
         struct set s = set_new(3, shapes[k]);
         for (int turn = 0; turn < 4; turn++) {
-            set_masks(&s, k == 0 && turn == 3 ? 1 : 2 * (turn / 2), 3 + (int)below(9));
+            set_masks(&s, k % 2 == 0 && turn == 3 ? 1 : 2 * (turn / 2), 3 + (int)below(9));
             for (int r = 0; r < ROWS_COUNT; r++) {
                 int form = (r + turn) % 4;
                 try_row(&s, &rows[r], SCAN, widths[r][turn % 2]);
