@@ -326,8 +326,10 @@ bool reshape_roll(struct machine *m, bool *partial)
             const struct machine_value *slice =
                 waits(slots[0].value) ? first_slice(slots[0].value, &budget) : NULL;
             k = slice ? (uint32_t)slice->imm.lo : 1;
-            if (k < 2 || k > (uint32_t)(f->slots_count - at)) {
-                k = 1;
+            uint32_t there = (uint32_t)(f->slots_count - at);
+            if (k < 2 || k > there) { /* a loop that fills a new field has not come far */
+                *partial = *partial || (k > there && there >= BLOCK);
+                k = k > there ? there : 1;
                 continue;
             }
             bool even = slots[k - 1].offset == slots[0].offset + (k - 1) * slots[0].bits;
