@@ -70,15 +70,8 @@ static inline void call_order(struct kernel_call *c, const struct machine *m,
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
 {
-    static const size_t one[2] = {1, 1};
     size_t global[2] = {x, y};
-    if (!c->kernel)
-        return m->status;
-    if (!c->error)
-        c->error = clEnqueueNDRangeKernel(m->device.queue, c->kernel, 2, NULL, global,
-                                          m->device.is_cpu ? one : NULL, 0, NULL, NULL);
-    m->device.kernels_run++;
-    return device_check(m, c->error, what);
+    return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, what) : m->status;
 }
 
 /* Columns that a work-item of call_over() does; the kernel wants it as an argument. */

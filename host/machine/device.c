@@ -265,6 +265,7 @@ void device_close(struct machine *m)
                 free(p);
             }
     free(d->programs);
+    free(d->unstarted);
     if (d->queue)
         clReleaseCommandQueue(d->queue);
     if (d->context)
@@ -528,6 +529,39 @@ static cl_kernel program_find(struct device *d, const char *key)
     return NULL;
 }
 
+static void unstarted_add(struct device *d, cl_kernel kernel)
+{
+    if (d->unstarted_count == d->unstarted_capacity) {
+        int capacity = d->unstarted_capacity ? 2 * d->unstarted_capacity : 16;
+        cl_kernel *list = realloc(d->unstarted, (size_t)capacity * sizeof(cl_kernel));
+        if (!list)
+            return;
+        d->unstarted = list;
+        d->unstarted_capacity = capacity;
+    }
+    d->unstarted[d->unstarted_count++] = kernel;
+}
+
+enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
+                                  cl_uint dimensions, const size_t *global, const char *what)
+{
+    static const size_t one[3] = {1, 1, 1};
+    struct device *d = &m->device;
+    if (!error)
+        error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
+                                       d->is_cpu ? one : NULL, 0, NULL, NULL);
+    d->kernels_run++;
+    for (int i = 0; i < d->unstarted_count; i++)
+        if (d->unstarted[i] == kernel) {
+            d->unstarted[i] = d->unstarted[--d->unstarted_count];
+            m->inside++;
+            error = error ? error : clFinish(d->queue);
+            m->inside--;
+            break;
+        }
+    return device_check(m, error, what);
+}
+
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name)
 {
@@ -565,6 +599,7 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
             entry->next = bucket->next;
             bucket->next = entry;
             d->kernels_built++;
+            unstarted_add(d, entry->kernel);
             return entry->kernel;
         }
         device_check(m, error, "a kernel cannot be made");

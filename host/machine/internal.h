@@ -191,6 +191,8 @@ struct device {
     uint64_t pool_bytes, held_bytes;
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_run;
+    cl_kernel *unstarted; /* built, and not run yet */
+    int unstarted_count, unstarted_capacity;
     const char *options;
     cl_event fence;         /* see device_pace(); NULL: none yet */
     uint64_t fence_kernels; /* run before it */
@@ -246,8 +248,8 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    bool sliced;   /* there has been a slice: see reshape.c */
-    bool rolling;  /* in reshape_roll() */
+    bool sliced;         /* there has been a slice: see reshape.c */
+    bool rolling;        /* in reshape_roll() */
     uint64_t roll_after; /* values waiting before the next try */
     uint64_t stores, stores_evaluated, flushes, plans_built;
     double busy_s;
@@ -530,6 +532,11 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
 /* The same for one that is written by hand, in a text of its own. */
 cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
                                 const char *name);
+/* Starts it, unless error says that its arguments are wrong; a work-group on a CPU is one item. The
+ * first time, waits: the compiler may still be at it in a thread of the driver's, and a program that
+ * ended meanwhile would pull it down. */
+enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
+                                  cl_uint dimensions, const size_t *global, const char *what);
 /* It need not be built: it is in memory, or on disk. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);

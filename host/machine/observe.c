@@ -427,12 +427,8 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     error |= clSetKernelArg(kernel, at++, sizeof(cl_mem), &v->buffer->mem);
     error |= clSetKernelArg(kernel, at++, sizeof(cl_mem), &b->mem);
     size_t global[2] = {runs, s->rows};
-    static const size_t one[2] = {1, 1};
     double start = wait_begin(m);
-    if (!error)
-        error = clEnqueueNDRangeKernel(m->device.queue, kernel, 2, NULL, global,
-                                       m->device.is_cpu ? one : NULL, 0, NULL, NULL);
-    m->device.kernels_run++;
+    error = device_launch(m, kernel, error, 2, global, "reducing") ? CL_INVALID_OPERATION : 0;
     if (!error)
         error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0, count * element, raw,
                                     0, NULL, NULL);

@@ -481,11 +481,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         }
     }
     size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
-    static const size_t one[2] = {1, 1};
-    error |= clEnqueueNDRangeKernel(m->device.queue, l->kernel, 2, NULL, global,
-                                    m->device.is_cpu ? one : NULL, 0, NULL, NULL);
-    m->device.kernels_run++;
-    return device_check(m, error, "a kernel cannot be started");
+    return device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
 }
 
 static enum machine_status execute(struct machine *m, struct plan *p, const struct reach *r)

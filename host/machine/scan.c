@@ -123,14 +123,8 @@ void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int 
 enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
                                  size_t runs, size_t rows, size_t blocks)
 {
-    static const size_t one[3] = {1, 1, 1};
     size_t global[3] = {runs, rows, blocks};
-    cl_int error = a->error;
-    if (!error)
-        error = clEnqueueNDRangeKernel(m->device.queue, a->kernel, 3, NULL, global,
-                                       m->device.is_cpu ? one : NULL, 0, NULL, NULL);
-    m->device.kernels_run++;
-    return device_check(m, error, "a kernel cannot be started");
+    return device_launch(m, a->kernel, a->error, 3, global, "a kernel cannot be started");
 }
 
 static struct kernel_arguments part(struct machine *m, int number, const struct element *e,

@@ -177,6 +177,12 @@ static struct machine_scalar narrow(unsigned __int128 x)
     return (struct machine_scalar){(uint64_t)x, (uint64_t)(x >> 64)};
 }
 
+/* What is handed out stays until the next instruction, also where it is a part of an operand. */
+static struct machine_value *handed(struct machine *m, struct machine_value *v)
+{
+    return v ? graph_borrow(m, v) : NULL;
+}
+
 static struct machine_value *number(struct machine *m, struct machine_type type,
                                     struct machine_scalar x)
 {
@@ -398,14 +404,20 @@ struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
     return v;
 }
 
-struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
-                                     struct machine_value *a, struct machine_value *b)
+static struct machine_value *selected(struct machine *m, struct machine_value *condition,
+                                      struct machine_value *a, struct machine_value *b)
 {
     if (!condition || !a || !b)
         return NULL;
     if (!type_equal(a->type, b->type) || !type_equal(condition->type, bit_type))
         return bad(m, "select takes a bit and two values of one type");
     return select_of(m, condition, a, b);
+}
+
+struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
+                                     struct machine_value *a, struct machine_value *b)
+{
+    return handed(m, selected(m, condition, a, b));
 }
 
 /* ---- arithmetic ---- */
@@ -449,8 +461,8 @@ static bool chooses_number(const struct machine_value *v, int depth)
             chooses_number(v->in[1], depth - 1) && chooses_number(v->in[2], depth - 1));
 }
 
-struct machine_value *machine_unary(struct machine *m, enum machine_op op,
-                                    struct machine_value *a)
+static struct machine_value *unary(struct machine *m, enum machine_op op,
+                                   struct machine_value *a)
 {
     if (!a)
         return NULL;
@@ -475,6 +487,12 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
     if (op == MACHINE_NEG && a->type.width == 1)
         return a;
     return build(m, (int)op, a->type, 0, a, NULL, NULL);
+}
+
+struct machine_value *machine_unary(struct machine *m, enum machine_op op,
+                                    struct machine_value *a)
+{
+    return handed(m, unary(m, op, a));
 }
 
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,
@@ -558,8 +576,8 @@ struct machine_value *node_make(struct machine *m, enum machine_op op, struct ma
 
 /* ---- other shapes of the same bits ---- */
 
-struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a,
-                                          struct machine_type type)
+static struct machine_value *reinterpreted(struct machine *m, struct machine_value *a,
+                                           struct machine_type type)
 {
     if (!a)
         return NULL;
@@ -574,12 +592,18 @@ struct machine_value *machine_reinterpret(struct machine *m, struct machine_valu
     return build(m, NODE_REINTERPRET, type, 0, a, NULL, NULL);
 }
 
+struct machine_value *machine_reinterpret(struct machine *m, struct machine_value *a,
+                                          struct machine_type type)
+{
+    return handed(m, reinterpreted(m, a, type));
+}
+
 static struct machine_value *as_bits(struct machine *m, struct machine_value *a)
 {
     return machine_reinterpret(m, a, MACHINE_UINT(a->type.width));
 }
 
-struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width,
+static struct machine_value *resized(struct machine *m, struct machine_value *a, int width,
                                      bool is_signed)
 {
     if (!a)
@@ -600,8 +624,14 @@ struct machine_value *machine_resize(struct machine *m, struct machine_value *a,
                  NULL, NULL);
 }
 
-struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset,
-                                      int width)
+struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width,
+                                     bool is_signed)
+{
+    return handed(m, resized(m, a, width, is_signed));
+}
+
+static struct machine_value *extracted(struct machine *m, struct machine_value *a, int offset,
+                                       int width)
 {
     if (!a)
         return NULL;
@@ -628,6 +658,12 @@ struct machine_value *machine_extract(struct machine *m, struct machine_value *a
         offset + width <= a->in[0]->type.width)
         return machine_extract(m, a->in[0], offset, width);
     return build(m, NODE_EXTRACT, MACHINE_UINT(width), offset, a, NULL, NULL);
+}
+
+struct machine_value *machine_extract(struct machine *m, struct machine_value *a, int offset,
+                                      int width)
+{
+    return handed(m, extracted(m, a, offset, width));
 }
 
 struct machine_value *machine_concat(struct machine *m, struct machine_value *low,
