@@ -91,19 +91,12 @@ unsigned long calls_sum(const struct calls *c)
 
 /* ---- measuring ---- */
 
-static double thread_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void calls_make(const struct calls *c, int calls_count, double *recorded_s, double *total_s)
 {
-    double thread = thread_s(), start = bench_now_s();
+    double thread = bench_thread_s(), start = bench_now_s();
     for (int turn = 0; turn < calls_count / CALLS_IN_TURN; turn++)
         calls_turn(c, turn);
-    *recorded_s = thread_s() - thread;
+    *recorded_s = bench_thread_s() - thread;
     machine_finish(paris_machine());
     *total_s = bench_now_s() - start;
 }

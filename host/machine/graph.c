@@ -185,19 +185,24 @@ static bool is_pending(const struct machine_value *v)
     return v->op != NODE_CONSTANT && v->op != NODE_SLICE;
 }
 
-struct machine_value *graph_find(struct machine *m, const struct machine_value *key)
+static struct machine_value *find(struct machine *m, const struct machine_value *key,
+                                  uint32_t hash)
 {
-    uint32_t hash = hash_of(key);
     for (struct machine_value *v = m->table[hash & (m->table_size - 1)]; v; v = v->next)
         if (v->hash == hash && same_key(v, key))
             return v;
     return NULL;
 }
 
+struct machine_value *graph_find(struct machine *m, const struct machine_value *key)
+{
+    return find(m, key, hash_of(key));
+}
+
 struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
 {
     uint32_t hash = hash_of(key);
-    struct machine_value *known = graph_find(m, key);
+    struct machine_value *known = find(m, key, hash);
     if (known)
         return graph_borrow(m, known);
     if (m->table_count >= m->table_size)

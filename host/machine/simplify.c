@@ -180,7 +180,8 @@ static struct machine_scalar narrow(unsigned __int128 x)
 /* What is handed out stays until the next instruction, also where it is a part of an operand. */
 static struct machine_value *handed(struct machine *m, struct machine_value *v)
 {
-    return v ? graph_borrow(m, v) : NULL;
+    bool just_made = m->borrowed_count > 0 && m->borrowed[m->borrowed_count - 1] == v;
+    return !v || just_made ? v : graph_borrow(m, v);
 }
 
 static struct machine_value *number(struct machine *m, struct machine_type type,
