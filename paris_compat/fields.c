@@ -60,6 +60,11 @@ void CM_deallocate_heap_field(CM_field_id_t field)
         paris_fail_machine();
 }
 
+void CM_compress_heap(void)
+{
+    paris_the.call = "CM_compress_heap";
+}
+
 /* ---- inquiries ---- */
 
 static bool field_info(const char *name, CM_field_id_t field, struct machine_field_info *info)

@@ -179,6 +179,63 @@ void paris_multispread(const struct paris_instruction *self, int parts,
            pieces_next(&p, dest.len));
 }
 
+/* The coordinates on the axes of the mask, of a row-major position among these. */
+static bool multi_coordinate_split(struct machine *m, unsigned int axis_mask,
+                                   unsigned int position, int *coordinates)
+{
+    int set = machine_vpset_current(m), rank = machine_vpset_rank(m, set);
+    unsigned int left = position;
+    if (axis_mask >> rank) {
+        paris_fail("axis_mask: there are only %d axes in this VP set (got 0x%x)", rank,
+                   axis_mask);
+        return false;
+    }
+    for (int axis = rank - 1; axis >= 0; axis--)
+        if (axis_mask >> axis & 1) {
+            unsigned int length = (unsigned int)machine_vpset_length(m, set, axis);
+            coordinates[axis] = (int)(left % length);
+            left /= length;
+        }
+    if (left)
+        paris_fail("multi_coordinate: there is no position %u on the axes of the mask 0x%x",
+                   position, axis_mask);
+    return left == 0;
+}
+
+static void multispread_copy(const char *name, CM_field_id_t dest, CM_field_id_t source,
+                             unsigned int axis_mask, unsigned int len,
+                             unsigned int multi_coordinate)
+{
+    struct machine *m = paris_begin(name);
+    int rank = machine_vpset_rank(m, machine_vpset_current(m));
+    int coordinates[MACHINE_AXES_MAX];
+    struct pieces p;
+    if (!multi_coordinate_split(m, axis_mask, multi_coordinate, coordinates) ||
+        !pieces_begin(&p, 1, paris_b(dest, len), paris_b(source, len)))
+        return;
+    struct machine_value *v;
+    do {
+        v = paris_load(m, p.source, "source", MACHINE_EVERYWHERE);
+        for (int axis = 0; v && axis < rank; axis++)
+            if (axis_mask >> axis & 1)
+                v = machine_spread_coordinate(m, axis, coordinates[axis], v);
+    } while (v && paris_store(m, p.dest, v, MACHINE_WHERE_ACTIVE) && pieces_next(&p, len));
+}
+
+void CM_multispread_copy_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis_mask,
+                            unsigned int len, unsigned int multi_coordinate)
+{
+    multispread_copy("CM_multispread_copy_1L", dest, source, axis_mask, len, multi_coordinate);
+}
+
+void CM_multispread_with_copy_1L(CM_field_id_t dest, CM_field_id_t source,
+                                 unsigned int axis_mask, unsigned int len,
+                                 unsigned int multi_coordinate)
+{
+    multispread_copy("CM_multispread_with_copy_1L", dest, source, axis_mask, len,
+                     multi_coordinate);
+}
+
 void paris_reduce(const struct paris_instruction *self, int parts, struct paris_operand dest,
                   struct paris_operand source, unsigned int axis, unsigned int to_coordinate,
                   unsigned int from_coordinate)

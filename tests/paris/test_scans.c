@@ -666,6 +666,10 @@ static void what_is_wrong_is_said(void **unused)
              CM_reduce_with_u_add_1L(s.dest, s.source, 2, 8, 21));
         SAYS("axis_mask: there are only 3 axes",
              CM_multispread_with_u_add_1L(s.dest, s.source, 8, 8));
+        SAYS("axis_mask: there are only 3 axes",
+             CM_multispread_copy_1L(s.dest, s.source, 9, 8, 0));
+        SAYS("multi_coordinate: there is no position 63",
+             CM_multispread_copy_1L(s.dest, s.source, 5, 8, 63));
         SAYS("send_address: there is no processor",
              CM_spread_from_processor_1L(s.dest, 100000, s.source, 8));
         SAYS("", CM_scan_with_logior_1L(s.dest, s.source, 1, 161, 0, 1, 0, CM_no_field));
@@ -676,6 +680,46 @@ static void what_is_wrong_is_said(void **unused)
     }
     CM_set_safety_mode(0);
     CM_set_error_handler(NULL);
+    set_free(&s);
+}
+
+static void multispread_copy_takes_one_position(void **unused)
+{
+    (void)unused;
+    static const int shape[3] = {3, 5, 21};
+    struct set s = set_new(3, shape);
+    enum { WIDTH = 40 };
+    fields_new(&s, WIDTH);
+    for (unsigned int mask = 0; mask < 8; mask++) {
+        int at[3] = {0}, left, positions = 1;
+        for (int axis = 0; axis < 3; axis++)
+            positions *= mask >> axis & 1 ? shape[axis] : 1;
+        left = (int)below((unsigned)positions);
+        unsigned int position = (unsigned)left;
+        for (int axis = 2; axis >= 0; axis--)
+            if (mask >> axis & 1) {
+                at[axis] = left % shape[axis];
+                left /= shape[axis];
+            }
+        numbers_random(s.numbers, s.grid.count, WIDTH, false);
+        numbers_random(s.old, s.grid.count, WIDTH, false);
+        put(&s, s.source, 'b', WIDTH, s.numbers);
+        put(&s, s.dest, 'b', WIDTH, s.old);
+        set_masks(&s, 2, 5);
+        (mask % 2 ? CM_multispread_copy_1L
+                  : CM_multispread_with_copy_1L)(s.dest, s.source, mask, WIDTH, position);
+        get(&s, s.dest, 'b', WIDTH, s.got);
+        for (int i = 0; i < s.grid.count; i++) {
+            int c[3] = {i / (5 * 21), i / 21 % 5, i % 21};
+            for (int axis = 0; axis < 3; axis++)
+                c[axis] = mask >> axis & 1 ? at[axis] : c[axis];
+            number wanted =
+                s.context_bits[i] ? s.numbers[(c[0] * 5 + c[1]) * 21 + c[2]] : s.old[i];
+            if (s.got[i] != wanted)
+                fail_msg("mask %u, position %u, processor %d: got %llx, wanted %llx", mask,
+                         position, i, (unsigned long long)s.got[i], (unsigned long long)wanted);
+        }
+    }
     set_free(&s);
 }
 
@@ -697,6 +741,7 @@ int main(void)
         cmocka_unit_test(ranks_are_the_oracles),
         cmocka_unit_test(ranks_of_a_very_long_line_are_right),
         cmocka_unit_test(enumeration_counts_the_active),
+        cmocka_unit_test(multispread_copy_takes_one_position),
         cmocka_unit_test(long_fields_and_complex_numbers_go_in_parts),
         cmocka_unit_test(what_is_wrong_is_said),
     };
