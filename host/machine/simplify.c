@@ -473,9 +473,10 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
         is_float != (a->type.kind == MACHINE_FLOAT))
         return bad(m, "this operation does not take one operand of this type");
     struct machine_scalar math;
-    if (is_number(a) && op_is_math(op) && math_fold(op, a->type, a->imm, a->imm, &math))
+    if (is_number(a) && op_is_math((int)op) &&
+        math_fold((int)op, a->type, a->imm, a->imm, &math))
         return number(m, a->type, soft_rounded_scalar(math, a->type));
-    if (op_is_integer(op))
+    if (op_is_integer((int)op))
         return integer_value(m, op, a, NULL);
     unsigned __int128 folded;
     if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
@@ -509,10 +510,10 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     bool compares =
         (op >= MACHINE_EQ && op <= MACHINE_SLE) || (op >= MACHINE_FEQ && op <= MACHINE_FGE);
     struct machine_scalar math;
-    if (is_number(a) && is_number(b) && op_is_math(op) &&
-        math_fold(op, a->type, a->imm, b->imm, &math))
+    if (is_number(a) && is_number(b) && op_is_math((int)op) &&
+        math_fold((int)op, a->type, a->imm, b->imm, &math))
         return number(m, a->type, soft_rounded_scalar(math, a->type));
-    if (op_is_integer(op))
+    if (op_is_integer((int)op))
         return op >= MACHINE_USHIFT && op <= MACHINE_ROTATE ? machine_bits_shift(m, op, a, b)
                                                             : integer_value(m, op, a, b);
     unsigned __int128 folded;
