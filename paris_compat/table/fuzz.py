@@ -5,7 +5,8 @@ FUZZ_NOT = {"CM_set_error_handler", "CM_init", "CM_cold_boot", "CM_warm_boot", "
             "CM_detach", "CM_timer_print", "CM_set_safety_mode"}
 # What makes kernels and runs them.
 FUZZ_OBSERVES = ("global", "read_from", "news_array", "write_to_processor", "timer_", "latch_leds", "leds_mode",
-                 "scan_with", "spread", "reduce_with", "rank", "enumerate", "CM_send", "CM_get", "cross_vp", "aref", "aset")
+                 "scan_with", "spread", "reduce_with", "rank", "enumerate", "CM_send", "CM_get", "cross_vp", "aref", "aset",
+                 "set_vp_set_geometry")
 FUZZ_BY_TYPE = {"CM_field_id_t": "field", "CM_vp_set_id_t": "vp_set", "CM_geometry_id_t": "geometry",
                 "CM_sendaddr_t": "address", "CM_axis_descriptor_t *": "descriptors", "const void *": "array",
                 "void *": "array", "double": "double", "unsigned long": "word", "long": "word"}

@@ -58,7 +58,7 @@ int main(int argc, char **argv)
     for (unsigned long seed = first; seed < first + count; seed++) {
         if (place)
             fprintf(place, "seed %lu\n", seed);
-        seed_run(seed, 1000);
+        seed_run(seed, 2000);
     }
     printf("%lu sequences of calls\n", count);
     return 0;

@@ -149,7 +149,8 @@ static void dispersion_observed_every_seventh_step_agrees(void **state)
     disperse(131, 97, 7);
 }
 
-int main(void)
+/* `few`: without those that need many kernels. */
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dispersion_square_sheet_agrees),
@@ -158,6 +159,7 @@ int main(void)
         cmocka_unit_test(dispersion_observed_every_seventh_step_agrees),
     };
 
+    size_t count = argc > 1 && !strcmp(argv[1], "few") ? 2 : sizeof tests / sizeof *tests;
     CM_init();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return _cmocka_run_group_tests("dispersion", tests, count, NULL, NULL);
 }
