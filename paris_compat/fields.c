@@ -4,7 +4,7 @@
 static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t vp_set,
                               enum machine_region region)
 {
-    struct machine *m = paris_begin(name);
+    struct machine *m = paris_inquire(name);
     uint32_t field =
         machine_field_allocate(m, vp_set ? vp_set : machine_vpset_current(m), len, region);
     if (field == MACHINE_NO_FIELD)

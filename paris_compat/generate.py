@@ -65,14 +65,38 @@ def header(sections, template):
     return open(template).read().replace("@PROTOTYPES@", "\n".join(out))
 
 
+# How an argument becomes a word of a call that the machine may foresee, and back.
+WORDS = {t: ("(uint64_t){}", f"({t}){{}}") for t in
+         ("CM_field_id_t", "CM_sendaddr_t", "CM_geometry_id_t", "unsigned int", "unsigned long", "long")}
+WORDS["double"] = ("paris_word({})", "paris_double({})")
+WORDS_MOST = 8  # MACHINE_CALL_WORDS
+
+
+def foreseeable(f):
+    """What it does follows from its arguments alone: see machine_call_foreseen()."""
+    return f.result == "void" and len(f.params) <= WORDS_MOST and all(t in WORDS for t, _ in f.params)
+
+
 def entries(sections):
     out = ["/* Generated from instructions.tab: every entry point that is a row of a family. */",
            '#include "paris_state.h"', ""]
     for _, rows in sections:
         for _, functions in rows:
             for f in functions:
-                if f.body:
-                    out += [f.prototype(), "{", f.body.rstrip("\n"), "}", ""]
+                if not f.body:
+                    continue
+                body = f.body.rstrip("\n")
+                if foreseeable(f):
+                    words = [WORDS[t][0].format(n) for t, n in f.params]
+                    args = [WORDS[t][1].format(f"call->words[{i}]") for i, (t, _) in enumerate(f.params)]
+                    unused = "" if args else "    (void)call;\n"
+                    out += [f"static void again_{f.name}(const struct machine_call *call)", "{",
+                            f"{unused}    {f.name}({', '.join(args)});", "}", ""]
+                    given = f", .words = {{{', '.join(words)}}}" if words else ""
+                    body = (f"    struct machine_call call = {{.again = again_{f.name}, "
+                            f".words_count = {len(words)}{given}}};\n"
+                            f"    if (paris_foreseen(&call))\n        return;\n{body}\n    paris_performed();")
+                out += [f.prototype(), "{", body, "}", ""]
     return "\n".join(out)
 
 

@@ -130,9 +130,44 @@ void paris_fail_machine(void) PARIS_COLD;
 static inline struct machine *paris_begin(const char *name)
 {
     struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
+    machine_begin(m); /* may perform calls that were only noted */
     paris_the.call = name;
-    machine_begin(m);
     return m;
+}
+
+/* An instruction that does nothing to what fields and flags hold, and does not look at it either. */
+static inline struct machine *paris_inquire(const char *name)
+{
+    struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
+    paris_the.call = name;
+    return m;
+}
+
+/* Around an instruction: see machine_call_foreseen(). */
+static inline bool paris_foreseen(struct machine_call *call)
+{
+    return machine_call_foreseen(paris_the.machine ? paris_the.machine : paris_machine(), call);
+}
+static inline void paris_performed(void)
+{
+    if (paris_the.machine)
+        machine_call_performed(paris_the.machine);
+}
+static inline uint64_t paris_word(double x)
+{
+    union {
+        double number;
+        uint64_t word;
+    } both = {.number = x};
+    return both.word;
+}
+static inline double paris_double(uint64_t word)
+{
+    union {
+        uint64_t word;
+        double number;
+    } both = {.word = word};
+    return both.number;
 }
 
 /* The operand's value in the current VP set; NULL when it is wrong, which has been said. */

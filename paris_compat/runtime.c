@@ -27,6 +27,8 @@ void paris_fail(const char *format, ...)
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     snprintf(error_text, sizeof error_text, "%.100s: %s", paris_the.call, text);
+    if (paris_the.machine)
+        machine_call_failed(paris_the.machine);
     if (error_handler) {
         error_handler(error_text);
         return;
@@ -57,6 +59,8 @@ void CM_set_error_handler(void (*handler)(const char *message))
 
 void CM_set_safety_mode(unsigned int on)
 {
+    if (paris_the.machine)
+        machine_calls_forget(paris_the.machine);
     paris_the.safety = on;
 }
 

@@ -96,7 +96,7 @@ void CM_deallocate_vp_set(CM_vp_set_id_t vp_set)
 
 void CM_set_vp_set(CM_vp_set_id_t vp_set)
 {
-    paris_begin("CM_set_vp_set");
+    paris_inquire("CM_set_vp_set");
     if (set_check(vp_set))
         set_select(vp_set);
 }

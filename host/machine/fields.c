@@ -26,6 +26,7 @@ struct vpset *vpset_get(struct machine *m, int vpset)
 static void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
 {
     graph_ref(v);
+    replay_changes(m);
     if (slot->value)
         graph_unref(m, slot->value);
     slot->value = v;
@@ -35,6 +36,7 @@ static void overflow_clear(struct machine *m, struct lazy_overflow *o)
 {
     if (!o->op)
         return;
+    replay_changes(m);
     graph_unref(m, o->a);
     if (o->b)
         graph_unref(m, o->b);
@@ -92,6 +94,7 @@ int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int r
             return 0;
         }
     }
+    replay_settle(m);
     int id = 1;
     while (id < m->sets_count && m->sets[id].used)
         id++;
@@ -171,6 +174,7 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
     if (!s)
         return m->status;
     machine_begin(m);
+    replay_forget(m);
     for (int i = m->fields_count - 1; i >= 0; i--)
         if (i < m->fields_count && m->fields[i]->vpset == vpset)
             field_release(m, i);
@@ -224,6 +228,7 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
                             "another geometry of a VP set has as many processors (%llu)",
                             (unsigned long long)s->count);
     machine_begin(m);
+    replay_forget(m);
     flag_resolved(m, s, MACHINE_OVERFLOW);
     size_t slots_count = 3;
     for (int i = 0; i < m->fields_count; i++)
@@ -483,6 +488,7 @@ enum machine_status machine_field_deallocate(struct machine *m, uint32_t field)
     int i = exact_index(m, field, MACHINE_HEAP);
     if (i < 0)
         return m->status;
+    replay_forget(m);
     field_release(m, i);
     return MACHINE_OK;
 }
@@ -492,6 +498,7 @@ enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t
     int first = exact_index(m, field, MACHINE_STACK);
     if (first < 0)
         return m->status;
+    replay_forget(m);
     uint64_t serial = m->fields[first]->serial;
     for (int i = m->fields_count - 1; i >= 0; i--)
         if (i < m->fields_count && m->fields[i]->region == MACHINE_STACK &&
@@ -565,6 +572,7 @@ struct machine_value *field_content(struct machine *m, struct field *f, uint32_t
 static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t offset,
                                 uint32_t bits)
 {
+    replay_changes(m);
     if (f->slots_count == f->slots_capacity) {
         int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
         struct slot *slots = realloc(f->slots, (size_t)capacity * sizeof *slots);
@@ -588,6 +596,7 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
         last++;
     if (first == last)
         return;
+    replay_changes(m);
     struct slot low = f->slots[first], high = f->slots[last - 1];
     struct machine_value *below =
         low.offset < offset ? machine_extract(m, low.value, 0, (int)(offset - low.offset))
@@ -610,6 +619,7 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count)
 {
+    replay_changes(m);
     if (to > from)
         carve(m, f, from, to - from);
     while (f->slots_count + count > f->slots_capacity) {
@@ -666,6 +676,7 @@ static struct field *field_part(struct machine *m, uint32_t id, struct machine_t
 struct machine_value *machine_field_value(struct machine *m, uint32_t field,
                                           struct machine_type type, enum machine_scope scope)
 {
+    replay_settle(m);
     uint32_t offset;
     if (type.s && soft_type_good(type))
         return soft_unpacked(
@@ -687,6 +698,7 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
                                         struct machine_value *value, enum machine_scope scope)
 {
+    replay_settle(m);
     if (value && value->type.s)
         value = soft_packed(m, value);
     if (!value)
@@ -740,6 +752,7 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
 struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag,
                                          enum machine_scope scope)
 {
+    replay_settle(m);
     struct vpset *s = vpset_get(m, m->set_current);
     if (!s)
         return NULL;
@@ -753,6 +766,7 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
 enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
                                        struct machine_value *value, enum machine_scope scope)
 {
+    replay_settle(m);
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s)
         return m->status;
@@ -803,6 +817,8 @@ static int overflow_op(enum machine_op op, bool is_signed)
 static void overflow_remember(struct machine *m, struct vpset *s, int node,
                               struct machine_value *a, struct machine_value *b)
 {
+    replay_settle(m);
+    replay_changes(m);
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
     if (s->overflow.op && s->overflow.context != context)
         flag_resolved(m, s, MACHINE_OVERFLOW);
@@ -858,6 +874,8 @@ enum machine_status machine_overflow_record_value(struct machine *m,
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
     if (overflows->set && overflows->set != m->set_current)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    replay_settle(m);
+    replay_changes(m);
     struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
     if (s->overflow.op && s->overflow.context != context)
         flag_resolved(m, s, MACHINE_OVERFLOW);

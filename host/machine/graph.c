@@ -98,12 +98,21 @@ struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
     return v;
 }
 
-void machine_begin(struct machine *m)
+void graph_give_back(struct machine *m)
 {
     for (int i = 0; i < m->borrowed_count; i++)
         graph_unref(m, m->borrowed[i]);
     m->borrowed_count = 0;
+}
+
+void machine_begin(struct machine *m)
+{
+    graph_give_back(m);
     m->simplify_budget = 256;
+    if ((m->calls_noted | m->flush_due) && !replay_in_call(m)) {
+        replay_settle(m);
+        run_flush_due(m);
+    }
 }
 
 static uint32_t hash_of(const struct machine_value *k)
@@ -213,6 +222,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     v->refs = 0;
     v->hash = hash;
     v->mark = 0;
+    v->kept = false;
     v->buffer = NULL;
     for (int i = 0; i < 3; i++)
         if (v->in[i])
@@ -249,7 +259,7 @@ void graph_unref(struct machine *m, struct machine_value *v)
     for (;;) {
         if (v->interned) {
             table_remove(m, v);
-            if (is_pending(v) && !v->buffer)
+            if (is_pending(v) && !v->buffer && !v->kept)
                 m->nodes_pending--;
         }
         if (v->buffer)
@@ -268,9 +278,27 @@ void graph_unref(struct machine *m, struct machine_value *v)
     }
 }
 
+void graph_keep(struct machine *m, struct machine_value *v, bool kept)
+{
+    if (v->kept == kept)
+        return;
+    v->kept = kept;
+    if (v->interned && is_pending(v) && !v->buffer)
+        m->nodes_pending += kept ? UINT64_MAX : 1;
+}
+
+/* It is going to be another node: not one that a state keeps. */
+static void let_go(struct machine *m, const struct machine_value *v)
+{
+    if (v->kept)
+        replay_changes(m);
+    INVARIANT(!v->kept);
+}
+
 void graph_forget(struct machine *m, struct machine_value *v)
 {
     INVARIANT(v->buffer && v->interned);
+    let_go(m, v);
     table_remove(m, v);
     struct machine_value *in[3];
     memcpy(in, v->in, sizeof in);
@@ -291,6 +319,7 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
 {
     INVARIANT(!v->buffer && v->interned && type_equal(v->type, key->type) &&
               v->set == key->set);
+    let_go(m, v);
     struct machine_value *in[3];
     memcpy(in, v->in, sizeof in);
     table_remove(m, v);
@@ -320,6 +349,7 @@ void graph_materialised(struct machine *m, struct machine_value *v,
                         struct device_buffer *buffer)
 {
     INVARIANT(!v->buffer && v->interned);
+    let_go(m, v);
     v->buffer = buffer;
     if (is_pending(v))
         m->nodes_pending--;

@@ -10,6 +10,7 @@
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
+ *   replay.c    calls seen before: noted, and performed all at once   (uses run, graph)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   scan.c      scans and spreads: kernels written by hand            (uses run)
  *   rank.c      ranks: a radix sort                                   (uses scan)
@@ -85,6 +86,7 @@ struct device_buffer {
     cl_mem mem;
     size_t bytes;
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
+    uint32_t mark, number; /* of replay.c */
 };
 
 #define GENERATOR_NONE 255 /* reads memory, or is dear: stored like any value */
@@ -101,6 +103,7 @@ struct machine_value {
     uint16_t set;      /* VP set; 0: one number for all */
     uint16_t height;   /* longest path to something materialised */
     bool interned;
+    bool kept; /* a state's own: see replay.c. Does not count as waiting */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
@@ -206,7 +209,9 @@ struct machine {
     struct device device;
     bool device_open;
     pthread_t owner;
-    int inside; /* calls that build, launch or wait: see machine_leave() */
+    int inside;            /* calls that build, launch or wait: see machine_leave() */
+    struct replay *replay; /* NULL: nothing is noted */
+    int calls_noted;       /* and not performed yet */
     bool eager;
     char *dump_dir;
     int dump_count;
@@ -248,10 +253,14 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    bool sliced;         /* there has been a slice: see reshape.c */
-    bool rolling;        /* in reshape_roll() */
-    uint64_t roll_after; /* values waiting before the next try */
-    uint64_t stores, stores_evaluated, flushes, plans_built;
+    uint64_t flush_after; /* values waiting */
+    bool sliced;                      /* there has been a slice: see reshape.c */
+    bool rolling;                     /* in reshape_roll() */
+    uint64_t roll_after;              /* values waiting before the next try */
+    bool flush_due, flushing;         /* before the next instruction; just now */
+    uint64_t flush_place;             /* trace_hash where it became due */
+    enum machine_status flush_status; /* of one that failed: said at the next store */
+    uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
     double busy_s;
 };
 
@@ -277,6 +286,9 @@ void graph_forget(struct machine *m, struct machine_value *v);
 void graph_ref(struct machine_value *v);
 void graph_unref(struct machine *m, struct machine_value *v);
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
+void graph_give_back(struct machine *m); /* all that was borrowed */
+/* Whether it is a state's own. */
+void graph_keep(struct machine *m, struct machine_value *v, bool kept);
 /* The node now has its values in buffer, and forgets how they came about (unless it is a cheap
  * generator). */
 void graph_materialised(struct machine *m, struct machine_value *v,
@@ -430,8 +442,44 @@ size_t type_bytes(struct machine_type type); /* in a buffer */
 enum machine_status run_evaluate(struct machine *m, struct machine_value **targets, int count,
                                  bool all);
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
+/* What became due at a store is done between instructions. */
+void run_flush_due(struct machine *m);
+/* A plan, kept until the machine goes. version: another one where other kernels have been made for it;
+ * UINT32_MAX while better ones are due, which run_evaluate() makes. stored: the nodes that get a buffer. */
+struct plan;
+uint32_t plan_version(const struct machine *m, const struct plan *p);
+const int *plan_stored(const struct plan *p, int *count);
+/* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
+ * that are numbers. On failure none is put. */
+enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
+                             struct machine_value *const *nodes);
 void run_init(struct machine *m);
 void run_finish(struct machine *m);
+
+/* replay.c */
+bool replay_init(struct machine *m);
+void replay_finish(struct machine *m);
+/* Calls noted are performed: before anything looks at what fields and flags hold, or changes it. */
+void replay_perform(struct machine *m);
+static inline void replay_settle(struct machine *m)
+{
+    if (m->calls_noted)
+        replay_perform(m);
+}
+/* Before the content of a field or flag changes, or a node that is kept. */
+void replay_changes(struct machine *m);
+/* Something was done that depends on more than the call and the state. */
+void replay_impure(struct machine *m);
+/* Before fields die, or VP sets change their shape. */
+void replay_forget(struct machine *m);
+bool replay_in_call(const struct machine *m);
+/* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
+ * could not. */
+void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
+                      int count, struct device_buffer *const *buffers);
+void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
+                      struct machine_value *const *wanted, int wanted_count);
+void replay_failed(struct machine *m);
 
 /* observe.c */
 /* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:

@@ -83,6 +83,8 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     m->field_next_base = 64;
     m->epoch = 1;
     run_init(m);
+    if (!replay_init(m))
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->random_seed = 1;
     enum machine_status status = set_processors(m, config->processors_count);
     if (status)
@@ -95,6 +97,9 @@ void machine_destroy(struct machine *m)
 {
     if (!m)
         return;
+    m->calls_noted = 0; /* nobody is going to look */
+    m->flush_due = false;
+    replay_finish(m);
     fields_finish(m);
     run_finish(m);
     graph_finish(m);
@@ -139,6 +144,7 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
 {
     *out = (struct machine_stats){.stores = m->stores,
                                   .values_live = m->nodes_live,
+                                  .calls_foreseen = m->calls_foreseen,
                                   .flushes = m->flushes,
                                   .plans_built = m->plans_built,
                                   .kernels_built = m->device.kernels_built,

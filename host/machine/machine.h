@@ -115,6 +115,35 @@ void machine_error_clear(struct machine *m);
 /* Starts an instruction: values handed out before are released. */
 void machine_begin(struct machine *m);
 
+/* ---- calls seen before ---- */
+
+/* An instruction as its driver knows it: which one, and the numbers that it was called with. What it does
+ * must follow from these, the current VP set, which fields there are, and what fields and flags hold. A
+ * driver that says
+ *
+ *     struct machine_call call = {.again = perform_add, .words_count = 2, .words = {dest, source}};
+ *     if (machine_call_foreseen(m, &call))
+ *         return;
+ *     ... machine_begin(), values, stores ...
+ *     machine_call_performed(m);
+ *
+ * has steps that it repeats run without being recorded again: true says that the call is as expected
+ * and will have been performed when anybody looks. again() is then asked to perform it after all where
+ * what follows is not as expected. */
+enum { MACHINE_CALL_WORDS = 8 };
+struct machine_call {
+    void (*again)(const struct machine_call *call);
+    int vpset; /* set by the machine */
+    uint32_t words_count;
+    uint64_t words[MACHINE_CALL_WORDS];
+};
+bool machine_call_foreseen(struct machine *m, struct machine_call *call);
+void machine_call_performed(struct machine *m);
+/* It could not be performed, and that has been said. */
+void machine_call_failed(struct machine *m);
+/* Calls do something else from now on (a mode of the driver's has changed). */
+void machine_calls_forget(struct machine *m);
+
 /* Computes what is pending, live and expected to be read again (not temporaries); does not
  * wait. Never needed for the right result. */
 enum machine_status machine_flush(struct machine *m);
@@ -127,6 +156,7 @@ const char *machine_device_name(const struct machine *m);
 struct machine_stats {
     uint64_t stores;        /* values stored into fields and flags */
     uint64_t values_live;   /* nodes in the graph now */
+    uint64_t calls_foreseen; /* calls that were performed without being recorded again */
     uint64_t flushes;       /* evaluations */
     uint64_t plans_built;   /* evaluations whose shape had not been seen */
     uint64_t kernels_built; /* compiled, or loaded from the disk cache */

@@ -116,6 +116,7 @@ struct machine_value *observe_materialise(struct machine *m, int set, struct mac
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
                           uint32_t *offset)
 {
+    replay_settle(m);
     struct field *f = field_find(m, id, offset);
     int bits = machine_type_bits(type);
     if (f && *offset + (uint32_t)bits > f->bits) {

@@ -855,6 +855,7 @@ static bool view_make(struct machine *m, uint32_t field, int vpset, struct field
 
 uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset)
 {
+    replay_forget(m);
     struct field *root;
     struct view view;
     uint32_t bits;
@@ -882,6 +883,7 @@ static struct field *alias_exact(struct machine *m, uint32_t alias)
 
 enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field)
 {
+    replay_forget(m);
     struct field *f = alias_exact(m, alias), *root;
     struct view view;
     uint32_t bits;
@@ -906,6 +908,7 @@ enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint
 
 enum machine_status machine_alias_remove(struct machine *m, uint32_t alias)
 {
+    replay_forget(m);
     struct field *f = alias_exact(m, alias);
     if (!f)
         return m->status;

@@ -25,8 +25,7 @@
 
 enum {
     PENDING_MANY = 384,
-    PENDING_AGAIN = 48,
-    PENDING_MOST = 2048,
+    PENDING_MOST = 4096,
     PENDING_LOOP = 16384,
     HEIGHT_DEFERRED = 96,
     HEIGHT_MOST = 1500,
@@ -56,7 +55,9 @@ struct plan {
     struct launch *launches;
     int launches_count;
     int *stored; /* nodes that get a buffer */
+    size_t *stored_bytes;
     int stored_count;
+    uint32_t version;
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
@@ -185,6 +186,7 @@ static void plan_free(struct plan *p)
         free(p->launches[i].arguments);
     free(p->launches);
     free(p->stored);
+    free(p->stored_bytes);
     free(p->signature);
     free(p);
 }
@@ -198,6 +200,8 @@ void run_init(struct machine *m)
     m->box_after = after && *after ? strtoull(after, NULL, 10) : BOX_AFTER;
     after = getenv("LUTETIA_OPTIMISE_AFTER");
     m->optimise_after = after && *after ? strtoull(after, NULL, 10) : OPTIMISE_AFTER;
+    after = getenv("LUTETIA_FLUSH_AFTER");
+    m->flush_after = after && *after ? strtoull(after, NULL, 10) : PENDING_MANY;
 }
 
 void run_finish(struct machine *m)
@@ -339,7 +343,8 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
     if (good) {
         plan_choose(&g, m->sets, &m->device.shape);
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
-        good = p->stored != NULL;
+        p->stored_bytes = calloc((size_t)r->count, sizeof *p->stored_bytes);
+        good = p->stored && p->stored_bytes;
     }
     if (good && m->dump_dir)
         dump_graph(m, m->dump_count, &g);
@@ -357,7 +362,10 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
             int count = 0;
             for (int i = 0; i < g.count; i++)
                 if (g.nodes[i].stored && g.nodes[i].stage == stage && g.nodes[i].set == set) {
+                    const struct vpset *s = &m->sets[set];
                     stores[count++] = i;
+                    p->stored_bytes[p->stored_count] =
+                        (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(g.nodes[i].type);
                     p->stored[p->stored_count++] = i;
                 }
             good = count == 0 || plan_kernel(m, p, &g, stores, count);
@@ -377,15 +385,19 @@ static enum quality quality_after(const struct machine *m, uint64_t worked)
     return worked >= m->box_after ? BOXED : worked >= m->optimise_after ? OPTIMISED : QUICK;
 }
 
-/* It has become worth it: the same plan with better kernels. What cannot be had is done without. */
+/* Better kernels would be worth it by now. */
+static bool plan_is_due(const struct machine *m, const struct plan *p)
+{
+    enum quality quality = quality_after(m, p->worked);
+    return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
+           (quality != BOXED || p->could_be_optimised || p->could_be_boxed);
+}
+
+/* The same plan with better kernels. What cannot be had is done without. */
 static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
                          const struct targets *t)
 {
-    enum quality quality = quality_after(m, p->worked);
-    if (quality <= p->quality || (quality == OPTIMISED && !p->could_be_optimised) ||
-        (quality == BOXED && !p->could_be_optimised && !p->could_be_boxed))
-        return;
-    struct plan *better = plan_make(m, r, t, quality), old = *p;
+    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked)), old = *p;
     p->quality = BOXED; /* not again, unless it says so itself */
     if (!better) {
         machine_error_clear(m);
@@ -396,12 +408,25 @@ static void plan_improve(struct machine *m, struct plan *p, const struct reach *
     p->signature_length = old.signature_length;
     p->hash = old.hash;
     p->worked = old.worked;
+    p->version = old.version + 1;
     p->next = old.next;
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;
+    better->stored_bytes = old.stored_bytes;
     better->signature = NULL;
     plan_free(better);
+}
+
+uint32_t plan_version(const struct machine *m, const struct plan *p)
+{
+    return plan_is_due(m, p) ? UINT32_MAX : p->version;
+}
+
+const int *plan_stored(const struct plan *p, int *count)
+{
+    *count = p->stored_count;
+    return p->stored;
 }
 
 static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
@@ -423,7 +448,8 @@ static struct plan *plan_get(struct machine *m, const struct reach *r, const str
     for (struct plan *p = *bucket; p; p = p->next)
         if (p->hash == h && p->signature_length == r->length &&
             !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)) {
-            plan_improve(m, p, r, t);
+            if (plan_is_due(m, p))
+                plan_improve(m, p, r, t);
             return p;
         }
     struct plan *p = plan_make(m, r, t, quality_after(m, 0));
@@ -459,7 +485,8 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
 }
 
 static enum machine_status launch(struct machine *m, const struct launch *l,
-                                  const struct reach *r, struct device_buffer *const *fresh)
+                                  struct device_buffer *const *buffers,
+                                  struct machine_value *const *nodes)
 {
     const struct vpset *s = &m->sets[l->set];
     cl_int run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
@@ -472,50 +499,66 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
-        const struct machine_value *v = r->nodes[a->node];
-        if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT) {
-            struct device_buffer *b = fresh[a->node] ? fresh[a->node] : v->buffer;
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &b->mem);
-        } else {
-            error |= set_constant(l->kernel, at, v, a);
-        }
+        if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
+        else
+            error |= set_constant(l->kernel, at, nodes[a->node], a);
     }
     size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
     return device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
 }
 
-static enum machine_status execute(struct machine *m, struct plan *p, const struct reach *r)
+enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
+                             struct machine_value *const *nodes)
 {
     enum machine_status status = MACHINE_OK;
-    struct device_buffer **fresh = calloc((size_t)r->count, sizeof *fresh);
-    if (!fresh)
-        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
-    for (int i = 0; i < p->stored_count && !status; i++) {
-        const struct machine_value *v = r->nodes[p->stored[i]];
-        const struct vpset *s = &m->sets[v->set];
-        size_t bytes = (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(v->type);
-        fresh[p->stored[i]] = device_buffer_get(m, bytes);
-        if (!fresh[p->stored[i]])
+    int count = 0;
+    for (; count < p->stored_count && !status; count++) {
+        struct device_buffer **b = &buffers[p->stored[count]];
+        *b = device_buffer_get(m, p->stored_bytes[count]);
+        if (!*b)
             status = m->status;
     }
     for (int i = 0; i < p->launches_count && !status; i++)
-        status = launch(m, &p->launches[i], r, fresh);
+        status = launch(m, &p->launches[i], buffers, nodes);
     p->worked += p->work;
-    for (int i = 0; i < p->stored_count; i++) {
-        struct device_buffer *b = fresh[p->stored[i]];
-        if (b && status)
-            device_buffer_unref(m, b);
+    for (int i = 0; i < count && status; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (*b)
+            device_buffer_unref(m, *b);
+        *b = NULL;
     }
+    return status;
+}
+
+static enum machine_status execute(struct machine *m, struct plan *p, const struct reach *r,
+                                   struct machine_value *const *wanted, int wanted_count)
+{
+    struct device_buffer **buffers = calloc((size_t)r->count, sizeof *buffers);
+    if (!buffers)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
+    for (int i = 0; i < r->count; i++)
+        buffers[i] = r->nodes[i]->buffer;
+    replay_evaluates(m, p, r->nodes, r->count, buffers);
+    enum machine_status status = plan_run(m, p, buffers, r->nodes);
     /* Users first: a node whose inputs are let go may be the last to hold them. */
     for (int i = p->stored_count - 1; i >= 0 && !status; i--) {
-        struct machine_value *v = r->nodes[p->stored[i]];
-        graph_ref(v);
+        graph_ref(r->nodes[p->stored[i]]);
+        device_buffer_ref(buffers[p->stored[i]]);
     }
     for (int i = p->stored_count - 1; i >= 0 && !status; i--)
-        graph_materialised(m, r->nodes[p->stored[i]], fresh[p->stored[i]]);
+        graph_materialised(m, r->nodes[p->stored[i]], buffers[p->stored[i]]);
     for (int i = p->stored_count - 1; i >= 0 && !status; i--)
         graph_unref(m, r->nodes[p->stored[i]]);
-    free(fresh);
+    if (status) {
+        replay_failed(m);
+    } else {
+        m->epoch++;
+        replay_evaluated(m, buffers, wanted, wanted_count);
+    }
+    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
+        device_buffer_unref(m, buffers[p->stored[i]]);
+    free(buffers);
     return status;
 }
 
@@ -552,11 +595,10 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
     struct plan *p = status ? NULL : plan_get(m, &r, &t);
     if (p) {
-        status = execute(m, p, &r);
+        status = execute(m, p, &r, wanted, count);
         clFlush(m->device.queue);
         status = status ? status : device_pace(m);
         m->flushes++;
-        m->epoch++;
     } else if (!status) {
         status = m->status;
     }
@@ -589,6 +631,11 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     m->stores++;
     if (m->eager)
         return run_evaluate(m, NULL, 0, true);
+    if (m->flush_status) {
+        enum machine_status status = m->flush_status;
+        m->flush_status = MACHINE_OK;
+        return status;
+    }
     /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they
      * went, nor whether their operands have been computed. A shift of a shift is one shift, of
      * whatever was there first: its operand says nothing. */
@@ -598,9 +645,9 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
     m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
     *oldest = what;
-    bool again =
-        m->flush_hash && m->trace_hash == m->flush_hash && m->nodes_pending >= PENDING_AGAIN;
-    bool many = m->nodes_pending >= (m->flush_hash ? PENDING_MOST : PENDING_MANY);
+    bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
+                 m->nodes_pending >= m->flush_after / 8;
+    bool many = m->nodes_pending >= (m->flush_hash ? 5 * m->flush_after : m->flush_after);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->sliced && v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
@@ -612,23 +659,39 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
         m->roll_after = 0;
         if (partial && m->nodes_pending < PENDING_LOOP)
             m->roll_after = 2 * m->nodes_pending + PENDING_MANY;
-        if (m->roll_after || m->nodes_pending < PENDING_AGAIN)
+        if (m->roll_after || m->nodes_pending < m->flush_after / 8)
             return MACHINE_OK;
     }
-    uint64_t here = m->trace_hash;
-    enum machine_status status = run_evaluate(m, NULL, 0, false);
-    m->flush_hash = here;
+    m->flush_place = m->trace_hash;
+    m->flush_due = true;
+    if (m->sliced || v->height >= HEIGHT_MOST || m->nodes_pending >= PENDING_MOST)
+        run_flush_due(m);
+    enum machine_status status = m->flush_status;
+    m->flush_status = MACHINE_OK;
     return status;
+}
+
+void run_flush_due(struct machine *m)
+{
+    if (!m->flush_due)
+        return;
+    m->flush_due = false;
+    m->flushing = true;
+    m->flush_status = run_evaluate(m, NULL, 0, false);
+    m->flushing = false;
+    m->flush_hash = m->flush_place;
 }
 
 enum machine_status machine_flush(struct machine *m)
 {
+    replay_settle(m);
+    run_flush_due(m);
     return run_evaluate(m, NULL, 0, false);
 }
 
 enum machine_status machine_finish(struct machine *m)
 {
-    enum machine_status status = run_evaluate(m, NULL, 0, false);
+    enum machine_status status = machine_flush(m);
     double start = machine_clock_s();
     m->inside++;
     cl_int error = clFinish(m->device.queue);

@@ -810,6 +810,7 @@ struct machine_value *machine_random(struct machine *m, int width, uint64_t limi
                   : machine_random(m, width - 64, 0);
         return machine_concat(m, low, high);
     }
+    replay_impure(m);
     uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
     int fits32 = limit != 0 && limit <= UINT32_MAX;
     return generated(m, NODE_RANDOM, 0,

@@ -24,6 +24,7 @@ struct generator {
         int bits, set;
     } slots[PROGRAM_SLOTS];
     int set;
+    bool pure; /* no instruction that looks, writes from outside, or draws numbers */
 };
 
 static uint32_t draw(struct generator *g, uint32_t below)
@@ -118,6 +119,10 @@ static void emit_row(struct generator *g)
     in.row = (uint16_t)(ROW_CM_u_write_to_processor_1L +
                         draw(g, ROW_COUNT - ROW_CM_u_write_to_processor_1L));
     info = &row_table[in.row];
+    if (g->pure && (info->shape == INT_GLOBAL || info->shape == FLOAT_GLOBAL ||
+                    info->shape == READ_PROCESSOR || info->shape == WRITE_PROCESSOR ||
+                    info->shape == WRITE_PROCESSOR_FLOAT || info->shape == RANDOM))
+        return;
     if (info->shape == FLAG && draw(g, 2))
         return;
     /* each look costs kernels of its own */
@@ -211,6 +216,38 @@ static void emit_observe(struct generator *g)
         emit(g, &in);
 }
 
+/* A loop: the same instructions again and again, seldom with another constant, and looked at where a draw says. */
+static void emit_loop(struct generator *g)
+{
+    int first = g->p->count, turns = 4 + (int)draw(g, 8);
+    bool observed = draw(g, 2);
+
+    g->pure = draw(g, 8);
+
+    for (uint32_t n = 2 + draw(g, 7); n > 0; n--)
+        if (draw(g, 6) == 0)
+            emit_nest(g, 1);
+        else if (draw(g, 3) == 0)
+            emit_news(g);
+        else
+            emit_row(g);
+    if (observed)
+        emit_observe(g);
+    g->pure = false;
+    int count = g->p->count - first;
+    for (int turn = 1; turn < turns; turn++) {
+        int odd = draw(g, 8) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
+        for (int k = 0; k < count; k++) {
+            struct instruction in = g->p->code[first + k];
+            if (k == odd)
+                in.constant ^= 1, in.real += 1;
+            emit(g, &in);
+        }
+        if (draw(g, 8) == 0)
+            emit_observe(g);
+    }
+}
+
 static void emit_select(struct generator *g)
 {
     struct instruction in = {0};
@@ -245,8 +282,9 @@ void program_generate(struct program *p, uint64_t seed, int length)
         emit_fill(&g);
         emit_fill(&g);
     }
+    bool loops = seed % 4 == 3;
     while (p->count < length) {
-        uint32_t what = draw(&g, 100);
+        uint32_t what = loops && draw(&g, 3) ? 96 : draw(&g, 100);
 
         if (what < 62)
             emit_row(&g);
@@ -262,6 +300,8 @@ void program_generate(struct program *p, uint64_t seed, int length)
             emit_deallocate(&g);
         else if (what < 96 && p->sets_count > 1)
             emit_select(&g);
+        else if (what == 96 || what == 97)
+            emit_loop(&g);
         else if (what == 99 && draw(&g, 2))
             emit_observe(&g);
     }

@@ -345,3 +345,11 @@ uint64_t paris_kernels_built(void)
     machine_stats_get(paris_machine(), &now);
     return now.kernels_built;
 }
+
+uint64_t paris_calls_foreseen(void)
+{
+    struct machine_stats now;
+
+    machine_stats_get(paris_machine(), &now);
+    return now.calls_foreseen;
+}

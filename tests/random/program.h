@@ -210,6 +210,8 @@ void paris_run(const struct program *p, struct trace *out, bool eager);
 
 /* By the machine at hand, since it was made. */
 uint64_t paris_kernels_built(void);
+/* Calls that were not recorded again: of a step seen before. */
+uint64_t paris_calls_foreseen(void);
 
 /* ---- shrinking ---- */
 

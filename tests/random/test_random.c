@@ -203,8 +203,8 @@ int main(int argc, char **argv)
         done++;
     }
     printf("%ld programs from seed %ld, %ld instructions each at most: %ld differ, %llu "
-           "kernels built, %.1f s\n",
+           "kernels built, %llu calls foreseen, %.1f s\n",
            done, o.seed, o.length, failed, (unsigned long long)paris_kernels_built(),
-           now_s() - start);
+           (unsigned long long)paris_calls_foreseen(), now_s() - start);
     return failed != 0;
 }
