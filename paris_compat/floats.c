@@ -59,11 +59,7 @@ static struct machine_value *power(struct machine *m, struct machine_value *x,
         return machine_binary(m, MACHINE_FPOW, x,
                               machine_to_float(m, n, MACHINE_F64, is_signed));
     struct machine_value *sign = is_signed ? machine_extract(m, n, len - 1, 1) : NULL;
-    struct machine_value *magnitude = n;
-    if (sign) {
-        struct machine_value *negated = machine_unary(m, MACHINE_NEG, n);
-        magnitude = negated ? machine_select(m, sign, negated, n) : NULL;
-    }
+    struct machine_value *magnitude = is_signed ? paris_absolute(m, n) : n;
     if (!magnitude)
         return NULL;
     struct machine_value *low =
@@ -89,14 +85,8 @@ void paris_float_by_integer(const struct paris_instruction *self, struct paris_o
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
-        return;
-    struct machine_value *x =
-        paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
-    struct machine_value *n =
-        x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    if (!x || !n)
+    struct machine_value *x, *n;
+    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, &x, &n))
         return;
     bool is_signed = b.letter == 's';
     if (b.is_constant && constant_is_short(b))
@@ -132,9 +122,7 @@ void paris_float_pair(const struct paris_instruction *self, struct paris_operand
         [PARIS_SUB_MULT] = MACHINE_FMUL,  [PARIS_SUBF_MULT] = MACHINE_FMUL};
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b) ||
-        !paris_check_overlap(dest, c))
+    if (!paris_check_dest(dest, a, b, &type) || !paris_check_overlap(dest, c))
         return;
     struct machine_value *x = paris_load(m, a, "source1", self->scope);
     struct machine_value *y =
@@ -241,8 +229,7 @@ void paris_float_made(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = native(m, paris_load(m, a, "source", self->scope)), *r;
     if (!x)
@@ -292,8 +279,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type, ftype;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = native(m, paris_load(m, a, "source", self->scope));
     if (!x)
@@ -374,8 +360,7 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     if (type.s) {
         paris_fail("s, e: the VAX's floats are 23, 8 or 52, 11 (got %u, %u)", dest.len, dest.e);
@@ -473,8 +458,7 @@ void paris_float_swap(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, source))
+    if (!paris_check_dest(dest, source, source, &type))
         return;
     struct machine_value *x = paris_load(m, dest, "dest", self->scope);
     struct machine_value *y = x ? paris_load(m, source, "source", self->scope) : NULL;

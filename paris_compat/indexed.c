@@ -130,41 +130,43 @@ static void indexed_do(struct machine *m, const struct indexed *x, CM_field_id_t
     }
 }
 
+static void indexed_call(const char *name, CM_field_id_t field, CM_field_id_t array,
+                         CM_field_id_t index, unsigned int len, unsigned int index_len,
+                         unsigned int index_limit, unsigned int element_len, bool sets)
+{
+    struct machine *m = paris_begin(name);
+    struct indexed x = {field,     array,
+                        len,       element_len ? element_len : len,
+                        index_len, reach(index_limit, index_len)};
+    indexed_do(m, &x, index, sets);
+}
+
 void CM_aref_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index, unsigned int dlen,
                 unsigned int index_len, unsigned int index_limit, unsigned int element_len)
 {
-    struct machine *m = paris_begin("CM_aref_2L");
-    struct indexed x = {dest,      array,
-                        dlen,      element_len ? element_len : dlen,
-                        index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, false);
+    indexed_call("CM_aref_2L", dest, array, index, dlen, index_len, index_limit, element_len,
+                 false);
 }
 
 void CM_aset_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                 unsigned int slen, unsigned int index_len, unsigned int index_limit,
                 unsigned int element_len)
 {
-    struct machine *m = paris_begin("CM_aset_2L");
-    struct indexed x = {source,    array,
-                        slen,      element_len ? element_len : slen,
-                        index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, true);
+    indexed_call("CM_aset_2L", source, array, index, slen, index_len, index_limit, element_len,
+                 true);
 }
 
 void CM_aref32_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
                   unsigned int dlen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aref32_2L");
-    struct indexed x = {dest, array, dlen, dlen, index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, false);
+    indexed_call("CM_aref32_2L", dest, array, index, dlen, index_len, index_limit, dlen, false);
 }
 
 void CM_aset32_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                   unsigned int slen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aset32_2L");
-    struct indexed x = {source, array, slen, slen, index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, true);
+    indexed_call("CM_aset32_2L", source, array, index, slen, index_len, index_limit, slen,
+                 true);
 }
 
 /* ---- arrays of 32 processors, on the front end ---- */
@@ -275,20 +277,26 @@ static void shared_do(struct machine *m, const struct indexed *x, CM_field_id_t 
     shared_free(&s);
 }
 
+static void shared_call(const char *name, CM_field_id_t field, CM_field_id_t array,
+                        CM_field_id_t index, unsigned int len, unsigned int index_len,
+                        unsigned int index_limit, bool sets)
+{
+    struct machine *m = paris_begin(name);
+    struct indexed x = {field, array, len, len, index_len, reach(index_limit, index_len)};
+    shared_do(m, &x, index, sets);
+}
+
 void CM_aref32_shared_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
                          unsigned int dlen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aref32_shared_2L");
-    struct indexed x = {dest, array, dlen, dlen, index_len, reach(index_limit, index_len)};
-    shared_do(m, &x, index, false);
+    shared_call("CM_aref32_shared_2L", dest, array, index, dlen, index_len, index_limit, false);
 }
 
 void CM_aset32_shared_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                          unsigned int slen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aset32_shared_2L");
-    struct indexed x = {source, array, slen, slen, index_len, reach(index_limit, index_len)};
-    shared_do(m, &x, index, true);
+    shared_call("CM_aset32_shared_2L", source, array, index, slen, index_len, index_limit,
+                true);
 }
 
 /* ---- the other layout ---- */

@@ -95,6 +95,13 @@ bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
     return true;
 }
 
+bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                      struct machine_type *type)
+{
+    return paris_type(dest, "dest", type) && paris_check_operand(dest, "dest") &&
+           paris_check_overlap(dest, a) && paris_check_overlap(dest, b);
+}
+
 bool paris_check_axis(unsigned int axis)
 {
     int rank = machine_vpset_rank(paris_the.machine, machine_vpset_current(paris_the.machine));
@@ -124,6 +131,15 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
     if (!v)
         paris_fail_machine();
     return v;
+}
+
+bool paris_load_two(struct machine *m, const struct paris_instruction *self,
+                    struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                    struct machine_value **x, struct machine_value **y)
+{
+    *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
+    *y = *x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    return *y != NULL;
 }
 
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
