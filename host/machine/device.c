@@ -182,15 +182,18 @@ enum machine_status device_open(struct machine *m, const char *choice)
     snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
     free(all);
     cl_device_type type = 0;
+    cl_uint units = 0;
     cl_ulong memory = 0, max_alloc = 0;
     cl_device_fp_config doubles = 0, singles = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_alloc, &max_alloc, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof singles, &singles, NULL);
     clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
     d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    d->units = units ? (int)units : 1;
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
     d->memory_max_alloc_bytes = max_alloc;
     if (!doubles)

@@ -184,6 +184,7 @@ struct device {
     cl_command_queue queue;
     char name[256], platform_name[128], driver[128];
     bool is_cpu, has_double;
+    int units; /* that compute at the same time */
     uint64_t memory_bytes, memory_max_alloc_bytes;
     struct device_shape shape;
     struct device_buffer **pool;
@@ -471,7 +472,6 @@ struct machine_value *in_memory(struct machine_value *v);
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 /* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
 bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
-int device_units(const struct machine *m);
 struct kernel_arguments {
     cl_kernel kernel;
     cl_uint count;

@@ -114,7 +114,7 @@ static struct sort sort_of(const struct machine *m, const struct vpset *s, int a
     if (!m->device.is_cpu && length > CHUNK_GPU) {
         t.chunk = CHUNK_GPU;
     } else if (m->device.is_cpu && length >= LONG) {
-        int wanted = 2 * device_units(m);
+        int wanted = 2 * m->device.units;
         t.chunk = (length - 1) / wanted + 1;
     }
     t.chunks = (length - 1) / t.chunk + 1;

@@ -166,20 +166,16 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
 /* Work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
-    cl_uint units = 1;
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    size_t count = m->device.is_cpu ? units : GPU_SHARES;
+    size_t count = m->device.is_cpu ? (size_t)m->device.units : GPU_SHARES;
     return count < to->count ? count : (size_t)to->count;
 }
 
 static bool scatters(const struct machine *m)
 {
-    cl_uint units = 1;
     const char *forced = getenv("LUTETIA_SCATTER");
     if (forced && *forced)
         return *forced != '0';
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    return m->device.is_cpu && units <= SCATTER_UNITS;
+    return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
 }
 
 static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)

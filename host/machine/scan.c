@@ -80,13 +80,6 @@ struct lines lines_of(const struct vpset *s, int axis, bool downward)
     return l;
 }
 
-int device_units(const struct machine *m)
-{
-    cl_uint units = 1;
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    return units ? (int)units : 1;
-}
-
 void kernel_argument_add(struct kernel_arguments *a, const void *value, size_t bytes)
 {
     a->error |= clSetKernelArg(a->kernel, a->count++, bytes, value);
@@ -157,7 +150,7 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
         return RUN_FLOATS;
     if (!m->device.is_cpu)
         return RUN_GPU;
-    int runs = 4 * device_units(m), run = (l->length - 1) / runs + 1;
+    int runs = 4 * m->device.units, run = (l->length - 1) / runs + 1;
     return run < RUN_LEAST ? RUN_LEAST : run;
 }
 
