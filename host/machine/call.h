@@ -32,6 +32,12 @@ static inline void call_argument(struct kernel_call *c, size_t size, const void 
         c->error |= clSetKernelArg(c->kernel, c->at++, size, value);
 }
 
+static inline void call_int(struct kernel_call *c, int value)
+{
+    cl_int x = value;
+    call_argument(c, sizeof x, &x);
+}
+
 static inline void call_uint(struct kernel_call *c, uint64_t value)
 {
     cl_uint x = (cl_uint)value;
@@ -66,12 +72,39 @@ static inline void call_order(struct kernel_call *c, const struct machine *m,
     call_uint(c, s->order == MACHINE_SEND_ORDER);
 }
 
-/* Work-items x * y; on a CPU each a group of its own. */
+/* Lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
+static inline void call_lines(struct kernel_call *c, const struct lines *l, int run)
+{
+    call_ulong(c, l->base);
+    call_ulong(c, (uint64_t)l->step);
+    call_ulong(c, l->inner_stride);
+    call_ulong(c, l->outer_stride);
+    call_int(c, l->length);
+    call_int(c, run);
+    call_int(c, l->columns);
+}
+
+/* How these lie in rows. */
+static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
+{
+    call_int(c, l->width);
+    call_int(c, l->halo);
+    call_int(c, l->along);
+}
+
+/* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
 {
     size_t global[2] = {x, y};
     return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, what) : m->status;
+}
+
+static inline enum machine_status call_start_3d(struct kernel_call *c, struct machine *m,
+                                                size_t x, size_t y, size_t z, const char *what)
+{
+    size_t global[3] = {x, y, z};
+    return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, what) : m->status;
 }
 
 /* Columns that a work-item of call_over() does; the kernel wants it as an argument. */

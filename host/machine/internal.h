@@ -472,16 +472,8 @@ struct machine_value *in_memory(struct machine_value *v);
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 /* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
 bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
-struct kernel_arguments {
-    cl_kernel kernel;
-    cl_uint count;
-    cl_int error;
-};
-void kernel_argument_add(struct kernel_arguments *a, const void *value, size_t bytes);
-void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int run,
-                      bool with_rows);
-enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
-                                 size_t runs, size_t rows, size_t blocks);
+
+/* fields.c */
 /* The slots between two bit offsets are given up for these, whose values' references go to the field. */
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count);
@@ -510,13 +502,6 @@ bool reshape_roll(struct machine *m, bool *partial);
  * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);
 
-/* observe.c */
-/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
- * everywhere the same). Does not wait. NULL: error set. */
-struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
-/* Of a buffer for one value of that type. */
-size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
-
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);
 void device_close(struct machine *m);
@@ -541,6 +526,16 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
+/* Around a call that waits for the device, whose time counts as busy; begin gives when it began. */
+double device_wait_begin(struct machine *m);
+enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
+                                    const char *what);
+/* A whole buffer becomes repetitions of the pattern; from its beginning a copy. Do not wait. */
+enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
+                                const void *pattern, size_t pattern_bytes, const char *what);
+enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
+                                const struct device_buffer *to, size_t bytes, const char *what);
+void device_flush(struct machine *m); /* what is in the queue begins */
 /* After kernels were started: waits where the front end is hundreds of them ahead of the device,
  * for each that waits in the queue takes memory. */
 enum machine_status device_pace(struct machine *m);

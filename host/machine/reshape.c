@@ -82,7 +82,6 @@ bool reshape_unpack(struct machine *m, struct machine_value *slice)
     char options[64];
     snprintf(options, sizeof options, "-DELEMENT=%s%s", call_element(type_bytes(slice->type)),
              type_bytes(slice->type) == 16 ? " -DPAIR" : "");
-    m->inside++;
     struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "slices");
     call_set(&c, m, f);
     call_set(&c, m, s);
@@ -95,7 +94,6 @@ bool reshape_unpack(struct machine *m, struct machine_value *slice)
     for (int i = 0; i < BLOCK; i++)
         call_buffer(&c, b[i] ? b[i] : any);
     enum machine_status status = call_processors(&c, m, (size_t)s->ratio);
-    m->inside--;
     for (int i = 0; i < BLOCK; i++)
         if (b[i] && status)
             device_buffer_unref(m, b[i]);
@@ -151,7 +149,6 @@ struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v
     char options[64];
     snprintf(options, sizeof options, "-DELEMENT=%s%s", call_element(bytes),
              bytes == 16 ? " -DPAIR" : "");
-    m->inside++;
     struct kernel_call c = call_begin(m, kernel_reshape_cl, options, "slices");
     call_set(&c, m, &m->sets[set]);
     call_set(&c, m, to);
@@ -164,7 +161,6 @@ struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v
     for (int i = 0; i < BLOCK; i++)
         call_buffer(&c, b);
     enum machine_status status = call_processors(&c, m, (size_t)to->ratio);
-    m->inside--;
     if (!status)
         return graph_buffer_node(m, v->type, set, b);
     device_buffer_unref(m, b);
@@ -390,7 +386,6 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
     if (!words_evaluate(m, y, count, coarse) ||
         !(out = device_buffer_get(m, observe_buffer_bytes(f, type))))
         return NULL;
-    m->inside++;
     for (uint32_t at = 0, n, first = 0; at < count && !status;
          first += n * y[at].parts, at += n) {
         size_t whole = type_bytes(y[at].value->type);
@@ -418,7 +413,6 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
         call_buffer(&c, out);
         status = call_processors(&c, m, (size_t)s->ratio);
     }
-    m->inside--;
     if (!status)
         return graph_buffer_node(m, type, fine, out);
     device_buffer_unref(m, out);
@@ -649,7 +643,6 @@ static enum machine_status image_pass(struct machine *m, const char *name,
     size_t bytes = type_bytes(type);
     snprintf(options, sizeof options, "-DELEMENT=%s%s", call_element(bytes),
              bytes == 16 ? " -DPAIR" : "");
-    m->inside++;
     struct kernel_call c = call_begin(m, kernel_reshape_cl, options, name);
     call_set(&c, m, s);
     call_uint(&c, processors_run(m));
@@ -661,9 +654,7 @@ static enum machine_status image_pass(struct machine *m, const char *name,
     call_uint(&c, type.width);
     call_buffer(&c, from);
     call_buffer(&c, to);
-    enum machine_status status = call_processors(&c, m, 1);
-    m->inside--;
-    return status;
+    return call_processors(&c, m, 1);
 }
 
 static bool image_put(struct machine *m, const struct field *f, uint32_t words,
@@ -706,10 +697,7 @@ static bool through_image(struct machine *m, struct field *root, struct field *n
     cl_uint zero = 0;
     if (!image)
         return false;
-    bool good = device_check(m,
-                             clEnqueueFillBuffer(m->device.queue, image->mem, &zero,
-                                                 sizeof zero, 0, image->bytes, 0, NULL, NULL),
-                             "reshaping") == MACHINE_OK &&
+    bool good = device_fill(m, image, &zero, sizeof zero, "reshaping") == MACHINE_OK &&
                 image_put(m, root, words, image) &&
                 (!newest || image_put(m, newest, words, image)) &&
                 image_get(m, to, words, image);

@@ -83,6 +83,12 @@ static void address_options(char *out, size_t size, const struct message *g,
                  call_element(type_bytes(element->type)));
 }
 
+static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
+{
+    cl_uint zero = 0;
+    return device_fill(m, b, &zero, sizeof zero, "sending");
+}
+
 /* "claim" or "route": a number for each destination, or for each sender. */
 static struct device_buffer *addresses_pass(struct machine *m, const struct message *g,
                                             const char *name)
@@ -94,13 +100,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
     if (!b)
         return NULL;
     address_options(options, sizeof options, g, NULL);
-    cl_uint zero = 0;
-    enum machine_status status = MACHINE_OK;
-    if (claims)
-        status = device_check(m,
-                              clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero,
-                                                  0, bytes, 0, NULL, NULL),
-                              "sending");
+    enum machine_status status = claims ? zero_fill(m, b) : MACHINE_OK;
     for (uint64_t pass = claims && !m->device.is_cpu; pass < (claims ? 2 : 1) && !status;
          pass++) {
         struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
@@ -176,15 +176,6 @@ static bool scatters(const struct machine *m)
     if (forced && *forced)
         return *forced != '0';
     return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
-}
-
-static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
-{
-    cl_uint zero = 0;
-    return device_check(m,
-                        clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero, 0,
-                                            b->bytes, 0, NULL, NULL),
-                        "sending");
 }
 
 /* out already holds the old dest. */
@@ -292,11 +283,7 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
     enum machine_status status = out ? MACHINE_OK : m->status;
     if (!status && in_order) {
         owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);
-        status = owner ? device_check(m,
-                                      clEnqueueCopyBuffer(m->device.queue, g->old->buffer->mem,
-                                                          out->mem, 0, 0, bytes, 0, NULL, NULL),
-                                      "sending")
-                       : m->status;
+        status = owner ? device_copy(m, g->old->buffer, out, bytes, "sending") : m->status;
         if (!status && notifies)
             status = zero_fill(m, owner);
     }
@@ -370,11 +357,9 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
-    m->inside++;
     if (message_make(m, &g, send_address, source, m->set_current, old, to.vpset, true,
                      combiner != MACHINE_COMBINE_OVERWRITE))
         out = transmit(m, &g, combiner, notify != 0, &notification);
-    m->inside--;
     if (!out)
         return m->status;
     enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
@@ -421,11 +406,9 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     if (!v)
         return NULL;
     struct message g = {0};
-    m->inside++;
     bool made =
         message_make(m, &g, send_address, v, from.vpset, NULL, from.vpset, false, false);
     v = made ? fetch(m, &g) : NULL;
-    m->inside--;
     return machine_reinterpret(m, v, type);
 }
 
@@ -437,7 +420,6 @@ enum machine_status machine_addresses_check(struct machine *m,
     if (!send_address || !vpset_get(m, vpset) || !address_good(m, send_address))
         return m->status;
     struct message g = {0};
-    m->inside++;
     bool made = message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false);
     struct device_buffer *b = made ? addresses_pass(m, &g, "route") : NULL;
     size_t count = (size_t)m->sets[m->set_current].count;
@@ -445,18 +427,16 @@ enum machine_status machine_addresses_check(struct machine *m,
     enum machine_status status = b ? MACHINE_OK : m->status;
     if (b && !to)
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
-    double start = machine_clock_s();
-    if (!status)
-        status = device_check(m,
-                              clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
-                                                  count * sizeof *to, to, 0, NULL, NULL),
-                              "checking addresses");
-    m->busy_s += machine_clock_s() - start;
+    if (!status) {
+        double start = device_wait_begin(m);
+        cl_int error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                                           count * sizeof *to, to, 0, NULL, NULL);
+        status = device_wait_end(m, error, start, "checking addresses");
+    }
     for (size_t i = 0; !status && i < count; i++)
         *wrong += to[i] == (cl_uint)NO_PROCESSOR;
     if (b)
         device_buffer_unref(m, b);
     free(to);
-    m->inside--;
     return status;
 }
