@@ -12,26 +12,16 @@
  * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1. */
 #include "paris_state.h"
 
-/* A number of all ones or of a small value. */
-static struct machine_value *number(struct machine *m, unsigned int width, int x)
-{
-    return machine_constant(
-        m, MACHINE_UINT(width),
-        (struct machine_scalar){(uint64_t)(int64_t)x, x < 0 ? UINT64_MAX : 0});
-}
-
 static struct machine_value *is_number(struct machine *m, struct machine_value *v, int x)
 {
-    return v ? machine_binary(m, MACHINE_EQ, v, number(m, machine_value_type(v).width, x))
+    return v ? machine_binary(m, MACHINE_EQ, v, paris_number(m, machine_value_type(v).width, x))
              : NULL;
 }
 
 static struct machine_value *is_least(struct machine *m, struct machine_value *v)
 {
-    unsigned int top = machine_value_type(v).width - 1u;
-    struct machine_scalar least = {top < 64 ? UINT64_C(1) << top : 0,
-                                   top < 64 ? 0 : UINT64_C(1) << (top - 64)};
-    return machine_binary(m, MACHINE_EQ, v, machine_constant(m, MACHINE_UINT(top + 1), least));
+    struct machine_type type = machine_value_type(v);
+    return machine_binary(m, MACHINE_EQ, v, machine_constant(m, type, scalar_sign(type.width)));
 }
 
 static struct machine_value *sign_of(struct machine *m, struct machine_value *v)
@@ -93,7 +83,8 @@ static struct machine_value *inverse_power(struct machine *m, struct machine_val
                                            struct machine_value *y, bool is_signed)
 {
     unsigned int width = machine_value_type(x).width;
-    struct machine_value *one = number(m, width, 1), *none = number(m, width, 0);
+    struct machine_value *one = paris_number(m, (int)width, 1),
+                         *none = paris_number(m, (int)width, 0);
     struct machine_value *others = none;
     if (is_signed) {
         struct machine_value *minus = machine_select(m, machine_extract(m, y, 0, 1), x, one);
@@ -143,16 +134,17 @@ static struct machine_value *without_sign(struct machine *m, struct machine_valu
 static struct machine_value *signum(struct machine *m, struct machine_value *x)
 {
     unsigned int width = machine_value_type(x).width;
-    struct machine_value *positive =
-        paris_resize(m, machine_binary(m, MACHINE_NE, x, number(m, width, 0)), width, false);
+    struct machine_value *positive = paris_resize(
+        m, machine_binary(m, MACHINE_NE, x, paris_number(m, (int)width, 0)), width, false);
     struct machine_value *sign = sign_of(m, x);
-    return positive && sign ? machine_select(m, sign, number(m, width, -1), positive) : NULL;
+    return positive && sign ? machine_select(m, sign, paris_number(m, (int)width, -1), positive)
+                            : NULL;
 }
 
 static struct machine_value *to_gray(struct machine *m, struct machine_value *x)
 {
     return machine_binary(m, MACHINE_XOR, x,
-                          machine_bits_shift(m, MACHINE_USHIFT, x, number(m, 32, -1)));
+                          machine_bits_shift(m, MACHINE_USHIFT, x, paris_number(m, 32, -1)));
 }
 
 void paris_integer_unary(const struct paris_instruction *self, struct paris_operand dest,
@@ -163,7 +155,7 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
     if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = paris_load(m, a, "source", self->scope), *result,
-                         *overflow = number(m, 1, 0);
+                         *overflow = paris_number(m, 1, 0);
     if (!x)
         return;
     bool is_signed = a.letter == 's', result_signed = false;
@@ -176,7 +168,7 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
         result = machine_unary(m, MACHINE_ISQRT, x);
         if (is_signed && result) {
             overflow = sign_of(m, x);
-            result = machine_select(m, overflow, number(m, a.len, 0), result);
+            result = machine_select(m, overflow, paris_number(m, (int)a.len, 0), result);
             result_signed = true;
         }
         break;

@@ -125,8 +125,7 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
     } else if (a.letter == 'f') {
         v = machine_constant_float(m, type, a.value.number);
     } else {
-        uint64_t high = a.letter == 's' && (long)a.value.bits < 0 ? UINT64_MAX : 0;
-        v = machine_constant(m, type, (struct machine_scalar){a.value.bits, high});
+        v = machine_constant(m, type, paris_constant_bits(a));
     }
     if (!v)
         paris_fail_machine();

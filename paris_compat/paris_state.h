@@ -28,6 +28,7 @@
 #endif
 
 #include "paris_internal.h"
+#include "scalar.h"
 
 /* One entry point. */
 struct paris_instruction {
@@ -135,6 +136,12 @@ static inline struct machine *paris_begin(const char *name)
     return m;
 }
 
+/* The integer that a constant operand is, of 128 bits. */
+static inline struct machine_scalar paris_constant_bits(struct paris_operand a)
+{
+    return a.letter == 's' ? scalar_signed((long)a.value.bits)
+                           : (struct machine_scalar){a.value.bits, 0};
+}
 /* The operand's value in the current VP set; NULL when it is wrong, which has been said. */
 struct machine_value *paris_load(struct machine *m, struct paris_operand a, const char *role,
                                  enum machine_scope scope);
@@ -173,6 +180,8 @@ static inline unsigned int paris_longest(unsigned int a, unsigned int b)
 {
     return a > b ? a : b;
 }
+/* Cut off to that width. */
+struct machine_value *paris_number(struct machine *m, int width, int64_t x);
 struct machine_value *paris_resize(struct machine *m, struct machine_value *v,
                                    unsigned int width, bool is_signed);
 /* 1 where v is not the number that its low len bits are. */

@@ -2,6 +2,11 @@
  * machine has noted. */
 #include "paris_state.h"
 
+struct machine_value *paris_number(struct machine *m, int width, int64_t x)
+{
+    return machine_constant(m, MACHINE_UINT(width), scalar_signed(x));
+}
+
 struct machine_value *paris_resize(struct machine *m, struct machine_value *v,
                                    unsigned int width, bool is_signed)
 {
@@ -17,7 +22,7 @@ struct machine_value *paris_lost(struct machine *m, struct machine_value *v, uns
         return NULL;
     unsigned int width = machine_value_type(v).width;
     if (width <= len)
-        return machine_constant(m, MACHINE_BIT, (struct machine_scalar){0, 0});
+        return paris_number(m, 1, 0);
     struct machine_value *kept = paris_resize(m, v, len, is_signed);
     return machine_binary(m, MACHINE_NE, v, paris_resize(m, kept, width, is_signed));
 }

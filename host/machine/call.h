@@ -49,6 +49,12 @@ static inline void call_ulong(struct kernel_call *c, uint64_t value)
     call_argument(c, sizeof value, &value);
 }
 
+static inline void call_scalar(struct kernel_call *c, struct machine_scalar x)
+{
+    call_ulong(c, x.lo);
+    call_ulong(c, x.hi);
+}
+
 static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
 {
     call_argument(c, sizeof b->mem, &b->mem);

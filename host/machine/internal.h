@@ -16,6 +16,7 @@
  *   router.c    sends and gets                                        (uses run)
  *   reshape.c   aliases: the same memory seen from another VP set     (uses run, graph)
  *   call.h      starting a kernel that is not generated
+ *   scalar.h    numbers on the front end
  *   device.c    OpenCL: devices, buffers, programs and their cache
  *   machine.c   creation, errors, configuration
  */
@@ -27,6 +28,7 @@
 #include <stdio.h>
 
 #include "machine.h"
+#include "scalar.h"
 
 /* Stays in release builds: a broken invariant of ours, never of the caller. */
 #define INVARIANT(condition)                                                                   \

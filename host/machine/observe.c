@@ -67,16 +67,6 @@ static void put_scalar(unsigned char *to, struct machine_scalar x, size_t elemen
         memcpy(to + 8, &x.hi, 8);
 }
 
-static void cut_scalar(struct machine_scalar *x, int width)
-{
-    if (width < 64)
-        x->lo &= (UINT64_C(1) << width) - 1;
-    if (width <= 64)
-        x->hi = 0;
-    else if (width < 128)
-        x->hi &= (UINT64_C(1) << (width - 64)) - 1;
-}
-
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
     if (v->op == NODE_CONSTANT && !v->buffer) {
@@ -154,8 +144,7 @@ static void mask_elements(void *data, uint64_t count, struct machine_type type)
         memcpy(&x.lo, at, element < 8 ? element : 8);
         if (element > 8)
             memcpy(&x.hi, at + 8, 8);
-        cut_scalar(&x, type.width);
-        put_scalar(at, x, element);
+        put_scalar(at, scalar_cut(x, type.width), element);
     }
 }
 
@@ -255,9 +244,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
-    cut_scalar(&value, type.width);
     unsigned char raw[16];
-    put_scalar(raw, value, element);
+    put_scalar(raw, scalar_cut(value, type.width), element);
     size_t at = place(s, index), column = index % (uint64_t)s->width, width = (size_t)s->width;
     size_t places[3] = {at, 0, 0};
     int count = 1;
@@ -308,8 +296,7 @@ static struct machine_scalar identity_of(const struct reduction_info *info,
         else
             x.lo = info->op == LEAST ? 0x7ff0000000000000u : 0xfff0000000000000u;
     } else if (info->op == AND || (info->op == LEAST && !info->is_float)) {
-        x.lo = x.hi = UINT64_MAX;
-        cut_scalar(&x, type.width);
+        x = scalar_ones(type.width);
     }
     return x;
 }
@@ -446,8 +433,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     const struct reduction_info *info = &reductions[op];
     struct machine_type type = value->type;
     struct machine_scalar identity = identity_of(info, type);
-    struct machine_scalar sign = {type.width <= 64 ? UINT64_C(1) << (type.width - 1) : 0,
-                                  type.width > 64 ? UINT64_C(1) << (type.width - 65) : 0};
+    struct machine_scalar sign = scalar_sign(type.width);
     if (info->is_signed) /* in another order: the sign bit turned over */
         value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
     struct machine_value *none = machine_constant(m, type, identity);
@@ -460,7 +446,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
         out->lo ^= sign.lo;
         out->hi ^= sign.hi;
     }
-    cut_scalar(out, type.width);
+    *out = scalar_cut(*out, type.width);
     if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
         out->lo = 0x7fc00000u;
     if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))

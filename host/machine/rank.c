@@ -49,12 +49,9 @@ static struct machine_value *key_of(struct machine *m, struct machine_value *v, 
               : NULL;
         if (!v)
             return NULL;
-        uint64_t last = width == 32 ? UINT32_MAX : UINT64_MAX;
-        v = float_order(m, v, downward ? 0 : last);
+        v = float_order(m, v, downward ? 0 : scalar_ones(width).lo);
     } else if (is_signed) {
-        struct machine_scalar sign = {width <= 64 ? UINT64_C(1) << (width - 1) : 0,
-                                      width > 64 ? UINT64_C(1) << (width - 65) : 0};
-        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, sign));
+        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, scalar_sign(width)));
     }
     return v && downward ? machine_unary(m, MACHINE_NOT, v) : v;
 }

@@ -407,7 +407,7 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
         call_uint(&c, n);
         call_uint(&c, y[at].parts);
         call_uint(&c, type.width);
-        call_ulong(&c, type.width < 64 ? (UINT64_C(1) << type.width) - 1 : UINT64_MAX);
+        call_ulong(&c, scalar_ones(type.width).lo);
         for (uint32_t i = 0; i < BLOCK; i++)
             call_buffer(&c, y[at + (i < n ? i : 0)].value->buffer);
         call_buffer(&c, out);

@@ -230,7 +230,6 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     combine_options(options, sizeof options, g);
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "combine");
     size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
-    int width = type.width;
     call_layout(&c, g->to);
     call_layout(&c, g->from);
     call_uint(&c, (uint64_t)op);
@@ -238,12 +237,8 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     call_uint(&c, share);
     call_uint(&c, notifies);
     call_uint(&c, m->device.is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
-    call_ulong(&c, width <= 64 ? UINT64_C(1) << (width - 1) : 0);
-    call_ulong(&c, width > 64 ? UINT64_C(1) << (width - 65) : 0);
-    call_ulong(&c, width < 64 ? (UINT64_C(1) << width) - 1 : UINT64_MAX);
-    call_ulong(&c, width <= 64    ? 0
-                   : width == 128 ? UINT64_MAX
-                                  : (UINT64_C(1) << (width - 64)) - 1);
+    call_scalar(&c, scalar_sign(type.width));
+    call_scalar(&c, scalar_ones(type.width));
     call_buffer(&c, to);
     call_buffer(&c, g->source->buffer);
     call_buffer(&c, out);

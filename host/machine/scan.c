@@ -257,24 +257,6 @@ static const struct element *bits_element(int width)
     return &elements[width <= 32 ? UINT32 : width <= 64 ? UINT64 : UINT128];
 }
 
-static struct machine_scalar ones(int width)
-{
-    struct machine_scalar x = {UINT64_MAX, UINT64_MAX};
-    if (width < 64)
-        x.lo = (UINT64_C(1) << width) - 1;
-    if (width <= 64)
-        x.hi = 0;
-    else if (width < 128)
-        x.hi = (UINT64_C(1) << (width - 64)) - 1;
-    return x;
-}
-
-static struct machine_scalar sign_of(int width)
-{
-    return (struct machine_scalar){width <= 64 ? UINT64_C(1) << (width - 1) : 0,
-                                   width > 64 ? UINT64_C(1) << (width - 65) : 0};
-}
-
 static struct machine_value *flipped(struct machine *m, struct machine_value *v,
                                      struct machine_scalar by)
 {
@@ -296,7 +278,7 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
     struct machine_value *bits = machine_reinterpret(m, v, MACHINE_UINT(width));
     struct machine_value *negative = machine_extract(m, bits, width - 1, 1);
     struct machine_value *order = machine_select(
-        m, negative, machine_unary(m, MACHINE_NOT, bits), flipped(m, bits, sign_of(width)));
+        m, negative, machine_unary(m, MACHINE_NOT, bits), flipped(m, bits, scalar_sign(width)));
     struct machine_scalar last = {nan, 0};
     return machine_select(m, is_nan, machine_constant(m, MACHINE_UINT(width), last), order);
 }
@@ -304,9 +286,9 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
 static struct machine_value *float_unordered(struct machine *m, struct machine_value *order)
 {
     int width = order->type.width;
-    struct machine_value *bits =
-        machine_select(m, machine_extract(m, order, width - 1, 1),
-                       flipped(m, order, sign_of(width)), machine_unary(m, MACHINE_NOT, order));
+    struct machine_value *bits = machine_select(m, machine_extract(m, order, width - 1, 1),
+                                                flipped(m, order, scalar_sign(width)),
+                                                machine_unary(m, MACHINE_NOT, order));
     return machine_reinterpret(m, bits, width == 32 ? MACHINE_F32 : MACHINE_F64);
 }
 
@@ -338,8 +320,8 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
         return v ? in_memory(v) : NULL;
     }
     f->element = bits_element(f->width);
-    f->cut = ones(f->width);
-    struct machine_scalar all = ones(f->width), sign = sign_of(f->width);
+    f->cut = scalar_ones(f->width);
+    struct machine_scalar all = scalar_ones(f->width), sign = scalar_sign(f->width);
     switch (c) {
     case MACHINE_SCAN_FMIN:
     case MACHINE_SCAN_FMAX:
