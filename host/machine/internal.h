@@ -440,7 +440,7 @@ void run_finish(struct machine *m);
 /* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
  * everywhere the same). Does not wait. NULL: error set. */
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
-/* Of a buffer for one value of that type. */
+/* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */
 size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
 
 /* scan.c */

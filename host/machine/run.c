@@ -492,9 +492,8 @@ static enum machine_status execute(struct machine *m, struct plan *p, const stru
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
     for (int i = 0; i < p->stored_count && !status; i++) {
         const struct machine_value *v = r->nodes[p->stored[i]];
-        const struct vpset *s = &m->sets[v->set];
-        size_t bytes = (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(v->type);
-        fresh[p->stored[i]] = device_buffer_get(m, bytes);
+        fresh[p->stored[i]] =
+            device_buffer_get(m, observe_buffer_bytes(&m->sets[v->set], v->type));
         if (!fresh[p->stored[i]])
             status = m->status;
     }
