@@ -12,7 +12,8 @@
 
 #include "internal.h"
 
-enum { CALL_RUN = 4096 }; /* columns for a work-item on a CPU */
+/* For a work-item on a CPU: columns; physical processors. */
+enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
 
 struct kernel_call {
     cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
@@ -98,6 +99,13 @@ static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
     call_int(c, l->along);
 }
 
+static inline void call_set(struct kernel_call *c, const struct machine *m,
+                            const struct vpset *s)
+{
+    call_order(c, m, s);
+    call_layout(c, s);
+}
+
 /* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
@@ -125,6 +133,20 @@ static inline enum machine_status call_over(struct kernel_call *c, struct machin
 {
     size_t run = call_run(m);
     return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
+}
+
+/* Physical processors that a work-item of call_processors() does. */
+static inline size_t call_processors_run(const struct machine *m)
+{
+    return m->device.is_cpu ? CALL_PROCESSORS_RUN : 1;
+}
+
+/* A work-item for each run of physical processors, times y. */
+static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
+                                                  size_t y, const char *what)
+{
+    size_t run = call_processors_run(m), p = (size_t)m->processors_count;
+    return call_start(c, m, (p + run - 1) / run, y, what);
 }
 
 /* The C type of an element in memory of so many bytes; 16 is a pair. */

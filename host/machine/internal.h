@@ -14,7 +14,10 @@
  *   scan.c      scans and spreads: kernels written by hand            (uses run)
  *   rank.c      ranks: a radix sort                                   (uses scan)
  *   router.c    sends and gets                                        (uses run)
- *   reshape.c   aliases: the same memory seen from another VP set     (uses run, graph)
+ *   alias.c     aliases: the same memory seen from another VP set     (uses reshape)
+ *   slices.c    slices of values; loops over them rolled up           (uses run, graph)
+ *   reshape.c   content on its way between aliases                    (uses slices, run)
+ *   reshape.h   what these three share, and how aliases work
  *   call.h      starting a kernel that is not generated
  *   scalar.h    numbers on the front end
  *   device.c    OpenCL: devices, buffers, programs and their cache
@@ -71,7 +74,7 @@ enum node_op {
     NODE_OVERFLOW_FMUL,
     NODE_OVERFLOW_FDIV,
     NODE_OVERFLOW_RESULT, /* in: result, operand: infinite from finite */
-    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.c */
+    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.h */
     NODE_OP_COUNT
 };
 
@@ -251,7 +254,7 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    bool sliced;         /* there has been a slice: see reshape.c */
+    bool sliced;         /* there has been a slice: see slices.c */
     bool rolling;        /* in reshape_roll() */
     uint64_t roll_after; /* values waiting before the next try */
     uint64_t stores, stores_evaluated, flushes, plans_built;
@@ -486,12 +489,14 @@ struct field *field_exact(struct machine *m, uint32_t id);
 bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
 void field_destroy(struct machine *m, struct field *f);
 
-/* reshape.c */
+/* alias.c */
 /* Called before slots of f are looked at, or replaced (writes; whole: all of them, everywhere): brings
  * what was stored through another alias of its memory. */
 bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole);
 /* The root takes over what its newest alias holds. */
 bool reshape_settle(struct machine *m, struct field *root);
+
+/* slices.c */
 /* Gives a slice its buffer; others that are found on the way too. */
 bool reshape_unpack(struct machine *m, struct machine_value *slice);
 /* The same numbers for the same processors in rows of another geometry; v is of the set as it is. */
