@@ -16,6 +16,7 @@
 #include "oracle.h"
 #include "page.h"
 #include "paris_internal.h"
+#include "sample.h"
 #include "variant.h"
 
 enum { STEPS = 200 };
@@ -24,11 +25,7 @@ static uint64_t random_state;
 
 static uint32_t random_word(void)
 {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)((z ^ (z >> 31)) >> 32);
+    return (uint32_t)(sample_word(&random_state) >> 32);
 }
 
 /* A sheet that is wet in places, with pigment in spots; the temporaries hold leftovers of another program. */

@@ -2,6 +2,8 @@
  * addresses that collide or lead nowhere, and contexts. */
 #include "support.h"
 
+#include "sample.h"
+
 enum { PROCESSORS = 16, ROUNDS = 8 };
 
 static struct machine *machine;
@@ -9,8 +11,7 @@ static uint64_t state;
 
 static uint64_t next(uint64_t below)
 {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (state >> 33) % below;
+    return sample_linear(&state) % below;
 }
 
 /* ---- geometries ---- */

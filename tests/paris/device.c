@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sample.h"
+
 char device_message[512];
 
 void device_error_catch(const char *message)
@@ -59,19 +61,16 @@ void device_get(CM_field_id_t field, int width, number *numbers)
 
 /* ---- numbers ---- */
 
-static uint64_t state = 88172645463325252u;
+static uint64_t state = SAMPLE_SHIFTED_BEGIN;
 
 void device_seed(uint64_t seed)
 {
-    state = seed * 2654435769u + 88172645463325252u;
+    state = seed * 2654435769u + SAMPLE_SHIFTED_BEGIN;
 }
 
 uint64_t device_random(void)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return state;
+    return sample_shifted(&state);
 }
 
 void device_integers(number *numbers, int width)

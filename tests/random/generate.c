@@ -8,6 +8,8 @@
 
 #include <string.h>
 
+#include "sample.h"
+
 static const struct geometry geometries[] = {
     {1, {7}},           {2, {5, 3}}, {2, {3, 43}}, {3, {2, 3, 5}}, {1, {1}},
     {4, {3, 1, 2, 41}}, {2, {1, 2}}, {1, {97}},    {2, {9, 40}},   {3, {4, 2, 17}},
@@ -28,11 +30,7 @@ struct generator {
 
 static uint32_t draw(struct generator *g, uint32_t below)
 {
-    uint64_t z = g->state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)(((z ^ (z >> 31)) >> 32) % below);
+    return (uint32_t)(sample_word(&g->state) >> 32) % below;
 }
 
 /* A part of `bits` bits of some field of the current VP set; mostly from its first bit. */
