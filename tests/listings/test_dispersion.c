@@ -64,30 +64,6 @@ static void fill(struct FiberStruct *page, struct oracle *o)
     free(words);
 }
 
-static void compare(struct FiberStruct *page, const struct oracle *o, int step)
-{
-    static const char *const names[PAGE_FIELD_COUNT] = {
-        "water",     "absorbency",   "cyan",    "magenta",           "yellow",
-        "temp1",     "temp2",        "inward",  "outward",           "inflow",
-        "outflow",   "image",        "context", "old_context_store", "context flag",
-        "test flag", "overflow flag"};
-    int count = o->width * o->height;
-    unsigned int *words = malloc((size_t)count * sizeof *words);
-
-    assert_non_null(words);
-    page_look_at_flags(page);
-    for (int which = 0; which < PAGE_FIELD_COUNT; which++) {
-        page_read(page, (enum page_field)which, words);
-        for (int n = 0; n < count; n++)
-            if (words[n] != oracle_word(o, which, n))
-                fail_msg(
-                    "%s at row %d column %d of %dx%d after step %d: %08x, the oracle has %08x",
-                    names[which], n / o->width, n % o->width, o->width, o->height, step,
-                    words[n], oracle_word(o, which, n));
-    }
-    free(words);
-}
-
 /* What it took, for whoever reads the log. */
 static void report(void)
 {
@@ -115,7 +91,7 @@ static void disperse(int width, int height, int observed_every)
         variant_step(&page);
         oracle_disperse(&o);
         if (step == STEPS || (observed_every && step % observed_every == 0))
-            compare(&page, &o, step);
+            page_compare(&page, &o, step);
     }
     page_destroy(&page);
     oracle_finish(&o);

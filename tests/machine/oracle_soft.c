@@ -89,12 +89,10 @@ static uint64_t finished(struct soft_format f, mpfr_t r, int inexact)
     return encoded(f, x);
 }
 
-uint64_t oracle_soft_of(struct soft_format f, double x)
+/* Takes exact, which was made with all of MPFR's range. */
+static uint64_t rounded(struct soft_format f, mpfr_t exact)
 {
-    mpfr_t r, exact;
-    range_reset();
-    mpfr_init2(exact, 53);
-    mpfr_set_d(exact, x, MPFR_RNDN);
+    mpfr_t r;
     mpfr_init2(r, f.s + 1);
     range_set(f);
     int inexact = mpfr_set(r, exact, MPFR_RNDN);
@@ -103,21 +101,25 @@ uint64_t oracle_soft_of(struct soft_format f, double x)
     return finished(f, r, inexact);
 }
 
+uint64_t oracle_soft_of(struct soft_format f, double x)
+{
+    mpfr_t exact;
+    range_reset();
+    mpfr_init2(exact, 53);
+    mpfr_set_d(exact, x, MPFR_RNDN);
+    return rounded(f, exact);
+}
+
 uint64_t oracle_soft_of_whole(struct soft_format f, unsigned __int128 magnitude, bool negative)
 {
-    mpfr_t r, exact;
+    mpfr_t exact;
     range_reset();
     mpfr_init2(exact, 200);
     mpfr_set_uj_2exp(exact, (uintmax_t)(magnitude >> 64), 64, MPFR_RNDN);
     mpfr_add_ui(exact, exact, (uint64_t)magnitude, MPFR_RNDN);
     if (negative && magnitude)
         mpfr_neg(exact, exact, MPFR_RNDN);
-    mpfr_init2(r, f.s + 1);
-    range_set(f);
-    int inexact = mpfr_set(r, exact, MPFR_RNDN);
-    inexact = mpfr_check_range(r, inexact, MPFR_RNDN);
-    mpfr_clear(exact);
-    return finished(f, r, inexact);
+    return rounded(f, exact);
 }
 
 uint64_t oracle_soft_arithmetic(struct soft_format f, char op, uint64_t a, uint64_t b)

@@ -3,6 +3,29 @@
 
 #include "sample.h"
 
+void support_failed(struct machine *m, enum machine_status status, const char *word)
+{
+    const char *text = machine_error(m);
+
+    assert_int_equal(machine_status_last(m), status);
+    if (strlen(text) <= 8 || strchr(text, '\n') || !strstr(text, word))
+        fail_msg("\"%s\" instead of \"%s\"", text, word);
+    machine_error_clear(m);
+    assert_int_equal(machine_status_last(m), MACHINE_OK);
+    assert_string_equal(machine_error(m), "");
+}
+
+void support_machine_destroy(struct machine *m)
+{
+    if (getenv("LUTETIA_TEST_STATS")) {
+        struct machine_stats stats;
+        machine_stats_get(m, &stats);
+        fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
+                (int)stats.kernels_run);
+    }
+    machine_destroy(m);
+}
+
 struct machine *support_machine(int eager)
 {
     struct machine_config config = machine_config_default();

@@ -415,13 +415,7 @@ int main(void)
         failed += cmocka_run_group_tests_name(eager ? "eager" : "lazy", tests, NULL, NULL);
         if (eager == 0)
             state = 1;
-        if (getenv("LUTETIA_TEST_STATS")) {
-            struct machine_stats stats;
-            machine_stats_get(machine, &stats);
-            fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
-                    (int)stats.kernels_run);
-        }
-        machine_destroy(machine);
+        support_machine_destroy(machine);
     }
     return failed;
 }

@@ -1,8 +1,13 @@
 #include "device.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "sample.h"
 
@@ -11,6 +16,22 @@ char device_message[512];
 void device_error_catch(const char *message)
 {
     snprintf(device_message, sizeof device_message, "%s", message);
+}
+
+void device_said(const char *call, const char *what)
+{
+    size_t length = strlen(call);
+    if (strncmp(device_message, call, length) || strncmp(device_message + length, ": ", 2) ||
+        !strstr(device_message + length, what) || strchr(device_message, '\n'))
+        fail_msg("a wrong call of %s, about \"%s\", says \"%s\"", call, what, device_message);
+    device_message[0] = '\0';
+}
+
+int device_setup(void **unused)
+{
+    (void)unused;
+    device_start(-1);
+    return 0;
 }
 
 void device_start(int eager)
