@@ -28,33 +28,26 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
     struct machine_value *x, *y;
-    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, &x, &y))
+    bool is_integer = dest.letter != 'f', is_signed = dest.letter == 's';
+    if (is_integer ? !paris_load_widest(m, self, dest, a, b, is_signed, &x, &y)
+                   : !paris_check_dest(dest, a, b, &type) ||
+                         !paris_load_two(m, self, dest, a, b, &x, &y))
         return;
     if (self->swap) {
         struct machine_value *t = x;
         x = y;
         y = t;
     }
-    bool is_signed = dest.letter == 's';
-    if (dest.letter != 'f') {
-        unsigned int width = paris_longest(dest.len, paris_longest(a.len, b.len));
-        x = paris_resize(m, x, width, is_signed);
-        y = paris_resize(m, y, width, is_signed);
-        if (!x || !y) {
-            paris_fail_machine();
-            return;
-        }
-    }
     struct machine_value *result = machine_binary(m, self->op, x, y);
     bool is_function = paris_is_float_function(self->op);
     if (self->overflow &&
         (!(is_function ? paris_float_overflow(m, self->op, x, y, result)
                        : machine_overflow_record(m, self->op, is_signed, x, y) == MACHINE_OK) ||
-         (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
+         (is_integer && !overflow_narrow(m, result, dest.len, is_signed)))) {
         paris_fail_machine();
         return;
     }
-    if (dest.letter != 'f')
+    if (is_integer)
         result = paris_resize(m, result, dest.len, is_signed);
     paris_store(m, dest, result, self->scope);
 }

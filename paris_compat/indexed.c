@@ -68,22 +68,39 @@ static bool settle(struct machine *m, struct machine_value **values, int count)
     return false;
 }
 
+/* Bits [at, at + len) of element i. */
+static struct paris_operand place_of(const struct indexed *x, uint64_t i, unsigned int at,
+                                     unsigned int len)
+{
+    return paris_b(x->array + (CM_field_id_t)(i * x->element_len) + at, len);
+}
+
+/* 1 in processors whose index is i. */
+static struct machine_value *hits(struct machine *m, const struct indexed *x,
+                                  struct machine_value *index, uint64_t i)
+{
+    return machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
+}
+
+/* A long chain of elements is computed in chunks. */
+static bool chunk_ends(const struct indexed *x, uint64_t i)
+{
+    return (i + 1) % CHUNK == 0 && i + 1 < x->limit;
+}
+
 static bool fetch_piece(struct machine *m, const struct indexed *x, struct machine_value *index,
                         unsigned int at, unsigned int len)
 {
     struct machine_value *sum =
         paris_load(m, paris_b(x->field + at, len), "dest", MACHINE_WHERE_ACTIVE);
     for (uint64_t i = 0; sum && i < x->limit; i++) {
-        CM_field_id_t place = x->array + (CM_field_id_t)(i * x->element_len) + at;
         struct machine_value *element =
-            paris_load(m, paris_b(place, len), "array", MACHINE_WHERE_ACTIVE);
-        struct machine_value *hit =
-            machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
+            paris_load(m, place_of(x, i, at, len), "array", MACHINE_WHERE_ACTIVE);
+        struct machine_value *hit = hits(m, x, index, i);
         if (!element)
             return false;
         sum = machine_select(m, hit, element, sum);
-        if (sum && (i + 1) % CHUNK == 0 && i + 1 < x->limit &&
-            !settle(m, (struct machine_value *[]){index, sum}, 2))
+        if (sum && chunk_ends(x, i) && !settle(m, (struct machine_value *[]){index, sum}, 2))
             return false;
     }
     return paris_store(m, paris_b(x->field + at, len), sum, MACHINE_WHERE_ACTIVE);
@@ -96,18 +113,14 @@ static bool set_piece(struct machine *m, const struct indexed *x, struct machine
         paris_load(m, paris_b(x->field + at, len), "source", MACHINE_WHERE_ACTIVE);
     struct machine_value *done[CHUNK + 2] = {index, source};
     for (uint64_t i = 0; source && i < x->limit; i++) {
-        CM_field_id_t place = x->array + (CM_field_id_t)(i * x->element_len) + at;
-        struct machine_value *element =
-            paris_load(m, paris_b(place, len), "array", MACHINE_WHERE_ACTIVE);
-        struct machine_value *hit =
-            machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
-        if (!element ||
-            !paris_store(m, paris_b(place, len), machine_select(m, hit, source, element),
-                         MACHINE_WHERE_ACTIVE))
+        struct paris_operand place = place_of(x, i, at, len);
+        struct machine_value *element = paris_load(m, place, "array", MACHINE_WHERE_ACTIVE);
+        struct machine_value *hit = hits(m, x, index, i);
+        if (!element || !paris_store(m, place, machine_select(m, hit, source, element),
+                                     MACHINE_WHERE_ACTIVE))
             return false;
-        done[2 + i % CHUNK] = paris_load(m, paris_b(place, len), "array", MACHINE_EVERYWHERE);
-        if (!done[2 + i % CHUNK] ||
-            ((i + 1) % CHUNK == 0 && i + 1 < x->limit && !settle(m, done, CHUNK + 2)))
+        done[2 + i % CHUNK] = paris_load(m, place, "array", MACHINE_EVERYWHERE);
+        if (!done[2 + i % CHUNK] || (chunk_ends(x, i) && !settle(m, done, CHUNK + 2)))
             return false;
     }
     return source != NULL;

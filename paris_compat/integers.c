@@ -60,14 +60,10 @@ void paris_integer(const struct paris_instruction *self, struct paris_operand de
                    struct paris_operand a, struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
-    struct machine_type type;
     struct machine_value *x, *y;
-    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, &x, &y))
-        return;
     bool is_signed = dest.letter == 's';
-    unsigned int width = paris_longest(dest.len, paris_longest(a.len, b.len));
-    x = paris_resize(m, x, width, is_signed);
-    y = paris_resize(m, y, width, is_signed);
+    if (!paris_load_widest(m, self, dest, a, b, is_signed, &x, &y))
+        return;
     struct machine_value *result = machine_binary(m, self->op, x, y);
     struct machine_value *overflow =
         either(m, is_number(m, y, 0), paris_lost(m, result, dest.len, is_signed));
@@ -97,14 +93,10 @@ void paris_power(const struct paris_instruction *self, struct paris_operand dest
                  struct paris_operand a, struct paris_operand b)
 {
     struct machine *m = paris_begin(self->name);
-    struct machine_type type;
     struct machine_value *x, *y;
-    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, &x, &y))
-        return;
     bool is_signed = dest.letter == 's', may_invert = b.letter == 's';
-    unsigned int width = paris_longest(dest.len, paris_longest(a.len, b.len));
-    x = paris_resize(m, x, width, is_signed);
-    y = paris_resize(m, y, width, may_invert);
+    if (!paris_load_widest(m, self, dest, a, b, may_invert, &x, &y))
+        return;
     struct machine_value *result = machine_binary(m, MACHINE_POW, x, y);
     struct machine_value *overflow =
         machine_binary(m, is_signed ? MACHINE_SPOW_BEYOND : MACHINE_UPOW_BEYOND, x, y);

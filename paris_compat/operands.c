@@ -141,6 +141,22 @@ bool paris_load_two(struct machine *m, const struct paris_instruction *self,
     return *y != NULL;
 }
 
+bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a,
+                       struct paris_operand b, bool y_signed, struct machine_value **x,
+                       struct machine_value **y)
+{
+    struct machine_type type;
+    unsigned int width = paris_longest(dest.len, paris_longest(a.len, b.len));
+    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, x, y))
+        return false;
+    *x = paris_resize(m, *x, width, dest.letter == 's');
+    *y = paris_resize(m, *y, width, y_signed);
+    if (!*x || !*y)
+        paris_fail_machine();
+    return *x && *y;
+}
+
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope)
 {

@@ -149,6 +149,12 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
 bool paris_load_two(struct machine *m, const struct paris_instruction *self,
                     struct paris_operand dest, struct paris_operand a, struct paris_operand b,
                     struct machine_value **x, struct machine_value **y);
+/* The same for integers, dest looked at too, and both made as long as the longest of the three. y_signed: whether b
+ * has a sign. */
+bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a,
+                       struct paris_operand b, bool y_signed, struct machine_value **x,
+                       struct machine_value **y);
 /* value may be NULL. False: it was not stored, and why has been said. */
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope);
