@@ -265,23 +265,16 @@ static const char USAGE[] =
     "  --repeat N         counted runs of each, 10 or more (11)\n"
     "  --json FILE        write the rows there too\n";
 
-static bool number_parse(const char *text, char **end, int least, int most, int *out)
-{
-    long n = strtol(text, end, 10);
-    *out = (int)n;
-    return *end != text && n >= least && n <= most;
-}
-
 static bool sizes_parse(const char *text, struct options *o)
 {
     const char *at = text;
     for (o->sizes_count = 0; o->sizes_count < SIZES_MAX; at++) {
         int *size = o->sizes[o->sizes_count++];
         char *end;
-        if (!number_parse(at, &end, SIDE_MIN, SIDE_MAX, &size[0]))
+        if (!bench_number_parse(at, &end, SIDE_MIN, SIDE_MAX, &size[0]))
             break;
         size[1] = size[0];
-        if (*end == 'x' && !number_parse(end + 1, &end, SIDE_MIN, SIDE_MAX, &size[1]))
+        if (*end == 'x' && !bench_number_parse(end + 1, &end, SIDE_MIN, SIDE_MAX, &size[1]))
             break;
         at = end;
         if (!*at)
@@ -311,7 +304,7 @@ static bool options_parse(struct options *o, int argc, char **argv)
             if (!sizes_parse(value, o))
                 return false;
         } else if (!strcmp(name, "--repeat")) {
-            if (!number_parse(value, &end, REPEAT_MIN, 1000, &o->repeat_count) || *end)
+            if (!bench_number_parse(value, &end, REPEAT_MIN, 1000, &o->repeat_count) || *end)
                 return bench_fail("--repeat must be %d..1000 (got \"%s\")", REPEAT_MIN, value);
         } else {
             o->json_path = value;

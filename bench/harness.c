@@ -30,6 +30,13 @@ bool bench_fail(const char *format, ...)
     return false;
 }
 
+bool bench_number_parse(const char *text, char **end, int least, int most, int *out)
+{
+    long n = strtol(text, end, 10);
+    *out = (int)n;
+    return *end != text && n >= least && n <= most;
+}
+
 const char *bench_error(void)
 {
     return error_text;

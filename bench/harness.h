@@ -86,6 +86,9 @@ int bench_threads_count(void); /* that OpenMP uses; 1 without it */
 
 /* Keeps the text and returns false. */
 bool bench_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* A number from least to most; *end: behind it. */
+bool bench_number_parse(const char *text, char **end, int least, int most, int *out);
 const char *bench_error(void);
 
 #endif

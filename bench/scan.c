@@ -187,13 +187,6 @@ static const char USAGE[] =
     "  --repeat N     counted runs of each, 10 or more (31)\n"
     "  --json FILE    write the rows there too\n";
 
-static bool number_parse(const char *text, char **end, int least, int most, int *out)
-{
-    long n = strtol(text, end, 10);
-    *out = (int)n;
-    return *end != text && n >= least && n <= most;
-}
-
 static bool options_parse(struct options *o, int argc, char **argv)
 {
     char *end;
@@ -206,13 +199,13 @@ static bool options_parse(struct options *o, int argc, char **argv)
         if (!value)
             return bench_fail("%s needs a value", name);
         if (repeat) {
-            if (!number_parse(value, &end, REPEAT_MIN, 10000, &o->repeat_count) || *end)
+            if (!bench_number_parse(value, &end, REPEAT_MIN, 10000, &o->repeat_count) || *end)
                 return bench_fail("--repeat must be %d..10000 (got \"%s\")", REPEAT_MIN, value);
         } else if (sizes) {
             const char *at = value;
             bool good = true;
             for (o->sizes_count = 0; good && o->sizes_count < SIZES_MAX;) {
-                good = number_parse(at, &end, 1, COUNT_MAX, &o->sizes[o->sizes_count++]);
+                good = bench_number_parse(at, &end, 1, COUNT_MAX, &o->sizes[o->sizes_count++]);
                 if (!*end)
                     break;
                 good = good && *end == ',';

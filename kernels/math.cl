@@ -260,22 +260,23 @@ MATH_FUNCTION double math_ln(double x)
     return r.hi + r.lo;
 }
 
-MATH_FUNCTION double math_log2(double x)
+/* ln x times a number of two parts. */
+MATH_FUNCTION double log_times(double x, double hi, double lo)
 {
     if (log_special(&x))
         return x;
-    struct math_dd r =
-        dd_multiply(log_pair(dd_of(x, 0.0)), dd_of(INVERSE_LN2_0, INVERSE_LN2_1));
+    struct math_dd r = dd_multiply(log_pair(dd_of(x, 0.0)), dd_of(hi, lo));
     return r.hi + r.lo;
+}
+
+MATH_FUNCTION double math_log2(double x)
+{
+    return log_times(x, INVERSE_LN2_0, INVERSE_LN2_1);
 }
 
 MATH_FUNCTION double math_log10(double x)
 {
-    if (log_special(&x))
-        return x;
-    struct math_dd r =
-        dd_multiply(log_pair(dd_of(x, 0.0)), dd_of(INVERSE_LN10_0, INVERSE_LN10_1));
-    return r.hi + r.lo;
+    return log_times(x, INVERSE_LN10_0, INVERSE_LN10_1);
 }
 
 /* ---- sine, cosine, tangent ---- */

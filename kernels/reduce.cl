@@ -13,39 +13,30 @@
 #define CONVERT16(type) CONVERT16_(type)
 
 #if KIND != 2
-inline ACC combine(ACC a, ACC v)
-{
 #if OP == 0
-    return a & v;
+#define COMBINED(a, v) ((a) & (v))
 #elif OP == 1
-    return a | v;
+#define COMBINED(a, v) ((a) | (v))
 #elif OP == 2
-    return a ^ v;
+#define COMBINED(a, v) ((a) ^ (v))
 #elif OP == 3
-    return a + v;
+#define COMBINED(a, v) ((a) + (v))
 #elif OP == 4
-    return v < a ? v : a;
+#define COMBINED(a, v) ((v) < (a) ? (v) : (a))
 #else
-    return v > a ? v : a;
+#define COMBINED(a, v) ((v) > (a) ? (v) : (a))
 #endif
-}
 
 typedef JOIN(ACC, 16) ACC16;
+
+inline ACC combine(ACC a, ACC v)
+{
+    return COMBINED(a, v);
+}
+
 inline ACC16 combine16(ACC16 a, ACC16 v)
 {
-#if OP == 0
-    return a & v;
-#elif OP == 1
-    return a | v;
-#elif OP == 2
-    return a ^ v;
-#elif OP == 3
-    return a + v;
-#elif OP == 4
-    return v < a ? v : a;
-#else
-    return v > a ? v : a;
-#endif
+    return COMBINED(a, v);
 }
 
 __kernel void reduce(int W, int PITCH, int HALO_COLUMNS, int RUN, ACC identity,

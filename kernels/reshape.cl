@@ -1,4 +1,4 @@
-/* reshape.cl - the memory of physical processors, seen from VP sets of other ratios. See reshape.c.
+/* reshape.cl - the memory of physical processors, seen from VP sets of other ratios. See reshape.h.
  *
  * Virtual processor (p, r), the r-th of physical processor p, has the row-major index p * ratio + r in
  * send order and r * P + p in NEWS order. Each has k finer ones: coarse (p, j) is fine (p, j * k) to

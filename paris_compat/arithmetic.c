@@ -6,34 +6,17 @@
  * says that the true result does not fit in dest. Constants are cut off to their length. */
 #include "paris_state.h"
 
-static unsigned int longest(unsigned int a, unsigned int b)
-{
-    return a > b ? a : b;
-}
-
-/* The float types of all operands of an instruction are the same; the entry points see to it.
- * */
-static struct machine_value *resize(struct machine *m, struct machine_value *v,
-                                    unsigned int width, bool is_signed)
-{
-    if (!v || machine_value_type(v).width == width)
-        return v;
-    return machine_resize(m, v, (int)width, is_signed);
-}
-
 /* The overflow flag is also 1 where the result, computed at a greater width, is not dest's. */
 static bool overflow_narrow(struct machine *m, struct machine_value *wide, unsigned int len,
                             bool is_signed)
 {
     if (!wide || machine_value_type(wide).width <= len)
         return true;
-    struct machine_value *kept =
-        resize(m, resize(m, wide, len, is_signed), machine_value_type(wide).width, is_signed);
     struct machine_value *so_far =
         machine_flag_value(m, MACHINE_OVERFLOW, MACHINE_WHERE_ACTIVE);
-    if (!kept || !so_far)
+    struct machine_value *lost = paris_lost(m, wide, len, is_signed);
+    if (!so_far)
         return false;
-    struct machine_value *lost = machine_binary(m, MACHINE_NE, wide, kept);
     return paris_flag_put(m, MACHINE_OVERFLOW,
                           lost ? machine_binary(m, MACHINE_OR, so_far, lost) : NULL,
                           MACHINE_WHERE_ACTIVE);
@@ -44,51 +27,29 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
-        return;
-    struct machine_value *x =
-        paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
-    struct machine_value *y =
-        x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    if (!x || !y)
+    struct machine_value *x, *y;
+    bool is_integer = dest.letter != 'f', is_signed = dest.letter == 's';
+    if (is_integer ? !paris_load_widest(m, self, dest, a, b, is_signed, &x, &y)
+                   : !paris_check_dest(dest, a, b, &type) ||
+                         !paris_load_two(m, self, dest, a, b, &x, &y))
         return;
     if (self->swap) {
         struct machine_value *t = x;
         x = y;
         y = t;
     }
-    bool is_signed = dest.letter == 's';
-    if (dest.letter != 'f') {
-        unsigned int width = longest(dest.len, longest(a.len, b.len));
-        x = resize(m, x, width, is_signed);
-        y = resize(m, y, width, is_signed);
-        if (!x || !y) {
-            paris_fail_machine();
-            return;
-        }
-    }
     struct machine_value *result = machine_binary(m, self->op, x, y);
     bool is_function = paris_is_float_function(self->op);
     if (self->overflow &&
         (!(is_function ? paris_float_overflow(m, self->op, x, y, result)
                        : machine_overflow_record(m, self->op, is_signed, x, y) == MACHINE_OK) ||
-         (dest.letter != 'f' && !overflow_narrow(m, result, dest.len, is_signed)))) {
+         (is_integer && !overflow_narrow(m, result, dest.len, is_signed)))) {
         paris_fail_machine();
         return;
     }
-    if (dest.letter != 'f')
-        result = resize(m, result, dest.len, is_signed);
+    if (is_integer)
+        result = paris_resize(m, result, dest.len, is_signed);
     paris_store(m, dest, result, self->scope);
-}
-
-/* |x| of a signed number; the least one is its own. */
-static struct machine_value *absolute(struct machine *m, struct machine_value *x)
-{
-    int width = machine_value_type(x).width;
-    struct machine_value *sign = machine_extract(m, x, width - 1, 1);
-    struct machine_value *negated = machine_unary(m, MACHINE_NEG, x);
-    return sign && negated ? machine_select(m, sign, negated, x) : NULL;
 }
 
 /* Without a sign only the negative of zero fits. */
@@ -106,8 +67,7 @@ void paris_unary(const struct paris_instruction *self, struct paris_operand dest
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = paris_load(m, a, "source", self->scope);
     if (!x)
@@ -121,19 +81,19 @@ void paris_unary(const struct paris_instruction *self, struct paris_operand dest
         return;
     }
     bool is_signed = dest.letter == 's';
-    x = resize(m, x, longest(dest.len, a.len), is_signed);
+    x = paris_resize(m, x, paris_longest(dest.len, a.len), is_signed);
     if (!x) {
         paris_fail_machine();
         return;
     }
     struct machine_value *result =
-        self->op == PARIS_OP_ABS ? absolute(m, x) : machine_unary(m, self->op, x);
+        self->op == PARIS_OP_ABS ? paris_absolute(m, x) : machine_unary(m, self->op, x);
     if (self->overflow && (!overflow_negated(m, x, is_signed) ||
                            !overflow_narrow(m, result, dest.len, is_signed))) {
         paris_fail_machine();
         return;
     }
-    paris_store(m, dest, resize(m, result, dest.len, is_signed), self->scope);
+    paris_store(m, dest, paris_resize(m, result, dest.len, is_signed), self->scope);
 }
 
 void paris_compare(const struct paris_instruction *self, struct paris_operand a,
@@ -146,9 +106,9 @@ void paris_compare(const struct paris_instruction *self, struct paris_operand a,
     if (!x || !y)
         return;
     if (a.letter != 'f') {
-        unsigned int width = longest(a.len, b.len);
-        x = resize(m, x, width, a.letter == 's');
-        y = resize(m, y, width, a.letter == 's');
+        unsigned int width = paris_longest(a.len, b.len);
+        x = paris_resize(m, x, width, a.letter == 's');
+        y = paris_resize(m, y, width, a.letter == 's');
     }
     struct machine_value *result = NULL;
     if (x && y)
@@ -205,8 +165,7 @@ void paris_to_bits(const struct paris_instruction *self, struct paris_operand de
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     bool is_signed = dest.letter == 's';
     struct machine_value *x = paris_load(m, a, "source", self->scope);

@@ -125,19 +125,14 @@ static struct machine_scalar element_get(struct element e, const unsigned char *
         unsigned int unused = 63 - (e.width - 1) % 64;
         *top = (uint64_t)((int64_t)(*top << unused) >> unused);
         if (e.width <= 64)
-            x.hi = (int64_t)x.lo < 0 ? UINT64_MAX : 0;
+            x = scalar_signed((int64_t)x.lo);
     }
     return x;
 }
 
 static void element_put(struct element e, unsigned char *at, struct machine_scalar x)
 {
-    if (e.width < 64)
-        x.lo &= (1ull << e.width) - 1;
-    if (e.width <= 64)
-        x.hi = 0;
-    else if (e.width < 128)
-        x.hi &= (1ull << (e.width - 64)) - 1;
+    x = scalar_cut(x, (int)e.width);
     memcpy(at, &x, e.bytes);
 }
 

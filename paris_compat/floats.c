@@ -59,11 +59,7 @@ static struct machine_value *power(struct machine *m, struct machine_value *x,
         return machine_binary(m, MACHINE_FPOW, x,
                               machine_to_float(m, n, MACHINE_F64, is_signed));
     struct machine_value *sign = is_signed ? machine_extract(m, n, len - 1, 1) : NULL;
-    struct machine_value *magnitude = n;
-    if (sign) {
-        struct machine_value *negated = machine_unary(m, MACHINE_NEG, n);
-        magnitude = negated ? machine_select(m, sign, negated, n) : NULL;
-    }
+    struct machine_value *magnitude = is_signed ? paris_absolute(m, n) : n;
     if (!magnitude)
         return NULL;
     struct machine_value *low =
@@ -89,14 +85,8 @@ void paris_float_by_integer(const struct paris_instruction *self, struct paris_o
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b))
-        return;
-    struct machine_value *x =
-        paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
-    struct machine_value *n =
-        x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    if (!x || !n)
+    struct machine_value *x, *n;
+    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, &x, &n))
         return;
     bool is_signed = b.letter == 's';
     if (b.is_constant && constant_is_short(b))
@@ -132,9 +122,7 @@ void paris_float_pair(const struct paris_instruction *self, struct paris_operand
         [PARIS_SUB_MULT] = MACHINE_FMUL,  [PARIS_SUBF_MULT] = MACHINE_FMUL};
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a) || !paris_check_overlap(dest, b) ||
-        !paris_check_overlap(dest, c))
+    if (!paris_check_dest(dest, a, b, &type) || !paris_check_overlap(dest, c))
         return;
     struct machine_value *x = paris_load(m, a, "source1", self->scope);
     struct machine_value *y =
@@ -178,12 +166,6 @@ static struct machine_value *exponent_field(struct machine *m, struct machine_va
 /* Wide enough for any exponent and its sum with any other. */
 enum { EXPONENT_WIDTH = 16 };
 
-static struct machine_value *number(struct machine *m, int width, int64_t x)
-{
-    return machine_constant(m, MACHINE_UINT(width),
-                            (struct machine_scalar){(uint64_t)x, x < 0 ? UINT64_MAX : 0});
-}
-
 static struct machine_value *is_finite(struct machine *m, struct machine_value *x)
 {
     struct machine_type type = machine_value_type(x);
@@ -206,15 +188,17 @@ static struct machine_value *exponent(struct machine *m, struct machine_value *x
         m, MACHINE_FMUL, x, machine_constant_float(m, type, 18446744073709551616.0));
     struct machine_value *field = exponent_field(m, x);
     struct machine_value *small =
-        field ? machine_binary(m, MACHINE_EQ, field, number(m, type.width == 32 ? 8 : 11, 0))
+        field ? machine_binary(m, MACHINE_EQ, field,
+                               paris_number(m, type.width == 32 ? 8 : 11, 0))
               : NULL;
     if (!scaled || !small)
         return NULL;
     field = machine_select(
         m, small,
         machine_binary(m, MACHINE_SUB, machine_resize(m, exponent_field(m, scaled), w, false),
-                       number(m, w, bias + 64)),
-        machine_binary(m, MACHINE_SUB, machine_resize(m, field, w, false), number(m, w, bias)));
+                       paris_number(m, w, bias + 64)),
+        machine_binary(m, MACHINE_SUB, machine_resize(m, field, w, false),
+                       paris_number(m, w, bias)));
     return field;
 }
 
@@ -241,8 +225,7 @@ void paris_float_made(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = native(m, paris_load(m, a, "source", self->scope)), *r;
     if (!x)
@@ -282,7 +265,7 @@ static void store_integer(struct machine *m, const struct paris_instruction *sel
         return;
     }
     struct machine_value *overflow =
-        fits ? machine_unary(m, MACHINE_NOT, fits) : number(m, 1, 0);
+        fits ? machine_unary(m, MACHINE_NOT, fits) : paris_number(m, 1, 0);
     if (!self->overflow || paris_flag_put(m, MACHINE_OVERFLOW, overflow, MACHINE_WHERE_ACTIVE))
         paris_store(m, dest, r, self->scope);
 }
@@ -292,8 +275,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type, ftype;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = native(m, paris_load(m, a, "source", self->scope));
     if (!x)
@@ -308,7 +290,8 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
     switch (self->op) {
     case PARIS_SIGNUM:
         store_integer(m, self, dest,
-                      signum(m, x, number(m, len, 1), number(m, len, -1), number(m, len, 0)),
+                      signum(m, x, paris_number(m, len, 1), paris_number(m, len, -1),
+                             paris_number(m, len, 0)),
                       NULL);
         return;
     case PARIS_EXPONENT_FIELD:
@@ -320,7 +303,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
         /* 0 has the least number, whatever dest's length is: made at dest's length or w. */
         int width = len > w ? len : w;
         struct machine_value *n = exponent(m, x);
-        v = n ? machine_select(m, finite, n, number(m, w, 0)) : NULL;
+        v = n ? machine_select(m, finite, n, paris_number(m, w, 0)) : NULL;
         v = v ? machine_resize(m, v, width, true) : NULL;
         struct machine_value *least = machine_constant(
             m, MACHINE_UINT(width),
@@ -374,8 +357,7 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, a))
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     if (type.s) {
         paris_fail("s, e: the VAX's floats are 23, 8 or 52, 11 (got %u, %u)", dest.len, dest.e);
@@ -390,11 +372,13 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
     if (!to_vax)
         bits = words_reversed(m, bits);
     struct machine_value *exponent_bits = bits ? machine_extract(m, bits, s, e) : NULL;
-    struct machine_value *two = number(m, w, (int64_t)2 << s), *none = number(m, w, 0);
+    struct machine_value *two = paris_number(m, w, (int64_t)2 << s),
+                         *none = paris_number(m, w, 0);
     /* An exponent field below this is not the other format's plus or minus 2. */
-    struct machine_value *low = exponent_bits ? machine_binary(m, MACHINE_ULT, exponent_bits,
-                                                               number(m, e, to_vax ? 1 : 3))
-                                              : NULL;
+    struct machine_value *low =
+        exponent_bits
+            ? machine_binary(m, MACHINE_ULT, exponent_bits, paris_number(m, e, to_vax ? 1 : 3))
+            : NULL;
     struct machine_value *small = bits ? scaled_bits(m, bits, type, to_vax ? 4 : 0.25) : NULL;
     if (!two || !none || !low || !small) {
         paris_fail_machine();
@@ -402,22 +386,23 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
     }
     struct machine_value *r, *wrong;
     if (to_vax) {
-        struct machine_value *vanishes =
-            machine_binary(m, MACHINE_EQ, machine_extract(m, small, s, e), number(m, e, 0));
+        struct machine_value *vanishes = machine_binary(
+            m, MACHINE_EQ, machine_extract(m, small, s, e), paris_number(m, e, 0));
         r = machine_select(m, low, machine_select(m, vanishes, none, small),
                            machine_binary(m, MACHINE_ADD, bits, two));
-        wrong =
-            machine_binary(m, MACHINE_ULE, number(m, e, ((int64_t)1 << e) - 2), exponent_bits);
-        r = machine_select(m, wrong, number(m, w, (int64_t)((uint64_t)1 << (w - 1))), r);
+        wrong = machine_binary(m, MACHINE_ULE, paris_number(m, e, ((int64_t)1 << e) - 2),
+                               exponent_bits);
+        r = machine_select(m, wrong, paris_number(m, w, (int64_t)((uint64_t)1 << (w - 1))), r);
         r = r ? words_reversed(m, r) : NULL;
     } else {
         struct machine_value *zero =
-            machine_binary(m, MACHINE_EQ, exponent_bits, number(m, e, 0));
+            machine_binary(m, MACHINE_EQ, exponent_bits, paris_number(m, e, 0));
         wrong = machine_binary(m, MACHINE_AND, zero, machine_extract(m, bits, w - 1, 1));
         r = machine_select(m, low, small, machine_binary(m, MACHINE_SUB, bits, two));
         r = machine_select(m, zero, none, r);
-        r = machine_select(m, wrong,
-                           number(m, w, w == 32 ? 0x7fc00000 : INT64_C(0x7ff8000000000000)), r);
+        r = machine_select(
+            m, wrong, paris_number(m, w, w == 32 ? 0x7fc00000 : INT64_C(0x7ff8000000000000)),
+            r);
     }
     if (!r || paris_flag_put(m, MACHINE_OVERFLOW, wrong, MACHINE_WHERE_ACTIVE))
         paris_store(m, dest, r, self->scope);
@@ -473,8 +458,7 @@ void paris_float_swap(const struct paris_instruction *self, struct paris_operand
 {
     struct machine *m = paris_begin(self->name);
     struct machine_type type;
-    if (!paris_type(dest, "dest", &type) || !paris_check_operand(dest, "dest") ||
-        !paris_check_overlap(dest, source))
+    if (!paris_check_dest(dest, source, source, &type))
         return;
     struct machine_value *x = paris_load(m, dest, "dest", self->scope);
     struct machine_value *y = x ? paris_load(m, source, "source", self->scope) : NULL;

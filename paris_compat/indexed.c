@@ -68,22 +68,39 @@ static bool settle(struct machine *m, struct machine_value **values, int count)
     return false;
 }
 
+/* Bits [at, at + len) of element i. */
+static struct paris_operand place_of(const struct indexed *x, uint64_t i, unsigned int at,
+                                     unsigned int len)
+{
+    return paris_b(x->array + (CM_field_id_t)(i * x->element_len) + at, len);
+}
+
+/* 1 in processors whose index is i. */
+static struct machine_value *hits(struct machine *m, const struct indexed *x,
+                                  struct machine_value *index, uint64_t i)
+{
+    return machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
+}
+
+/* A long chain of elements is computed in chunks. */
+static bool chunk_ends(const struct indexed *x, uint64_t i)
+{
+    return (i + 1) % CHUNK == 0 && i + 1 < x->limit;
+}
+
 static bool fetch_piece(struct machine *m, const struct indexed *x, struct machine_value *index,
                         unsigned int at, unsigned int len)
 {
     struct machine_value *sum =
         paris_load(m, paris_b(x->field + at, len), "dest", MACHINE_WHERE_ACTIVE);
     for (uint64_t i = 0; sum && i < x->limit; i++) {
-        CM_field_id_t place = x->array + (CM_field_id_t)(i * x->element_len) + at;
         struct machine_value *element =
-            paris_load(m, paris_b(place, len), "array", MACHINE_WHERE_ACTIVE);
-        struct machine_value *hit =
-            machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
+            paris_load(m, place_of(x, i, at, len), "array", MACHINE_WHERE_ACTIVE);
+        struct machine_value *hit = hits(m, x, index, i);
         if (!element)
             return false;
         sum = machine_select(m, hit, element, sum);
-        if (sum && (i + 1) % CHUNK == 0 && i + 1 < x->limit &&
-            !settle(m, (struct machine_value *[]){index, sum}, 2))
+        if (sum && chunk_ends(x, i) && !settle(m, (struct machine_value *[]){index, sum}, 2))
             return false;
     }
     return paris_store(m, paris_b(x->field + at, len), sum, MACHINE_WHERE_ACTIVE);
@@ -96,18 +113,14 @@ static bool set_piece(struct machine *m, const struct indexed *x, struct machine
         paris_load(m, paris_b(x->field + at, len), "source", MACHINE_WHERE_ACTIVE);
     struct machine_value *done[CHUNK + 2] = {index, source};
     for (uint64_t i = 0; source && i < x->limit; i++) {
-        CM_field_id_t place = x->array + (CM_field_id_t)(i * x->element_len) + at;
-        struct machine_value *element =
-            paris_load(m, paris_b(place, len), "array", MACHINE_WHERE_ACTIVE);
-        struct machine_value *hit =
-            machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
-        if (!element ||
-            !paris_store(m, paris_b(place, len), machine_select(m, hit, source, element),
-                         MACHINE_WHERE_ACTIVE))
+        struct paris_operand place = place_of(x, i, at, len);
+        struct machine_value *element = paris_load(m, place, "array", MACHINE_WHERE_ACTIVE);
+        struct machine_value *hit = hits(m, x, index, i);
+        if (!element || !paris_store(m, place, machine_select(m, hit, source, element),
+                                     MACHINE_WHERE_ACTIVE))
             return false;
-        done[2 + i % CHUNK] = paris_load(m, paris_b(place, len), "array", MACHINE_EVERYWHERE);
-        if (!done[2 + i % CHUNK] ||
-            ((i + 1) % CHUNK == 0 && i + 1 < x->limit && !settle(m, done, CHUNK + 2)))
+        done[2 + i % CHUNK] = paris_load(m, place, "array", MACHINE_EVERYWHERE);
+        if (!done[2 + i % CHUNK] || (chunk_ends(x, i) && !settle(m, done, CHUNK + 2)))
             return false;
     }
     return source != NULL;
@@ -130,41 +143,43 @@ static void indexed_do(struct machine *m, const struct indexed *x, CM_field_id_t
     }
 }
 
+static void indexed_call(const char *name, CM_field_id_t field, CM_field_id_t array,
+                         CM_field_id_t index, unsigned int len, unsigned int index_len,
+                         unsigned int index_limit, unsigned int element_len, bool sets)
+{
+    struct machine *m = paris_begin(name);
+    struct indexed x = {field,     array,
+                        len,       element_len ? element_len : len,
+                        index_len, reach(index_limit, index_len)};
+    indexed_do(m, &x, index, sets);
+}
+
 void CM_aref_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index, unsigned int dlen,
                 unsigned int index_len, unsigned int index_limit, unsigned int element_len)
 {
-    struct machine *m = paris_begin("CM_aref_2L");
-    struct indexed x = {dest,      array,
-                        dlen,      element_len ? element_len : dlen,
-                        index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, false);
+    indexed_call("CM_aref_2L", dest, array, index, dlen, index_len, index_limit, element_len,
+                 false);
 }
 
 void CM_aset_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                 unsigned int slen, unsigned int index_len, unsigned int index_limit,
                 unsigned int element_len)
 {
-    struct machine *m = paris_begin("CM_aset_2L");
-    struct indexed x = {source,    array,
-                        slen,      element_len ? element_len : slen,
-                        index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, true);
+    indexed_call("CM_aset_2L", source, array, index, slen, index_len, index_limit, element_len,
+                 true);
 }
 
 void CM_aref32_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
                   unsigned int dlen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aref32_2L");
-    struct indexed x = {dest, array, dlen, dlen, index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, false);
+    indexed_call("CM_aref32_2L", dest, array, index, dlen, index_len, index_limit, dlen, false);
 }
 
 void CM_aset32_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                   unsigned int slen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aset32_2L");
-    struct indexed x = {source, array, slen, slen, index_len, reach(index_limit, index_len)};
-    indexed_do(m, &x, index, true);
+    indexed_call("CM_aset32_2L", source, array, index, slen, index_len, index_limit, slen,
+                 true);
 }
 
 /* ---- arrays of 32 processors, on the front end ---- */
@@ -275,20 +290,26 @@ static void shared_do(struct machine *m, const struct indexed *x, CM_field_id_t 
     shared_free(&s);
 }
 
+static void shared_call(const char *name, CM_field_id_t field, CM_field_id_t array,
+                        CM_field_id_t index, unsigned int len, unsigned int index_len,
+                        unsigned int index_limit, bool sets)
+{
+    struct machine *m = paris_begin(name);
+    struct indexed x = {field, array, len, len, index_len, reach(index_limit, index_len)};
+    shared_do(m, &x, index, sets);
+}
+
 void CM_aref32_shared_2L(CM_field_id_t dest, CM_field_id_t array, CM_field_id_t index,
                          unsigned int dlen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aref32_shared_2L");
-    struct indexed x = {dest, array, dlen, dlen, index_len, reach(index_limit, index_len)};
-    shared_do(m, &x, index, false);
+    shared_call("CM_aref32_shared_2L", dest, array, index, dlen, index_len, index_limit, false);
 }
 
 void CM_aset32_shared_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index,
                          unsigned int slen, unsigned int index_len, unsigned int index_limit)
 {
-    struct machine *m = paris_begin("CM_aset32_shared_2L");
-    struct indexed x = {source, array, slen, slen, index_len, reach(index_limit, index_len)};
-    shared_do(m, &x, index, true);
+    shared_call("CM_aset32_shared_2L", source, array, index, slen, index_len, index_limit,
+                true);
 }
 
 /* ---- the other layout ---- */

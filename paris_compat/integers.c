@@ -12,37 +12,16 @@
  * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1. */
 #include "paris_state.h"
 
-static unsigned int longest(unsigned int a, unsigned int b)
-{
-    return a > b ? a : b;
-}
-
-static struct machine_value *resize(struct machine *m, struct machine_value *v,
-                                    unsigned int width, bool is_signed)
-{
-    return v ? machine_resize(m, v, (int)width, is_signed) : NULL;
-}
-
-/* A number of all ones or of a small value. */
-static struct machine_value *number(struct machine *m, unsigned int width, int x)
-{
-    return machine_constant(
-        m, MACHINE_UINT(width),
-        (struct machine_scalar){(uint64_t)(int64_t)x, x < 0 ? UINT64_MAX : 0});
-}
-
 static struct machine_value *is_number(struct machine *m, struct machine_value *v, int x)
 {
-    return v ? machine_binary(m, MACHINE_EQ, v, number(m, machine_value_type(v).width, x))
+    return v ? machine_binary(m, MACHINE_EQ, v, paris_number(m, machine_value_type(v).width, x))
              : NULL;
 }
 
 static struct machine_value *is_least(struct machine *m, struct machine_value *v)
 {
-    unsigned int top = machine_value_type(v).width - 1u;
-    struct machine_scalar least = {top < 64 ? UINT64_C(1) << top : 0,
-                                   top < 64 ? 0 : UINT64_C(1) << (top - 64)};
-    return machine_binary(m, MACHINE_EQ, v, machine_constant(m, MACHINE_UINT(top + 1), least));
+    struct machine_type type = machine_value_type(v);
+    return machine_binary(m, MACHINE_EQ, v, machine_constant(m, type, scalar_sign(type.width)));
 }
 
 static struct machine_value *sign_of(struct machine *m, struct machine_value *v)
@@ -62,24 +41,6 @@ static struct machine_value *either(struct machine *m, struct machine_value *a,
     return machine_binary(m, MACHINE_OR, a, b);
 }
 
-/* 1 where v is not the number that its low len bits are. */
-static struct machine_value *lost_in(struct machine *m, struct machine_value *v,
-                                     unsigned int len, bool is_signed)
-{
-    if (!v || machine_value_type(v).width <= len)
-        return v ? number(m, 1, 0) : NULL;
-    unsigned int width = machine_value_type(v).width;
-    return machine_binary(m, MACHINE_NE, v,
-                          resize(m, resize(m, v, len, is_signed), width, is_signed));
-}
-
-static bool check(struct paris_operand dest, struct paris_operand a, struct paris_operand b)
-{
-    struct machine_type type;
-    return paris_type(dest, "dest", &type) && paris_check_operand(dest, "dest") &&
-           paris_check_overlap(dest, a) && paris_check_overlap(dest, b);
-}
-
 /* The flag (NULL is an error that the machine has noted), then dest. */
 static void finish(struct machine *m, const struct paris_instruction *self,
                    struct paris_operand dest, struct machine_value *result, bool is_signed,
@@ -90,17 +51,7 @@ static void finish(struct machine *m, const struct paris_instruction *self,
         paris_fail_machine();
         return;
     }
-    paris_store(m, dest, resize(m, result, dest.len, is_signed), self->scope);
-}
-
-/* Two sources; false: one is wrong, and that has been said. */
-static bool load_two(struct machine *m, const struct paris_instruction *self,
-                     struct paris_operand dest, struct paris_operand a, struct paris_operand b,
-                     struct machine_value **x, struct machine_value **y)
-{
-    *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
-    *y = *x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
-    return *y != NULL;
+    paris_store(m, dest, paris_resize(m, result, dest.len, is_signed), self->scope);
 }
 
 /* ---- quotients ---- */
@@ -110,15 +61,12 @@ void paris_integer(const struct paris_instruction *self, struct paris_operand de
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *x, *y;
-    if (!check(dest, a, b) || !load_two(m, self, dest, a, b, &x, &y))
-        return;
     bool is_signed = dest.letter == 's';
-    unsigned int width = longest(dest.len, longest(a.len, b.len));
-    x = resize(m, x, width, is_signed);
-    y = resize(m, y, width, is_signed);
+    if (!paris_load_widest(m, self, dest, a, b, is_signed, &x, &y))
+        return;
     struct machine_value *result = machine_binary(m, self->op, x, y);
     struct machine_value *overflow =
-        either(m, is_number(m, y, 0), lost_in(m, result, dest.len, is_signed));
+        either(m, is_number(m, y, 0), paris_lost(m, result, dest.len, is_signed));
     if (self->op >= MACHINE_SDIV && self->op <= MACHINE_SROUND && x && y)
         overflow = either(m, overflow, both(m, is_least(m, x), is_number(m, y, -1)));
     finish(m, self, dest, result, is_signed, overflow);
@@ -131,7 +79,8 @@ static struct machine_value *inverse_power(struct machine *m, struct machine_val
                                            struct machine_value *y, bool is_signed)
 {
     unsigned int width = machine_value_type(x).width;
-    struct machine_value *one = number(m, width, 1), *none = number(m, width, 0);
+    struct machine_value *one = paris_number(m, (int)width, 1),
+                         *none = paris_number(m, (int)width, 0);
     struct machine_value *others = none;
     if (is_signed) {
         struct machine_value *minus = machine_select(m, machine_extract(m, y, 0, 1), x, one);
@@ -145,12 +94,9 @@ void paris_power(const struct paris_instruction *self, struct paris_operand dest
 {
     struct machine *m = paris_begin(self->name);
     struct machine_value *x, *y;
-    if (!check(dest, a, b) || !load_two(m, self, dest, a, b, &x, &y))
-        return;
     bool is_signed = dest.letter == 's', may_invert = b.letter == 's';
-    unsigned int width = longest(dest.len, longest(a.len, b.len));
-    x = resize(m, x, width, is_signed);
-    y = resize(m, y, width, may_invert);
+    if (!paris_load_widest(m, self, dest, a, b, may_invert, &x, &y))
+        return;
     struct machine_value *result = machine_binary(m, MACHINE_POW, x, y);
     struct machine_value *overflow =
         machine_binary(m, is_signed ? MACHINE_SPOW_BEYOND : MACHINE_UPOW_BEYOND, x, y);
@@ -160,7 +106,7 @@ void paris_power(const struct paris_instruction *self, struct paris_operand dest
         result = machine_select(m, negative, inverse, result);
         overflow = machine_select(m, negative, is_number(m, x, 0), overflow);
     }
-    overflow = either(m, overflow, lost_in(m, result, dest.len, is_signed));
+    overflow = either(m, overflow, paris_lost(m, result, dest.len, is_signed));
     finish(m, self, dest, result, is_signed, overflow);
 }
 
@@ -172,33 +118,36 @@ static struct machine_value *without_sign(struct machine *m, struct machine_valu
 {
     if (!is_signed)
         return x;
-    struct machine_value *spread = resize(m, sign_of(m, x), machine_value_type(x).width, true);
+    struct machine_value *spread =
+        paris_resize(m, sign_of(m, x), machine_value_type(x).width, true);
     return machine_binary(m, MACHINE_XOR, x, spread);
 }
 
 static struct machine_value *signum(struct machine *m, struct machine_value *x)
 {
     unsigned int width = machine_value_type(x).width;
-    struct machine_value *positive =
-        resize(m, machine_binary(m, MACHINE_NE, x, number(m, width, 0)), width, false);
+    struct machine_value *positive = paris_resize(
+        m, machine_binary(m, MACHINE_NE, x, paris_number(m, (int)width, 0)), width, false);
     struct machine_value *sign = sign_of(m, x);
-    return positive && sign ? machine_select(m, sign, number(m, width, -1), positive) : NULL;
+    return positive && sign ? machine_select(m, sign, paris_number(m, (int)width, -1), positive)
+                            : NULL;
 }
 
 static struct machine_value *to_gray(struct machine *m, struct machine_value *x)
 {
     return machine_binary(m, MACHINE_XOR, x,
-                          machine_bits_shift(m, MACHINE_USHIFT, x, number(m, 32, -1)));
+                          machine_bits_shift(m, MACHINE_USHIFT, x, paris_number(m, 32, -1)));
 }
 
 void paris_integer_unary(const struct paris_instruction *self, struct paris_operand dest,
                          struct paris_operand a)
 {
     struct machine *m = paris_begin(self->name);
-    if (!check(dest, a, a))
+    struct machine_type type;
+    if (!paris_check_dest(dest, a, a, &type))
         return;
     struct machine_value *x = paris_load(m, a, "source", self->scope), *result,
-                         *overflow = number(m, 1, 0);
+                         *overflow = paris_number(m, 1, 0);
     if (!x)
         return;
     bool is_signed = a.letter == 's', result_signed = false;
@@ -211,7 +160,7 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
         result = machine_unary(m, MACHINE_ISQRT, x);
         if (is_signed && result) {
             overflow = sign_of(m, x);
-            result = machine_select(m, overflow, number(m, a.len, 0), result);
+            result = machine_select(m, overflow, paris_number(m, (int)a.len, 0), result);
             result_signed = true;
         }
         break;
@@ -222,11 +171,11 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
         result = to_gray(m, x);
         break;
     default: /* PARIS_OP_SIGNUM */
-        result = signum(m, resize(m, x, longest(dest.len, a.len), true));
+        result = signum(m, paris_resize(m, x, paris_longest(dest.len, a.len), true));
         result_signed = true;
         break;
     }
-    overflow = either(m, overflow, lost_in(m, result, dest.len, result_signed));
+    overflow = either(m, overflow, paris_lost(m, result, dest.len, result_signed));
     finish(m, self, dest, result, result_signed, overflow);
 }
 
@@ -240,12 +189,13 @@ static struct machine_value *shift_overflow(struct machine *m,
                                             struct machine_value *count, bool is_signed)
 {
     unsigned int width = machine_value_type(x).width;
-    struct machine_value *kept = resize(m, resize(m, result, len, is_signed), width, is_signed);
+    struct machine_value *kept =
+        paris_resize(m, paris_resize(m, result, len, is_signed), width, is_signed);
     struct machine_value *back = count ? machine_unary(m, MACHINE_NEG, count) : NULL;
     struct machine_value *again = machine_bits_shift(m, self->op, kept, back);
     struct machine_value *differs = machine_binary(m, MACHINE_NE, again, x);
     struct machine_value *right = sign_of(m, count);
-    struct machine_value *lost = lost_in(m, result, len, is_signed);
+    struct machine_value *lost = paris_lost(m, result, len, is_signed);
     return right && lost && differs ? machine_select(m, right, lost, differs) : NULL;
 }
 
@@ -253,12 +203,14 @@ void paris_shift(const struct paris_instruction *self, struct paris_operand dest
                  struct paris_operand a, struct paris_operand count)
 {
     struct machine *m = paris_begin(self->name);
+    struct machine_type type;
     struct machine_value *x, *n;
-    if (!check(dest, a, count) || !load_two(m, self, dest, a, count, &x, &n))
+    if (!paris_check_dest(dest, a, count, &type) ||
+        !paris_load_two(m, self, dest, a, count, &x, &n))
         return;
     bool is_signed = dest.letter == 's';
-    x = resize(m, x, longest(dest.len, a.len), is_signed);
-    n = resize(m, n, count.len < PARIS_INTEGER_MAX ? count.len + 1 : count.len, true);
+    x = paris_resize(m, x, paris_longest(dest.len, a.len), is_signed);
+    n = paris_resize(m, n, count.len < PARIS_INTEGER_MAX ? count.len + 1 : count.len, true);
     struct machine_value *result = machine_bits_shift(m, self->op, x, n);
     finish(m, self, dest, result, is_signed,
            result ? shift_overflow(m, self, x, result, dest.len, n, is_signed) : NULL);
@@ -268,7 +220,9 @@ void paris_rotate(const struct paris_instruction *self, struct paris_operand des
                   struct paris_operand a, struct paris_operand count)
 {
     struct machine *m = paris_begin(self->name);
+    struct machine_type type;
     struct machine_value *x, *n;
-    if (check(dest, a, count) && load_two(m, self, dest, a, count, &x, &n))
+    if (paris_check_dest(dest, a, count, &type) &&
+        paris_load_two(m, self, dest, a, count, &x, &n))
         paris_store(m, dest, machine_bits_shift(m, MACHINE_ROTATE, x, n), self->scope);
 }

@@ -95,6 +95,13 @@ bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
     return true;
 }
 
+bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                      struct machine_type *type)
+{
+    return paris_type(dest, "dest", type) && paris_check_operand(dest, "dest") &&
+           paris_check_overlap(dest, a) && paris_check_overlap(dest, b);
+}
+
 bool paris_check_axis(unsigned int axis)
 {
     int rank = machine_vpset_rank(paris_the.machine, machine_vpset_current(paris_the.machine));
@@ -118,12 +125,36 @@ struct machine_value *paris_load(struct machine *m, struct paris_operand a, cons
     } else if (a.letter == 'f') {
         v = machine_constant_float(m, type, a.value.number);
     } else {
-        uint64_t high = a.letter == 's' && (long)a.value.bits < 0 ? UINT64_MAX : 0;
-        v = machine_constant(m, type, (struct machine_scalar){a.value.bits, high});
+        v = machine_constant(m, type, paris_constant_bits(a));
     }
     if (!v)
         paris_fail_machine();
     return v;
+}
+
+bool paris_load_two(struct machine *m, const struct paris_instruction *self,
+                    struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                    struct machine_value **x, struct machine_value **y)
+{
+    *x = paris_load(m, a, a.field == dest.field ? "dest" : "source1", self->scope);
+    *y = *x ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
+    return *y != NULL;
+}
+
+bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a,
+                       struct paris_operand b, bool y_signed, struct machine_value **x,
+                       struct machine_value **y)
+{
+    struct machine_type type;
+    unsigned int width = paris_longest(dest.len, paris_longest(a.len, b.len));
+    if (!paris_check_dest(dest, a, b, &type) || !paris_load_two(m, self, dest, a, b, x, y))
+        return false;
+    *x = paris_resize(m, *x, width, dest.letter == 's');
+    *y = paris_resize(m, *y, width, y_signed);
+    if (!*x || !*y)
+        paris_fail_machine();
+    return *x && *y;
 }
 
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,

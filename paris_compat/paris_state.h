@@ -28,6 +28,7 @@
 #endif
 
 #include "paris_internal.h"
+#include "scalar.h"
 
 /* One entry point. */
 struct paris_instruction {
@@ -170,9 +171,26 @@ static inline double paris_double(uint64_t word)
     return both.number;
 }
 
+/* The integer that a constant operand is, of 128 bits. */
+static inline struct machine_scalar paris_constant_bits(struct paris_operand a)
+{
+    return a.letter == 's' ? scalar_signed((long)a.value.bits)
+                           : (struct machine_scalar){a.value.bits, 0};
+}
+
 /* The operand's value in the current VP set; NULL when it is wrong, which has been said. */
 struct machine_value *paris_load(struct machine *m, struct paris_operand a, const char *role,
                                  enum machine_scope scope);
+/* The values of an instruction's two sources. False: one is wrong, and that has been said. */
+bool paris_load_two(struct machine *m, const struct paris_instruction *self,
+                    struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                    struct machine_value **x, struct machine_value **y);
+/* The same for integers, dest looked at too, and both made as long as the longest of the three. y_signed: whether b
+ * has a sign. */
+bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
+                       struct paris_operand dest, struct paris_operand a,
+                       struct paris_operand b, bool y_signed, struct machine_value **x,
+                       struct machine_value **y);
 /* value may be NULL. False: it was not stored, and why has been said. */
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope);
@@ -190,10 +208,29 @@ bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_va
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
 bool paris_check_operand(struct paris_operand a, const char *role);
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source);
+/* dest as an instruction stores into it that has these sources (one: twice the same); *type: its. */
+bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct paris_operand b,
+                      struct machine_type *type);
 /* These say no in either mode. */
 bool paris_check_axis(unsigned int axis);
 const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
 const struct paris_geometry *paris_geometry_current(void);
+
+/* ---- integers of several lengths: values.c; NULL goes through ---- */
+
+static inline unsigned int paris_longest(unsigned int a, unsigned int b)
+{
+    return a > b ? a : b;
+}
+/* Cut off to that width. */
+struct machine_value *paris_number(struct machine *m, int width, int64_t x);
+struct machine_value *paris_resize(struct machine *m, struct machine_value *v,
+                                   unsigned int width, bool is_signed);
+/* 1 where v is not the number that its low len bits are. */
+struct machine_value *paris_lost(struct machine *m, struct machine_value *v, unsigned int len,
+                                 bool is_signed);
+/* |x| of a signed number; the least one is its own. */
+struct machine_value *paris_absolute(struct machine *m, struct machine_value *x);
 
 /* The function of the two bits whose truth table this is, from (0,0) in bit 3 to (1,1) in bit
  * 0. */

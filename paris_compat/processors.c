@@ -82,13 +82,8 @@ void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t s
     if (!processor_index(m, send_address, dest, "dest", &type, &index) ||
         !paris_check_operand(value, "value"))
         return;
-    struct machine_scalar bits;
-    if (value.letter == 'f') {
-        bits = bits_of(type, value.value.number);
-    } else {
-        bits.lo = value.value.bits;
-        bits.hi = value.letter == 's' && (long)bits.lo < 0 ? UINT64_MAX : 0;
-    }
+    struct machine_scalar bits =
+        value.letter == 'f' ? bits_of(type, value.value.number) : paris_constant_bits(value);
     if (machine_field_write(m, dest.field, type, index, bits) != MACHINE_OK)
         paris_fail_machine();
 }

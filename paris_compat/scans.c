@@ -267,8 +267,7 @@ void paris_rank(const struct paris_instruction *self, struct paris_operand dest,
     struct machine_scan how = {0};
     struct machine_type type;
     if (!paris_check_axis(axis) || !direction_good(direction) ||
-        !segments_load(m, smode, sbit, &how) || !paris_type(dest, "dest", &type) ||
-        !paris_check_operand(dest, "dest") || !paris_check_overlap(dest, source))
+        !segments_load(m, smode, sbit, &how) || !paris_check_dest(dest, source, source, &type))
         return;
     struct machine_value *v = paris_load(m, source, "source", MACHINE_WHERE_ACTIVE);
     if (!v)

@@ -12,7 +12,8 @@
 
 #include "internal.h"
 
-enum { CALL_RUN = 4096 }; /* columns for a work-item on a CPU */
+/* For a work-item on a CPU: columns; physical processors. */
+enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
 
 struct kernel_call {
     cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
@@ -32,6 +33,12 @@ static inline void call_argument(struct kernel_call *c, size_t size, const void 
         c->error |= clSetKernelArg(c->kernel, c->at++, size, value);
 }
 
+static inline void call_int(struct kernel_call *c, int value)
+{
+    cl_int x = value;
+    call_argument(c, sizeof x, &x);
+}
+
 static inline void call_uint(struct kernel_call *c, uint64_t value)
 {
     cl_uint x = (cl_uint)value;
@@ -41,6 +48,12 @@ static inline void call_uint(struct kernel_call *c, uint64_t value)
 static inline void call_ulong(struct kernel_call *c, uint64_t value)
 {
     call_argument(c, sizeof value, &value);
+}
+
+static inline void call_scalar(struct kernel_call *c, struct machine_scalar x)
+{
+    call_ulong(c, x.lo);
+    call_ulong(c, x.hi);
 }
 
 static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
@@ -66,12 +79,46 @@ static inline void call_order(struct kernel_call *c, const struct machine *m,
     call_uint(c, s->order == MACHINE_SEND_ORDER);
 }
 
-/* Work-items x * y; on a CPU each a group of its own. */
+/* Lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
+static inline void call_lines(struct kernel_call *c, const struct lines *l, int run)
+{
+    call_ulong(c, l->base);
+    call_ulong(c, (uint64_t)l->step);
+    call_ulong(c, l->inner_stride);
+    call_ulong(c, l->outer_stride);
+    call_int(c, l->length);
+    call_int(c, run);
+    call_int(c, l->columns);
+}
+
+/* How these lie in rows. */
+static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
+{
+    call_int(c, l->width);
+    call_int(c, l->halo);
+    call_int(c, l->along);
+}
+
+static inline void call_set(struct kernel_call *c, const struct machine *m,
+                            const struct vpset *s)
+{
+    call_order(c, m, s);
+    call_layout(c, s);
+}
+
+/* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
 {
     size_t global[2] = {x, y};
     return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, what) : m->status;
+}
+
+static inline enum machine_status call_start_3d(struct kernel_call *c, struct machine *m,
+                                                size_t x, size_t y, size_t z, const char *what)
+{
+    size_t global[3] = {x, y, z};
+    return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, what) : m->status;
 }
 
 /* Columns that a work-item of call_over() does; the kernel wants it as an argument. */
@@ -86,6 +133,20 @@ static inline enum machine_status call_over(struct kernel_call *c, struct machin
 {
     size_t run = call_run(m);
     return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
+}
+
+/* Physical processors that a work-item of call_processors() does. */
+static inline size_t call_processors_run(const struct machine *m)
+{
+    return m->device.is_cpu ? CALL_PROCESSORS_RUN : 1;
+}
+
+/* A work-item for each run of physical processors, times y. */
+static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
+                                                  size_t y, const char *what)
+{
+    size_t run = call_processors_run(m), p = (size_t)m->processors_count;
+    return call_start(c, m, (p + run - 1) / run, y, what);
 }
 
 /* The C type of an element in memory of so many bytes; 16 is a pair. */

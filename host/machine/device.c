@@ -182,15 +182,18 @@ enum machine_status device_open(struct machine *m, const char *choice)
     snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
     free(all);
     cl_device_type type = 0;
+    cl_uint units = 0;
     cl_ulong memory = 0, max_alloc = 0;
     cl_device_fp_config doubles = 0, singles = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_alloc, &max_alloc, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof singles, &singles, NULL);
     clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
     d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    d->units = units ? (int)units : 1;
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
     d->memory_max_alloc_bytes = max_alloc;
     if (!doubles)
@@ -224,6 +227,47 @@ static void pool_empty(struct device *d)
     d->pool_bytes = 0;
 }
 
+double device_wait_begin(struct machine *m)
+{
+    m->inside++;
+    return machine_clock_s();
+}
+
+enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
+                                    const char *what)
+{
+    m->inside--;
+    m->busy_s += machine_clock_s() - start;
+    return device_check(m, error, what);
+}
+
+enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
+                                const void *pattern, size_t pattern_bytes, const char *what)
+{
+    m->inside++;
+    cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, pattern_bytes, 0,
+                                       b->bytes, 0, NULL, NULL);
+    m->inside--;
+    return device_check(m, error, what);
+}
+
+enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
+                                const struct device_buffer *to, size_t bytes, const char *what)
+{
+    m->inside++;
+    cl_int error =
+        clEnqueueCopyBuffer(m->device.queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, NULL);
+    m->inside--;
+    return device_check(m, error, what);
+}
+
+void device_flush(struct machine *m)
+{
+    m->inside++;
+    clFlush(m->device.queue);
+    m->inside--;
+}
+
 enum { KERNELS_AHEAD = 256 };
 
 /* A fence is put behind every KERNELS_AHEAD kernels, and the one before it waited for. */
@@ -237,13 +281,12 @@ enum machine_status device_pace(struct machine *m)
     if (error)
         d->fence = NULL;
     d->fence_kernels = d->kernels_run;
-    if (reached) {
-        double start = machine_clock_s();
-        error |= clWaitForEvents(1, &reached);
-        clReleaseEvent(reached);
-        m->busy_s += machine_clock_s() - start;
-    }
-    return device_check(m, error, "waiting for the device");
+    if (!reached)
+        return device_check(m, error, "waiting for the device");
+    double start = device_wait_begin(m);
+    error |= clWaitForEvents(1, &reached);
+    clReleaseEvent(reached);
+    return device_wait_end(m, error, start, "waiting for the device");
 }
 
 void device_close(struct machine *m)
@@ -302,7 +345,9 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
     cl_mem parent =
         b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
     if (error && d->pool_count) {
+        m->inside++;
         clFinish(d->queue);
+        m->inside--;
         pool_empty(d);
         parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
     }
@@ -547,6 +592,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 {
     static const size_t one[3] = {1, 1, 1};
     struct device *d = &m->device;
+    m->inside++;
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
                                        d->is_cpu ? one : NULL, 0, NULL, NULL);
@@ -554,11 +600,10 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     for (int i = 0; i < d->unstarted_count; i++)
         if (d->unstarted[i] == kernel) {
             d->unstarted[i] = d->unstarted[--d->unstarted_count];
-            m->inside++;
             error = error ? error : clFinish(d->queue);
-            m->inside--;
             break;
         }
+    m->inside--;
     return device_check(m, error, what);
 }
 
@@ -592,8 +637,11 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
     snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
     struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    if (entry && (entry->program = build(m, parts, all_options, key))) {
+    m->inside++;
+    if (entry && (entry->program = build(m, parts, all_options, key)))
         entry->kernel = clCreateKernel(entry->program, name, &error);
+    m->inside--;
+    if (entry && entry->program) {
         if (!error) {
             entry->key = key;
             entry->next = bucket->next;

@@ -198,8 +198,7 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
 
 static struct machine_value *small(struct machine *m, int width, int64_t x)
 {
-    return machine_constant(m, MACHINE_UINT(width),
-                            (struct machine_scalar){(uint64_t)x, x < 0 ? UINT64_MAX : 0});
+    return machine_constant(m, MACHINE_UINT(width), scalar_signed(x));
 }
 
 /* A signed count, as one of 32 bits from -128 to 128. */

@@ -15,8 +15,12 @@
  *   scan.c      scans and spreads: kernels written by hand            (uses run)
  *   rank.c      ranks: a radix sort                                   (uses scan)
  *   router.c    sends and gets                                        (uses run)
- *   reshape.c   aliases: the same memory seen from another VP set     (uses run, graph)
+ *   alias.c     aliases: the same memory seen from another VP set     (uses reshape)
+ *   slices.c    slices of values; loops over them rolled up           (uses run, graph)
+ *   reshape.c   content on its way between aliases                    (uses slices, run)
+ *   reshape.h   what these three share, and how aliases work
  *   call.h      starting a kernel that is not generated
+ *   scalar.h    numbers on the front end
  *   device.c    OpenCL: devices, buffers, programs and their cache
  *   machine.c   creation, errors, configuration
  */
@@ -28,6 +32,7 @@
 #include <stdio.h>
 
 #include "machine.h"
+#include "scalar.h"
 
 /* Stays in release builds: a broken invariant of ours, never of the caller. */
 #define INVARIANT(condition)                                                                   \
@@ -70,7 +75,7 @@ enum node_op {
     NODE_OVERFLOW_FMUL,
     NODE_OVERFLOW_FDIV,
     NODE_OVERFLOW_RESULT, /* in: result, operand: infinite from finite */
-    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.c */
+    NODE_SLICE, /* in: a value of another VP set, in memory; imm.lo k, detail i: see reshape.h */
     NODE_OP_COUNT
 };
 
@@ -187,6 +192,7 @@ struct device {
     cl_command_queue queue;
     char name[256], platform_name[128], driver[128];
     bool is_cpu, has_double;
+    int units; /* that compute at the same time */
     uint64_t memory_bytes, memory_max_alloc_bytes;
     struct device_shape shape;
     struct device_buffer **pool;
@@ -253,8 +259,8 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    uint64_t flush_after; /* values waiting */
-    bool sliced;                      /* there has been a slice: see reshape.c */
+    uint64_t flush_after;             /* values waiting */
+    bool sliced;                      /* there has been a slice: see slices.c */
     bool rolling;                     /* in reshape_roll() */
     uint64_t roll_after;              /* values waiting before the next try */
     bool flush_due, flushing;         /* before the next instruction; just now */
@@ -485,7 +491,7 @@ void replay_failed(struct machine *m);
 /* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
  * everywhere the same). Does not wait. NULL: error set. */
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
-/* Of a buffer for one value of that type. */
+/* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */
 size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
 
 /* scan.c */
@@ -519,17 +525,8 @@ struct machine_value *in_memory(struct machine_value *v);
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 /* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
 bool values_materialise(struct machine *m, int set, struct machine_value **values, int count);
-int device_units(const struct machine *m);
-struct kernel_arguments {
-    cl_kernel kernel;
-    cl_uint count;
-    cl_int error;
-};
-void kernel_argument_add(struct kernel_arguments *a, const void *value, size_t bytes);
-void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int run,
-                      bool with_rows);
-enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
-                                 size_t runs, size_t rows, size_t blocks);
+
+/* fields.c */
 /* The slots between two bit offsets are given up for these, whose values' references go to the field. */
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count);
@@ -540,12 +537,14 @@ struct field *field_exact(struct machine *m, uint32_t id);
 bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
 void field_destroy(struct machine *m, struct field *f);
 
-/* reshape.c */
+/* alias.c */
 /* Called before slots of f are looked at, or replaced (writes; whole: all of them, everywhere): brings
  * what was stored through another alias of its memory. */
 bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole);
 /* The root takes over what its newest alias holds. */
 bool reshape_settle(struct machine *m, struct field *root);
+
+/* slices.c */
 /* Gives a slice its buffer; others that are found on the way too. */
 bool reshape_unpack(struct machine *m, struct machine_value *slice);
 /* The same numbers for the same processors in rows of another geometry; v is of the set as it is. */
@@ -557,13 +556,6 @@ bool reshape_roll(struct machine *m, bool *partial);
 /* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
  * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);
-
-/* observe.c */
-/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
- * everywhere the same). Does not wait. NULL: error set. */
-struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
-/* Of a buffer for one value of that type. */
-size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
 
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);
@@ -589,6 +581,16 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);
 enum machine_status device_check(struct machine *m, cl_int error, const char *what);
+/* Around a call that waits for the device, whose time counts as busy; begin gives when it began. */
+double device_wait_begin(struct machine *m);
+enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
+                                    const char *what);
+/* A whole buffer becomes repetitions of the pattern; from its beginning a copy. Do not wait. */
+enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
+                                const void *pattern, size_t pattern_bytes, const char *what);
+enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
+                                const struct device_buffer *to, size_t bytes, const char *what);
+void device_flush(struct machine *m); /* what is in the queue begins */
 /* After kernels were started: waits where the front end is hundreds of them ahead of the device,
  * for each that waits in the queue takes memory. */
 enum machine_status device_pace(struct machine *m);

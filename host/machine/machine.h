@@ -154,12 +154,12 @@ int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
 struct machine_stats {
-    uint64_t stores;        /* values stored into fields and flags */
-    uint64_t values_live;   /* nodes in the graph now */
+    uint64_t stores;         /* values stored into fields and flags */
+    uint64_t values_live;    /* nodes in the graph now */
     uint64_t calls_foreseen; /* calls that were performed without being recorded again */
-    uint64_t flushes;       /* evaluations */
-    uint64_t plans_built;   /* evaluations whose shape had not been seen */
-    uint64_t kernels_built; /* compiled, or loaded from the disk cache */
+    uint64_t flushes;        /* evaluations */
+    uint64_t plans_built;    /* evaluations whose shape had not been seen */
+    uint64_t kernels_built;  /* compiled, or loaded from the disk cache */
     uint64_t kernels_run;
     uint64_t bytes_held; /* device memory in use by values */
     double busy_s;       /* time in which the front end waited for the device */

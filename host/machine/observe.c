@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "call.h"
 #include "kernels.h"
 
 enum {
@@ -19,20 +20,6 @@ size_t machine_element_bytes(struct machine_type type)
 size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
 {
     return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
-}
-
-static double wait_begin(struct machine *m)
-{
-    m->inside++;
-    return machine_clock_s();
-}
-
-static enum machine_status wait_for(struct machine *m, cl_int error, double start,
-                                    const char *what)
-{
-    m->inside--;
-    m->busy_s += machine_clock_s() - start;
-    return device_check(m, error, what);
 }
 
 /* The position of a processor in a buffer, in elements. */
@@ -62,11 +49,11 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
         memcpy(to - halo, to + width - halo, halo);
         memcpy(to + width, to, halo);
     }
-    double start = wait_begin(m);
+    double start = device_wait_begin(m);
     cl_int error =
         clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
     free(image);
-    if (wait_for(m, error, start, "writing a field")) {
+    if (device_wait_end(m, error, start, "writing a field")) {
         device_buffer_unref(m, b);
         return NULL;
     }
@@ -80,16 +67,6 @@ static void put_scalar(unsigned char *to, struct machine_scalar x, size_t elemen
         memcpy(to + 8, &x.hi, 8);
 }
 
-static void cut_scalar(struct machine_scalar *x, int width)
-{
-    if (width < 64)
-        x->lo &= (UINT64_C(1) << width) - 1;
-    if (width <= 64)
-        x->hi = 0;
-    else if (width < 128)
-        x->hi &= (UINT64_C(1) << (width - 64)) - 1;
-}
-
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
     if (v->op == NODE_CONSTANT && !v->buffer) {
@@ -100,9 +77,7 @@ struct machine_value *observe_materialise(struct machine *m, int set, struct mac
         if (!b)
             return NULL;
         put_scalar(pattern, v->imm, element);
-        cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, element, 0, bytes,
-                                           0, NULL, NULL);
-        if (device_check(m, error, "filling a field")) {
+        if (device_fill(m, b, pattern, element, "filling a field")) {
             device_buffer_unref(m, b);
             return NULL;
         }
@@ -149,14 +124,14 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
         return m->status;
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
-    double start = wait_begin(m);
+    double start = device_wait_begin(m);
     cl_int error = s->pitch == (size_t)s->width
                        ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0,
                                              s->count * element, out, 0, NULL, NULL)
                        : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from,
                                                  to, region, s->pitch * element, 0, region[0],
                                                  0, out, 0, NULL, NULL);
-    return wait_for(m, error, start, "reading a field");
+    return device_wait_end(m, error, start, "reading a field");
 }
 
 static void mask_elements(void *data, uint64_t count, struct machine_type type)
@@ -170,8 +145,7 @@ static void mask_elements(void *data, uint64_t count, struct machine_type type)
         memcpy(&x.lo, at, element < 8 ? element : 8);
         if (element > 8)
             memcpy(&x.hi, at + 8, 8);
-        cut_scalar(&x, type.width);
-        put_scalar(at, x, element);
+        put_scalar(at, scalar_cut(x, type.width), element);
     }
 }
 
@@ -218,13 +192,13 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
         return m->status;
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
-    double start = wait_begin(m);
+    double start = device_wait_begin(m);
     cl_int error = clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
                                        place(&m->sets[f->vpset], index) * element, element, raw,
                                        0, NULL, NULL);
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
-    return wait_for(m, error, start, "reading a processor");
+    return device_wait_end(m, error, start, "reading a processor");
 }
 
 /* A buffer of the same content that nobody else looks at. */
@@ -234,9 +208,7 @@ static struct machine_value *own_copy(struct machine *m, int set, struct machine
     struct device_buffer *b = device_buffer_get(m, bytes);
     if (!b)
         return NULL;
-    cl_int error = clEnqueueCopyBuffer(m->device.queue, v->buffer->mem, b->mem, 0, 0, bytes, 0,
-                                       NULL, NULL);
-    if (device_check(m, error, "copying a field")) {
+    if (device_copy(m, v->buffer, b, bytes, "copying a field")) {
         device_buffer_unref(m, b);
         return NULL;
     }
@@ -273,9 +245,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
-    cut_scalar(&value, type.width);
     unsigned char raw[16];
-    put_scalar(raw, value, element);
+    put_scalar(raw, scalar_cut(value, type.width), element);
     size_t at = place(s, index), column = index % (uint64_t)s->width, width = (size_t)s->width;
     size_t places[3] = {at, 0, 0};
     int count = 1;
@@ -283,12 +254,12 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         places[count++] = at + width;
     if (column >= width - (size_t)s->halo)
         places[count++] = at - width;
-    double start = wait_begin(m);
+    double start = device_wait_begin(m);
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < count && !error; i++)
         error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
                                      places[i] * element, element, raw, 0, NULL, NULL);
-    if (wait_for(m, error, start, "writing a processor"))
+    if (device_wait_end(m, error, start, "writing a processor"))
         return m->status;
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
 }
@@ -326,8 +297,7 @@ static struct machine_scalar identity_of(const struct reduction_info *info,
         else
             x.lo = info->op == LEAST ? 0x7ff0000000000000u : 0xfff0000000000000u;
     } else if (info->op == AND || (info->op == LEAST && !info->is_float)) {
-        x.lo = x.hi = UINT64_MAX;
-        cut_scalar(&x, type.width);
+        x = scalar_ones(type.width);
     }
     return x;
 }
@@ -393,8 +363,6 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
                                          struct machine_scalar identity,
                                          struct machine_scalar *out)
 {
-    static const char *const elements[] = {
-        [1] = "uchar", [2] = "ushort", [4] = "uint", [8] = "ulong"};
     bool is_float = v->type.kind == MACHINE_FLOAT, wide = type_bytes(v->type) == 16;
     const char *real = v->type.width == 32 ? "float" : "double";
     char options[96];
@@ -402,12 +370,12 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
              wide ? 2 : is_float, op,
              is_float ? real
              : wide   ? "ulong"
-                      : elements[type_bytes(v->type)],
+                      : call_element(type_bytes(v->type)),
              is_float ? real : "ulong");
-    cl_kernel kernel = device_library_kernel(m, kernel_reduce_cl, options, "reduce");
+    struct kernel_call c = call_begin(m, kernel_reduce_cl, options, "reduce");
     size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
     size_t element = is_float ? type_bytes(v->type) : wide ? 16 : 8;
-    struct device_buffer *b = kernel ? device_buffer_get(m, count * element) : NULL;
+    struct device_buffer *b = c.kernel ? device_buffer_get(m, count * element) : NULL;
     unsigned char *raw = b ? malloc(count * element) : NULL;
     struct machine_scalar *sums = raw ? malloc(count * sizeof *sums) : NULL;
     if (!sums) {
@@ -417,23 +385,20 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
         return m->status ? m->status
                          : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reduce");
     }
-    cl_int fixed[4] = {s->width, (cl_int)s->pitch, s->halo, REDUCE_RUN};
-    cl_uint at = 0;
-    cl_int error = CL_SUCCESS;
-    for (int i = 0; i < 4; i++)
-        error |= clSetKernelArg(kernel, at++, sizeof(cl_int), &fixed[i]);
-    error |= clSetKernelArg(kernel, at++, element > 8 ? 8 : element, &identity.lo);
+    call_layout(&c, s);
+    call_int(&c, REDUCE_RUN);
+    call_argument(&c, element > 8 ? 8 : element, &identity.lo);
     if (wide)
-        error |= clSetKernelArg(kernel, at++, 8, &identity.hi);
-    error |= clSetKernelArg(kernel, at++, sizeof(cl_mem), &v->buffer->mem);
-    error |= clSetKernelArg(kernel, at++, sizeof(cl_mem), &b->mem);
-    size_t global[2] = {runs, s->rows};
-    double start = wait_begin(m);
-    error = device_launch(m, kernel, error, 2, global, "reducing") ? CL_INVALID_OPERATION : 0;
-    if (!error)
-        error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0, count * element, raw,
-                                    0, NULL, NULL);
-    enum machine_status status = wait_for(m, error, start, "reducing");
+        call_ulong(&c, identity.hi);
+    call_buffer(&c, v->buffer);
+    call_buffer(&c, b);
+    double start = device_wait_begin(m);
+    enum machine_status status = call_start(&c, m, runs, s->rows, "reducing");
+    cl_int error = status ? CL_SUCCESS
+                          : clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                                                count * element, raw, 0, NULL, NULL);
+    enum machine_status waited = device_wait_end(m, error, start, "reducing");
+    status = status ? status : waited;
     for (size_t i = 0; i < count && !status; i++) {
         sums[i] = (struct machine_scalar){0, 0};
         memcpy(&sums[i].lo, raw + i * element, element < 8 ? element : 8);
@@ -469,8 +434,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     const struct reduction_info *info = &reductions[op];
     struct machine_type type = value->type;
     struct machine_scalar identity = identity_of(info, type);
-    struct machine_scalar sign = {type.width <= 64 ? UINT64_C(1) << (type.width - 1) : 0,
-                                  type.width > 64 ? UINT64_C(1) << (type.width - 65) : 0};
+    struct machine_scalar sign = scalar_sign(type.width);
     if (info->is_signed) /* in another order: the sign bit turned over */
         value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
     struct machine_value *none = machine_constant(m, type, identity);
@@ -483,7 +447,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
         out->lo ^= sign.lo;
         out->hi ^= sign.hi;
     }
-    cut_scalar(out, type.width);
+    *out = scalar_cut(*out, type.width);
     if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
         out->lo = 0x7fc00000u;
     if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))

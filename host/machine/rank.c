@@ -7,6 +7,7 @@
  * in words of 32 bits, and these in digits; each digit is a pass (kernels/sort.cl). */
 #include "internal.h"
 
+#include "call.h"
 #include "kernels.h"
 
 enum { WORDS_MAX = 6, CHUNK_GPU = 2048, LONG = 1 << 15, SHORT = 64 };
@@ -48,12 +49,9 @@ static struct machine_value *key_of(struct machine *m, struct machine_value *v, 
               : NULL;
         if (!v)
             return NULL;
-        uint64_t last = width == 32 ? UINT32_MAX : UINT64_MAX;
-        v = float_order(m, v, downward ? 0 : last);
+        v = float_order(m, v, downward ? 0 : scalar_ones(width).lo);
     } else if (is_signed) {
-        struct machine_scalar sign = {width <= 64 ? UINT64_C(1) << (width - 1) : 0,
-                                      width > 64 ? UINT64_C(1) << (width - 65) : 0};
-        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, sign));
+        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, scalar_sign(width)));
     }
     return v && downward ? machine_unary(m, MACHINE_NOT, v) : v;
 }
@@ -114,28 +112,19 @@ static struct sort sort_of(const struct machine *m, const struct vpset *s, int a
     if (!m->device.is_cpu && length > CHUNK_GPU) {
         t.chunk = CHUNK_GPU;
     } else if (m->device.is_cpu && length >= LONG) {
-        int wanted = 2 * device_units(m);
+        int wanted = 2 * m->device.units;
         t.chunk = (length - 1) / wanted + 1;
     }
     t.chunks = (length - 1) / t.chunk + 1;
     return t;
 }
 
-static struct kernel_arguments sort_part(struct machine *m, int number)
+static struct kernel_call sort_part(struct machine *m, int number)
 {
     char options[64];
     snprintf(options, sizeof options, "-DPART=%d -DDIGIT=%d", number,
              m->device.is_cpu ? 11 : 8);
-    m->inside++;
-    struct kernel_arguments a = {.kernel =
-                                     device_library_kernel(m, kernel_sort_cl, options, "sort")};
-    m->inside--;
-    return a;
-}
-
-static void add_buffer(struct kernel_arguments *a, const struct device_buffer *b)
-{
-    kernel_argument_add(a, &b->mem, sizeof b->mem);
+    return call_begin(m, kernel_sort_cl, options, "sort");
 }
 
 static enum machine_status sort_pass(struct machine *m, const struct sort *t,
@@ -144,26 +133,23 @@ static enum machine_status sort_pass(struct machine *m, const struct sort *t,
 {
     const struct lines *l = &t->lines;
     size_t rows = l->inner * (size_t)l->columns;
-    cl_int numbers[3] = {source, shift, bits}, is_last = last;
     for (int number = 0; number < 2; number++) {
-        struct kernel_arguments a = sort_part(m, number);
-        if (!a.kernel)
-            return m->status;
-        kernel_lines_add(&a, l, t->chunk, false);
-        for (int i = 0; i < 3; i++)
-            kernel_argument_add(&a, &numbers[i], sizeof numbers[i]);
-        add_buffer(&a, word);
-        add_buffer(&a, t->pairs[from]);
-        add_buffer(&a, t->counts);
+        struct kernel_call c = sort_part(m, number);
+        call_lines(&c, l, t->chunk);
+        call_int(&c, source);
+        call_int(&c, shift);
+        call_int(&c, bits);
+        call_buffer(&c, word);
+        call_buffer(&c, t->pairs[from]);
+        call_buffer(&c, t->counts);
         if (number == 1) {
-            kernel_argument_add(&a, &is_last, sizeof is_last);
-            kernel_argument_add(&a, &l->width, sizeof l->width);
-            kernel_argument_add(&a, &l->halo, sizeof l->halo);
-            kernel_argument_add(&a, &l->along, sizeof l->along);
-            add_buffer(&a, t->pairs[!from]);
-            add_buffer(&a, t->ranks);
+            call_int(&c, last);
+            call_lines_rows(&c, l);
+            call_buffer(&c, t->pairs[!from]);
+            call_buffer(&c, t->ranks);
         }
-        enum machine_status status = kernel_start(m, &a, (size_t)t->chunks, rows, l->outer);
+        enum machine_status status = call_start_3d(&c, m, (size_t)t->chunks, rows, l->outer,
+                                                   "a kernel cannot be started");
         if (!status && number == 0)
             status = lines_sum_up(m, t->counts, lines_count(l), (size_t)t->chunks << bits);
         if (status)
@@ -224,6 +210,6 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
             device_buffer_unref(m, *all[i]);
     if (status && t.ranks)
         device_buffer_unref(m, t.ranks);
-    clFlush(m->device.queue);
+    device_flush(m);
     return status ? NULL : graph_buffer_node(m, MACHINE_UINT(32), m->set_current, t.ranks);
 }

@@ -28,6 +28,9 @@
 
 #include "internal.h"
 
+/* The part of a place that is of a lazy overflow; others are flags and lengths. */
+#define OVERFLOW_PART (UINT32_MAX - 255)
+
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
 
 struct edge {
@@ -153,7 +156,7 @@ static void each_root(struct root_visit *v)
         struct lazy_overflow *o = &m->sets[i].overflow;
         struct machine_value **places[3] = {&o->a, &o->b, &o->context};
         for (int k = 0; k < 3; k++)
-            v->visit(v, places[k], (uint32_t)i, 3);
+            v->visit(v, places[k], (uint32_t)i, OVERFLOW_PART);
     }
 }
 
@@ -239,9 +242,9 @@ static void walk_root(struct root_visit *visit, struct machine_value **place, ui
         return;
     walk_node(visit->m, w, *place);
     say(w, id | UINT32_C(0x80000000));
-    say(w, part == 3 ? part + visit->m->sets[id].overflow.op : part);
+    say(w, part == OVERFLOW_PART ? part + visit->m->sets[id].overflow.op : part);
     say(w, (*place)->local);
-    if (part != 3)
+    if (part != OVERFLOW_PART)
         visit->places = (visit->places ^ id ^ (uint64_t)part << 32) * 0x9e3779b97f4a7c15u +
                         (visit->places >> 29);
 }
@@ -506,12 +509,7 @@ static bool edge_run(struct machine *m)
         buffers[i] = e->from[i] >= 0 ? s->buffers[e->from[i]]
                      : e->values[i]  ? e->values[i]->buffer
                                      : NULL;
-    m->inside++;
-    enum machine_status status = plan_run(m, e->plan, buffers, e->values);
-    clFlush(m->device.queue);
-    status = status ? status : device_pace(m);
-    m->inside--;
-    if (status) /* it is going to be tried, and said, once more */
+    if (plan_run(m, e->plan, buffers, e->values)) /* it is going to be tried, and said, once more */
         return false;
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = e->next[k] >= 0 ? s->buffers[e->next[k]] : buffers[~e->next[k]];

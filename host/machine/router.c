@@ -83,6 +83,12 @@ static void address_options(char *out, size_t size, const struct message *g,
                  call_element(type_bytes(element->type)));
 }
 
+static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
+{
+    cl_uint zero = 0;
+    return device_fill(m, b, &zero, sizeof zero, "sending");
+}
+
 /* "claim" or "route": a number for each destination, or for each sender. */
 static struct device_buffer *addresses_pass(struct machine *m, const struct message *g,
                                             const char *name)
@@ -94,13 +100,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
     if (!b)
         return NULL;
     address_options(options, sizeof options, g, NULL);
-    cl_uint zero = 0;
-    enum machine_status status = MACHINE_OK;
-    if (claims)
-        status = device_check(m,
-                              clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero,
-                                                  0, bytes, 0, NULL, NULL),
-                              "sending");
+    enum machine_status status = claims ? zero_fill(m, b) : MACHINE_OK;
     for (uint64_t pass = claims && !m->device.is_cpu; pass < (claims ? 2 : 1) && !status;
          pass++) {
         struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
@@ -166,29 +166,16 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
 /* Work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
-    cl_uint units = 1;
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    size_t count = m->device.is_cpu ? units : GPU_SHARES;
+    size_t count = m->device.is_cpu ? (size_t)m->device.units : GPU_SHARES;
     return count < to->count ? count : (size_t)to->count;
 }
 
 static bool scatters(const struct machine *m)
 {
-    cl_uint units = 1;
     const char *forced = getenv("LUTETIA_SCATTER");
     if (forced && *forced)
         return *forced != '0';
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    return m->device.is_cpu && units <= SCATTER_UNITS;
-}
-
-static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
-{
-    cl_uint zero = 0;
-    return device_check(m,
-                        clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero, 0,
-                                            b->bytes, 0, NULL, NULL),
-                        "sending");
+    return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
 }
 
 /* out already holds the old dest. */
@@ -243,7 +230,6 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     combine_options(options, sizeof options, g);
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "combine");
     size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
-    int width = type.width;
     call_layout(&c, g->to);
     call_layout(&c, g->from);
     call_uint(&c, (uint64_t)op);
@@ -251,12 +237,8 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     call_uint(&c, share);
     call_uint(&c, notifies);
     call_uint(&c, m->device.is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
-    call_ulong(&c, width <= 64 ? UINT64_C(1) << (width - 1) : 0);
-    call_ulong(&c, width > 64 ? UINT64_C(1) << (width - 65) : 0);
-    call_ulong(&c, width < 64 ? (UINT64_C(1) << width) - 1 : UINT64_MAX);
-    call_ulong(&c, width <= 64    ? 0
-                   : width == 128 ? UINT64_MAX
-                                  : (UINT64_C(1) << (width - 64)) - 1);
+    call_scalar(&c, scalar_sign(type.width));
+    call_scalar(&c, scalar_ones(type.width));
     call_buffer(&c, to);
     call_buffer(&c, g->source->buffer);
     call_buffer(&c, out);
@@ -296,11 +278,7 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
     enum machine_status status = out ? MACHINE_OK : m->status;
     if (!status && in_order) {
         owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);
-        status = owner ? device_check(m,
-                                      clEnqueueCopyBuffer(m->device.queue, g->old->buffer->mem,
-                                                          out->mem, 0, 0, bytes, 0, NULL, NULL),
-                                      "sending")
-                       : m->status;
+        status = owner ? device_copy(m, g->old->buffer, out, bytes, "sending") : m->status;
         if (!status && notifies)
             status = zero_fill(m, owner);
     }
@@ -374,11 +352,9 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
-    m->inside++;
     if (message_make(m, &g, send_address, source, m->set_current, old, to.vpset, true,
                      combiner != MACHINE_COMBINE_OVERWRITE))
         out = transmit(m, &g, combiner, notify != 0, &notification);
-    m->inside--;
     if (!out)
         return m->status;
     enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
@@ -425,11 +401,9 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     if (!v)
         return NULL;
     struct message g = {0};
-    m->inside++;
     bool made =
         message_make(m, &g, send_address, v, from.vpset, NULL, from.vpset, false, false);
     v = made ? fetch(m, &g) : NULL;
-    m->inside--;
     return machine_reinterpret(m, v, type);
 }
 
@@ -441,7 +415,6 @@ enum machine_status machine_addresses_check(struct machine *m,
     if (!send_address || !vpset_get(m, vpset) || !address_good(m, send_address))
         return m->status;
     struct message g = {0};
-    m->inside++;
     bool made = message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false);
     struct device_buffer *b = made ? addresses_pass(m, &g, "route") : NULL;
     size_t count = (size_t)m->sets[m->set_current].count;
@@ -449,18 +422,16 @@ enum machine_status machine_addresses_check(struct machine *m,
     enum machine_status status = b ? MACHINE_OK : m->status;
     if (b && !to)
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
-    double start = machine_clock_s();
-    if (!status)
-        status = device_check(m,
-                              clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
-                                                  count * sizeof *to, to, 0, NULL, NULL),
-                              "checking addresses");
-    m->busy_s += machine_clock_s() - start;
+    if (!status) {
+        double start = device_wait_begin(m);
+        cl_int error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                                           count * sizeof *to, to, 0, NULL, NULL);
+        status = device_wait_end(m, error, start, "checking addresses");
+    }
     for (size_t i = 0; !status && i < count; i++)
         *wrong += to[i] == (cl_uint)NO_PROCESSOR;
     if (b)
         device_buffer_unref(m, b);
     free(to);
-    m->inside--;
     return status;
 }

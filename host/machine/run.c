@@ -362,10 +362,9 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
             int count = 0;
             for (int i = 0; i < g.count; i++)
                 if (g.nodes[i].stored && g.nodes[i].stage == stage && g.nodes[i].set == set) {
-                    const struct vpset *s = &m->sets[set];
                     stores[count++] = i;
                     p->stored_bytes[p->stored_count] =
-                        (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(g.nodes[i].type);
+                        observe_buffer_bytes(&m->sets[set], g.nodes[i].type);
                     p->stored[p->stored_count++] = i;
                 }
             good = count == 0 || plan_kernel(m, p, &g, stores, count);
@@ -522,6 +521,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     for (int i = 0; i < p->launches_count && !status; i++)
         status = launch(m, &p->launches[i], buffers, nodes);
     p->worked += p->work;
+    device_flush(m);
+    status = status ? status : device_pace(m);
     for (int i = 0; i < count && status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
         if (*b)
@@ -596,8 +597,6 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     struct plan *p = status ? NULL : plan_get(m, &r, &t);
     if (p) {
         status = execute(m, p, &r, wanted, count);
-        clFlush(m->device.queue);
-        status = status ? status : device_pace(m);
         m->flushes++;
     } else if (!status) {
         status = m->status;
@@ -611,12 +610,9 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
 enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
                                  bool all)
 {
-    m->inside++;
     for (int i = 0; i < count; i++) /* what it is a part of may let go of it */
         graph_borrow(m, wanted[i]);
-    enum machine_status status = evaluate(m, wanted, count, all);
-    m->inside--;
-    return status;
+    return evaluate(m, wanted, count, all);
 }
 
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
@@ -692,10 +688,8 @@ enum machine_status machine_flush(struct machine *m)
 enum machine_status machine_finish(struct machine *m)
 {
     enum machine_status status = machine_flush(m);
-    double start = machine_clock_s();
-    m->inside++;
+    double start = device_wait_begin(m);
     cl_int error = clFinish(m->device.queue);
-    m->inside--;
-    m->busy_s += machine_clock_s() - start;
-    return status ? status : device_check(m, error, "waiting for the device");
+    enum machine_status waited = device_wait_end(m, error, start, "waiting for the device");
+    return status ? status : waited;
 }

@@ -10,8 +10,7 @@
  * machine_scan() promises; for others it is what suits the device. */
 #include "internal.h"
 
-#include <string.h>
-
+#include "call.h"
 #include "kernels.h"
 
 enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
@@ -80,64 +79,13 @@ struct lines lines_of(const struct vpset *s, int axis, bool downward)
     return l;
 }
 
-int device_units(const struct machine *m)
-{
-    cl_uint units = 1;
-    clGetDeviceInfo(m->device.id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    return units ? (int)units : 1;
-}
-
-void kernel_argument_add(struct kernel_arguments *a, const void *value, size_t bytes)
-{
-    a->error |= clSetKernelArg(a->kernel, a->count++, bytes, value);
-}
-
-static void add_int(struct kernel_arguments *a, int value)
-{
-    cl_int x = value;
-    kernel_argument_add(a, &x, sizeof x);
-}
-
-static void add_buffer(struct kernel_arguments *a, const struct device_buffer *b)
-{
-    kernel_argument_add(a, &b->mem, sizeof b->mem);
-}
-
-void kernel_lines_add(struct kernel_arguments *a, const struct lines *l, cl_int run,
-                      bool with_rows)
-{
-    kernel_argument_add(a, &l->base, sizeof l->base);
-    kernel_argument_add(a, &l->step, sizeof l->step);
-    kernel_argument_add(a, &l->inner_stride, sizeof l->inner_stride);
-    kernel_argument_add(a, &l->outer_stride, sizeof l->outer_stride);
-    add_int(a, l->length);
-    add_int(a, run);
-    add_int(a, l->columns);
-    if (with_rows) {
-        add_int(a, l->width);
-        add_int(a, l->halo);
-        add_int(a, l->along);
-    }
-}
-
-enum machine_status kernel_start(struct machine *m, const struct kernel_arguments *a,
-                                 size_t runs, size_t rows, size_t blocks)
-{
-    size_t global[3] = {runs, rows, blocks};
-    return device_launch(m, a->kernel, a->error, 3, global, "a kernel cannot be started");
-}
-
-static struct kernel_arguments part(struct machine *m, int number, const struct element *e,
-                                    int lanes)
+static struct kernel_call part(struct machine *m, int number, const struct element *e,
+                               int lanes)
 {
     char options[96];
     snprintf(options, sizeof options, "-DPART=%d -DTYPE=%s -DMASK=%s -DKIND=%d -DLANES=%d",
              number, e->name, e->mask, e->kind, lanes);
-    m->inside++;
-    struct kernel_arguments a = {.kernel =
-                                     device_library_kernel(m, kernel_scan_cl, options, "scan")};
-    m->inside--;
-    return a;
+    return call_begin(m, kernel_scan_cl, options, "scan");
 }
 
 /* How many neighbouring lines a work-item takes. */
@@ -157,7 +105,7 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
         return RUN_FLOATS;
     if (!m->device.is_cpu)
         return RUN_GPU;
-    int runs = 4 * device_units(m), run = (l->length - 1) / runs + 1;
+    int runs = 4 * m->device.units, run = (l->length - 1) / runs + 1;
     return run < RUN_LEAST ? RUN_LEAST : run;
 }
 
@@ -177,24 +125,24 @@ static enum machine_status scan_runs(struct machine *m, const struct lines *l,
 {
     const struct element *e = j->element;
     int lanes = lanes_of(l, e);
-    struct kernel_arguments a = part(m, 0, e, lanes);
-    if (!a.kernel)
-        return m->status;
-    kernel_lines_add(&a, l, run, true);
+    struct kernel_call c = part(m, 0, e, lanes);
+    call_lines(&c, l, run);
+    call_lines_rows(&c, l);
     const int numbers[] = {j->op,     j->exclusive, j->context != NULL, j->bits != NULL,
                            j->starts, j->backward,  totals != NULL};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        add_int(&a, numbers[i]);
-    kernel_argument_add(&a, &j->identity, e->bytes);
-    kernel_argument_add(&a, &j->flip, e->bytes);
-    kernel_argument_add(&a, &j->cut, e->bytes);
-    add_buffer(&a, j->in);
-    add_buffer(&a, j->context ? j->context : j->in);
-    add_buffer(&a, j->bits ? j->bits : j->in);
-    add_buffer(&a, j->out);
-    add_buffer(&a, totals ? totals : j->out);
-    add_buffer(&a, totals ? firsts : j->out);
-    return kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
+        call_int(&c, numbers[i]);
+    call_argument(&c, e->bytes, &j->identity);
+    call_argument(&c, e->bytes, &j->flip);
+    call_argument(&c, e->bytes, &j->cut);
+    call_buffer(&c, j->in);
+    call_buffer(&c, j->context ? j->context : j->in);
+    call_buffer(&c, j->bits ? j->bits : j->in);
+    call_buffer(&c, j->out);
+    call_buffer(&c, totals ? totals : j->out);
+    call_buffer(&c, totals ? firsts : j->out);
+    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer,
+                         "a kernel cannot be started");
 }
 
 /* Where FILLS takes elements from. */
@@ -210,26 +158,27 @@ static enum machine_status scan_stage(struct machine *m, const struct lines *l,
 {
     const struct element *e = j->element;
     int lanes = stage == FILLS && e->kind == 0 ? lanes_of(l, e) : 1;
-    struct kernel_arguments a = part(m, 1, e, 1);
-    if (!a.kernel)
-        return m->status;
-    kernel_lines_add(&a, l, run, true);
+    struct kernel_call c = part(m, 1, e, 1);
+    call_lines(&c, l, run);
+    call_lines_rows(&c, l);
     const int numbers[] = {lanes, stage, runs, j->op, j->sums != NULL};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        add_int(&a, numbers[i]);
-    kernel_argument_add(&a, &j->identity, e->bytes);
-    kernel_argument_add(&a, &j->flip, e->bytes);
-    kernel_argument_add(&a, &j->cut, e->bytes);
-    kernel_argument_add(&a, &from.base, sizeof from.base);
-    kernel_argument_add(&a, &from.inner, sizeof from.inner);
-    kernel_argument_add(&a, &from.outer, sizeof from.outer);
-    add_buffer(&a, j->out);
-    add_buffer(&a, totals ? totals : j->out);
-    add_buffer(&a, firsts ? firsts : j->out);
-    add_buffer(&a, j->sums ? j->sums : j->out);
+        call_int(&c, numbers[i]);
+    call_argument(&c, e->bytes, &j->identity);
+    call_argument(&c, e->bytes, &j->flip);
+    call_argument(&c, e->bytes, &j->cut);
+    call_ulong(&c, from.base);
+    call_ulong(&c, from.inner);
+    call_ulong(&c, from.outer);
+    call_buffer(&c, j->out);
+    call_buffer(&c, totals ? totals : j->out);
+    call_buffer(&c, firsts ? firsts : j->out);
+    call_buffer(&c, j->sums ? j->sums : j->out);
     if (stage == JOINS)
-        return kernel_start(m, &a, (size_t)l->columns, l->inner * l->outer, 1);
-    return kernel_start(m, &a, (size_t)runs, rows_of(l, lanes), l->outer);
+        return call_start_3d(&c, m, (size_t)l->columns, l->inner * l->outer, 1,
+                             "a kernel cannot be started");
+    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer,
+                         "a kernel cannot be started");
 }
 
 static enum machine_status scan_lines(struct machine *m, const struct lines *l,
@@ -254,7 +203,7 @@ static enum machine_status scan_lines(struct machine *m, const struct lines *l,
         device_buffer_unref(m, totals);
     if (firsts)
         device_buffer_unref(m, firsts);
-    clFlush(m->device.queue);
+    device_flush(m);
     return status;
 }
 
@@ -308,24 +257,6 @@ static const struct element *bits_element(int width)
     return &elements[width <= 32 ? UINT32 : width <= 64 ? UINT64 : UINT128];
 }
 
-static struct machine_scalar ones(int width)
-{
-    struct machine_scalar x = {UINT64_MAX, UINT64_MAX};
-    if (width < 64)
-        x.lo = (UINT64_C(1) << width) - 1;
-    if (width <= 64)
-        x.hi = 0;
-    else if (width < 128)
-        x.hi = (UINT64_C(1) << (width - 64)) - 1;
-    return x;
-}
-
-static struct machine_scalar sign_of(int width)
-{
-    return (struct machine_scalar){width <= 64 ? UINT64_C(1) << (width - 1) : 0,
-                                   width > 64 ? UINT64_C(1) << (width - 65) : 0};
-}
-
 static struct machine_value *flipped(struct machine *m, struct machine_value *v,
                                      struct machine_scalar by)
 {
@@ -347,7 +278,7 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
     struct machine_value *bits = machine_reinterpret(m, v, MACHINE_UINT(width));
     struct machine_value *negative = machine_extract(m, bits, width - 1, 1);
     struct machine_value *order = machine_select(
-        m, negative, machine_unary(m, MACHINE_NOT, bits), flipped(m, bits, sign_of(width)));
+        m, negative, machine_unary(m, MACHINE_NOT, bits), flipped(m, bits, scalar_sign(width)));
     struct machine_scalar last = {nan, 0};
     return machine_select(m, is_nan, machine_constant(m, MACHINE_UINT(width), last), order);
 }
@@ -355,9 +286,9 @@ struct machine_value *float_order(struct machine *m, struct machine_value *v, ui
 static struct machine_value *float_unordered(struct machine *m, struct machine_value *order)
 {
     int width = order->type.width;
-    struct machine_value *bits =
-        machine_select(m, machine_extract(m, order, width - 1, 1),
-                       flipped(m, order, sign_of(width)), machine_unary(m, MACHINE_NOT, order));
+    struct machine_value *bits = machine_select(m, machine_extract(m, order, width - 1, 1),
+                                                flipped(m, order, scalar_sign(width)),
+                                                machine_unary(m, MACHINE_NOT, order));
     return machine_reinterpret(m, bits, width == 32 ? MACHINE_F32 : MACHINE_F64);
 }
 
@@ -389,8 +320,8 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
         return v ? in_memory(v) : NULL;
     }
     f->element = bits_element(f->width);
-    f->cut = ones(f->width);
-    struct machine_scalar all = ones(f->width), sign = sign_of(f->width);
+    f->cut = scalar_ones(f->width);
+    struct machine_scalar all = scalar_ones(f->width), sign = scalar_sign(f->width);
     switch (c) {
     case MACHINE_SCAN_FMIN:
     case MACHINE_SCAN_FMAX:
@@ -598,7 +529,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
             return NULL;
         }
     }
-    clFlush(m->device.queue);
+    device_flush(m);
     return shown(m, &f, m->set_current, out);
 }
 
@@ -617,7 +548,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
         device_buffer_unref(m, out);
         return NULL;
     }
-    clFlush(m->device.queue);
+    device_flush(m);
     return shown(m, &f, m->set_current, out);
 }
 

@@ -156,17 +156,6 @@ struct machine_type machine_value_type(const struct machine_value *v)
 
 /* ---- numbers ---- */
 
-static struct machine_scalar cut_to(struct machine_scalar x, int width)
-{
-    if (width < 64)
-        return (struct machine_scalar){x.lo & ((UINT64_C(1) << width) - 1), 0};
-    if (width < 128)
-        x.hi &= (UINT64_C(1) << (width - 64)) - 1;
-    if (width == 64)
-        x.hi = 0;
-    return x;
-}
-
 static unsigned __int128 wide(struct machine_scalar x)
 {
     return (unsigned __int128)x.hi << 64 | x.lo;
@@ -188,7 +177,7 @@ static struct machine_value *number(struct machine *m, struct machine_type type,
                                     struct machine_scalar x)
 {
     struct machine_value key = {
-        .op = NODE_CONSTANT, .type = type, .imm = cut_to(x, type.width)};
+        .op = NODE_CONSTANT, .type = type, .imm = scalar_cut(x, type.width)};
     return graph_node(m, &key);
 }
 

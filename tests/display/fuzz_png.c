@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "sample.h"
 #include "scratch.h"
 
 enum { MUTATIONS = 600, BYTES_MAX = 1 << 16 };
@@ -20,8 +21,8 @@ static uint64_t random_state = 20;
 
 static uint32_t random_below(uint32_t limit)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return limit ? (uint32_t)(random_state >> 33) % limit : 0;
+    uint32_t any = sample_linear(&random_state);
+    return limit ? any % limit : 0;
 }
 
 static size_t file_read(const char *path, uint8_t *bytes)

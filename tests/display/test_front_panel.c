@@ -13,12 +13,13 @@
 
 #include <cmocka.h>
 
+#include "sample.h"
+
 static uint64_t random_state = 2;
 
 static uint32_t random_below(uint32_t limit)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(random_state >> 33) % limit;
+    return sample_linear(&random_state) % limit;
 }
 
 static double clock_s(void)

@@ -1,7 +1,15 @@
 /* page.c - the page around the thesis's listings, in C/Paris calls only. */
 #include "page.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "oracle.h"
 
 float gravity = 0.75f;
 float molecular_weight[3] = {0.9f, 0.55f, 0.3f};
@@ -138,6 +146,30 @@ void page_look_at_flags(struct FiberStruct *page)
     CM_store_context(page->seen_context);
     CM_store_test_always(page->seen_test);
     CM_store_overflow_always(page->seen_overflow);
+}
+
+void page_compare(struct FiberStruct *page, const struct oracle *o, int step)
+{
+    static const char *const names[PAGE_FIELD_COUNT] = {
+        "water",     "absorbency",   "cyan",    "magenta",           "yellow",
+        "temp1",     "temp2",        "inward",  "outward",           "inflow",
+        "outflow",   "image",        "context", "old_context_store", "context flag",
+        "test flag", "overflow flag"};
+    int count = o->width * o->height;
+    unsigned int *words = malloc((size_t)count * sizeof *words);
+
+    assert_non_null(words);
+    page_look_at_flags(page);
+    for (int which = 0; which < PAGE_FIELD_COUNT; which++) {
+        page_read(page, (enum page_field)which, words);
+        for (int n = 0; n < count; n++)
+            if (words[n] != oracle_word(o, which, n))
+                fail_msg(
+                    "%s at row %d column %d of %dx%d after step %d: %08x, the oracle has %08x",
+                    names[which], n / o->width, n % o->width, o->width, o->height, step,
+                    words[n], oracle_word(o, which, n));
+    }
+    free(words);
 }
 
 int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2,

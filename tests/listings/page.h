@@ -61,6 +61,10 @@ void page_read(struct FiberStruct *page, enum page_field which, unsigned int *wo
 /* Copies context, test and overflow into the seen_ fields, whatever the context. */
 void page_look_at_flags(struct FiberStruct *page);
 
+struct oracle;
+/* Fails at the first word that is not the oracle's, of any field or flag; step: for the message. */
+void page_compare(struct FiberStruct *page, const struct oracle *o, int step);
+
 /* The thesis's own: saves the context in `saved` and turns on only x1..x2 and y1..y2, both ends in, of what was
  * on.  The gnu89 programs call it without a prototype, as their authors did; ints throughout. */
 int Turn_on_context(struct FiberStruct *Page, CM_field_id_t saved, int x1, int y1, int x2,

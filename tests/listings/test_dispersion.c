@@ -16,6 +16,7 @@
 #include "oracle.h"
 #include "page.h"
 #include "paris_internal.h"
+#include "sample.h"
 #include "variant.h"
 
 enum { STEPS = 200 };
@@ -24,11 +25,7 @@ static uint64_t random_state;
 
 static uint32_t random_word(void)
 {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)((z ^ (z >> 31)) >> 32);
+    return (uint32_t)(sample_word(&random_state) >> 32);
 }
 
 /* A sheet that is wet in places, with pigment in spots; the temporaries hold leftovers of another program. */
@@ -67,30 +64,6 @@ static void fill(struct FiberStruct *page, struct oracle *o)
     free(words);
 }
 
-static void compare(struct FiberStruct *page, const struct oracle *o, int step)
-{
-    static const char *const names[PAGE_FIELD_COUNT] = {
-        "water",     "absorbency",   "cyan",    "magenta",           "yellow",
-        "temp1",     "temp2",        "inward",  "outward",           "inflow",
-        "outflow",   "image",        "context", "old_context_store", "context flag",
-        "test flag", "overflow flag"};
-    int count = o->width * o->height;
-    unsigned int *words = malloc((size_t)count * sizeof *words);
-
-    assert_non_null(words);
-    page_look_at_flags(page);
-    for (int which = 0; which < PAGE_FIELD_COUNT; which++) {
-        page_read(page, (enum page_field)which, words);
-        for (int n = 0; n < count; n++)
-            if (words[n] != oracle_word(o, which, n))
-                fail_msg(
-                    "%s at row %d column %d of %dx%d after step %d: %08x, the oracle has %08x",
-                    names[which], n / o->width, n % o->width, o->width, o->height, step,
-                    words[n], oracle_word(o, which, n));
-    }
-    free(words);
-}
-
 /* What it took, for whoever reads the log. */
 static void report(void)
 {
@@ -118,7 +91,7 @@ static void disperse(int width, int height, int observed_every)
         variant_step(&page);
         oracle_disperse(&o);
         if (step == STEPS || (observed_every && step % observed_every == 0))
-            compare(&page, &o, step);
+            page_compare(&page, &o, step);
     }
     page_destroy(&page);
     oracle_finish(&o);

@@ -34,23 +34,6 @@ static void draw(uint8_t *gray)
         }
 }
 
-static void compare(struct FiberStruct *page, const struct oracle *o)
-{
-    int count = o->width * o->height;
-    unsigned int *words = malloc((size_t)count * sizeof *words);
-
-    assert_non_null(words);
-    page_look_at_flags(page);
-    for (int which = 0; which < PAGE_FIELD_COUNT; which++) {
-        page_read(page, (enum page_field)which, words);
-        for (int n = 0; n < count; n++)
-            if (words[n] != oracle_word(o, which, n))
-                fail_msg("field %d at row %d column %d: %08x, the oracle has %08x", which,
-                         n / o->width, n % o->width, words[n], oracle_word(o, which, n));
-    }
-    free(words);
-}
-
 static void screen(int width, int height)
 {
     static const struct {
@@ -79,7 +62,7 @@ static void screen(int width, int height)
                       (float)places[k].cyan, (float)places[k].magenta, (float)places[k].yellow,
                       (float)places[k].water);
         if (k % 2 == 0)
-            compare(&page, &o);
+            page_compare(&page, &o, (int)k);
     }
     page_destroy(&page);
     oracle_finish(&o);

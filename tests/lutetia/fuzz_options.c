@@ -14,6 +14,8 @@
 
 #include <cmocka.h>
 
+#include "sample.h"
+
 enum { LINES = 40000, ARGUMENTS_MAX = 9 };
 
 static int complaints;
@@ -35,8 +37,7 @@ static uint64_t random_state = 3;
 
 static uint32_t random_below(uint32_t limit)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(random_state >> 33) % limit;
+    return sample_linear(&random_state) % limit;
 }
 
 static const char *const pieces[] = {

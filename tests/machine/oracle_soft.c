@@ -3,6 +3,8 @@
 #include <math.h>
 #include <mpfr.h>
 
+#include "sample.h"
+
 static int bias(struct soft_format f)
 {
     return (1 << (f.e - 1)) - 1;
@@ -87,12 +89,10 @@ static uint64_t finished(struct soft_format f, mpfr_t r, int inexact)
     return encoded(f, x);
 }
 
-uint64_t oracle_soft_of(struct soft_format f, double x)
+/* Takes exact, which was made with all of MPFR's range. */
+static uint64_t rounded(struct soft_format f, mpfr_t exact)
 {
-    mpfr_t r, exact;
-    range_reset();
-    mpfr_init2(exact, 53);
-    mpfr_set_d(exact, x, MPFR_RNDN);
+    mpfr_t r;
     mpfr_init2(r, f.s + 1);
     range_set(f);
     int inexact = mpfr_set(r, exact, MPFR_RNDN);
@@ -101,21 +101,25 @@ uint64_t oracle_soft_of(struct soft_format f, double x)
     return finished(f, r, inexact);
 }
 
+uint64_t oracle_soft_of(struct soft_format f, double x)
+{
+    mpfr_t exact;
+    range_reset();
+    mpfr_init2(exact, 53);
+    mpfr_set_d(exact, x, MPFR_RNDN);
+    return rounded(f, exact);
+}
+
 uint64_t oracle_soft_of_whole(struct soft_format f, unsigned __int128 magnitude, bool negative)
 {
-    mpfr_t r, exact;
+    mpfr_t exact;
     range_reset();
     mpfr_init2(exact, 200);
     mpfr_set_uj_2exp(exact, (uintmax_t)(magnitude >> 64), 64, MPFR_RNDN);
     mpfr_add_ui(exact, exact, (uint64_t)magnitude, MPFR_RNDN);
     if (negative && magnitude)
         mpfr_neg(exact, exact, MPFR_RNDN);
-    mpfr_init2(r, f.s + 1);
-    range_set(f);
-    int inexact = mpfr_set(r, exact, MPFR_RNDN);
-    inexact = mpfr_check_range(r, inexact, MPFR_RNDN);
-    mpfr_clear(exact);
-    return finished(f, r, inexact);
+    return rounded(f, exact);
 }
 
 uint64_t oracle_soft_arithmetic(struct soft_format f, char op, uint64_t a, uint64_t b)
@@ -167,16 +171,9 @@ uint64_t oracle_soft_function(struct soft_format f, char op, uint64_t a)
 
 /* ---- samples ---- */
 
-static uint64_t mixed(uint64_t z)
-{
-    z = (z + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 uint64_t oracle_soft_sample(struct soft_format f, uint64_t which)
 {
-    uint64_t r = mixed(which), sign = (r >> 62 & 1) << (f.s + f.e),
+    uint64_t r = sample_of(which), sign = (r >> 62 & 1) << (f.s + f.e),
              mask = (UINT64_C(2) << (f.s + f.e)) - 1;
     uint64_t one = (uint64_t)bias(f) << f.s, infinite = ((UINT64_C(1) << f.e) - 1) << f.s,
              ones = (UINT64_C(1) << f.s) - 1;
@@ -203,10 +200,10 @@ uint64_t oracle_soft_sample(struct soft_format f, uint64_t which)
         return (edges[(r >> 8) % (sizeof edges / sizeof *edges)] | sign) & mask;
     case 1: { /* near 1, or near the ends: sums cancel, products are subnormal */
         uint64_t near = (r >> 3 & 3) == 0 ? ones : (r >> 3 & 3) == 1 ? infinite / 2 + 1 : one;
-        near += (mixed(r) & (3 * ones)) - ones;
+        near += (sample_of(r) & (3 * ones)) - ones;
         return ((near & (infinite | ones)) | sign) & mask;
     }
     default:
-        return mixed(r) & mask;
+        return sample_of(r) & mask;
     }
 }

@@ -1,6 +1,31 @@
 /* support.c - see support.h. */
 #include "support.h"
 
+#include "sample.h"
+
+void support_failed(struct machine *m, enum machine_status status, const char *word)
+{
+    const char *text = machine_error(m);
+
+    assert_int_equal(machine_status_last(m), status);
+    if (strlen(text) <= 8 || strchr(text, '\n') || !strstr(text, word))
+        fail_msg("\"%s\" instead of \"%s\"", text, word);
+    machine_error_clear(m);
+    assert_int_equal(machine_status_last(m), MACHINE_OK);
+    assert_string_equal(machine_error(m), "");
+}
+
+void support_machine_destroy(struct machine *m)
+{
+    if (getenv("LUTETIA_TEST_STATS")) {
+        struct machine_stats stats;
+        machine_stats_get(m, &stats);
+        fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
+                (int)stats.kernels_run);
+    }
+    machine_destroy(m);
+}
+
 struct machine *support_machine(int eager)
 {
     struct machine_config config = machine_config_default();
@@ -26,13 +51,6 @@ int support_set(struct machine *m, int rank, ...)
         fail_msg("%s", machine_error(m));
     assert_ok(machine_vpset_select(m, set), m);
     return set;
-}
-
-static uint64_t mixed(uint64_t z)
-{
-    z = (z + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
 }
 
 static wide awkward_bits(int width, uint64_t which)
@@ -61,7 +79,7 @@ static uint64_t awkward_float(int bits, uint64_t which)
 
 wide support_word(struct machine_type type, uint64_t seed, uint64_t n)
 {
-    uint64_t z = mixed(seed * 1000003 + n);
+    uint64_t z = sample_of(seed * 1000003 + n);
 
     if (type.kind == MACHINE_FLOAT) {
         if (z % 3 == 0)
@@ -71,7 +89,7 @@ wide support_word(struct machine_type type, uint64_t seed, uint64_t n)
     }
     if (z % 3 == 0)
         return awkward_bits(type.width, z >> 8);
-    return ((wide)mixed(z) << 64 | z) &
+    return ((wide)sample_of(z) << 64 | z) &
            wide_mask(z % 3 == 1 || type.width < 8 ? type.width : 8);
 }
 

@@ -29,8 +29,13 @@
             fail_msg("%s:%d: %s", __FILE__, __LINE__, machine_error(m));                       \
     } while (0)
 
+/* The machine's last call failed with the status, and it says so in one line, with that word; it is forgotten then. */
+void support_failed(struct machine *m, enum machine_status status, const char *word);
+
 /* 16 processors, so that VP ratios above 1 occur. eager: 0 or 1. */
 struct machine *support_machine(int eager);
+/* Where LUTETIA_TEST_STATS is set, tells of its kernels first. */
+void support_machine_destroy(struct machine *m);
 /* Makes and selects a VP set of the given axes. */
 int support_set(struct machine *m, int rank, ...);
 

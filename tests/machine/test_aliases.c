@@ -4,6 +4,8 @@
  * which bits a VP's are. */
 #include "support.h"
 
+#include "sample.h"
+
 enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 9, VIEWS_MOST = 8 };
 
 struct view {
@@ -20,8 +22,7 @@ static uint64_t state = 1;
 
 static uint64_t next(uint64_t below)
 {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (state >> 33) % below;
+    return sample_linear(&state) % below;
 }
 
 static uint64_t ratio_of(int set)
@@ -290,7 +291,7 @@ static void words_become_bits_for_every_ratio(void **unused)
         for (int at = 0; at < r; at += 64) {
             int width = r - at < 64 ? r - at : 64;
             for (uint64_t p = 0; p < PROCESSORS; p++)
-                words[p] = (p + 1) * 0x9e3779b97f4a7c15u * (uint64_t)(at + 1) >> (64 - width);
+                words[p] = (p + 1) * SAMPLE_GOLDEN * (uint64_t)(at + 1) >> (64 - width);
             machine_begin(machine);
             unsigned char small[PROCESSORS * 8];
             size_t bytes = machine_element_bytes(MACHINE_UINT(width));
@@ -306,7 +307,7 @@ static void words_become_bits_for_every_ratio(void **unused)
         for (int n = 0; n < length; n++) {
             int p = n / r, at = n % r / 64 * 64, width = r - at < 64 ? r - at : 64;
             uint64_t word =
-                (uint64_t)(p + 1) * 0x9e3779b97f4a7c15u * (uint64_t)(at + 1) >> (64 - width);
+                (uint64_t)(p + 1) * SAMPLE_GOLDEN * (uint64_t)(at + 1) >> (64 - width);
             if (dense[n] != (word >> n % r % 64 & 1))
                 fail_msg("ratio %d: bit %d is %d", r, n, dense[n]);
         }
@@ -414,13 +415,7 @@ int main(void)
         failed += cmocka_run_group_tests_name(eager ? "eager" : "lazy", tests, NULL, NULL);
         if (eager == 0)
             state = 1;
-        if (getenv("LUTETIA_TEST_STATS")) {
-            struct machine_stats stats;
-            machine_stats_get(machine, &stats);
-            fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
-                    (int)stats.kernels_run);
-        }
-        machine_destroy(machine);
+        support_machine_destroy(machine);
     }
     return failed;
 }

@@ -2,6 +2,8 @@
  * addresses that collide or lead nowhere, and contexts. */
 #include "support.h"
 
+#include "sample.h"
+
 enum { PROCESSORS = 16, ROUNDS = 8 };
 
 static struct machine *machine;
@@ -9,8 +11,7 @@ static uint64_t state;
 
 static uint64_t next(uint64_t below)
 {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (state >> 33) % below;
+    return sample_linear(&state) % below;
 }
 
 /* ---- geometries ---- */
@@ -53,71 +54,26 @@ static uint64_t index_of(const struct set *s, uint64_t address)
 
 /* ---- what combinations are ---- */
 
-static float single(wide x)
-{
-    uint32_t bits = (uint32_t)x;
-    float f;
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
-static double twice(wide x)
-{
-    uint64_t bits = (uint64_t)x;
-    double d;
-    memcpy(&d, &bits, sizeof d);
-    return d;
-}
-
-static wide combined_float(enum machine_combiner c, int width, wide a, wide b)
-{
-    if (width == 32) {
-        float x = single(a), y = single(b);
-        float r = c == MACHINE_COMBINE_FADD   ? x + y
-                  : c == MACHINE_COMBINE_FMIN ? (x < y ? x : y)
-                                              : (x > y ? x : y);
-        uint32_t bits;
-        memcpy(&bits, &r, sizeof bits);
-        return r != r ? number_nan(32) : bits;
-    }
-    double x = twice(a), y = twice(b);
-    double r = c == MACHINE_COMBINE_FADD   ? x + y
-               : c == MACHINE_COMBINE_FMIN ? (x < y ? x : y)
-                                           : (x > y ? x : y);
-    uint64_t bits;
-    memcpy(&bits, &r, sizeof bits);
-    return r != r ? number_nan(64) : bits;
-}
-
 static wide combined(enum machine_combiner c, struct machine_type type, wide a, wide b)
 {
-    signed_wide x = wide_signed(a, type.width), y = wide_signed(b, type.width);
+    static const enum op ops[] = {
+        [MACHINE_COMBINE_AND] = OP_AND,  [MACHINE_COMBINE_OR] = OP_IOR,
+        [MACHINE_COMBINE_XOR] = OP_XOR,  [MACHINE_COMBINE_ADD] = OP_ADD,
+        [MACHINE_COMBINE_UMIN] = OP_MIN, [MACHINE_COMBINE_UMAX] = OP_MAX,
+        [MACHINE_COMBINE_SMIN] = OP_MIN, [MACHINE_COMBINE_SMAX] = OP_MAX,
+        [MACHINE_COMBINE_FADD] = OP_ADD, [MACHINE_COMBINE_FMIN] = OP_MIN,
+        [MACHINE_COMBINE_FMAX] = OP_MAX};
+    bool is_signed = c == MACHINE_COMBINE_SMIN || c == MACHINE_COMBINE_SMAX, overflows;
 
-    switch (c) {
-    case MACHINE_COMBINE_OVERWRITE:
+    if (c == MACHINE_COMBINE_OVERWRITE)
         return b;
-    case MACHINE_COMBINE_AND:
-        return a & b;
-    case MACHINE_COMBINE_OR:
-        return a | b;
-    case MACHINE_COMBINE_XOR:
-        return a ^ b;
-    case MACHINE_COMBINE_ADD:
-        return (a + b) & wide_mask(type.width);
-    case MACHINE_COMBINE_UMIN:
-        return a < b ? a : b;
-    case MACHINE_COMBINE_UMAX:
-        return a > b ? a : b;
-    case MACHINE_COMBINE_SMIN:
-        return x < y ? a : b;
-    case MACHINE_COMBINE_SMAX:
-        return x > y ? a : b;
-    case MACHINE_COMBINE_FADD:
-    case MACHINE_COMBINE_FMIN:
-    case MACHINE_COMBINE_FMAX:
-    default:
-        return combined_float(c, type.width, a, b);
+    if (type.kind == MACHINE_FLOAT)
+        return number_float(ops[c], type.width, (uint64_t)a, (uint64_t)b, &overflows);
+    if (is_signed) {
+        a = (wide)wide_signed(a, type.width);
+        b = (wide)wide_signed(b, type.width);
     }
+    return number_integer(ops[c], is_signed, a, b, type.width, &overflows);
 }
 
 static const struct {
@@ -406,13 +362,7 @@ int main(void)
         setenv("LUTETIA_SCATTER", eager ? "0" : "1", 1);
         machine = support_machine(eager);
         failed += cmocka_run_group_tests_name(eager ? "eager" : "lazy", tests, NULL, NULL);
-        if (getenv("LUTETIA_TEST_STATS")) {
-            struct machine_stats stats;
-            machine_stats_get(machine, &stats);
-            fprintf(stderr, "%d kernels built, %d run\n", (int)stats.kernels_built,
-                    (int)stats.kernels_run);
-        }
-        machine_destroy(machine);
+        support_machine_destroy(machine);
     }
     return failed;
 }

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "oracle_soft.h"
+#include "sample.h"
 
 #include <math.h>
 
@@ -216,7 +217,7 @@ static void one_format(struct soft_format f)
         uint64_t a = oracle_soft_sample(f, n), b = oracle_soft_sample(f, n + CASES);
         memcpy(image[0] + n * bytes, &a, bytes);
         memcpy(image[1] + n * bytes, &b, bytes);
-        wholes[n] = ((unsigned __int128)(oracle_soft_sample(f, n) * 0x9e3779b97f4a7c15u) << 64 |
+        wholes[n] = ((unsigned __int128)(oracle_soft_sample(f, n) * SAMPLE_GOLDEN) << 64 |
                      oracle_soft_sample((struct soft_format){52, 11}, n)) >>
                     n % 128;
         near[n] = nextafter(oracle_soft_value(f, b), 0);

@@ -13,6 +13,7 @@
 #include <mpfr.h>
 
 #include "internal.h"
+#include "sample.h"
 
 struct function {
     const char *name;
@@ -76,14 +77,11 @@ enum { FUNCTIONS_COUNT = sizeof functions / sizeof functions[0] };
 
 /* ---- numbers ---- */
 
-static uint64_t state = 88172645463325252u;
+static uint64_t state = SAMPLE_SHIFTED_BEGIN;
 
 static uint64_t any(void)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return state;
+    return sample_shifted(&state);
 }
 
 static double double_of(uint64_t bits)

@@ -12,18 +12,16 @@
 #include <cmocka.h>
 
 #include "internal.h"
+#include "sample.h"
 
 enum { COLUMNS = 272, ROWS = 16, COUNT = COLUMNS * ROWS, FIRST = MACHINE_FEXP };
 enum { OPS = MACHINE_FSCALE - MACHINE_FEXP + 1 };
 
-static uint64_t state = 88172645463325252u;
+static uint64_t state = SAMPLE_SHIFTED_BEGIN;
 
 static uint64_t any(void)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return state;
+    return sample_shifted(&state);
 }
 
 static uint64_t number(int i, int width)

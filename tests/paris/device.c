@@ -1,14 +1,37 @@
 #include "device.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
+
+#include "sample.h"
 
 char device_message[512];
 
 void device_error_catch(const char *message)
 {
     snprintf(device_message, sizeof device_message, "%s", message);
+}
+
+void device_said(const char *call, const char *what)
+{
+    size_t length = strlen(call);
+    if (strncmp(device_message, call, length) || strncmp(device_message + length, ": ", 2) ||
+        !strstr(device_message + length, what) || strchr(device_message, '\n'))
+        fail_msg("a wrong call of %s, about \"%s\", says \"%s\"", call, what, device_message);
+    device_message[0] = '\0';
+}
+
+int device_setup(void **unused)
+{
+    (void)unused;
+    device_start(-1);
+    return 0;
 }
 
 void device_start(int eager)
@@ -59,19 +82,16 @@ void device_get(CM_field_id_t field, int width, number *numbers)
 
 /* ---- numbers ---- */
 
-static uint64_t state = 88172645463325252u;
+static uint64_t state = SAMPLE_SHIFTED_BEGIN;
 
 void device_seed(uint64_t seed)
 {
-    state = seed * 2654435769u + 88172645463325252u;
+    state = seed * 2654435769u + SAMPLE_SHIFTED_BEGIN;
 }
 
 uint64_t device_random(void)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return state;
+    return sample_shifted(&state);
 }
 
 void device_integers(number *numbers, int width)

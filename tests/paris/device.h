@@ -35,5 +35,10 @@ void device_mask(number *bits, int which);
 /* What error handler messages said last; handler is device_error_catch. */
 extern char device_message[512];
 void device_error_catch(const char *message);
+/* It was about that call and mentions what, in one line; it is forgotten then. */
+void device_said(const char *call, const char *what);
+
+/* device_start(-1), for cmocka. */
+int device_setup(void **unused);
 
 #endif

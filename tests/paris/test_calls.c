@@ -226,12 +226,8 @@ static void integer_blocks(unsigned int format, int bytes, int width, bool is_si
         memset(back, 0xa5, sizeof back);
         device_integers(before, width);
         CM_field_id_t f = stack_with(width, before);
-        if (is_signed)
-            CM_s_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
-                                        format);
-        else
-            CM_u_write_to_news_array_1L(array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
-                                        format);
+        (is_signed ? CM_s_write_to_news_array_1L : CM_u_write_to_news_array_1L)(
+            array, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
         device_get(f, width, after);
         for (int k = 0; k < b.dimensions[0] * b.dimensions[1]; k++) {
             number element = 0;
@@ -246,12 +242,8 @@ static void integer_blocks(unsigned int format, int bytes, int width, bool is_si
                 fail_msg("write: format %u, %d bits, block %d, processor %d: %llx, wanted %llx",
                          format, width, n, p, (unsigned long long)after[p],
                          (unsigned long long)before[p]);
-        if (is_signed)
-            CM_s_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
-                                         format);
-        else
-            CM_u_read_from_news_array_1L(back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b),
-                                         format);
+        (is_signed ? CM_s_read_from_news_array_1L : CM_u_read_from_news_array_1L)(
+            back, VECTORS(b), f, (unsigned)width, 2, DIMENSIONS(b), format);
         for (int k = 0; k < ARRAY; k++) {
             number got = 0, wanted = 0;
             int p = k < b.dimensions[0] * b.dimensions[1] ? processor_of(&b, k) : -1;
@@ -596,13 +588,6 @@ static void init_gives_all_back(void **unused)
     assert_int_equal(CM_attach(), 64);
 }
 
-static int start(void **unused)
-{
-    (void)unused;
-    device_start(-1);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -624,5 +609,5 @@ int main(void)
         cmocka_unit_test(timers_add_up),
         cmocka_unit_test(init_gives_all_back),
     };
-    return cmocka_run_group_tests(tests, start, NULL);
+    return cmocka_run_group_tests(tests, device_setup, NULL);
 }

@@ -327,18 +327,11 @@ static void doubles_are_the_oracles(void **unused)
     rows_run(64);
 }
 
-static int start(void **unused)
-{
-    (void)unused;
-    device_start(-1);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(singles_are_the_oracles),
         cmocka_unit_test(doubles_are_the_oracles),
     };
-    return cmocka_run_group_tests(tests, start, NULL);
+    return cmocka_run_group_tests(tests, device_setup, NULL);
 }

@@ -554,13 +554,6 @@ static void every_instruction_is_there(void **unused)
         assert_non_null(paris_test_functions[i]);
 }
 
-static int start(void **unused)
-{
-    (void)unused;
-    device_start(-1);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -575,5 +568,5 @@ int main(void)
         cmocka_unit_test(unsigned_arithmetic_is_the_oracles),
         cmocka_unit_test(signed_arithmetic_is_the_oracles),
     };
-    return cmocka_run_group_tests(tests, start, NULL);
+    return cmocka_run_group_tests(tests, device_setup, NULL);
 }

@@ -18,6 +18,7 @@
 
 #include "oracle_integers.h"
 #include "paris_internal.h"
+#include "sample.h"
 #include <cm/paris.h>
 
 struct integer_args {
@@ -50,14 +51,11 @@ static number context[COUNT], test[COUNT], overflow[COUNT];
 /* The same numbers at 128 bits, and their low 64: small cases need not touch the wide ones. */
 static CM_field_id_t first_field[2], second_field[2], context_field, test_field, overflow_field;
 
-static uint64_t state = 88172645463325252u;
+static uint64_t state = SAMPLE_SHIFTED_BEGIN;
 
 static uint64_t any(void)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return state;
+    return sample_shifted(&state);
 }
 
 static number any_number(void)

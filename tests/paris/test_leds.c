@@ -135,7 +135,7 @@ static void wrong_modes_are_refused(void **unused)
     (void)unused;
     device_message[0] = '\0';
     CM_set_system_leds_mode(8);
-    assert_non_null(strstr(device_message, "CM_set_system_leds_mode: mode"));
+    device_said("CM_set_system_leds_mode", "mode");
     assert_int_equal(CM_system_leds_mode(), 0);
     uint8_t lights[PARIS_LIGHTS_BYTES];
     struct paris_pattern pattern = paris_pattern_begin(PARIS_PATTERN_ON);

@@ -8,6 +8,8 @@
 
 #include <string.h>
 
+#include "sample.h"
+
 static const struct geometry geometries[] = {
     {1, {7}},           {2, {5, 3}}, {2, {3, 43}}, {3, {2, 3, 5}}, {1, {1}},
     {4, {3, 1, 2, 41}}, {2, {1, 2}}, {1, {97}},    {2, {9, 40}},   {3, {4, 2, 17}},
@@ -29,11 +31,7 @@ struct generator {
 
 static uint32_t draw(struct generator *g, uint32_t below)
 {
-    uint64_t z = g->state += 0x9e3779b97f4a7c15u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)(((z ^ (z >> 31)) >> 32) % below);
+    return (uint32_t)(sample_word(&g->state) >> 32) % below;
 }
 
 /* A part of `bits` bits of some field of the current VP set; mostly from its first bit. */
@@ -216,35 +214,34 @@ static void emit_observe(struct generator *g)
         emit(g, &in);
 }
 
-/* A loop: the same instructions again and again, seldom with another constant, and looked at where a draw says. */
-static void emit_loop(struct generator *g)
+/* A loop: the same instructions again and again, seldom with another constant, and looked at now and then. */
+static void emit_loop(struct generator *g, int turns)
 {
-    int first = g->p->count, turns = 4 + (int)draw(g, 8);
-    bool observed = draw(g, 2);
+    int first = g->p->count;
+    uint32_t look_every = draw(g, 3) ? 1 + draw(g, 5) : 1000;
+    struct instruction look = {.row = ROW_CM_u_read_from_news_array_1L};
+    bool can_look = draw_operand(g, 32, &look.a);
 
     g->pure = draw(g, 8);
-
-    for (uint32_t n = 2 + draw(g, 7); n > 0; n--)
+    for (uint32_t n = 2 + draw(g, 6); n > 0; n--)
         if (draw(g, 6) == 0)
             emit_nest(g, 1);
         else if (draw(g, 3) == 0)
             emit_news(g);
         else
             emit_row(g);
-    if (observed)
-        emit_observe(g);
     g->pure = false;
     int count = g->p->count - first;
     for (int turn = 1; turn < turns; turn++) {
-        int odd = draw(g, 8) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
+        int odd = draw(g, 40) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
+        if (can_look && draw(g, 40) && (uint32_t)turn % look_every == 0)
+            emit(g, &look);
         for (int k = 0; k < count; k++) {
             struct instruction in = g->p->code[first + k];
             if (k == odd)
                 in.constant ^= 1, in.real += 1;
             emit(g, &in);
         }
-        if (draw(g, 8) == 0)
-            emit_observe(g);
     }
 }
 
@@ -258,9 +255,10 @@ static void emit_select(struct generator *g)
     emit(g, &in);
 }
 
-void program_generate(struct program *p, uint64_t seed, int length)
+/* VP sets, and fields with something in them. */
+static struct generator begin(struct program *p, uint64_t seed)
 {
-    struct generator g = {p, seed * 0x2545f4914f6cdd1du + 12345, {{0, 0}}, 0};
+    struct generator g = {.p = p, .state = seed * 0x2545f4914f6cdd1du + 12345};
     struct instruction in = {0};
 
     memset(p, 0, sizeof *p);
@@ -268,8 +266,6 @@ void program_generate(struct program *p, uint64_t seed, int length)
     p->sets_count = draw(&g, 3) ? 1 : 1 + (int)draw(&g, PROGRAM_SETS);
     for (int k = 0; k < p->sets_count; k++)
         p->sets[k] = geometries[draw(&g, sizeof geometries / sizeof geometries[0])];
-    if (length > PROGRAM_LENGTH_MAX)
-        length = PROGRAM_LENGTH_MAX;
 
     for (int set = 0; set < p->sets_count; set++) {
         in.row = ROW_CM_set_vp_set;
@@ -282,9 +278,28 @@ void program_generate(struct program *p, uint64_t seed, int length)
         emit_fill(&g);
         emit_fill(&g);
     }
-    bool loops = seed % 4 == 3;
+    return g;
+}
+
+void program_generate_loop(struct program *p, uint64_t seed)
+{
+    struct generator g = begin(p, seed);
+
+    for (int n = 0; n < 6; n++)
+        emit_row(&g);
+    emit_loop(&g, 30 + (int)draw(&g, 40));
+    emit_row(&g);
+    emit_observe(&g);
+}
+
+void program_generate(struct program *p, uint64_t seed, int length)
+{
+    struct generator g = begin(p, seed);
+
+    if (length > PROGRAM_LENGTH_MAX)
+        length = PROGRAM_LENGTH_MAX;
     while (p->count < length) {
-        uint32_t what = loops && draw(&g, 3) ? 96 : draw(&g, 100);
+        uint32_t what = draw(&g, 100);
 
         if (what < 62)
             emit_row(&g);
@@ -301,7 +316,7 @@ void program_generate(struct program *p, uint64_t seed, int length)
         else if (what < 96 && p->sets_count > 1)
             emit_select(&g);
         else if (what == 96 || what == 97)
-            emit_loop(&g);
+            emit_loop(&g, 3 + (int)draw(&g, 6));
         else if (what == 99 && draw(&g, 2))
             emit_observe(&g);
     }

@@ -50,7 +50,7 @@ static wide exact_arithmetic(enum op op, bool is_signed, wide a, wide b, bool *w
     return is_signed ? (wide)s : u;
 }
 
-static bool less(bool is_signed, wide a, wide b)
+static bool is_less(bool is_signed, wide a, wide b)
 {
     return is_signed ? (signed_wide)a < (signed_wide)b : a < b;
 }
@@ -114,9 +114,9 @@ wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *
     case OP_SHIFT:
         return shifted((signed_wide)a, (signed_wide)b, bits, overflows);
     case OP_MIN:
-        return (less(is_signed, a, b) ? a : b) & wide_mask(bits);
+        return (is_less(is_signed, a, b) ? a : b) & wide_mask(bits);
     case OP_MAX:
-        return (less(is_signed, a, b) ? b : a) & wide_mask(bits);
+        return (is_less(is_signed, a, b) ? b : a) & wide_mask(bits);
     case OP_AND:
         return a & b;
     case OP_IOR:
@@ -134,24 +134,29 @@ wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *
     }
 }
 
-bool number_compare_integer(enum op op, bool is_signed, wide a, wide b)
+static bool compared(enum op op, bool less, bool equal, bool greater)
 {
     switch ((int)op) {
     case OP_EQ:
-        return a == b;
+        return equal;
     case OP_NE:
-        return a != b;
+        return !equal;
     case OP_LT:
-        return less(is_signed, a, b);
+        return less;
     case OP_LE:
-        return !less(is_signed, b, a);
+        return less || equal;
     case OP_GT:
-        return less(is_signed, b, a);
+        return greater;
     case OP_GE:
-        return !less(is_signed, a, b);
+        return greater || equal;
     default:
         abort();
     }
+}
+
+bool number_compare_integer(enum op op, bool is_signed, wide a, wide b)
+{
+    return compared(op, is_less(is_signed, a, b), a == b, is_less(is_signed, b, a));
 }
 
 /* ---- floats ---- */
@@ -258,26 +263,12 @@ uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overfl
                       : real_arithmetic(op, a, b, overflows);
 }
 
+/* A NaN is none of the three. */
 bool number_compare_float(enum op op, int bits, uint64_t pa, uint64_t pb)
 {
     double a = number_value(pa, bits), b = number_value(pb, bits);
 
-    switch ((int)op) {
-    case OP_EQ:
-        return a == b;
-    case OP_NE:
-        return a != b;
-    case OP_LT:
-        return a < b;
-    case OP_LE:
-        return a <= b;
-    case OP_GT:
-        return a > b;
-    case OP_GE:
-        return a >= b;
-    default:
-        abort();
-    }
+    return compared(op, a<b, a == b, a> b);
 }
 
 /* ---- conversions ---- */

@@ -1,17 +1,12 @@
 /* oracle_random.c - see machine_random() in machine.h. */
 #include "oracle_random.h"
 
-static uint64_t mix(uint64_t z)
-{
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+#include "sample.h"
 
 wide oracle_random(uint64_t seed, uint64_t draw, uint64_t index, int bits, uint64_t limit)
 {
-    const uint64_t golden = 0x9e3779b97f4a7c15u;
-    uint64_t z = mix(mix(mix(seed) + (draw + 1) * golden) + index * golden);
+    uint64_t key = sample_mixed(sample_mixed(seed) + (draw + 1) * SAMPLE_GOLDEN);
+    uint64_t z = sample_mixed(key + index * SAMPLE_GOLDEN);
 
     if (limit == 0)
         return z >> (64 - bits);

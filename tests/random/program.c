@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sample.h"
+
 #define PROGRAM_INFO(name, shape, number, op, always)                                          \
     {#name, shape, NUMBER_##number, OP_##op, always},
 const struct row_info row_table[ROW_COUNT] = {RANDOM_ROWS(PROGRAM_INFO)};
@@ -22,11 +24,7 @@ uint64_t geometry_count(const struct geometry *g)
 
 uint64_t data_word(uint32_t stream, uint64_t index)
 {
-    uint64_t z = (stream + 1) * 0x9e3779b97f4a7c15u + index * 0xd1342543de82ef95u;
-
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    return sample_mixed((stream + 1) * SAMPLE_GOLDEN + index * 0xd1342543de82ef95u);
 }
 
 double data_real(uint32_t stream, uint64_t index)

@@ -131,7 +131,7 @@ enum {
     PROGRAM_SLOTS = 16,
     PROGRAM_SETS = 3,
     PROGRAM_AXES = 4,
-    PROGRAM_LENGTH_MAX = 400,
+    PROGRAM_LENGTH_MAX = 800,
     PROGRAM_FIELD_BITS_MAX = 160
 };
 
@@ -166,6 +166,8 @@ struct program {
 uint64_t geometry_count(const struct geometry *g);
 
 void program_generate(struct program *p, uint64_t seed, int length);
+/* Mostly one long loop. */
+void program_generate_loop(struct program *p, uint64_t seed);
 /* Drops what cannot run; the executors need this done. */
 void program_normalise(struct program *p);
 /* A C program with CM_ calls. */

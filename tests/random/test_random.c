@@ -1,7 +1,7 @@
 /* test_random.c - random Paris programs: fused, eager and the oracle agree bit for bit.
  *
  *     test_random [--programs N] [--seed S] [--length L] [--seconds T] [--mode fused|eager|both] [--print SEED]
- *                 [--sabotage 1..3] [--shrink-seconds T]
+ *                 [--sabotage 1..3] [--shrink-seconds T] [--loops]
  *
  * Programs S, S+1, … of L instructions, until N are done or T seconds have gone. A failing program is shrunk and
  * printed as C; exit status 1. Most of the time goes into compiling kernels, which the disk cache remembers.
@@ -17,7 +17,7 @@
 struct options {
     long programs, seed, length;
     double seconds, shrink_seconds;
-    bool fused, eager;
+    bool fused, eager, loops;
     enum sabotage sabotage;
 };
 
@@ -111,12 +111,20 @@ static bool sabotage_shows(const struct program *p, enum sabotage sabotage)
     return result;
 }
 
+static void generate(const struct options *o, struct program *p, uint64_t seed)
+{
+    if (o->loops)
+        program_generate_loop(p, seed);
+    else
+        program_generate(p, seed, (int)o->length);
+    program_normalise(p);
+}
+
 static bool one(const struct options *o, uint64_t seed)
 {
     struct program p;
 
-    program_generate(&p, seed, (int)o->length);
-    program_normalise(&p);
+    generate(o, &p, seed);
     if (o->sabotage && !sabotage_shows(&p, o->sabotage))
         return true;
     for (int eager = 0; eager < 2; eager++) {
@@ -134,7 +142,7 @@ static void usage(void)
 {
     fputs("usage: test_random [--programs N] [--seed S] [--length L] [--seconds T]\n"
           "                   [--mode fused|eager|both] [--print SEED] [--sabotage 1..3]\n"
-          "                   [--shrink-seconds T]\n",
+          "                   [--shrink-seconds T] [--loops]\n",
           stderr);
     exit(2);
 }
@@ -159,6 +167,7 @@ int main(int argc, char **argv)
                                           {"sabotage", required_argument, NULL, 'x'},
                                           {"print", required_argument, NULL, 'p'},
                                           {"shrink-seconds", required_argument, NULL, 'k'},
+                                          {"loops", no_argument, NULL, 'o'},
                                           {NULL, 0, NULL, 0}};
     struct options o = {.programs = 200,
                         .seed = 1,
@@ -180,6 +189,8 @@ int main(int argc, char **argv)
             o.length = number(optarg);
         else if (c == 't')
             o.seconds = (double)number(optarg);
+        else if (c == 'o')
+            o.loops = true;
         else if (c == 'k')
             o.shrink_seconds = (double)number(optarg);
         else if (c == 'm') {
@@ -190,8 +201,7 @@ int main(int argc, char **argv)
         } else if (c == 'p') {
             struct program p;
 
-            program_generate(&p, (uint64_t)number(optarg), (int)o.length);
-            program_normalise(&p);
+            generate(&o, &p, (uint64_t)number(optarg));
             program_print(&p, stdout);
             return 0;
         } else {

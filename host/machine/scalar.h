@@ -1,0 +1,39 @@
+/* scalar.h - numbers of 1 to 128 bits on the front end.
+ *
+ *     struct machine_scalar least = scalar_sign(width), greatest = scalar_ones(width - 1);
+ *     struct machine_scalar minus_one = scalar_cut(scalar_signed(-1), width); */
+#ifndef LUTETIA_MACHINE_SCALAR_H
+#define LUTETIA_MACHINE_SCALAR_H
+
+#include "machine.h"
+
+/* So many ones. */
+static inline struct machine_scalar scalar_ones(int width)
+{
+    if (width < 64)
+        return (struct machine_scalar){(UINT64_C(1) << width) - 1, 0};
+    return (struct machine_scalar){UINT64_MAX, width < 128 ? (UINT64_C(1) << (width - 64)) - 1
+                                                           : UINT64_MAX};
+}
+
+/* The highest of so many bits alone. */
+static inline struct machine_scalar scalar_sign(int width)
+{
+    return width <= 64 ? (struct machine_scalar){UINT64_C(1) << (width - 1), 0}
+                       : (struct machine_scalar){0, UINT64_C(1) << (width - 65)};
+}
+
+/* The low bits of it, of which there are so many. */
+static inline struct machine_scalar scalar_cut(struct machine_scalar x, int width)
+{
+    struct machine_scalar ones = scalar_ones(width);
+    return (struct machine_scalar){x.lo & ones.lo, x.hi & ones.hi};
+}
+
+/* 128 bits. */
+static inline struct machine_scalar scalar_signed(int64_t x)
+{
+    return (struct machine_scalar){(uint64_t)x, x < 0 ? UINT64_MAX : 0};
+}
+
+#endif

@@ -1,0 +1,53 @@
+/* sample.h - numbers by chance that are the same on every machine. The state is the caller's; where it begins is
+ * part of the test.
+ *
+ *     static uint64_t state = 1;
+ *     uint64_t die = 1 + sample_word(&state) % 6;
+ */
+#ifndef LUTETIA_TESTS_SAMPLE_H
+#define LUTETIA_TESTS_SAMPLE_H
+
+#include <stdint.h>
+
+#define SAMPLE_GOLDEN UINT64_C(0x9e3779b97f4a7c15)
+
+/* The finaliser of splitmix64: numbers that have nothing to do with each other for 0, 1, 2, ... times GOLDEN. */
+static inline uint64_t sample_mixed(uint64_t z)
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/* Splitmix64: 64 bits; any state. */
+static inline uint64_t sample_word(uint64_t *state)
+{
+    return sample_mixed(*state += SAMPLE_GOLDEN);
+}
+
+/* A quicker function of a number that need not be as good. */
+static inline uint64_t sample_of(uint64_t n)
+{
+    uint64_t z = (n + SAMPLE_GOLDEN) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/* Xorshift: 64 bits; the state is not 0. */
+#define SAMPLE_SHIFTED_BEGIN UINT64_C(88172645463325252)
+static inline uint64_t sample_shifted(uint64_t *state)
+{
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    return *state;
+}
+
+/* A linear congruence's upper 31 bits; any state. */
+static inline uint32_t sample_linear(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(*state >> 33);
+}
+
+#endif
