@@ -539,6 +539,12 @@ static struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t 
                : NULL;
 }
 
+bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v)
+{
+    const struct slot *slot = slot_exact(f, offset, v->type.width);
+    return slot && slot->value == v;
+}
+
 struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset,
                                     uint32_t bits)
 {

@@ -364,6 +364,8 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
 struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
 void fields_finish(struct machine *m);
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
+/* That very value is the content from the offset on. */
+bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v);
 /* The whole content of [offset, offset + type.width) of a field, as it is. */
 struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset,
                                     uint32_t bits);

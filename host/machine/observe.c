@@ -235,12 +235,12 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     v = v ? observe_materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
-    /* In place where this field alone holds the buffer: the slot's reference, and those of this
-     * call. */
+    /* In place where this part of the field alone holds the buffer: the slot's reference, and those of
+     * this call. */
     uint32_t held = 0;
     for (int i = 0; i < m->borrowed_count; i++)
         held += m->borrowed[i] == v;
-    if (v->op != NODE_BUFFER || v->refs > held + 1)
+    if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
         v = own_copy(m, f->vpset, v);
     if (!v)
         return m->status;

@@ -234,6 +234,40 @@ static void field_reads_and_writes_one_processor(void **state)
     }
 }
 
+static wide expected_all_ones(const void *data, uint64_t n)
+{
+    (void)data;
+    (void)n;
+    return 0xff;
+}
+
+static wide expected_low_bits(const void *data, uint64_t n)
+{
+    (void)data;
+    return n == 5 ? 0x21 : 0xff;
+}
+
+/* Another field may hold the very value that a part of this one reads as. */
+static void write_to_a_part_leaves_its_copies_alone(void **state)
+{
+    (void)state;
+    uint32_t whole = machine_field_allocate(machine, set, 32, MACHINE_HEAP),
+             part = machine_field_allocate(machine, set, 8, MACHINE_HEAP);
+    struct machine_value *ones =
+        machine_unary(machine, MACHINE_NOT, machine_coordinate(machine, 0, 32));
+    ones = machine_binary(machine, MACHINE_OR, ones, bits(32, 0xff));
+    machine_field_store(machine, whole, ones, MACHINE_EVERYWHERE);
+    machine_begin(machine);
+    struct machine_value *low =
+        machine_field_value(machine, whole, MACHINE_UINT(8), MACHINE_EVERYWHERE);
+    machine_field_store(machine, part, low, MACHINE_EVERYWHERE);
+    machine_begin(machine);
+    machine_field_write(machine, whole, MACHINE_UINT(8), 5, (struct machine_scalar){0x21, 0});
+    machine_begin(machine);
+    support_expect_field(machine, part, MACHINE_UINT(8), expected_all_ones, NULL, "the copy");
+    support_expect_field(machine, whole, MACHINE_UINT(8), expected_low_bits, NULL, "the part");
+}
+
 static void upload_does_not_change_what_was_taken_before(void **state)
 {
     uint32_t a = support_field(machine, MACHINE_UINT(32), 1);
@@ -383,6 +417,7 @@ int main(void)
         CASE(field_of_floats_reads_as_bits),
         CASE(field_moves_keep_the_bits_of_nan),
         CASE(field_reads_and_writes_one_processor),
+        CASE(write_to_a_part_leaves_its_copies_alone),
         CASE(upload_does_not_change_what_was_taken_before),
         CASE(context_keeps_inactive_processors_as_they_were),
         CASE(flags_begin_as_documented_and_belong_to_their_set),
