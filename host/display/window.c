@@ -3,7 +3,10 @@
  * The rectangle fills a viewport that has the image's ratio and lies on whole pixels, so there are
  * no matrices, and an image of the viewport's size is copied texel by texel.  OpenGL 2.1 without
  * shaders is enough for that, and every driver has it.  Its functions are asked of GLFW at run time:
- * the program is not linked with libGL and starts where there is none. */
+ * the program is not linked with libGL and starts where there is none.
+ *
+ * GLFW is never terminated: it would unload the driver, and what drivers keep to the end of the
+ * process would be lost with each last window. */
 #include "window.h"
 #include "display_internal.h"
 
@@ -60,7 +63,6 @@ struct window {
     int keys_first, keys_count;
 };
 
-static int windows_count;
 
 struct window_config window_config_default(void)
 {
@@ -340,7 +342,7 @@ static GLFWwindow *glfw_window_make(const struct window_config *config)
     if (room[0] > 0 && room[1] > 0 && (size[0] > room[0] || size[1] > room[1])) {
         /* A tenth is left for the window's frame. */
         double scale = 0.9 * fmin((double)room[0] / size[0], (double)room[1] / size[1]);
-        int width = (int)(size[0] * scale), height = (int)(size[1] * scale);
+        int width = (int)lround(size[0] * scale), height = (int)lround(size[1] * scale);
         glfwSetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
     }
     return glfw;
@@ -364,11 +366,10 @@ enum display_status window_create(const struct window_config *config, struct win
     struct window *window = calloc(1, sizeof *window);
     if (!window)
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a window");
-    if (windows_count == 0 && !glfwInit()) {
+    if (!glfwInit()) {
         status = fail_glfw("no display");
         goto failed;
     }
-    windows_count++;
     window->glfw = glfw_window_make(config);
     if (!window->glfw) {
         status = fail_glfw("no window");
@@ -412,7 +413,4 @@ void window_destroy(struct window *window)
         glfwDestroyWindow(window->glfw);
     }
     free(window);
-    /* Counted since GLFW was made ready. */
-    if (windows_count > 0 && --windows_count == 0)
-        glfwTerminate();
 }

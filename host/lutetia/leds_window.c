@@ -18,20 +18,21 @@ static enum display_status draw(struct leds_window *window)
     return status;
 }
 
-enum display_status leds_window_open(const char *title, struct front_panel *panel, int width_px,
-                                     int height_px, double fps, struct leds_window *window)
+enum display_status leds_window_open(const char *title, int width_px, int height_px, double fps,
+                                     struct leds_window *window)
 {
     struct window_config config = window_config_default();
-    *window = (struct leds_window){.panel = panel, .least_s = 1 / fps};
+    *window = (struct leds_window){.least_s = 1 / fps};
     config.title = title;
     config.width_px = width_px;
     config.height_px = height_px;
-    enum display_status status = window_create(&config, &window->window);
-    if (status == DISPLAY_OK)
-        status = draw(window);
-    if (status != DISPLAY_OK)
-        leds_window_close(window);
-    return status;
+    return window_create(&config, &window->window);
+}
+
+enum display_status leds_window_panel(struct leds_window *window, struct front_panel *panel)
+{
+    window->panel = panel;
+    return draw(window);
 }
 
 void leds_window_close(struct leds_window *window)

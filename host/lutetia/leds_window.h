@@ -19,13 +19,16 @@ struct leds_window {
     double least_s, due_s; /* from one picture to the next; when that may be drawn */
 };
 
-/* title: copied. panel: borrowed until it is closed. fps: pictures a second at most. Shows a front without lights.
- * Errors: those of window_create() and front_panel_draw(); it is then closed. Owns: the caller closes it. */
-enum display_status leds_window_open(const char *title, struct front_panel *panel, int width_px,
-                                     int height_px, double fps, struct leds_window *window);
+/* title: copied. fps: pictures a second at most. Errors: those of window_create(). Owns: the caller closes it. */
+enum display_status leds_window_open(const char *title, int width_px, int height_px, double fps,
+                                     struct leds_window *window);
 void leds_window_close(struct leds_window *window); /* NULL is fine */
 
 void leds_window_title(struct leds_window *window, const char *title);
+
+/* From now on it is this front that is shown, without lights at first; before, nothing is. panel: borrowed until the
+ * window is closed. Errors: as leds_window_turn(). */
+enum display_status leds_window_panel(struct leds_window *window, struct front_panel *panel);
 
 /* The lights are now these. */
 void leds_window_light(struct leds_window *window, const uint8_t lights[FRONT_PANEL_BYTES]);

@@ -128,9 +128,9 @@ static int window_open(struct leds *leds)
     if (!leds->window_wanted && (leds->out_path || leds->frames_dir || !window_possible()))
         return EXIT_SUCCESS;
     snprintf(title, sizeof title, "%s - lights", leds->name);
-    enum display_status status = leds_window_open(
-        title, leds->panel, leds->size[0], leds->size[1],
-        leds->fps > 0 ? leds->fps : fmax(WINDOW_FPS, leds->pattern_fps), &leds->the_window);
+    double fps = leds->fps > 0 ? leds->fps : fmax(WINDOW_FPS, leds->pattern_fps);
+    enum display_status status =
+        leds_window_open(title, leds->size[0], leds->size[1], fps, &leds->the_window);
     if (status == DISPLAY_OK)
         leds->window = &leds->the_window;
     if (status != DISPLAY_OK && leds->window_wanted)
@@ -390,7 +390,8 @@ static int from_source(struct leds *leds, int argc, char **argv)
     return from_program(leds, argv);
 }
 
-static int leds_run(struct leds *leds, int argc, char **argv)
+/* The front, once it is known where it is shown. */
+static int panel_make(struct leds *leds, bool window_only)
 {
     struct front_panel_config config = front_panel_config_default();
     config.width_px = leds->size[0];
@@ -399,17 +400,34 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     config.view = strcmp(leds->view, "door") == 0    ? FRONT_PANEL_DOOR
                   : strcmp(leds->view, "front") == 0 ? FRONT_PANEL_FRONT
                                                      : FRONT_PANEL_CUBE;
+    if (window_only) { /* no more pixels than a small screen has, or they would be shrunk */
+        int width, height;
+        window_size(leds->window->window, &width, &height);
+        if (width < config.width_px && width >= FRONT_PANEL_SIDE_MIN &&
+            height >= FRONT_PANEL_SIDE_MIN) {
+            config.width_px = width;
+            config.height_px = height;
+        }
+    }
+    if (front_panel_create(&config, &leds->panel) != DISPLAY_OK ||
+        (leds->window && leds_window_panel(leds->window, leds->panel) != DISPLAY_OK))
+        return fail("leds", "%s", display_error());
+    return EXIT_SUCCESS;
+}
+
+static int leds_run(struct leds *leds, int argc, char **argv)
+{
     int status = leds->frames_dir ? folder_make("leds", leds->frames_dir) : EXIT_SUCCESS;
     if (status != EXIT_SUCCESS)
         return status;
-    if (front_panel_create(&config, &leds->panel) != DISPLAY_OK)
-        return fail("leds", "%s", display_error());
     interrupt_catch();
     source_name(leds, argc ? argv[0] : "");
     status = window_open(leds);
+    bool window_only = leds->window && !leds->out_path && !leds->frames_dir;
+    if (status == EXIT_SUCCESS)
+        status = panel_make(leds, window_only);
     if (status != EXIT_SUCCESS)
         return status;
-    bool window_only = leds->window && !leds->out_path && !leds->frames_dir;
     leds->paced = leds->pattern || (argc == 1 && is_recording(argv[0]));
     if (leds->pattern && !leds->count && !window_only)
         leds->count = 64;

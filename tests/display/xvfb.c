@@ -35,18 +35,19 @@ static int error_pass(Display *of, XErrorEvent *error)
     return 0;
 }
 
-_Noreturn static void server_become(int number_to)
+_Noreturn static void server_become(int number_to, const char *size)
 {
-    char descriptor[16];
+    char descriptor[16], screen[32];
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     snprintf(descriptor, sizeof descriptor, "%d", number_to);
+    snprintf(screen, sizeof screen, "%sx24", size);
     freopen("/dev/null", "w", stderr); /* what it says about keyboards */
-    execlp("Xvfb", "Xvfb", "-displayfd", descriptor, "-screen", "0", "1100x1000x24",
-           "-nolisten", "tcp", "-noreset", (char *)NULL);
+    execlp("Xvfb", "Xvfb", "-displayfd", descriptor, "-screen", "0", screen, "-nolisten", "tcp",
+           "-noreset", (char *)NULL);
     _exit(127);
 }
 
-bool screen_start(void)
+bool screen_start(const char *size)
 {
     int ends[2];
     char name[32] = ":";
@@ -56,7 +57,7 @@ bool screen_start(void)
     assert(server >= 0);
     if (server == 0) {
         close(ends[0]);
-        server_become(ends[1]);
+        server_become(ends[1], size);
     }
     close(ends[1]);
     size_t count = 1;

@@ -1,6 +1,6 @@
 /* xvfb.h - a display for one test program, and what can be seen and done on it.
  *
- *     if (!screen_start())
+ *     if (!screen_start("800x600"))
  *         return 77; // there is no Xvfb
  *     ... a program opens a window titled "page" ...
  *     Window window = screen_window("page", 10);
@@ -15,8 +15,8 @@
 #include <display.h>
 #include <stdbool.h>
 
-/* 1100x1000 pixels. False: Xvfb is not installed; it said so. */
-bool screen_start(void);
+/* False: Xvfb is not installed; it said so. */
+bool screen_start(const char *size);
 void screen_end(void); /* and DISPLAY is unset */
 
 /* The window that is shown under a title that has this in it, waiting for it; 0: there is none. */
