@@ -1,7 +1,7 @@
 /* LUTETIA_LEDS=window: `lutetia leds` shows the lights in a window, reading them from a pipe.
  *
  * It is this program's child, and outlives it: the last lights stay to be looked at. It says with a
- * byte on its standard output, which is a pipe, too, that the window is there. One that someone
+ * byte on its standard output, which is a pipe, too, that the window is ready. One that someone
  * closes before this program has ended interrupts it (LUTETIA_LEDS_PROGRAM says whom). */
 #include <errno.h>
 #include <fcntl.h>

@@ -9,7 +9,7 @@
  *
  * LUTETIA_LEDS=window: libparis runs `lutetia leds --window -` with LUTETIA_LEDS_PROGRAM="PID NAME"
  * of the program whose lights these are. A byte on the standard output then says that the window is
- * open, and closing the window interrupts that process. */
+ * ready, and closing the window interrupts that process. */
 #include "leds_window.h"
 #include "lutetia.h"
 #include "options.h"
@@ -141,8 +141,6 @@ static int window_open(struct leds *leds)
             display_error());
     if (status != DISPLAY_OK)
         fprintf(stderr, "lutetia leds: %s; the last lights go to leds.png\n", display_error());
-    if (leds->watched && write(STDOUT_FILENO, "\n", 1) != 1)
-        return EXIT_FAILED; /* the program has gone */
     return EXIT_SUCCESS;
 }
 
@@ -150,8 +148,12 @@ static int window_open(struct leds *leds)
 static void window_linger(struct leds *leds)
 {
     char title[sizeof leds->name + 32];
-    if (!leds->window || leds->close_at_end || !leds->taken)
+    if (!leds->window || !leds->taken)
         return;
+    if (leds->close_at_end) { /* the last one is seen, however short */
+        turn(leds, 0.1);
+        return;
+    }
     snprintf(title, sizeof title, "%s - lights (ended)", leds->name);
     leds_window_title(leds->window, title);
     while (go_on(leds))
@@ -412,6 +414,8 @@ static int panel_make(struct leds *leds, bool window_only)
     if (front_panel_create(&config, &leds->panel) != DISPLAY_OK ||
         (leds->window && leds_window_panel(leds->window, leds->panel) != DISPLAY_OK))
         return fail("leds", "%s", display_error());
+    if (leds->watched && leds->window && write(STDOUT_FILENO, "\n", 1) != 1)
+        return EXIT_FAILED; /* the program has gone */
     return EXIT_SUCCESS;
 }
 
@@ -532,5 +536,9 @@ int verb_leds(int argc, char **argv)
     front_panel_destroy(leds.panel);
     if (leds.window && leds.watched)
         return status; /* what was interrupted is the program */
+    if (leds.window && !leds.out_path && status == EXIT_INTERRUPTED) {
+        fail("leds", "interrupted");
+        return status;
+    }
     return interrupt_report("leds", status, "the last picture is");
 }

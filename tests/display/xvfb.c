@@ -1,6 +1,7 @@
 /* xvfb.c - Xvfb as a child, and an X client of its own beside the program that is tested. */
 #include "xvfb.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xutil.h>
 #include <assert.h>
 #include <signal.h>
@@ -79,6 +80,18 @@ bool screen_start(const char *size)
     display = XOpenDisplay(NULL);
     assert(display);
     return true;
+}
+
+void screen_dpi(int dots_per_inch)
+{
+    char text[32];
+    int length = snprintf(text, sizeof text, "Xft.dpi:\t%d\n", dots_per_inch);
+    if (dots_per_inch)
+        XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                        PropModeReplace, (const unsigned char *)text, length);
+    else
+        XDeleteProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER);
+    XSync(display, False);
 }
 
 void screen_end(void)

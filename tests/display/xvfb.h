@@ -17,6 +17,8 @@
 
 /* False: Xvfb is not installed; it said so. */
 bool screen_start(const char *size);
+/* What desktops say of a screen to programs that are started; 0: nothing. */
+void screen_dpi(int dots_per_inch);
 void screen_end(void); /* and DISPLAY is unset */
 
 /* The window that is shown under a title that has this in it, waiting for it; 0: there is none. */

@@ -247,7 +247,7 @@ static void recordings_go_at_their_pace(void **state)
 {
     (void)state;
     const char *one = recording("one", 1, 0), *both = recording("both", 2, 900000);
-    const char *out = scratch_path("out.png");
+    const char *out = scratch_path("out.png"), *soon = recording("soon", 2, 50000);
     struct display_image first = picture_of("120x100", "front", one, NULL, NULL);
     struct display_image second = picture_of("120x100", "front", both, NULL, NULL);
     struct command command = {.arguments = {lutetia, "leds", "--window", "--close", "--size",
@@ -269,10 +269,10 @@ static void recordings_go_at_their_pace(void **state)
     command.arguments[2] = "--window";
     command.arguments[3] = "--fps";
     command.arguments[4] = "1000";
-    const char *rest[] = {"--size", "120x100", "--view", "front", both, NULL};
+    const char *rest[] = {"--size", "120x100", "--view", "front", soon, NULL};
     memcpy(command.arguments + 5, rest, sizeof rest);
     command_start(&command);
-    window = window_of("both - lights");
+    window = window_of("soon - lights");
     shows(window, &second);
     screen_close(window);
     ends_with(&command, 0);
@@ -387,6 +387,25 @@ static void programs_show_themselves(void **state)
     display_image_destroy(&last);
 }
 
+/* Twice as many pixels where the screen has twice as many an inch; the picture is made as large. */
+static void fine_screens_have_larger_windows(void **state)
+{
+    (void)state;
+    struct display_image seen = {0};
+    struct command command = {.arguments = {lutetia, "leds", "--size", "70x100", "--view",
+                                            "front", "--pattern", "on"}};
+    screen_dpi(192);
+    command_start(&command);
+    Window window = window_of("on - lights");
+    screen_read(window, &seen);
+    assert_int_equal(seen.width_px, 140);
+    assert_int_equal(seen.height_px, 200);
+    display_image_destroy(&seen);
+    screen_dpi(0);
+    screen_close(window);
+    ends_with(&command, 0);
+}
+
 static void programs_without_lights_leave_no_window(void **state)
 {
     (void)state;
@@ -426,6 +445,7 @@ int main(void)
         cmocka_unit_test(patterns_go_on_until_the_window_is_closed),
         cmocka_unit_test(closing_stops_the_program),
         cmocka_unit_test(programs_show_themselves),
+        cmocka_unit_test(fine_screens_have_larger_windows),
         cmocka_unit_test(programs_without_lights_leave_no_window),
     };
     lutetia = getenv("LUTETIA");
