@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <png.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -68,11 +69,14 @@ static int command_end(struct command *command)
 {
     size_t count = 0;
     ssize_t got;
-    while ((got = read(command->said_from, command->said + count,
-                       sizeof command->said - 1 - count)) > 0)
+    struct pollfd more = {.fd = command->said_from, .events = POLLIN};
+    while (poll(&more, 1, 30000) > 0 && (got = read(command->said_from, command->said + count,
+                                                    sizeof command->said - 1 - count)) > 0)
         count += (size_t)got;
     command->said[count] = '\0';
     close(command->said_from);
+    if (!more.revents) /* half a minute without a word */
+        kill(command->pid, SIGKILL);
     int status;
     while (waitpid(command->pid, &status, 0) != command->pid)
         ;
