@@ -63,7 +63,6 @@ struct window {
     int keys_first, keys_count;
 };
 
-
 struct window_config window_config_default(void)
 {
     return (struct window_config){
