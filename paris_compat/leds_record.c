@@ -6,7 +6,8 @@
  *     microseconds since then, 8 bytes, lowest first      each frame: 520 bytes
  *     512 bytes of lights: light l is bit l mod 8 of byte l div 8
  *
- * `lutetia leds FILE` makes pictures of it. */
+ * `lutetia leds FILE` makes pictures of it. LUTETIA_LEDS=window: the file is a pipe to
+ * `lutetia leds` (leds_window.c); a file of that name is ./window. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -57,11 +58,17 @@ static bool file_open(void)
     static const char line[] = "lutetia leds 1 4096\n";
     if (file >= 0)
         return true;
-    file = open(getenv("LUTETIA_LEDS"), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) {
-        fail("open");
-        return false;
+    if (strcmp(getenv("LUTETIA_LEDS"), "window") == 0) {
+        failed = true; /* while it is opened: an error handler need not come back */
+        file = leds_window_open();
+        failed = file < 0;
+    } else {
+        file = open(getenv("LUTETIA_LEDS"), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (file < 0)
+            fail("open");
     }
+    if (file < 0)
+        return false;
     clock_gettime(CLOCK_MONOTONIC, &began);
     return bytes_write(line, sizeof line - 1);
 }

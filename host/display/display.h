@@ -22,7 +22,8 @@ enum display_status {
     DISPLAY_BAD_ARGUMENT, /* an image without size, pixels or a known number of channels */
     DISPLAY_BAD_FILE,     /* not a PNG, or a damaged one */
     DISPLAY_IO_FAILED,    /* the system's reason is in display_error() */
-    DISPLAY_NO_MEMORY
+    DISPLAY_NO_MEMORY,
+    DISPLAY_NO_WINDOW /* no display to open one on */
 };
 
 /* The longest side of an image that is read or written. */
@@ -31,7 +32,7 @@ enum display_status {
 /* Rows from top to bottom, pixels from left to right, channels together, no padding. */
 struct display_image {
     int width_px, height_px;
-    int channels; /* 1 gray, 3 red, green, blue */
+    int channels; /* 1 gray, 3 red, green, blue; windows take 4, with alpha, too */
     uint8_t *pixels;
 };
 

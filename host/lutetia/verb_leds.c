@@ -1,17 +1,27 @@
-/* verb_leds.c - `lutetia leds`: pictures of the machine's lights.
+/* verb_leds.c - `lutetia leds`: the machine's lights, in a window and in pictures.
  *
  * Frames come from one of three sources: a program, which libparis in it makes write them into a
- * pipe (LUTETIA_LEDS); a recording that a program left; the system's patterns. Each goes the same
- * way from frame_take() on. */
+ * pipe (LUTETIA_LEDS); a recording, in a file or from the standard input; the system's patterns.
+ * Each goes the same way from frame_take() on.
+ *
+ * A program is shown as it runs: all that it has written is read, and the window shows the newest
+ * at its turn. A recording and a pattern wait until each frame's time has come (pace()).
+ *
+ * LUTETIA_LEDS=window: libparis runs `lutetia leds --window -` with LUTETIA_LEDS_PROGRAM="PID NAME"
+ * of the program whose lights these are. A byte on the standard output then says that the window is
+ * ready, and closing the window interrupts that process. */
+#include "leds_window.h"
 #include "lutetia.h"
 #include "options.h"
 
 #include <front_panel.h>
 #include <light_recording.h>
 #include <paris_internal.h>
+#include <window.h>
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -23,8 +33,17 @@
 
 struct leds {
     const char *out_path, *frames_dir, *view, *pattern;
-    int size[2], every, count;
-    double fps, brightness; /* fps 0: a picture for each latch */
+    int size[2], every, count; /* count 0: until the window is closed */
+    double fps, brightness;    /* fps 0: a picture for each latch */
+    double pattern_fps;        /* steps in a window */
+    bool window_wanted, close_at_end;
+
+    struct leds_window the_window, *window; /* NULL: there is none */
+    bool closed;                            /* it was there, and someone closed it */
+    bool paced;                             /* frames wait for their time */
+    double began_s;                         /* when the first was shown */
+    pid_t watched;                          /* the program that shows itself here; 0: none */
+    char name[64];                          /* of the source, for the title */
 
     struct front_panel *panel;
     struct display_image image;
@@ -72,7 +91,73 @@ static void progress_line(struct leds *leds)
 
 static int go_on(const struct leds *leds)
 {
-    return leds->status == EXIT_SUCCESS && !interrupted();
+    return leds->status == EXIT_SUCCESS && !leds->closed && !interrupted();
+}
+
+/* ---- the window ---- */
+
+enum { WINDOW_FPS = 30, PATTERN_FPS = 10 };
+#define TURN_S 0.02 /* what a key and a latch wait at most, where both are waited for */
+
+static void turn(struct leds *leds, double wait_s)
+{
+    bool open = true;
+    if (!leds->window) {
+        usleep((useconds_t)(wait_s * 1e6));
+        return;
+    }
+    if (leds_window_turn(leds->window, wait_s, &open) != DISPLAY_OK)
+        leds->status = fail("leds", "%s", display_error());
+    if (!open)
+        leds->closed = true;
+}
+
+/* Waits until so much time has passed since the first frame. */
+static void pace(struct leds *leds, double time_s)
+{
+    if (!leds->taken)
+        leds->began_s = clock_s();
+    for (double left_s; go_on(leds) && (left_s = leds->began_s + time_s - clock_s()) > 0;)
+        turn(leds, left_s < 0.1 ? left_s : 0.1);
+}
+
+/* Where no window can be opened that nobody asked for, pictures do. */
+static int window_open(struct leds *leds)
+{
+    char title[sizeof leds->name + 16];
+    if (!leds->window_wanted && (leds->out_path || leds->frames_dir || !window_possible()))
+        return EXIT_SUCCESS;
+    snprintf(title, sizeof title, "%s - lights", leds->name);
+    double fps = leds->fps > 0 ? leds->fps : fmax(WINDOW_FPS, leds->pattern_fps);
+    enum display_status status =
+        leds_window_open(title, leds->size[0], leds->size[1], fps, &leds->the_window);
+    if (status == DISPLAY_OK)
+        leds->window = &leds->the_window;
+    if (status != DISPLAY_OK && leds->window_wanted)
+        return fail(
+            "leds",
+            "--window: %s; run it where there is a desktop, or take -o FILE or --frames "
+            "DIR for pictures",
+            display_error());
+    if (status != DISPLAY_OK)
+        fprintf(stderr, "lutetia leds: %s; the last lights go to leds.png\n", display_error());
+    return EXIT_SUCCESS;
+}
+
+/* The source has ended; the last picture stays until someone closes the window. */
+static void window_linger(struct leds *leds)
+{
+    char title[sizeof leds->name + 32];
+    if (!leds->window || !leds->taken)
+        return;
+    if (leds->close_at_end) { /* the last one is seen, however short */
+        turn(leds, 0.1);
+        return;
+    }
+    snprintf(title, sizeof title, "%s - lights (ended)", leds->name);
+    leds_window_title(leds->window, title);
+    while (go_on(leds))
+        turn(leds, 0.1);
 }
 
 /* With --fps: pictures of the time before this frame show the one before. */
@@ -94,6 +179,10 @@ static int frame_take(void *context, const struct light_frame *frame)
     }
     if (leds->frames_dir && leds->fps > 0 && leds->taken)
         time_fill(leds, time_us);
+    if (leds->window && leds->paced)
+        pace(leds, (double)time_us * 1e-6);
+    if (leds->window)
+        leds_window_light(leds->window, frame->lights);
     leds->last = *frame;
     leds->last_us = time_us;
     if (go_on(leds) && leds->frames_dir && leds->fps <= 0 &&
@@ -119,8 +208,9 @@ static int from_pattern(struct leds *leds)
         if (strcmp(leds->pattern, patterns[i].name) == 0)
             mode = patterns[i].mode;
     struct paris_pattern pattern = paris_pattern_begin(mode);
-    for (int i = 0; i < leds->count && go_on(leds); i++) {
-        struct light_frame frame = {.number = (uint64_t)i};
+    for (uint64_t i = 0; (!leds->count || i < (uint64_t)leds->count) && go_on(leds); i++) {
+        struct light_frame frame = {.number = i,
+                                    .time_us = (uint64_t)((double)i * 1e6 / leds->pattern_fps)};
         paris_pattern_step(&pattern, frame.lights);
         frame_take(leds, &frame);
     }
@@ -134,7 +224,10 @@ static int from_descriptor(struct leds *leds, int descriptor, const char *what, 
     uint8_t bytes[1 << 16];
     while (go_on(leds)) {
         struct pollfd ready = {.fd = descriptor, .events = POLLIN};
-        if (poll(&ready, 1, 50) == 0)
+        int found = poll(&ready, 1, leds->window ? (int)(TURN_S * 1e3) : 50);
+        if (leds->window)
+            turn(leds, 0);
+        if (found == 0)
             continue;
         ssize_t count = read(descriptor, bytes, sizeof bytes);
         if (count < 0 && errno == EINTR)
@@ -172,13 +265,30 @@ _Noreturn static void become(int write_end, char **arguments)
     _exit(126);
 }
 
-static int child_end(const struct leds *leds, pid_t child, const char *name)
+/* Waits for the child; one that is not wanted any more is told so, more firmly each second. */
+static int child_wait(struct leds *leds, pid_t child)
 {
+    static const int signals[] = {SIGINT, SIGTERM, SIGKILL};
+    size_t sent = 0;
+    double sent_s = 0;
     int status;
-    if (!go_on(leds))
-        kill(child, SIGINT);
-    while (waitpid(child, &status, 0) != child)
-        ;
+    while (waitpid(child, &status, WNOHANG) != child) {
+        bool wanted = go_on(leds);
+        if (!wanted && sent < sizeof signals / sizeof *signals && clock_s() >= sent_s + 1) {
+            kill(child, signals[sent++]);
+            sent_s = clock_s();
+        }
+        if (wanted)
+            turn(leds, 0.005);
+        else
+            usleep(5000);
+    }
+    return status;
+}
+
+static int child_end(struct leds *leds, pid_t child, const char *name)
+{
+    int status = child_wait(leds, child);
     if (!go_on(leds))
         return EXIT_SUCCESS; /* that has been said, or is known */
     if (WIFSIGNALED(status))
@@ -197,6 +307,7 @@ static int from_program(struct leds *leds, char **arguments)
     if (pipe(ends) != 0)
         return fail("leds", "no pipe: %s", strerror(errno));
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    fcntl(ends[0], F_SETPIPE_SZ, 1 << 20); /* it runs on while a picture is drawn */
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)
@@ -238,7 +349,51 @@ static int from_file(struct leds *leds, const char *path)
 
 /* ---- the verb ---- */
 
-static int leds_run(struct leds *leds, int argc, char **argv)
+/* A recording from the standard input, as it comes. */
+static int from_input(struct leds *leds)
+{
+    int status = from_descriptor(leds, STDIN_FILENO, "the standard input", leds->watched != 0);
+    int nowhere = leds->watched ? open("/dev/null", O_RDWR) : -1;
+    if (nowhere >= 0) { /* who waits for all of the program's output waits no more */
+        dup2(nowhere, STDIN_FILENO);
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+        close(nowhere);
+    }
+    return status;
+}
+
+/* Who shows itself here, and what the window is called. */
+static void source_name(struct leds *leds, const char *word)
+{
+    const char *program = getenv("LUTETIA_LEDS_PROGRAM");
+    const char *name = leds->pattern ? leds->pattern : word;
+    if (!leds->pattern && strcmp(word, "-") == 0) {
+        char *rest;
+        long pid = program ? strtol(program, &rest, 10) : 0;
+        name = "standard input";
+        if (pid > 1 && *rest == ' ') {
+            leds->watched = (pid_t)pid;
+            name = rest + 1;
+        }
+    }
+    const char *base = strrchr(name, '/');
+    snprintf(leds->name, sizeof leds->name, "%s", base && base[1] ? base + 1 : name);
+}
+
+static int from_source(struct leds *leds, int argc, char **argv)
+{
+    if (leds->pattern)
+        return from_pattern(leds);
+    if (argc == 1 && strcmp(argv[0], "-") == 0)
+        return from_input(leds);
+    if (argc == 1 && is_recording(argv[0]))
+        return from_file(leds, argv[0]);
+    return from_program(leds, argv);
+}
+
+/* The front, once it is known where it is shown. */
+static int panel_make(struct leds *leds, bool window_only)
 {
     struct front_panel_config config = front_panel_config_default();
     config.width_px = leds->size[0];
@@ -247,45 +402,81 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     config.view = strcmp(leds->view, "door") == 0    ? FRONT_PANEL_DOOR
                   : strcmp(leds->view, "front") == 0 ? FRONT_PANEL_FRONT
                                                      : FRONT_PANEL_CUBE;
+    if (window_only) { /* no more pixels than a small screen has, or they would be shrunk */
+        int width, height;
+        window_size(leds->window->window, &width, &height);
+        if (width < config.width_px && width >= FRONT_PANEL_SIDE_MIN &&
+            height >= FRONT_PANEL_SIDE_MIN) {
+            config.width_px = width;
+            config.height_px = height;
+        }
+    }
+    if (front_panel_create(&config, &leds->panel) != DISPLAY_OK ||
+        (leds->window && leds_window_panel(leds->window, leds->panel) != DISPLAY_OK))
+        return fail("leds", "%s", display_error());
+    if (leds->watched && leds->window && write(STDOUT_FILENO, "\n", 1) != 1)
+        return EXIT_FAILED; /* the program has gone */
+    return EXIT_SUCCESS;
+}
+
+static int leds_run(struct leds *leds, int argc, char **argv)
+{
     int status = leds->frames_dir ? folder_make("leds", leds->frames_dir) : EXIT_SUCCESS;
     if (status != EXIT_SUCCESS)
         return status;
-    if (front_panel_create(&config, &leds->panel) != DISPLAY_OK)
-        return fail("leds", "%s", display_error());
     interrupt_catch();
-    leds->progress = progress_begin("lights", 0);
-    if (leds->pattern)
-        status = from_pattern(leds);
-    else if (argc == 1 && is_recording(argv[0]))
-        status = from_file(leds, argv[0]);
-    else
-        status = from_program(leds, argv);
+    source_name(leds, argc ? argv[0] : "");
+    status = window_open(leds);
+    bool window_only = leds->window && !leds->out_path && !leds->frames_dir;
+    if (status == EXIT_SUCCESS)
+        status = panel_make(leds, window_only);
+    if (status != EXIT_SUCCESS)
+        return status;
+    leds->paced = leds->pattern || (argc == 1 && is_recording(argv[0]));
+    if (leds->pattern && !leds->count && !window_only)
+        leds->count = 64;
+    if (!window_only)
+        leds->progress = progress_begin("lights", 0);
+    status = from_source(leds, argc, argv);
     if (status == EXIT_SUCCESS && leds->frames_dir && leds->fps > 0 && leds->taken &&
         go_on(leds))
         status = frame_write(leds); /* the last one is seen, however short */
     progress_end(&leds->progress);
+    window_linger(leds);
+    if (leds->closed && leds->watched && getppid() == leds->watched)
+        kill(leds->watched, SIGINT);
     if (interrupted())
         return EXIT_INTERRUPTED;
-    if (status == EXIT_SUCCESS && !leds->taken)
-        return fail("leds", "%s: no lights: the program never called CM_latch_leds", argv[0]);
-    return status == EXIT_SUCCESS ? picture_write(leds, leds->out_path) : status;
+    if (status != EXIT_SUCCESS || leds->status != EXIT_SUCCESS)
+        return status != EXIT_SUCCESS ? status : leds->status;
+    if (!leds->taken)
+        return leds->closed
+                   ? EXIT_SUCCESS
+                   : fail("leds", "%s: no lights: the program never called CM_latch_leds",
+                          argv[0]);
+    if (leds->window && !leds->out_path)
+        return EXIT_SUCCESS;
+    return picture_write(leds, leds->out_path ? leds->out_path : "leds.png");
 }
 
 int verb_leds(int argc, char **argv)
 {
-    struct leds leds = {.out_path = "leds.png",
-                        .view = "cube",
-                        .size = {960, 960},
-                        .every = 1,
-                        .count = 64,
-                        .brightness = 1};
+    struct leds leds = {.view = "cube", .size = {960, 960}, .every = 1, .brightness = 1};
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture of the last lights (leds.png)",
+        {"window", 0, OPTION_FLAG, NULL,
+         "show them as they change (so it is where there is a display, without -o and "
+         "--frames)",
+         &leds.window_wanted, 0, 0, 0},
+        {"close", 0, OPTION_FLAG, NULL, "the window closes when the program has ended",
+         &leds.close_at_end, 0, 0, 0},
+        {"out", 'o', OPTION_TEXT, "FILE",
+         "the picture of the last lights (leds.png, where no window shows them)",
          &leds.out_path, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "write a picture for each latch there",
          &leds.frames_dir, 0, 0, 0},
         {"every", 0, OPTION_INTEGER, "N", "only for each Nth (1)", &leds.every, 1, 1e9, 0},
-        {"fps", 0, OPTION_NUMBER, "F", "instead: as many for each second that the program ran",
+        {"fps", 0, OPTION_NUMBER, "F",
+         "instead: as many for each second that the program ran; in a window at most (30)",
          &leds.fps, 0.001, 1000, 0},
         {"size", 0, OPTION_SIZE, "WxH", "of a picture (960x960)", leds.size,
          FRONT_PANEL_SIDE_MIN, FRONT_PANEL_SIDE_MAX, 0},
@@ -295,7 +486,9 @@ int verb_leds(int argc, char **argv)
          10, 0},
         {"pattern", 0, OPTION_TEXT, "NAME",
          "no program: the machine's own: random, noise or on", &leds.pattern, 0, 0, 0},
-        {"count", 0, OPTION_INTEGER, "N", "steps of the pattern (64)", &leds.count, 1, 1e6, 0},
+        {"count", 0, OPTION_INTEGER, "N",
+         "steps of the pattern, --fps a second in a window (64; there 10, until it is closed)",
+         &leds.count, 1, 1e6, 0},
         {0}};
     int own = options_own(rows, argc, argv);
     struct option_words words;
@@ -303,11 +496,13 @@ int verb_leds(int argc, char **argv)
         return EXIT_USAGE;
     if (words.help) {
         puts("usage: lutetia leds [options] prog [arguments]\n"
-             "       lutetia leds [options] recording\n"
+             "       lutetia leds [options] recording (- is the standard input)\n"
              "       lutetia leds [options] --pattern random\n\n"
              "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
-             "them.\n"
-             "LUTETIA_LEDS=FILE ./prog leaves a recording instead.\n");
+             "them, in a\n"
+             "window or in PNG pictures. Closing the window, or Esc in it, stops the program.\n"
+             "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
+             "recording.\n");
         options_help(rows);
         return EXIT_SUCCESS;
     }
@@ -328,13 +523,22 @@ int verb_leds(int argc, char **argv)
     if (!leds.pattern == !argc)
         return fail_usage("leds",
                           "give a program, a recording, or --pattern random: one of them");
-    if (argc > 1 && is_recording(argv[0]))
+    if (argc > 1 && (is_recording(argv[0]) || strcmp(argv[0], "-") == 0))
         return fail_usage("leds", "options stand before the recording (after it came '%.60s')",
                           argv[1]);
-    if (leds.pattern)
-        leds.fps = 0; /* a pattern has no time of its own: each step is a picture */
+    if (leds.pattern) { /* it has no time of its own: each step is a picture */
+        leds.pattern_fps = leds.fps > 0 ? leds.fps : PATTERN_FPS;
+        leds.fps = 0;
+    }
     int status = leds_run(&leds, argc, argv);
+    leds_window_close(leds.window);
     display_image_destroy(&leds.image);
     front_panel_destroy(leds.panel);
+    if (leds.window && leds.watched)
+        return status; /* what was interrupted is the program */
+    if (leds.window && !leds.out_path && status == EXIT_INTERRUPTED) {
+        fail("leds", "interrupted");
+        return status;
+    }
     return interrupt_report("leds", status, "the last picture is");
 }

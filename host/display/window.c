@@ -1,0 +1,415 @@
+/* window.c - windows by GLFW; the image is a texture on one rectangle.
+ *
+ * The rectangle fills a viewport that has the image's ratio and lies on whole pixels, so there are
+ * no matrices, and an image of the viewport's size is copied texel by texel.  OpenGL 2.1 without
+ * shaders is enough for that, and every driver has it.  Its functions are asked of GLFW at run time:
+ * the program is not linked with libGL and starts where there is none.
+ *
+ * GLFW is never terminated: it would unload the driver, and what drivers keep to the end of the
+ * process would be lost with each last window. */
+#include "window.h"
+#include "display_internal.h"
+
+#include <GLFW/glfw3.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifndef GL_CLAMP_TO_EDGE /* OpenGL 1.2 */
+#define GL_CLAMP_TO_EDGE 0x812F
+#endif
+
+#define GL_FUNCTIONS(X)                                                                        \
+    X(Begin, (GLenum))                                                                         \
+    X(BindTexture, (GLenum, GLuint))                                                           \
+    X(BlendFunc, (GLenum, GLenum))                                                             \
+    X(Clear, (GLbitfield))                                                                     \
+    X(ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                        \
+    X(DeleteTextures, (GLsizei, const GLuint *))                                               \
+    X(Disable, (GLenum))                                                                       \
+    X(Enable, (GLenum))                                                                        \
+    X(End, (void))                                                                             \
+    X(GenTextures, (GLsizei, GLuint *))                                                        \
+    X(GetIntegerv, (GLenum, GLint *))                                                          \
+    X(PixelStorei, (GLenum, GLint))                                                            \
+    X(TexCoord2f, (GLfloat, GLfloat))                                                          \
+    X(TexEnvi, (GLenum, GLenum, GLint))                                                        \
+    X(TexImage2D,                                                                              \
+      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
+    X(TexParameteri, (GLenum, GLenum, GLint))                                                  \
+    X(TexSubImage2D,                                                                           \
+      (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
+    X(Vertex2f, (GLfloat, GLfloat))                                                            \
+    X(Viewport, (GLint, GLint, GLsizei, GLsizei))
+
+struct gl {
+#define GL_MEMBER(name, parameters) void(*name) parameters;
+    GL_FUNCTIONS(GL_MEMBER)
+    GLenum (*GetError)(void);
+    void (*GenerateMipmap)(
+        GLenum); /* NULL before OpenGL 3: shrunk images are then less smooth */
+};
+
+struct window {
+    GLFWwindow *glfw;
+    struct gl gl;
+    GLuint texture;
+    int side_max_px;
+    int image_width_px, image_height_px, channels; /* of the texture; 0: there is none */
+    bool mipmaps;                                  /* those of the present image are made */
+    bool stale;                                    /* must be drawn again */
+    bool closing_told, resized;
+    struct window_event keys[WINDOW_EVENTS_MAX];
+    int keys_first, keys_count;
+};
+
+struct window_config window_config_default(void)
+{
+    return (struct window_config){
+        .title = "lutetia", .width_px = 960, .height_px = 960, .vsync = true};
+}
+
+bool window_possible(void)
+{
+    const char *x = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");
+    return (x && *x) || (wayland && *wayland);
+}
+
+/* ---- drawing ---- */
+
+static void rectangle_draw(const struct gl *gl)
+{
+    static const float corners[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}}; /* of the texture */
+    gl->Begin(GL_QUADS);
+    for (int i = 0; i < 4; i++) {
+        gl->TexCoord2f(corners[i][0], corners[i][1]);
+        gl->Vertex2f(2 * corners[i][0] - 1, 1 - 2 * corners[i][1]);
+    }
+    gl->End();
+}
+
+/* Pixel for pixel, or between them; of a shrunk image, means of what is left out. */
+static void filter_choose(struct window *window, double scale)
+{
+    const struct gl *gl = &window->gl;
+    bool means = scale < 1 && gl->GenerateMipmap;
+    if (means && !window->mipmaps) {
+        gl->GenerateMipmap(GL_TEXTURE_2D);
+        window->mipmaps = true;
+    }
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                      means        ? GL_LINEAR_MIPMAP_LINEAR
+                      : scale == 1 ? GL_NEAREST
+                                   : GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER,
+                      scale == 1 ? GL_NEAREST : GL_LINEAR);
+}
+
+static void draw(struct window *window)
+{
+    const struct gl *gl = &window->gl;
+    int width, height;
+    window->stale = false;
+    glfwMakeContextCurrent(window->glfw);
+    glfwGetFramebufferSize(window->glfw, &width, &height);
+    if (width < 1 || height < 1)
+        return; /* an icon now */
+    gl->Viewport(0, 0, width, height);
+    gl->ClearColor(0, 0, 0, 1);
+    gl->Clear(GL_COLOR_BUFFER_BIT);
+    if (window->channels) {
+        double scale = fmin((double)width / window->image_width_px,
+                            (double)height / window->image_height_px);
+        int shown_width = (int)lround(window->image_width_px * scale);
+        int shown_height = (int)lround(window->image_height_px * scale);
+        shown_width = shown_width < 1 ? 1 : shown_width;
+        shown_height = shown_height < 1 ? 1 : shown_height;
+        gl->Viewport((width - shown_width) / 2,
+                     height - shown_height - (height - shown_height) / 2, shown_width,
+                     shown_height);
+        gl->Enable(GL_TEXTURE_2D);
+        gl->BindTexture(GL_TEXTURE_2D, window->texture);
+        filter_choose(window, scale);
+        if (window->channels == 4)
+            gl->Enable(GL_BLEND);
+        rectangle_draw(gl);
+        gl->Disable(GL_BLEND);
+    }
+    glfwSwapBuffers(window->glfw);
+}
+
+enum display_status window_show(struct window *window, const struct display_image *image)
+{
+    static const struct {
+        GLint kept;
+        GLenum given;
+    } formats[] = {[1] = {GL_LUMINANCE8, GL_LUMINANCE},
+                   [3] = {GL_RGB8, GL_RGB},
+                   [4] = {GL_RGBA8, GL_RGBA}};
+    const struct gl *gl = &window->gl;
+    if (!image->pixels || image->width_px < 1 || image->height_px < 1 ||
+        image->width_px > window->side_max_px || image->height_px > window->side_max_px ||
+        (image->channels != 1 && image->channels != 3 && image->channels != 4))
+        return display_fail(DISPLAY_BAD_ARGUMENT,
+                            "this display shows images of 1..%d pixels on a side with 1, 3 or "
+                            "4 channels (got %dx%d with %d%s)",
+                            window->side_max_px, image->width_px, image->height_px,
+                            image->channels, image->pixels ? "" : ", and no pixels");
+    glfwMakeContextCurrent(window->glfw);
+    gl->BindTexture(GL_TEXTURE_2D, window->texture);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (image->width_px == window->image_width_px &&
+        image->height_px == window->image_height_px && image->channels == window->channels)
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image->width_px, image->height_px,
+                          formats[image->channels].given, GL_UNSIGNED_BYTE, image->pixels);
+    else
+        gl->TexImage2D(GL_TEXTURE_2D, 0, formats[image->channels].kept, image->width_px,
+                       image->height_px, 0, formats[image->channels].given, GL_UNSIGNED_BYTE,
+                       image->pixels);
+    if (gl->GetError() != GL_NO_ERROR) {
+        window->channels = 0;
+        return display_fail(DISPLAY_NO_MEMORY,
+                            "the display has no memory for an image of %dx%d pixels",
+                            image->width_px, image->height_px);
+    }
+    window->image_width_px = image->width_px;
+    window->image_height_px = image->height_px;
+    window->channels = image->channels;
+    window->mipmaps = false;
+    draw(window);
+    return DISPLAY_OK;
+}
+
+/* ---- events ---- */
+
+static void size_take(GLFWwindow *glfw, int width, int height)
+{
+    struct window *window = glfwGetWindowUserPointer(glfw);
+    (void)width;
+    (void)height;
+    window->resized = window->stale = true;
+}
+
+static void refresh_take(GLFWwindow *glfw)
+{
+    struct window *window = glfwGetWindowUserPointer(glfw);
+    window->stale = true;
+}
+
+static int key_of(int key)
+{
+    static const struct {
+        int glfw, key;
+    } names[] = {{GLFW_KEY_ESCAPE, WINDOW_KEY_ESCAPE},
+                 {GLFW_KEY_ENTER, WINDOW_KEY_ENTER},
+                 {GLFW_KEY_KP_ENTER, WINDOW_KEY_ENTER},
+                 {GLFW_KEY_TAB, WINDOW_KEY_TAB},
+                 {GLFW_KEY_BACKSPACE, WINDOW_KEY_BACKSPACE},
+                 {GLFW_KEY_DELETE, WINDOW_KEY_DELETE},
+                 {GLFW_KEY_LEFT, WINDOW_KEY_LEFT},
+                 {GLFW_KEY_RIGHT, WINDOW_KEY_RIGHT},
+                 {GLFW_KEY_UP, WINDOW_KEY_UP},
+                 {GLFW_KEY_DOWN, WINDOW_KEY_DOWN}};
+    if (key >= GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT)
+        return key; /* GLFW's are ASCII, too */
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i].glfw == key)
+            return names[i].key;
+    return WINDOW_KEY_OTHER;
+}
+
+static void key_take(GLFWwindow *glfw, int key, int scancode, int action, int modifiers)
+{
+    struct window *window = glfwGetWindowUserPointer(glfw);
+    (void)scancode;
+    if (action == GLFW_RELEASE || window->keys_count == WINDOW_EVENTS_MAX)
+        return;
+    int at = (window->keys_first + window->keys_count++) % WINDOW_EVENTS_MAX;
+    window->keys[at] = (struct window_event){.kind = WINDOW_EVENT_KEY,
+                                             .key = key_of(key),
+                                             .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                                             .control = (modifiers & GLFW_MOD_CONTROL) != 0};
+}
+
+static bool event_pop(struct window *window, struct window_event *event)
+{
+    *event = (struct window_event){0};
+    if (window->resized) {
+        window->resized = false;
+        event->kind = WINDOW_EVENT_SIZE;
+        window_size(window, &event->width_px, &event->height_px);
+    } else if (window->keys_count > 0) {
+        *event = window->keys[window->keys_first];
+        window->keys_first = (window->keys_first + 1) % WINDOW_EVENTS_MAX;
+        window->keys_count--;
+    } else if (window_closing(window) && !window->closing_told) {
+        window->closing_told = true;
+        event->kind = WINDOW_EVENT_CLOSE;
+    }
+    return event->kind != WINDOW_EVENT_NONE;
+}
+
+bool window_event_take(struct window *window, double wait_s, struct window_event *event)
+{
+    double until_s = glfwGetTime() + wait_s;
+    glfwPollEvents();
+    for (;;) {
+        if (window->stale)
+            draw(window);
+        double left_s = until_s - glfwGetTime();
+        if (event_pop(window, event))
+            return true;
+        if (!(left_s > 0))
+            return false;
+        glfwWaitEventsTimeout(left_s);
+    }
+}
+
+void window_size(const struct window *window, int *width_px, int *height_px)
+{
+    glfwGetFramebufferSize(window->glfw, width_px, height_px);
+}
+
+bool window_closing(const struct window *window)
+{
+    return glfwWindowShouldClose(window->glfw) != 0;
+}
+
+void window_close(struct window *window)
+{
+    glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
+}
+
+void window_title_set(struct window *window, const char *title)
+{
+    glfwSetWindowTitle(window->glfw, title);
+}
+
+/* ---- a window ---- */
+
+static enum display_status fail_glfw(const char *what)
+{
+    const char *why = NULL;
+    glfwGetError(&why);
+    return display_fail(DISPLAY_NO_WINDOW, "%s: %s", what, why ? why : "GLFW does not say why");
+}
+
+static bool functions_find(struct gl *gl)
+{
+    bool all = true;
+#define GL_FIND(name, parameters)                                                              \
+    gl->name = (void(*) parameters)glfwGetProcAddress("gl" #name);                             \
+    all = all && gl->name;
+    GL_FUNCTIONS(GL_FIND)
+    gl->GetError = (GLenum(*)(void))glfwGetProcAddress("glGetError");
+    gl->GenerateMipmap = (void (*)(GLenum))glfwGetProcAddress("glGenerateMipmap");
+    GLint major = 0;
+    if (all && gl->GetError) /* a driver may name functions that it does not have */
+        gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    if (all && gl->GetError && gl->GetError() != GL_NO_ERROR)
+        major = 0;
+    if (major < 3)
+        gl->GenerateMipmap = NULL;
+    return all && gl->GetError;
+}
+
+/* A display finer than this is said to be fine; below, a pixel is a pixel. */
+#define SCALE_LEAST 1.5f
+
+static GLFWwindow *glfw_window_make(const struct window_config *config)
+{
+    float x = 1, y = 1;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    if (monitor)
+        glfwGetMonitorContentScale(monitor, &x, &y);
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow *glfw =
+        glfwCreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
+    if (!glfw)
+        return NULL;
+
+    int at[2], room[2] = {0}, size[2];
+    glfwGetWindowSize(glfw, &size[0], &size[1]);
+    if (monitor)
+        glfwGetMonitorWorkarea(monitor, &at[0], &at[1], &room[0], &room[1]);
+    if (room[0] > 0 && room[1] > 0 && (size[0] > room[0] || size[1] > room[1])) {
+        /* A tenth is left for the window's frame. */
+        double scale = 0.9 * fmin((double)room[0] / size[0], (double)room[1] / size[1]);
+        int width = (int)lround(size[0] * scale), height = (int)lround(size[1] * scale);
+        glfwSetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
+    }
+    return glfw;
+}
+
+enum display_status window_create(const struct window_config *config, struct window **out)
+{
+    enum display_status status;
+    *out = NULL;
+    if (!config->title || config->width_px < WINDOW_SIDE_MIN ||
+        config->height_px < WINDOW_SIDE_MIN || config->width_px > WINDOW_SIDE_MAX ||
+        config->height_px > WINDOW_SIDE_MAX)
+        return display_fail(
+            DISPLAY_BAD_ARGUMENT,
+            "a window has a title and is %d..%d pixels wide and high (got %dx%d%s)",
+            WINDOW_SIDE_MIN, WINDOW_SIDE_MAX, config->width_px, config->height_px,
+            config->title ? "" : ", no title");
+    if (!window_possible())
+        return display_fail(DISPLAY_NO_WINDOW,
+                            "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+    struct window *window = calloc(1, sizeof *window);
+    if (!window)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory for a window");
+    if (!glfwInit()) {
+        status = fail_glfw("no display");
+        goto failed;
+    }
+    window->glfw = glfw_window_make(config);
+    if (!window->glfw) {
+        status = fail_glfw("no window");
+        goto failed;
+    }
+    glfwMakeContextCurrent(window->glfw);
+    if (!functions_find(&window->gl)) {
+        status = display_fail(DISPLAY_NO_WINDOW, "no window: this display has no OpenGL 2.1");
+        goto failed;
+    }
+    glfwSwapInterval(config->vsync);
+    window->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &window->side_max_px);
+    window->gl.GenTextures(1, &window->texture);
+    window->gl.BindTexture(GL_TEXTURE_2D, window->texture);
+    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glfwSetWindowUserPointer(window->glfw, window);
+    glfwSetFramebufferSizeCallback(window->glfw, size_take);
+    glfwSetWindowRefreshCallback(window->glfw, refresh_take);
+    glfwSetKeyCallback(window->glfw, key_take);
+    glfwShowWindow(window->glfw);
+    draw(window);
+    *out = window;
+    return DISPLAY_OK;
+
+failed:
+    window_destroy(window);
+    return status;
+}
+
+void window_destroy(struct window *window)
+{
+    if (!window)
+        return;
+    if (window->glfw) {
+        glfwMakeContextCurrent(window->glfw);
+        if (window->texture)
+            window->gl.DeleteTextures(1, &window->texture);
+        glfwDestroyWindow(window->glfw);
+    }
+    free(window);
+}

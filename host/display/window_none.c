@@ -1,0 +1,73 @@
+/* window_none.c - stands for window.c where Lutetia is built without GLFW: window_create() says so,
+ * and what takes a window is never called. */
+#include "display_internal.h"
+#include "window.h"
+
+#include <stdlib.h>
+
+struct window_config window_config_default(void)
+{
+    return (struct window_config){
+        .title = "lutetia", .width_px = 960, .height_px = 960, .vsync = true};
+}
+
+bool window_possible(void)
+{
+    return false;
+}
+
+enum display_status window_create(const struct window_config *config, struct window **out)
+{
+    (void)config;
+    *out = NULL;
+    return display_fail(DISPLAY_NO_WINDOW,
+                        "this lutetia was built without windows (libglfw3-dev was not there)");
+}
+
+void window_destroy(struct window *window)
+{
+    if (window)
+        abort();
+}
+
+void window_title_set(struct window *window, const char *title)
+{
+    (void)window;
+    (void)title;
+    abort();
+}
+
+enum display_status window_show(struct window *window, const struct display_image *image)
+{
+    (void)window;
+    (void)image;
+    abort();
+}
+
+void window_size(const struct window *window, int *width_px, int *height_px)
+{
+    (void)window;
+    (void)width_px;
+    (void)height_px;
+    abort();
+}
+
+bool window_closing(const struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+void window_close(struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+bool window_event_take(struct window *window, double wait_s, struct window_event *event)
+{
+    (void)window;
+    (void)wait_s;
+    (void)event;
+    abort();
+}

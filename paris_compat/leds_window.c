@@ -1,0 +1,121 @@
+/* LUTETIA_LEDS=window: `lutetia leds` shows the lights in a window, reading them from a pipe.
+ *
+ * It is this program's child, and outlives it: the last lights stay to be looked at. It says with a
+ * byte on its standard output, which is a pipe, too, that the window is ready. One that someone
+ * closes before this program has ended interrupts it (LUTETIA_LEDS_PROGRAM says whom). */
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "leds.h"
+#include "paris_state.h"
+
+/* The environment, with that variable. Owns: the caller frees the array. */
+static char **environment_with(char *variable)
+{
+    size_t count = 0, name = strcspn(variable, "=") + 1;
+    while (environ[count])
+        count++;
+    char **all = malloc((count + 2) * sizeof *all);
+    size_t kept = 0;
+    for (size_t i = 0; all && i < count; i++)
+        if (strncmp(environ[i], variable, name) != 0)
+            all[kept++] = environ[i];
+    if (all) {
+        all[kept++] = variable;
+        all[kept] = NULL;
+    }
+    return all;
+}
+
+/* Runs it with those two as its standard input and output; 0, or why not. */
+static int viewer_spawn(int input, int output)
+{
+    char lutetia[] = "lutetia", leds[] = "leds", window[] = "--window", standard_input[] = "-";
+    char *arguments[] = {lutetia, leds, window, standard_input, NULL};
+    char variable[160];
+    snprintf(variable, sizeof variable, "LUTETIA_LEDS_PROGRAM=%ld %.100s", (long)getpid(),
+             program_invocation_short_name);
+    char **environment = environment_with(variable);
+    posix_spawn_file_actions_t actions;
+    pid_t child;
+    int error = ENOMEM;
+    if (environment && posix_spawn_file_actions_init(&actions) == 0) {
+        posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+        error = posix_spawnp(&child, lutetia, &actions, NULL, arguments, environment);
+        if (error == ENOENT) /* not in PATH: where it was installed with this library */
+            error = posix_spawn(&child, LUTETIA_BINDIR "/lutetia", &actions, NULL, arguments,
+                                environment);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    free(environment);
+    return error;
+}
+
+/* Away from 0, 1 and 2, which a program may have closed: they become the child's. */
+static bool pipe_make(int ends[2])
+{
+    int low[2];
+    if (pipe2(low, O_CLOEXEC) != 0)
+        return false;
+    for (int i = 0; i < 2; i++) {
+        ends[i] = fcntl(low[i], F_DUPFD_CLOEXEC, 3);
+        close(low[i]);
+    }
+    return ends[0] >= 0 && ends[1] >= 0;
+}
+
+static bool is_set(const char *name)
+{
+    const char *value = getenv(name);
+    return value && *value;
+}
+
+int leds_window_open(void)
+{
+    int lights[2] = {-1, -1}, answer[2] = {-1, -1}, error = 0, result = -1;
+    char byte;
+    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
+        paris_fail(
+            "LUTETIA_LEDS=window: no display: neither DISPLAY nor WAYLAND_DISPLAY is set; "
+            "name a file for a recording instead");
+        return -1;
+    }
+    if (!pipe_make(lights) || !pipe_make(answer))
+        error = errno;
+    if (!error)
+        error = viewer_spawn(lights[0], answer[1]);
+    if (answer[1] >= 0)
+        close(answer[1]);
+    if (lights[0] >= 0)
+        close(lights[0]);
+    if (!error) {
+        ssize_t count;
+        while ((count = read(answer[0], &byte, 1)) < 0 && errno == EINTR)
+            ;
+        if (count == 1)
+            result = lights[1];
+    }
+    if (answer[0] >= 0)
+        close(answer[0]);
+    if (result >= 0) {
+        fcntl(result, F_SETPIPE_SZ, 1 << 20); /* the program runs on while a picture is drawn */
+        return result;
+    }
+    if (lights[1] >= 0)
+        close(lights[1]);
+    if (error)
+        paris_fail(
+            "LUTETIA_LEDS=window: cannot run `lutetia leds`: %s; put lutetia into PATH, or "
+            "name a file for a recording instead",
+            strerror(error));
+    else
+        paris_fail("LUTETIA_LEDS=window: `lutetia leds` opened no window; name a file for a "
+                   "recording instead");
+    return -1;
+}
