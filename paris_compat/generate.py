@@ -93,7 +93,7 @@ def entries(sections):
                     out += [f"static void again_{f.name}(const struct machine_call *call)", "{",
                             f"{unused}    {f.name}({', '.join(args)});", "}", ""]
                     given = f", .words = {{{', '.join(words)}}}" if words else ""
-                    body = (f"    struct machine_call call = {{.again = again_{f.name}, "
+                    body = (f"    struct machine_call call = {{.again = again_{f.name}, .name = \"{f.name}\", "
                             f".words_count = {len(words)}{given}}};\n"
                             f"    if (paris_foreseen(&call))\n        return;\n{body}\n    paris_performed();")
                 out += [f.prototype(), "{", body, "}", ""]

@@ -131,7 +131,7 @@ void paris_fail_machine(void) PARIS_COLD;
 static inline struct machine *paris_begin(const char *name)
 {
     struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
-    machine_begin(m); /* may perform calls that were only noted */
+    machine_instruction(m, name); /* may perform calls that were only noted */
     paris_the.call = name;
     return m;
 }

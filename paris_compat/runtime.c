@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "explain.h"
 #include "paris_state.h"
 
 unsigned int CM_physical_processors_limit = 0;
@@ -74,6 +75,7 @@ unsigned int CM_safety_mode(void)
 static void machine_forget(void)
 {
     paris_sets_forget();
+    paris_explain_end(paris_the.machine);
     machine_destroy(paris_the.machine);
     paris_the.machine = NULL;
     paris_the.attached = false;
@@ -83,7 +85,9 @@ static void machine_forget(void)
 
 static void leave(void)
 {
+    paris_explain_end(paris_the.machine);
     machine_leave(paris_the.machine);
+    paris_explain_write();
 }
 
 /* False: there is none, and error_text says why. */
@@ -92,7 +96,9 @@ static bool machine_make(void)
     if (!config_given)
         config_now = machine_config_default();
     struct machine *m = NULL;
-    if (machine_create(&config_now, &m) != MACHINE_OK) {
+    struct machine_config config = config_now;
+    config.explain = config.explain || paris_explain_wanted();
+    if (machine_create(&config, &m) != MACHINE_OK) {
         const char *said = m ? machine_error(m) : "";
         snprintf(error_text, sizeof error_text, "no Connection Machine: %s",
                  *said ? said : "not enough memory");
@@ -102,6 +108,7 @@ static bool machine_make(void)
     static bool registered;
     if (!registered) /* a program may leave with kernels still running */
         registered = atexit(leave) == 0;
+    paris_explain_begin(m);
     paris_the.machine = m;
     paris_the.attached = true;
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);

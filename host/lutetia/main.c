@@ -14,6 +14,8 @@ static const struct {
     {"demo", verb_demo, "[-o DIR]", "paint the demonstration page"},
     {"cc", verb_cc, "prog.c... [-o prog]", "compile a C/Paris program"},
     {"leds", verb_leds, "prog [args...]", "show the lights that a C/Paris program latches"},
+    {"explain", verb_explain, "prog [args...]",
+     "run a C/Paris program and say what its machine did"},
     {"bench", verb_bench, "NAME [options]", "measure"},
     {"info", verb_info, "", "versions, devices, folders, and what a fiber takes"},
 };

@@ -10,7 +10,7 @@
 #ifndef LUTETIA_MACHINE_CALL_H
 #define LUTETIA_MACHINE_CALL_H
 
-#include "internal.h"
+#include "watch.h"
 
 /* For a work-item on a CPU: columns; physical processors. */
 enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
@@ -19,6 +19,7 @@ struct kernel_call {
     cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
     cl_uint at;
     cl_int error;
+    size_t bytes; /* of the buffers that it was given */
 };
 
 static inline struct kernel_call call_begin(struct machine *m, const char *text,
@@ -59,6 +60,7 @@ static inline void call_scalar(struct kernel_call *c, struct machine_scalar x)
 static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
 {
     call_argument(c, sizeof b->mem, &b->mem);
+    c->bytes += b->bytes;
 }
 
 /* How rows lie in a buffer: width, pitch, halo. */
@@ -111,6 +113,8 @@ static inline enum machine_status call_start(struct kernel_call *c, struct machi
                                              size_t y, const char *what)
 {
     size_t global[2] = {x, y};
+    if (m->watch)
+        watch_arrays(m, c->bytes);
     return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, what) : m->status;
 }
 
@@ -118,6 +122,8 @@ static inline enum machine_status call_start_3d(struct kernel_call *c, struct ma
                                                 size_t x, size_t y, size_t z, const char *what)
 {
     size_t global[3] = {x, y, z};
+    if (m->watch)
+        watch_arrays(m, c->bytes);
     return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, what) : m->status;
 }
 

@@ -9,7 +9,7 @@
  * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk
  * by a file in $XDG_CACHE_HOME/lutetia named by a hash of text, options, device and driver, and
  * compared as a whole. */
-#include "internal.h"
+#include "watch.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -208,7 +208,11 @@ enum machine_status device_open(struct machine *m, const char *choice)
     if (error)
         return device_check(m, error, "a context cannot be made");
     m->device_open = true;
-    d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
+    const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
+    d->queue = clCreateCommandQueueWithProperties(d->context, d->id,
+                                                  m->watch ? profiling : NULL, &error);
+    if (error && m->watch) /* then without times */
+        d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
     if (error)
         return device_check(m, error, "a command queue cannot be made");
     d->programs = calloc(PROGRAMS_SIZE, sizeof *d->programs);
@@ -238,6 +242,8 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
 {
     m->inside--;
     m->busy_s += machine_clock_s() - start;
+    if (m->watch)
+        watch_waited(m, start, what);
     return device_check(m, error, what);
 }
 
@@ -245,9 +251,12 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
     m->inside++;
+    cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, pattern_bytes, 0,
-                                       b->bytes, 0, NULL, NULL);
+                                       b->bytes, 0, NULL, done);
     m->inside--;
+    if (done)
+        watch_moves(m, error, "fill", b->bytes);
     return device_check(m, error, what);
 }
 
@@ -255,9 +264,12 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
     m->inside++;
+    cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     cl_int error =
-        clEnqueueCopyBuffer(m->device.queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, NULL);
+        clEnqueueCopyBuffer(m->device.queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
     m->inside--;
+    if (done)
+        watch_moves(m, error, "copy", 2 * bytes);
     return device_check(m, error, what);
 }
 
@@ -497,6 +509,7 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
                         const char *options, const char *key)
 {
     struct device *d = &m->device;
+    double start = watch_clock(m);
     char path[700];
     char *whole = whole_key(d, key);
     bool cached = whole && cache_path(path, sizeof path, d, key);
@@ -512,6 +525,8 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         if (!error && !status &&
             clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
             free(whole);
+            if (m->watch)
+                watch_span(m, WATCH_BUILD_LOAD, start, "\"options\":\"%s\"", options);
             return program;
         }
         if (program)
@@ -543,6 +558,8 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
     if (cached)
         cache_write(path, whole, program);
     free(whole);
+    if (m->watch)
+        watch_span(m, WATCH_BUILD, start, "\"options\":\"%s\"", options);
     return program;
 }
 
@@ -593,14 +610,20 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     static const size_t one[3] = {1, 1, 1};
     struct device *d = &m->device;
     m->inside++;
+    double start = watch_clock(m);
+    cl_event *done = m->watch ? watch_command(m, start) : NULL;
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
-                                       d->is_cpu ? one : NULL, 0, NULL, NULL);
+                                       d->is_cpu ? one : NULL, 0, NULL, done);
+    if (m->watch)
+        watch_launched(m, error, kernel, what);
     d->kernels_run++;
     for (int i = 0; i < d->unstarted_count; i++)
         if (d->unstarted[i] == kernel) {
             d->unstarted[i] = d->unstarted[--d->unstarted_count];
             error = error ? error : clFinish(d->queue);
+            if (m->watch)
+                watch_span(m, WATCH_BUILD_FIRST, start, NULL);
             break;
         }
     m->inside--;

@@ -88,7 +88,7 @@ struct emitter {
     int inputs, constants_count, names;
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
-    int ops, loads;
+    int ops, loads, cost;
 };
 
 static const char *memory_kind(struct machine_type t)
@@ -414,6 +414,7 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
         struct machine_type from = e->g->nodes[n->in[0]].type;
         const char *a = in[0].text, *b = in[1].text;
         e->ops++;
+        e->cost += node_cost(n->op, n->type);
         e->wide = e->wide || spell_letter(from) == 'Q';
         enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
         bool spelt = soft != SPELL_SOFT_NOT;
@@ -594,6 +595,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->arguments = e->arguments;
     out->arguments_count = e->arguments_count;
     out->ops = e->ops;
+    out->cost = e->cost;
     out->loads = e->loads;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
              out->vector, set->halo, wraps ? 1 : 0, streams(e, out->vector) ? 1 : 0);

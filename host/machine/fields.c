@@ -5,7 +5,7 @@
  * slot's bits gives its value; any other is put together from pieces. Ids are addresses in a
  * space of 2^31 bits that is not used again until it has been gone through, so an id that has
  * died stays dead for long. */
-#include "internal.h"
+#include "watch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +27,8 @@ static void slot_set(struct machine *m, struct slot *slot, struct machine_value 
 {
     graph_ref(v);
     replay_changes(m);
+    if (slot->value && m->watch)
+        watch_overwritten(m, slot->value, v);
     if (slot->value)
         graph_unref(m, slot->value);
     slot->value = v;
@@ -42,6 +44,13 @@ static void overflow_clear(struct machine *m, struct lazy_overflow *o)
         graph_unref(m, o->b);
     graph_unref(m, o->context);
     o->op = 0;
+}
+
+/* Nobody has looked at it. */
+static void overflow_forget(struct machine *m, struct vpset *s)
+{
+    m->vanished.overflows += s->overflow.op != 0;
+    overflow_clear(m, &s->overflow);
 }
 
 static struct machine_value *zero(struct machine *m, int width)
@@ -786,7 +795,7 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
         if (scope == MACHINE_WHERE_ACTIVE)
             flag_resolved(m, s, flag);
         else
-            overflow_clear(m, &s->overflow);
+            overflow_forget(m, s);
     }
     if (scope == MACHINE_WHERE_ACTIVE)
         value = machine_select(m, s->flags[MACHINE_CONTEXT].value, value, slot->value);
@@ -833,7 +842,7 @@ static void overflow_remember(struct machine *m, struct vpset *s, int node,
     if (b)
         graph_ref(b);
     graph_ref(context);
-    overflow_clear(m, &s->overflow);
+    overflow_forget(m, s);
     s->overflow =
         (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
 }
@@ -888,7 +897,7 @@ enum machine_status machine_overflow_record_value(struct machine *m,
     slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
     graph_ref(overflows);
     graph_ref(context);
-    overflow_clear(m, &s->overflow);
+    overflow_forget(m, s);
     s->overflow = (struct lazy_overflow){.op = NODE_SELECT, .a = overflows, .context = context};
     return MACHINE_OK;
 }

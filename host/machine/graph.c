@@ -3,7 +3,7 @@
  * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out
  * of the table and lets its inputs go. Nodes live in blocks that are kept until the machine
  * goes. */
-#include "internal.h"
+#include "watch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -212,8 +212,10 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
 {
     uint32_t hash = hash_of(key);
     struct machine_value *known = find(m, key, hash);
-    if (known)
+    if (known) {
+        m->vanished.known += node_ops[known->op].inputs > 0;
         return graph_borrow(m, known);
+    }
     if (m->table_count >= m->table_size)
         table_grow(m);
     struct machine_value *v = node_new(m);
@@ -222,7 +224,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     v->refs = 0;
     v->hash = hash;
     v->mark = 0;
-    v->kept = false;
+    v->kept = v->told = false;
     v->buffer = NULL;
     for (int i = 0; i < 3; i++)
         if (v->in[i])
@@ -258,6 +260,8 @@ void graph_unref(struct machine *m, struct machine_value *v)
     m->release_count = 0;
     for (;;) {
         if (v->interned) {
+            if (m->watch)
+                watch_released(m, v);
             table_remove(m, v);
             if (is_pending(v) && !v->buffer && !v->kept)
                 m->nodes_pending--;

@@ -12,6 +12,9 @@
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
  *   replay.c    calls seen before: noted, and performed all at once   (uses run, graph)
  *   observe.c   reading, writing, reducing                            (uses run)
+ *   watch.c     what happens when, for a trace and for explanations   (uses trace, explain)
+ *   trace.c     a file of what happens when
+ *   explain.c   what vanished, what was cut, what each kernel does
  *   scan.c      scans and spreads: kernels written by hand            (uses run)
  *   rank.c      ranks: a radix sort                                   (uses scan)
  *   router.c    sends and gets                                        (uses run)
@@ -108,7 +111,8 @@ struct machine_value {
     uint16_t set;      /* VP set; 0: one number for all */
     uint16_t height;   /* longest path to something materialised */
     bool interned;
-    bool kept; /* a state's own: see replay.c. Does not count as waiting */
+    bool kept : 1; /* a state's own: see replay.c. Does not count as waiting */
+    bool told : 1; /* explain.c knows what became of it */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
@@ -209,6 +213,11 @@ struct device {
 
 struct plan;
 
+/* How often each rule found something that need not be computed: simplify.c, fields.c, run.c. */
+struct vanished {
+    uint64_t overwritten, nested, under_context, numbers, known, overflows, expressions;
+};
+
 enum { TRACE_LENGTH = 128 };
 
 struct machine {
@@ -219,6 +228,8 @@ struct machine {
     struct replay *replay; /* NULL: nothing is noted */
     int calls_noted;       /* and not performed yet */
     bool eager;
+    struct watch *watch; /* NULL: nobody looks. See watch.h */
+    struct vanished vanished;
     char *dump_dir;
     int dump_count;
     int processors_count, processors_log2;
@@ -437,6 +448,7 @@ struct kernel_text {
     bool wide, soft, formats, wraps, math;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
+    int cost;       /* of the operations: node_cost() */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,

@@ -1,5 +1,5 @@
 /* machine.c - creation, configuration, errors. */
-#include "internal.h"
+#include "watch.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -32,8 +32,7 @@ double machine_clock_s(void)
 
 struct machine_config machine_config_default(void)
 {
-    return (struct machine_config){
-        .device = NULL, .processors_count = 0, .eager = -1, .dump_dir = NULL};
+    return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1};
 }
 
 static enum machine_status set_processors(struct machine *m, int wanted)
@@ -78,6 +77,8 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
         m->dump_dir = strdup(dump);
+    if (!watch_open(m, config))
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->owner = pthread_self();
     m->sets_count = 1;
     m->field_next_base = 64;
@@ -90,7 +91,10 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (status)
         return status;
     const char *device = config->device ? config->device : getenv("LUTETIA_DEVICE");
-    return device_open(m, device && *device ? device : NULL);
+    status = device_open(m, device && *device ? device : NULL);
+    if (!status && m->watch)
+        watch_ready(m);
+    return status;
 }
 
 void machine_destroy(struct machine *m)
@@ -99,10 +103,12 @@ void machine_destroy(struct machine *m)
         return;
     m->calls_noted = 0; /* nobody is going to look */
     m->flush_due = false;
+    watch_leave(m);
     replay_finish(m);
     fields_finish(m);
     run_finish(m);
     graph_finish(m);
+    watch_close(m);
     device_close(m);
     free(m->dump_dir);
     free(m);
@@ -110,8 +116,10 @@ void machine_destroy(struct machine *m)
 
 void machine_leave(struct machine *m)
 {
-    if (m && m->device.queue && m->inside == 0 && pthread_equal(m->owner, pthread_self()))
+    if (m && m->device.queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device.queue);
+        watch_leave(m);
+    }
 }
 
 enum machine_status machine_status_last(const struct machine *m)

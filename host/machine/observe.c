@@ -52,6 +52,8 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
     double start = device_wait_begin(m);
     cl_int error =
         clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, bytes);
     free(image);
     if (device_wait_end(m, error, start, "writing a field")) {
         device_buffer_unref(m, b);
@@ -131,6 +133,8 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
                        : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from,
                                                  to, region, s->pitch * element, 0, region[0],
                                                  0, out, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, s->count * element);
     return device_wait_end(m, error, start, "reading a field");
 }
 
@@ -198,6 +202,8 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
                                        0, NULL, NULL);
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
+    if (m->watch)
+        watch_bytes(m, element);
     return device_wait_end(m, error, start, "reading a processor");
 }
 
@@ -259,6 +265,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     for (int i = 0; i < count && !error; i++)
         error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
                                      places[i] * element, element, raw, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, element);
     if (device_wait_end(m, error, start, "writing a processor"))
         return m->status;
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
@@ -397,6 +405,8 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     cl_int error = status ? CL_SUCCESS
                           : clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
                                                 count * element, raw, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, count * element);
     enum machine_status waited = device_wait_end(m, error, start, "reducing");
     status = status ? status : waited;
     for (size_t i = 0; i < count && !status; i++) {

@@ -26,7 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "internal.h"
+#include "watch.h"
 
 /* The part of a place that is of a lazy overflow; others are flags and lengths. */
 #define OVERFLOW_PART (UINT32_MAX - 255)
@@ -297,6 +297,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
         copies[i] = same ? v : graph_node(m, &key);
         if (!same) {
             copies[i]->birth = v->birth;
+            copies[i]->told = true; /* the program did not make it */
             graph_keep(m, copies[i], true);
         }
     }
@@ -498,6 +499,7 @@ static bool edge_run(struct machine *m)
     struct state *s = &p->states[p->active], *t = &p->states[e->to];
     if (plan_version(m, e->plan) != e->version)
         return false;
+    double start = watch_clock(m);
     graph_give_back(m);
     if (e->nodes_count + t->buffers_count > p->scratch_capacity) {
         p->scratch_capacity = e->nodes_count + t->buffers_count;
@@ -509,7 +511,8 @@ static bool edge_run(struct machine *m)
         buffers[i] = e->from[i] >= 0 ? s->buffers[e->from[i]]
                      : e->values[i]  ? e->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, e->plan, buffers, e->values)) /* it is going to be tried, and said, once more */
+    if (plan_run(m, e->plan, buffers,
+                 e->values)) /* it is going to be tried, and said, once more */
         return false;
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = e->next[k] >= 0 ? s->buffers[e->next[k]] : buffers[~e->next[k]];
@@ -524,6 +527,8 @@ static bool edge_run(struct machine *m)
     m->flushes++;
     m->calls_foreseen += (uint64_t)e->calls_count;
     m->calls_noted = 0;
+    if (m->watch)
+        watch_replayed(m, start, e->calls, e->calls_count, e->alone);
     p->log_count = 0;
     s->edge_last = (int)(e - s->edges);
     if (s == t) {
@@ -626,7 +631,7 @@ static bool take_note(struct machine *m, const struct machine_call *call)
     return true;
 }
 
-bool machine_call_foreseen(struct machine *m, struct machine_call *call)
+static bool foreseen(struct machine *m, struct machine_call *call)
 {
     struct replay *p = m->replay;
     if (!p)
@@ -661,15 +666,27 @@ bool machine_call_foreseen(struct machine *m, struct machine_call *call)
     return false;
 }
 
+bool machine_call_foreseen(struct machine *m, struct machine_call *call)
+{
+    bool known = foreseen(m, call);
+    if (m->watch)
+        watch_call(m, call->name, known);
+    return known;
+}
+
 void machine_call_performed(struct machine *m)
 {
     struct replay *p = m->replay;
+    if (m->watch)
+        watch_performed(m);
     if (p && p->depth)
         p->depth--;
 }
 
 void machine_call_failed(struct machine *m)
 {
+    if (m->watch)
+        watch_call_failed(m);
     if (!m->replay)
         return;
     m->replay->depth = 0;

@@ -15,7 +15,7 @@
  * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from
  * then on whenever the trace of stores comes to the same place as then: once for each turn of a
  * loop, always at the same point. */
-#include "internal.h"
+#include "watch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,6 +43,7 @@ enum quality { QUICK, OPTIMISED, BOXED };
 
 struct launch {
     cl_kernel kernel;
+    struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
     struct kernel_argument *arguments;
     int arguments_count;
@@ -151,14 +152,16 @@ static bool targets_add(struct targets *t, struct machine_value *v)
     return true;
 }
 
-static bool slot_wants(const struct machine *m, const struct slot *slot, bool all)
+static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
 {
     const struct machine_value *v = slot->value;
     if (node_is_leaf(v) || node_is_cheap(v) || v->op == NODE_SLICE)
         return false;
     if (all || v->height > HEIGHT_DEFERRED)
         return true;
-    return !(slot->overwritten_first && v->birth == m->epoch);
+    bool waits = slot->overwritten_first && v->birth == m->epoch;
+    m->vanished.expressions += waits;
+    return !waits;
 }
 
 static bool targets_collect(struct machine *m, struct targets *t, bool all)
@@ -268,6 +271,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
 {
     int set = g->nodes[stores[0]].set;
     struct kernel_text k;
+    double start = watch_clock(m);
     if (!emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
         return false;
@@ -275,9 +279,13 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     if (stores_count > 1 && too_many_arguments(&k)) { /* two kernels, each with what it needs */
         int half = stores_count / 2;
         kernel_text_finish(&k);
+        if (m->watch)
+            watch_split(m);
         return plan_kernel(m, p, g, stores, half) &&
                plan_kernel(m, p, g, stores + half, stores_count - half);
     }
+    if (m->watch)
+        watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
     if (m->dump_dir)
         dump_text(m, m->dump_count++, ".cl", k.options, k.text);
     struct launch *launches =
@@ -302,7 +310,11 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         kernel_text_finish(&k);
         return false;
     }
+    const char *made = quick ? "quick" : g->boxes && k.has_boxes ? "boxed" : "optimised";
+    struct kernel_note *note =
+        m->watch ? watch_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
     p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
+                                                       .note = note,
                                                        .set = set,
                                                        .vector = k.vector,
                                                        .arguments = k.arguments,
@@ -341,7 +353,10 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
     for (int i = 0; good && i < t->count; i++)
         g.nodes[t->values[i]->local].target = true;
     if (good) {
+        double start = watch_clock(m);
         plan_choose(&g, m->sets, &m->device.shape);
+        if (m->watch)
+            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
         p->stored_bytes = calloc((size_t)r->count, sizeof *p->stored_bytes);
         good = p->stored && p->stored_bytes;
@@ -408,6 +423,8 @@ static void plan_improve(struct machine *m, struct plan *p, const struct reach *
     p->hash = old.hash;
     p->worked = old.worked;
     p->version = old.version + 1;
+    if (m->watch)
+        watch_improved(m);
     p->next = old.next;
     better->launches = old.launches;
     better->launches_count = old.launches_count;
@@ -504,6 +521,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
             error |= set_constant(l->kernel, at, nodes[a->node], a);
     }
     size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
+    if (m->watch)
+        watch_launch(m, l->note);
     return device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
 }
 
@@ -511,6 +530,7 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
                              struct machine_value *const *nodes)
 {
     enum machine_status status = MACHINE_OK;
+    double start = watch_clock(m);
     int count = 0;
     for (; count < p->stored_count && !status; count++) {
         struct device_buffer **b = &buffers[p->stored[count]];
@@ -522,6 +542,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
         status = launch(m, &p->launches[i], buffers, nodes);
     p->worked += p->work;
     device_flush(m);
+    if (m->watch)
+        watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
     status = status ? status : device_pace(m);
     for (int i = 0; i < count && status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
@@ -569,7 +591,11 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     struct targets t = {0};
     struct reach r = {0};
     enum machine_status status = MACHINE_OK;
+    double start = watch_clock(m);
     bool partial, good = reshape_roll(m, &partial);
+    if (m->watch && m->sliced)
+        watch_span(m, WATCH_ROLL, start, NULL);
+    double from = watch_clock(m);
     for (int i = 0; i < count && good; i++)
         if (wanted[i]->op == NODE_SLICE && !wanted[i]->buffer)
             good = reshape_unpack(m, wanted[i]);
@@ -584,6 +610,9 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
         free(t.values);
         return MACHINE_OK;
     }
+    if (m->watch)
+        watch_span(m, WATCH_TARGETS, from, "\"targets\":%d", t.count);
+    from = watch_clock(m);
     m->mark++;
     for (int i = 0; i < t.count && good; i++)
         good = reach_from(m, &r, t.values[i]);
@@ -594,9 +623,22 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     }
     if (!good)
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    if (m->watch) {
+        watch_span(m, WATCH_SIGNATURE, from, "\"nodes\":%d", r.count);
+        watch_nodes(m, r.nodes, wanted, count);
+    }
+    from = watch_clock(m);
+    uint64_t built = m->plans_built;
     struct plan *p = status ? NULL : plan_get(m, &r, &t);
+    if (m->watch)
+        watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
+                   m->plans_built == built ? "true" : "false");
     if (p) {
+        if (m->watch)
+            watch_reached(m, r.nodes, r.count, p->stored_count);
         status = execute(m, p, &r, wanted, count);
+        if (m->watch)
+            watch_evaluated(m, start, count > 0, all, t.count);
         m->flushes++;
     } else if (!status) {
         status = m->status;

@@ -342,15 +342,18 @@ static struct machine_value *select_of(struct machine *m, struct machine_value *
             return a;
         if (is_zero_bit(c))
             return b;
-        if (a->op == NODE_SELECT && implies(c, a->in[0], DEPTH))
+        if (a->op == NODE_SELECT && implies(c, a->in[0], DEPTH)) {
+            m->vanished.under_context++;
             a = a->in[1];
-        else if (b->op == NODE_SELECT && implies(b->in[0], c, DEPTH))
+        } else if (b->op == NODE_SELECT && implies(b->in[0], c, DEPTH)) {
+            m->vanished.overwritten++;
             b = b->in[2]; /* where c does not hold, neither does what implies it */
-        else
+        } else
             break;
     }
     if (b->op == NODE_SELECT && implies(c, b->in[0], DEPTH)) {
         struct machine_value *outer = b->in[0], *rest = residual(m, c, outer, DEPTH);
+        m->vanished.nested++;
         struct machine_value *inner = rest ? select_of(m, rest, a, b->in[1]) : a;
         return inner ? select_of(m, outer, inner, b->in[2]) : NULL;
     }
@@ -374,6 +377,7 @@ struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
     if (v->op == NODE_SELECT) {
         struct machine_value *c = residual(m, v->in[0], context, DEPTH);
         struct machine_value *a = simplify_under(m, v->in[1], context, depth - 1);
+        m->vanished.under_context += !c;
         if (!c)
             return a;
         if (c->op == MACHINE_NOT && implies(context, c->in[0], DEPTH))
@@ -385,6 +389,7 @@ struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
     }
     if (v->type.width == 1 && v->op == MACHINE_AND) {
         struct machine_value *c = residual(m, v, context, DEPTH);
+        m->vanished.under_context += c != v;
         return c ? c : bit_number(m, 1);
     }
     if (v->op == NODE_REINTERPRET) {
@@ -483,11 +488,13 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a)
 {
-    return handed(m, unary(m, op, a));
+    struct machine_value *v = unary(m, op, a);
+    m->vanished.numbers += v && is_number(v);
+    return handed(m, v);
 }
 
-struct machine_value *machine_binary(struct machine *m, enum machine_op op,
-                                     struct machine_value *a, struct machine_value *b)
+static struct machine_value *binary(struct machine *m, enum machine_op op,
+                                    struct machine_value *a, struct machine_value *b)
 {
     if (!a || !b)
         return NULL;
@@ -551,6 +558,14 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
     if (a == b && (op == MACHINE_AND || op == MACHINE_OR))
         return a;
     return build(m, (int)op, compares ? bit_type : a->type, 0, a, b, NULL);
+}
+
+struct machine_value *machine_binary(struct machine *m, enum machine_op op,
+                                     struct machine_value *a, struct machine_value *b)
+{
+    struct machine_value *v = binary(m, op, a, b);
+    m->vanished.numbers += v && is_number(v);
+    return v;
 }
 
 struct machine_value *node_overflow(struct machine *m, enum node_op op, struct machine_value *a,

@@ -1,0 +1,221 @@
+/* verb_explain.c - `lutetia explain`: runs a program, and says what its Connection Machine did and why.
+ *
+ * The program is a process of its own. libparis in it writes what the machine tells into files named by
+ * LUTETIA_EXPLAIN (text) and LUTETIA_EXPLAIN_JSON when the program ends; they lie in a folder of ours, and are shown
+ * or moved to their place then. A C file is compiled as by `lutetia cc` first, into the same folder. */
+#include "lutetia.h"
+#include "options.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { FOLDER_BYTES = 512, PATH_BYTES = FOLDER_BYTES + 32 };
+
+struct explain {
+    const char *json;
+    char folder[FOLDER_BYTES], text_path[PATH_BYTES], json_path[PATH_BYTES],
+        program_path[PATH_BYTES];
+};
+
+static bool folder_open(struct explain *e)
+{
+    const char *base = getenv("TMPDIR");
+    int length = snprintf(e->folder, sizeof e->folder, "%s/lutetia-explain-XXXXXX",
+                          base && *base ? base : "/tmp");
+    if (length < 0 || (size_t)length >= sizeof e->folder || !mkdtemp(e->folder)) {
+        fail("explain", "%s: cannot make a folder there: %s; name another one in TMPDIR",
+             e->folder, strerror(errno));
+        return false;
+    }
+    snprintf(e->text_path, sizeof e->text_path, "%s/explain.txt", e->folder);
+    snprintf(e->json_path, sizeof e->json_path, "%s/explain.json", e->folder);
+    snprintf(e->program_path, sizeof e->program_path, "%s/program", e->folder);
+    return true;
+}
+
+static void folder_close(const struct explain *e)
+{
+    unlink(e->text_path);
+    unlink(e->json_path);
+    unlink(e->program_path);
+    rmdir(e->folder);
+}
+
+/* The child's status; the terminal's Ctrl-C is the child's to answer. */
+static int child_wait(pid_t child)
+{
+    int status = 0;
+    while (waitpid(child, &status, 0) != child)
+        ;
+    return status;
+}
+
+static bool is_source(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 2 && strcmp(name + length - 2, ".c") == 0;
+}
+
+static int compile(const struct explain *e, const char *source)
+{
+    if (access(source, R_OK) != 0)
+        return fail("explain", "%s: cannot read: %s", source, strerror(errno));
+    fflush(NULL);
+    pid_t child = fork();
+    if (child < 0)
+        return fail("explain", "no process: %s", strerror(errno));
+    if (child == 0) {
+        char *line[] = {strdup("cc"), strdup(source),          strdup("-O2"),
+                        strdup("-o"), strdup(e->program_path), NULL};
+        _exit(verb_cc(5, line));
+    }
+    int status = child_wait(child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        return EXIT_SUCCESS;
+    return fail("explain", "%s: does not compile (`lutetia cc %s` says the same)", source,
+                source);
+}
+
+_Noreturn static void become(const struct explain *e, const char *program, char **arguments)
+{
+    signal(SIGINT, SIG_DFL);
+    setenv("LUTETIA_EXPLAIN", e->text_path, 1);
+    setenv("LUTETIA_EXPLAIN_JSON", e->json_path, 1);
+    /* A program of the present folder needs no ./ before its name. */
+    char *here;
+    if (!strchr(program, '/') && access(program, X_OK) == 0 &&
+        asprintf(&here, "./%s", program) > 0)
+        execv(here, arguments);
+    execvp(program, arguments);
+    int error = errno;
+    fail("explain", "%s: cannot run: %s; name a program (lutetia cc makes one) or a .c file",
+         program, strerror(error));
+    _exit(126);
+}
+
+/* Puts the bytes of one file behind another's; out NULL: on the standard output. */
+static int pour(const char *from, const char *out)
+{
+    char bytes[1 << 14];
+    size_t count;
+    FILE *in = fopen(from, "rb"), *to = out ? fopen(out, "wb") : stdout;
+    bool good = in && to;
+    while (good && (count = fread(bytes, 1, sizeof bytes, in)) > 0)
+        good = fwrite(bytes, 1, count, to) == count;
+    int error = errno;
+    good = !(in && ferror(in)) && good;
+    if (in)
+        fclose(in);
+    if (out && to && fclose(to) != 0) {
+        error = errno;
+        good = false;
+    }
+    if (good)
+        return EXIT_SUCCESS;
+    return fail("explain", "%s: cannot write: %s", out ? out : "the standard output",
+                strerror(error));
+}
+
+static long bytes_of(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 ? (long)status.st_size : 0;
+}
+
+static int show(const struct explain *e, const char *name, int ended)
+{
+    bool explained = bytes_of(e->text_path) > 0;
+    int code = WIFEXITED(ended) ? WEXITSTATUS(ended) : 0, status = EXIT_SUCCESS;
+    if (code == 126 && !explained)
+        return EXIT_FAILED; /* it has been said why it could not run */
+    if (WIFSIGNALED(ended))
+        status = fail("explain", "%s: ended by signal %d (%s)", name, WTERMSIG(ended),
+                      strsignal(WTERMSIG(ended)));
+    else if (code && code != EXIT_INTERRUPTED)
+        status = fail("explain", "%s: ended with status %d", name, code);
+    if (!explained)
+        return status != EXIT_SUCCESS
+                   ? status
+                   : fail("explain",
+                          "%s: nothing to explain: it made no Connection Machine do anything "
+                          "(a program linked with libparis does, and ends by exit or return)",
+                          name);
+    printf("\n---- lutetia explain %s ----\n\n", name);
+    int poured = pour(e->text_path, NULL);
+    if (poured == EXIT_SUCCESS && e->json)
+        poured = pour(e->json_path, e->json);
+    return poured != EXIT_SUCCESS ? poured : status;
+}
+
+static int explain(struct explain *e, char **arguments)
+{
+    const char *name = arguments[0], *program = name;
+    int status = EXIT_SUCCESS;
+    if (is_source(name)) {
+        status = compile(e, name);
+        program = e->program_path;
+    }
+    if (status != EXIT_SUCCESS)
+        return status;
+    fflush(NULL);
+    pid_t child = fork();
+    if (child < 0)
+        return fail("explain", "no process: %s", strerror(errno));
+    if (child == 0)
+        become(e, program, arguments);
+    return show(e, name, child_wait(child));
+}
+
+/* Said before the program runs, not after. The file stays as it was. */
+static int json_check(const char *path)
+{
+    bool was = access(path, F_OK) == 0;
+    int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return fail("explain", "%s: cannot write: %s", path, strerror(errno));
+    close(file);
+    if (!was)
+        unlink(path);
+    return EXIT_SUCCESS;
+}
+
+int verb_explain(int argc, char **argv)
+{
+    struct explain e = {.json = NULL};
+    const struct option_row rows[] = {
+        {"json", 0, OPTION_TEXT, "FILE", "the same as JSON", &e.json, 0, 0, 0}, {0}};
+    struct option_words words;
+    int own = options_own(rows, argc, argv);
+    if (own < argc && strcmp(argv[own], "--") == 0)
+        own++;
+    if (!options_parse("explain", rows, own, argv, &words))
+        return EXIT_USAGE;
+    if (words.help) {
+        puts("usage: lutetia explain [--json FILE] prog [args...]\n"
+             "       lutetia explain [--json FILE] prog.c [args...]\n\n"
+             "Runs a C/Paris program, and says what its machine recorded, what vanished and "
+             "why, "
+             "where it was cut\nand why, and what each kernel took beside what it could "
+             "have.\n");
+        options_help(rows);
+        return EXIT_SUCCESS;
+    }
+    if (own == argc)
+        return fail_usage("explain", "no program; `lutetia explain prog` or `lutetia explain "
+                                     "prog.c` runs one");
+    if (e.json && json_check(e.json) != EXIT_SUCCESS)
+        return EXIT_FAILED;
+    if (!folder_open(&e))
+        return EXIT_FAILED;
+    signal(SIGINT, SIG_IGN);
+    int status = explain(&e, argv + own);
+    folder_close(&e);
+    return status;
+}

@@ -1,0 +1,161 @@
+/* explain.c - gathers what machine_explain() tells of each machine, and writes it when the program ends.
+ *
+ * Ctrl-C ends a program that explains itself between two instructions, by exit(130), so that it does explain; a second
+ * one ends it at once. A handler of the program's own is left alone. */
+#include "explain.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct output {
+    const char *variable;
+    void (*print)(FILE *out, const struct machine_explained *x);
+    const char *before, *between, *after;
+    int file; /* -1: none */
+    char *text;
+    size_t length;
+} outputs[] = {
+    {.variable = "LUTETIA_EXPLAIN",
+     .print = explain_text,
+     .before = "",
+     .between = "\n",
+     .after = ""},
+    {.variable = "LUTETIA_EXPLAIN_JSON",
+     .print = explain_json,
+     .before = "{\"machines\": [",
+     .between = ",\n",
+     .after = "]}\n"},
+};
+enum { OUTPUTS_COUNT = sizeof outputs / sizeof *outputs };
+
+static pid_t owner; /* 0: not asked yet. A child of a fork has no say */
+static volatile sig_atomic_t interrupts;
+
+static void complain(const struct output *o, const char *what)
+{
+    fprintf(stderr, "%s: cannot %s %s: %s; name a file that can be written\n", o->variable,
+            what, getenv(o->variable), strerror(errno));
+}
+
+static void interrupt(int number)
+{
+    (void)number;
+    interrupts = 1;
+}
+
+static void between(void)
+{
+    if (interrupts)
+        exit(130);
+}
+
+bool paris_explain_wanted(void)
+{
+    bool wanted = false;
+    for (int i = 0; i < OUTPUTS_COUNT && !owner; i++) {
+        struct output *o = &outputs[i];
+        const char *path = getenv(o->variable);
+        o->file = -1;
+        if (!path || !*path)
+            continue;
+        o->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (o->file < 0)
+            complain(o, "open");
+    }
+    if (!owner)
+        owner = getpid();
+    for (int i = 0; i < OUTPUTS_COUNT; i++)
+        wanted = wanted || outputs[i].file >= 0;
+    return wanted && owner == getpid();
+}
+
+void paris_explain_begin(struct machine *m)
+{
+    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    if (!paris_explain_wanted())
+        return;
+    machine_explain_between(m, between);
+    if (sigaction(SIGINT, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
+        sigaction(SIGINT, &ours, NULL);
+}
+
+void paris_explain_end(struct machine *m)
+{
+    if (!m || !paris_explain_wanted())
+        return;
+    const struct machine_explained *x = machine_explain(m, true);
+    if (!x || (!x->stores && !x->kernels_count))
+        return; /* another one was made in its place before it did anything */
+    for (int i = 0; i < OUTPUTS_COUNT; i++) {
+        struct output *o = &outputs[i];
+        char *text = NULL;
+        size_t length = 0;
+        FILE *f = o->file >= 0 ? open_memstream(&text, &length) : NULL;
+        if (!f)
+            continue;
+        fputs(o->text ? o->between : o->before, f);
+        o->print(f, x);
+        char *all = fclose(f) == 0 ? realloc(o->text, o->length + length + 1) : NULL;
+        if (all) {
+            memcpy(all + o->length, text, length + 1);
+            o->text = all;
+            o->length += length;
+        }
+        free(text);
+    }
+}
+
+static bool bytes_write(int file, const char *bytes, size_t count)
+{
+    while (count > 0) {
+        ssize_t done = write(file, bytes, count);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0)
+            return false;
+        bytes += done;
+        count -= (size_t)done;
+    }
+    return true;
+}
+
+void paris_explain_write(void)
+{
+    if (owner != getpid())
+        return;
+    for (int i = 0; i < OUTPUTS_COUNT; i++) {
+        struct output *o = &outputs[i];
+        if (o->file >= 0 && o->text &&
+            !(bytes_write(o->file, o->text, o->length) &&
+              bytes_write(o->file, o->after, strlen(o->after))))
+            complain(o, "write to");
+        if (o->file >= 0)
+            close(o->file);
+        free(o->text);
+        o->file = -1;
+        o->text = NULL;
+        o->length = 0;
+    }
+}
+
+double explain_bound_s(const struct machine_explained_kernel *k, const char **by)
+{
+    bool computes = k->operations_s > k->copy_s && k->copy_s > 0;
+    *by = computes ? "operations" : "bytes";
+    return computes ? k->operations_s : k->copy_s;
+}
+
+const char *explain_why(enum machine_cut why)
+{
+    static const char *const names[] = {
+        [MACHINE_CUT_LOOKED_AT] = "looked at",
+        [MACHINE_CUT_LIVE] = "content of a field or flag",
+        [MACHINE_CUT_NEIGHBOURS] = "for neighbours",
+        [MACHINE_CUT_LATER] = "for a later kernel",
+    };
+    return names[why];
+}

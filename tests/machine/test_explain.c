@@ -1,0 +1,315 @@
+/* test_explain.c - machine_explain(): what it tells of programs whose kernels, bytes and vanished values are known by
+ * hand. */
+#include "support.h"
+
+enum { ROWS = 24, COLUMNS = 160, COUNT = ROWS * COLUMNS };
+
+static struct machine *machine;
+static int set;
+
+static int setup(void **state)
+{
+    struct machine_config config = machine_config_default();
+
+    (void)state;
+    config.eager = 0;
+    config.explain = 1;
+    assert_ok(machine_create(&config, &machine), machine);
+    set = support_set(machine, 2, ROWS, COLUMNS);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    machine_destroy(machine);
+    return 0;
+}
+
+static const struct machine_explained *explained(void)
+{
+    const struct machine_explained *x = machine_explain(machine, false);
+
+    assert_non_null(x);
+    return x;
+}
+
+/* A field with numbers in it that cannot be a NaN's. */
+static uint32_t field_of(float first)
+{
+    uint32_t field = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    float *all = malloc(COUNT * sizeof *all);
+
+    assert_non_null(all);
+    for (int i = 0; i < COUNT; i++)
+        all[i] = first + (float)i / COUNT;
+    assert_ok(machine_field_upload(machine, field, MACHINE_F32, all), machine);
+    free(all);
+    return field;
+}
+
+static struct machine_value *value(uint32_t field)
+{
+    return support_value(machine, field, MACHINE_F32);
+}
+
+static void store(uint32_t field, struct machine_value *v)
+{
+    assert_ok(machine_field_store(machine, field, v, MACHINE_EVERYWHERE), machine);
+    machine_begin(machine);
+}
+
+static uint64_t count_of(const struct machine_explained_row *rows, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return rows[i].count;
+    return 0;
+}
+
+static const struct machine_explained_row *row_of(const struct machine_explained_row *rows,
+                                                  int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return &rows[i];
+    fail_msg("there is no row \"%s\"", name);
+    return NULL;
+}
+
+static void kernel_has_the_bytes_and_operations_of_its_formula(void **state)
+{
+    uint32_t a = field_of(1), b = field_of(2), c;
+    float out[COUNT];
+    char where[40];
+
+    (void)state;
+    c = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    store(c, machine_binary(machine, MACHINE_FADD,
+                            machine_binary(machine, MACHINE_FMUL, value(a), value(b)),
+                            value(a)));
+    assert_ok(machine_finish(machine), machine);
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+
+    const struct machine_explained *x = explained();
+    assert_int_equal(x->kernels_count, 1);
+    const struct machine_explained_kernel *k = &x->kernels[0];
+    assert_true(k->generated);
+    assert_false(k->split);
+    assert_int_equal(k->vpset, set);
+    assert_int_equal(k->processors, COUNT);
+    assert_int_equal(k->runs, 1);
+    assert_int_equal(k->operations, 2);
+    assert_int_equal(k->operations_cost, 2);
+    assert_int_equal(k->arrays_read, 2);
+    assert_int_equal(k->arrays_written, 1);
+    assert_int_equal(k->bytes_read, 8);
+    assert_int_equal(k->bytes_written, 4);
+    assert_int_equal(k->bytes, 12 * COUNT);
+    assert_int_equal(k->shifts_computed, 0);
+    assert_int_equal(k->stores_count, 1);
+    assert_int_equal(k->stores[0].why, MACHINE_CUT_LIVE);
+    assert_string_equal(k->stores[0].operation, "FADD");
+    snprintf(where, sizeof where, "field %u", c);
+    assert_string_equal(k->stores[0].where, where);
+    if (k->runs_timed)
+        assert_true(k->time_s > 0);
+
+    assert_int_equal(x->values_computed, 2);
+    assert_int_equal(x->values_stored, 1);
+    assert_int_equal(x->values_vanished, 0);
+    assert_int_equal(x->plans_built, 1);
+    assert_int_equal(count_of(x->evaluations, x->evaluations_count, "asked to, by a flush"), 1);
+    assert_int_equal(count_of(x->evaluations, x->evaluations_count, "somebody looked"), 0);
+    const struct machine_explained_row *r =
+        row_of(x->transfers, x->transfers_count, "reading a field");
+    assert_int_equal(r->count, 1);
+    assert_int_equal(r->bytes, 4 * COUNT);
+    assert_int_equal(row_of(x->transfers, x->transfers_count, "writing a field")->count, 2);
+}
+
+static void overwritten_value_has_vanished(void **state)
+{
+    uint32_t a = field_of(1), b = field_of(2), c = field_of(3);
+    float out[COUNT];
+
+    (void)state;
+    store(c, machine_binary(machine, MACHINE_FMUL, value(a), value(b)));
+    store(c, machine_unary(machine, MACHINE_FSQRT, value(a)));
+    store(c, machine_binary(machine, MACHINE_FSUB, value(a), value(b)));
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+    const struct machine_explained *x = explained();
+    assert_int_equal(x->values_vanished, 2);
+    assert_int_equal(x->vanished_count, 2);
+    assert_int_equal(count_of(x->vanished, x->vanished_count, "FMUL"), 1);
+    assert_int_equal(count_of(x->vanished, x->vanished_count, "FSQRT"), 1);
+    assert_int_equal(count_of(x->reasons, x->reasons_count,
+                              "field or flag overwritten before it was in memory"),
+                     2);
+    assert_int_equal(x->values_computed, 1);
+    assert_int_equal(x->kernels_count, 1);
+    assert_int_equal(x->kernels[0].stores[0].why, MACHINE_CUT_LOOKED_AT);
+    assert_int_equal(count_of(x->evaluations, x->evaluations_count, "somebody looked"), 1);
+}
+
+/* Three logarithms of a sum are dearer than to store it once; a sum alone is not. */
+static void dear_value_is_stored_for_its_neighbours(void **state)
+{
+    uint32_t a = field_of(1), c = field_of(3);
+    struct machine_value *v;
+    const struct machine_explained *x;
+    float out[COUNT];
+
+    (void)state;
+    v = machine_unary(machine, MACHINE_FLN, value(a));
+    v = machine_unary(machine, MACHINE_FEXP, v);
+    v = machine_unary(machine, MACHINE_FLN, v);
+    store(c, machine_binary(machine, MACHINE_FADD, machine_shift(machine, v, 0, 1),
+                            machine_shift(machine, v, 0, -1)));
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+    x = explained();
+    assert_int_equal(x->kernels_count, 2);
+    const struct machine_explained_kernel *first = &x->kernels[0], *then = &x->kernels[1];
+    if (first->operations == 1) { /* they come by time */
+        first = &x->kernels[1];
+        then = &x->kernels[0];
+    }
+    assert_int_equal(first->operations, 3);
+    assert_int_equal(first->stores[0].why, MACHINE_CUT_NEIGHBOURS);
+    assert_string_equal(first->stores[0].operation, "FLN");
+    assert_string_equal(first->stores[0].where, "");
+    assert_string_equal(first->name, "FLN for neighbours");
+    assert_int_equal(then->operations, 1);
+    assert_int_equal(then->arrays_read, 1);
+    assert_int_equal(then->shifts_computed, 0);
+
+    store(c, machine_binary(
+                 machine, MACHINE_FADD,
+                 machine_shift(machine,
+                               machine_binary(machine, MACHINE_FSUB, value(a), value(c)), 0, 1),
+                 value(a)));
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+    x = explained();
+    assert_int_equal(x->kernels_count, 3);
+    for (int i = 0; i < 3; i++)
+        if (strcmp(x->kernels[i].stores[0].operation, "FADD") == 0 &&
+            x->kernels[i].arrays_read == 2) {
+            assert_int_equal(x->kernels[i].shifts_computed, 1);
+            assert_int_equal(x->kernels[i].bytes_read, 8);
+        }
+}
+
+/* ---- calls ---- */
+
+static uint32_t water;
+
+static void add_perform(float x)
+{
+    struct machine_value *more;
+
+    machine_begin(machine);
+    more = machine_constant_float(machine, MACHINE_F32, x);
+    assert_ok(machine_field_store(machine, water,
+                                  machine_binary(machine, MACHINE_FADD, value(water), more),
+                                  MACHINE_WHERE_ACTIVE),
+              machine);
+}
+
+static void add(float x);
+static void add_again(const struct machine_call *call)
+{
+    add((float)call->words[0]);
+}
+
+static void add(float x)
+{
+    struct machine_call call = {
+        .again = add_again, .name = "add", .words_count = 1, .words = {(uint64_t)x}};
+
+    if (machine_call_foreseen(machine, &call))
+        return;
+    add_perform(x);
+    machine_call_performed(machine);
+}
+
+static void calls_are_recorded_or_foreseen(void **state)
+{
+    enum { STEPS = 12 };
+    float out[COUNT];
+
+    (void)state;
+    water = field_of(0);
+    for (int i = 0; i < STEPS; i++) {
+        add(1);
+        add(2);
+        add(4);
+        machine_instruction(machine, "look");
+        assert_ok(machine_field_download(machine, water, MACHINE_F32, out), machine);
+    }
+    assert_true(out[0] == 7.0f * STEPS);
+
+    const struct machine_explained *x = explained();
+    struct machine_stats stats;
+    machine_stats_get(machine, &stats);
+    assert_int_equal(x->calls_count, 2);
+    const struct machine_explained_row *adds = row_of(x->calls, x->calls_count, "add");
+    assert_int_equal(adds->count + adds->bytes, 3 * STEPS);
+    assert_int_equal(adds->bytes, stats.calls_foreseen);
+    assert_true(adds->bytes >= 3 * (STEPS - 4));
+    assert_int_equal(row_of(x->calls, x->calls_count, "look")->count, STEPS);
+    assert_int_equal(x->calls_recorded, adds->count + STEPS);
+    assert_int_equal(x->calls_foreseen, adds->bytes);
+    assert_int_equal(count_of(x->evaluations, x->evaluations_count, "somebody looked"), STEPS);
+    uint64_t runs = 0;
+    for (int i = 0; i < x->kernels_count; i++) {
+        runs += x->kernels[i].runs;
+        assert_int_equal(x->kernels[i].operations, 3);
+        assert_int_equal(x->kernels[i].bytes, x->kernels[i].runs * 8 * COUNT);
+    }
+    assert_int_equal(runs, STEPS);
+}
+
+static void bound_is_measured_when_asked_for(void **state)
+{
+    uint32_t a = field_of(1), b = field_of(2);
+    float out[COUNT];
+
+    (void)state;
+    store(b, machine_binary(machine, MACHINE_FADD, value(a), value(b)));
+    assert_ok(machine_field_download(machine, b, MACHINE_F32, out), machine);
+    const struct machine_explained *x = explained();
+    assert_true(x->kernels[0].copy_s <= 0 && x->copy_bytes == 0);
+    assert_true(x->kernels[0].operations_s > 0);
+    x = machine_explain(machine, true);
+    assert_non_null(x);
+    assert_int_equal(x->kernels_count, 1); /* the copies are none of its own */
+    if (!x->kernels[0].runs_timed)
+        skip(); /* a device that tells no times */
+    assert_true(x->kernels[0].copy_s > 0);
+    assert_int_equal(x->copy_bytes, 12 * COUNT);
+    assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);
+}
+
+static void nobody_who_did_not_ask_is_told(void **state)
+{
+    struct machine *m = support_machine(0);
+
+    (void)state;
+    assert_null(machine_explain(m, true));
+    machine_destroy(m);
+}
+
+int main(void)
+{
+#define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
+    const struct CMUnitTest tests[] = {
+        CASE(kernel_has_the_bytes_and_operations_of_its_formula),
+        CASE(overwritten_value_has_vanished),
+        CASE(dear_value_is_stored_for_its_neighbours),
+        CASE(calls_are_recorded_or_foreseen),
+        CASE(bound_is_measured_when_asked_for),
+        cmocka_unit_test(nobody_who_did_not_ask_is_told),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
