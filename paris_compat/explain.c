@@ -53,10 +53,19 @@ static void between(void)
         exit(130);
 }
 
+/* Before there is a machine: the driver's compiler puts a handler of its own before whatever there is, and passes the
+ * signal on to that. */
+static void interrupt_catch(void)
+{
+    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    if (sigaction(SIGINT, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
+        sigaction(SIGINT, &ours, NULL);
+}
+
 bool paris_explain_wanted(void)
 {
-    bool wanted = false;
-    for (int i = 0; i < OUTPUTS_COUNT && !owner; i++) {
+    bool wanted = false, first = !owner;
+    for (int i = 0; i < OUTPUTS_COUNT && first; i++) {
         struct output *o = &outputs[i];
         const char *path = getenv(o->variable);
         o->file = -1;
@@ -66,21 +75,19 @@ bool paris_explain_wanted(void)
         if (o->file < 0)
             complain(o, "open");
     }
-    if (!owner)
+    if (first)
         owner = getpid();
     for (int i = 0; i < OUTPUTS_COUNT; i++)
         wanted = wanted || outputs[i].file >= 0;
+    if (first && wanted)
+        interrupt_catch();
     return wanted && owner == getpid();
 }
 
 void paris_explain_begin(struct machine *m)
 {
-    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
-    if (!paris_explain_wanted())
-        return;
-    machine_explain_between(m, between);
-    if (sigaction(SIGINT, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
-        sigaction(SIGINT, &ours, NULL);
+    if (paris_explain_wanted())
+        machine_explain_between(m, between);
 }
 
 void paris_explain_end(struct machine *m)

@@ -138,7 +138,9 @@ static int show(const struct explain *e, const char *name, int ended)
     if (WIFSIGNALED(ended))
         status = fail("explain", "%s: ended by signal %d (%s)", name, WTERMSIG(ended),
                       strsignal(WTERMSIG(ended)));
-    else if (code && code != EXIT_INTERRUPTED)
+    else if (code == EXIT_INTERRUPTED)
+        status = EXIT_INTERRUPTED;
+    else if (code)
         status = fail("explain", "%s: ended with status %d", name, code);
     if (!explained)
         return status != EXIT_SUCCESS

@@ -20,7 +20,7 @@ enum { BUFFER_BYTES = 1 << 16, EVENT_BYTES = 2048, NAME_BYTES = 512 };
 static struct {
     pthread_mutex_t lock;
     int file; /* -1: none */
-    char *path;
+    char *path, *refused; /* the last one that could not be opened: it has been said */
     pid_t owner; /* who opened it: a child of a fork has no say */
     bool seekable, failed, full;
     off_t end; /* of what has been written, without the bracket */
@@ -122,7 +122,10 @@ static bool file_open(const char *path)
     struct stat status;
     int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
-        complain(path, "open");
+        if (!trace.refused || strcmp(trace.refused, path) != 0)
+            complain(path, "open");
+        free(trace.refused);
+        trace.refused = strdup(path);
         return false;
     }
     if (trace.file >= 0)

@@ -191,12 +191,15 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
     x = explained();
     assert_int_equal(x->kernels_count, 3);
+    int found = 0;
     for (int i = 0; i < 3; i++)
         if (strcmp(x->kernels[i].stores[0].operation, "FADD") == 0 &&
             x->kernels[i].arrays_read == 2) {
             assert_int_equal(x->kernels[i].shifts_computed, 1);
             assert_int_equal(x->kernels[i].bytes_read, 8);
+            found++;
         }
+    assert_int_equal(found, 1);
 }
 
 /* ---- calls ---- */
