@@ -208,7 +208,7 @@ void watch_replayed(struct machine *m, double start, const struct machine_call *
         explain_call(w->explain, calls[i].name, true, 0);
     *(alone ? &w->explain->alone : &w->explain->looked) += 1;
     snprintf(text, sizeof text, "\"calls\":%d", count);
-    if (w->noted_start)
+    if (w->noted_start > 0)
         span(m, WATCH_NOTE, watch_phase_names[WATCH_NOTE], w->noted_start, start, text);
     w->noted_start = 0;
     watch_span(m, WATCH_REPLAY, start, "%s", text);
@@ -259,7 +259,7 @@ cl_event *watch_command(struct machine *m, double start)
     if (w->commands_count == COMMANDS_MOST)
         settle(m, true);
     struct command *c = newest(w);
-    *c = (struct command){.before = start ? start : machine_clock_s()};
+    *c = (struct command){.before = start > 0 ? start : machine_clock_s()};
     return &c->done;
 }
 
