@@ -113,7 +113,7 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
             k->arrays_read == 1 ? "" : "s", k->bytes_written, k->arrays_written, k->operations,
             k->operations_cost, k->made);
     if (k->shifts_computed)
-        fprintf(out, "       %d values of neighbours are computed again, not stored first\n",
+        fprintf(out, "       neighbours' values computed again, not stored first: %d\n",
                 k->shifts_computed);
     print_stores(out, k);
 }
