@@ -97,7 +97,9 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
                 all_s > 0 ? 100 * k->time_s / all_s : 0, mean_s * 1e6);
     fprintf(out, "\n");
     if (mean_s > 0 && bound_s > 0)
-        fprintf(out, "       %s %.4g us: it runs at %.0f %% of that speed\n",
+        fprintf(out,
+                bound_s < mean_s ? "       %s %.4g us: it runs at %.0f %% of that speed\n"
+                                 : "       %s %.4g us: it takes no longer (%.0f %%)\n",
                 *by == 'o' ? "its operations take, by the cost model,"
                            : "to copy as many bytes takes",
                 bound_s * 1e6, 100 * bound_s / mean_s);

@@ -405,6 +405,7 @@ static struct operand value_at(struct emitter *e, int node, int row, int dx, boo
         snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
     } else if (node_ops[n->op].inputs == 0) {
         emit_generated(e, expression, sizeof expression, n, node, row, dx);
+        e->cost += node_cost(n->op, n->type);
     } else {
         struct operand in[3] = {{""}, {""}, {""}};
         for (int i = 0; i < node_ops[n->op].inputs; i++) {

@@ -448,7 +448,7 @@ struct kernel_text {
     bool wide, soft, formats, wraps, math;
     bool has_boxes; /* or would have, if asked for */
     int ops, loads; /* emitted */
-    int cost;       /* of the operations: node_cost() */
+    int cost;       /* node_cost() of these operations, and of coordinates and random numbers */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,

@@ -205,7 +205,7 @@ struct machine_explained_kernel {
     bool generated;      /* else by hand, and what follows is 0 to `made` */
     int vpset;           /* as it was called then */
     uint64_t processors; /* in one run */
-    int operations;      /* for a processor: those computed again at neighbours, too */
+    int operations; /* for a processor, those computed again at neighbours too; of operands: no coordinates */
     int operations_cost; /* ... as the cost model has them */
     int arrays_read, arrays_written;
     int bytes_read, bytes_written; /* for a processor */

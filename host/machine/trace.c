@@ -19,9 +19,9 @@ enum { BUFFER_BYTES = 1 << 16, EVENT_BYTES = 2048, NAME_BYTES = 512 };
 
 static struct {
     pthread_mutex_t lock;
-    int file; /* -1: none */
+    int file;             /* -1: none */
     char *path, *refused; /* the last one that could not be opened: it has been said */
-    pid_t owner; /* who opened it: a child of a fork has no say */
+    pid_t owner;          /* who opened it: a child of a fork has no say */
     bool seekable, failed, full;
     off_t end; /* of what has been written, without the bracket */
     char buffer[BUFFER_BYTES];

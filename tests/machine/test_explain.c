@@ -85,9 +85,9 @@ static void kernel_has_the_bytes_and_operations_of_its_formula(void **state)
 
     (void)state;
     c = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
-    store(c, machine_binary(machine, MACHINE_FADD,
-                            machine_binary(machine, MACHINE_FMUL, value(a), value(b)),
-                            value(a)));
+    store(c,
+          machine_binary(machine, MACHINE_FADD,
+                         machine_binary(machine, MACHINE_FMUL, value(a), value(b)), value(a)));
     assert_ok(machine_finish(machine), machine);
     assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
 
