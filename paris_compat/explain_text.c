@@ -49,7 +49,7 @@ static void print_vanished(FILE *out, const struct machine_explained *x)
 
 static void print_cuts(FILE *out, const struct machine_explained *x)
 {
-    fprintf(out, "\ncut: %llu plans were made, %llu made better; evaluated because\n",
+    fprintf(out, "\ncut: plans made: %llu, made better: %llu; evaluated because\n",
             (unsigned long long)x->plans_built, (unsigned long long)x->plans_improved);
     for (int i = 0; i < x->evaluations_count; i++)
         if (x->evaluations[i].count)

@@ -292,6 +292,8 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
  * driver's compiler may have gone already. */
 void explain_ready(struct machine *m, struct explain *e)
 {
+    struct watch *watch = m->watch;
+    m->watch = NULL; /* none of this is the program's */
     m->inside++;
     for (int streams = 0; streams < 2; streams++) {
         char options[64];
@@ -314,6 +316,7 @@ void explain_ready(struct machine *m, struct explain *e)
             device_buffer_unref(m, b);
     }
     m->inside--;
+    m->watch = watch;
     machine_error_clear(m); /* then there is nothing to compare with */
 }
 

@@ -176,6 +176,8 @@ def explanation_is_exact(folder):
     evaluated = {row["name"]: row["count"] for row in x["evaluated_because"]}
     assert evaluated["somebody looked"] == STEPS and sum(evaluated.values()) == STEPS
     assert x["values_vanished"] == 0
+    built = sum(row["count"] for row in x["phases"] if row["name"] in ("build: compile", "build: from the disk cache"))
+    assert built == len(kernels) and x["plans_built"] >= 1
     waits = {row["name"]: row for row in x["waits"]}
     assert (waits["reading a processor"]["count"], waits["reading a processor"]["bytes"]) == (STEPS, 4 * STEPS)
     for wanted in (rf"{STEPS} run|{kernels[0]['runs']} run", "each reads 8 bytes .2 arrays., writes 4", "= FADD",
