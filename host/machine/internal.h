@@ -5,7 +5,9 @@
  *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
- *   emit.c      the text of one kernel                                (pure; no OpenCL)
+ *   body.c      the text of what a kernel computes                    (pure; no OpenCL)
+ *   emit.c      the text of a kernel of rows                          (pure; no OpenCL)
+ *   strips.c    ... of several stages, line by line                   (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
@@ -175,12 +177,14 @@ struct vpset {
 
 /* ---- the device ---- */
 
-struct device_shape { /* what generated code should look like there */
-    int vector;       /* lanes of 32 bits in a work-item; 1 on a GPU */
-    int halo;         /* columns of padding, where vectors are used */
-    double op_ns;     /* cost model: one vector instruction, for an element */
-    double byte_ns;   /* ... one byte to or from memory */
-    double launch_ns; /* ... a launch */
+struct device_shape {              /* what generated code should look like there */
+    int vector;                    /* lanes of 32 bits in a work-item; 1 on a GPU */
+    int halo;                      /* columns of padding, where vectors are used */
+    double op_ns;                  /* cost model: one vector instruction, for an element */
+    double byte_ns;                /* ... one byte to or from memory */
+    double near_byte_ns;           /* ... to or from a cache */
+    bool no_strips, always_strips; /* see plan.c; for tests */
+    double launch_ns;              /* ... a launch */
 };
 
 struct program_entry;
@@ -395,7 +399,9 @@ struct plan_node {
 struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
-    bool boxes; /* write kernels that tell inside from outside: see emit.c */
+    bool boxes;     /* write kernels that tell inside from outside: see body.c */
+    bool strips;    /* decided: all stages in one kernel, see strips.c */
+    bool no_strips; /* but not so */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -421,7 +427,8 @@ enum kernel_argument_kind {
     ARGUMENT_INPUT,
     ARGUMENT_OUTPUT,
     ARGUMENT_CONSTANT,
-    ARGUMENT_SECOND
+    ARGUMENT_SECOND,
+    ARGUMENT_SCRATCH /* of strips */
 };
 struct kernel_argument {
     uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
@@ -435,11 +442,17 @@ struct kernel_text {
     int arguments_count;
     int vector;
     bool wide, soft, formats, wraps, math;
-    bool has_boxes; /* or would have, if asked for */
-    int ops, loads; /* emitted */
+    bool has_boxes;     /* or would have, if asked for */
+    int ops, loads;     /* emitted */
+    size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
+    int strip_margin;   /* rows that each computes besides its own */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out);
+/* strips.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
+bool emit_strips(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);
 void kernel_text_finish(struct kernel_text *k);

@@ -509,7 +509,8 @@ static bool edge_run(struct machine *m)
         buffers[i] = e->from[i] >= 0 ? s->buffers[e->from[i]]
                      : e->values[i]  ? e->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, e->plan, buffers, e->values)) /* it is going to be tried, and said, once more */
+    if (plan_run(m, e->plan, buffers,
+                 e->values)) /* it is going to be tried, and said, once more */
         return false;
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = e->next[k] >= 0 ? s->buffers[e->next[k]] : buffers[~e->next[k]];
