@@ -263,11 +263,13 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    uint64_t flush_after;             /* values waiting */
-    bool sliced;                      /* there has been a slice: see slices.c */
-    bool rolling;                     /* in reshape_roll() */
-    uint64_t roll_after;              /* values waiting before the next try */
-    bool flush_due, flushing;         /* before the next instruction; just now */
+    uint64_t flush_after;     /* values waiting */
+    bool sliced;              /* there has been a slice: see slices.c */
+    bool rolling;             /* in reshape_roll() */
+    uint64_t roll_after;      /* values waiting before the next try */
+    bool flush_due, flushing; /* before the next instruction; just now */
+    bool hold_flush;          /* none becomes due */
+    bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
     uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
@@ -402,6 +404,7 @@ struct plan_graph {
     bool boxes;     /* write kernels that tell inside from outside: see body.c */
     bool strips;    /* decided: all stages in one kernel, see strips.c */
     bool no_strips; /* but not so */
+    bool could_be_strips;
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -470,6 +473,7 @@ void run_flush_due(struct machine *m);
 struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
+bool plan_stretches(const struct plan *p); /* many turns of it may be cheaper in one kernel */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
@@ -494,6 +498,9 @@ void replay_impure(struct machine *m);
 /* Before fields die, or VP sets change their shape. */
 void replay_forget(struct machine *m);
 bool replay_in_call(const struct machine *m);
+bool replay_in_loop(const struct machine *m);  /* then evaluations become due after calls */
+bool replay_thorough(const struct machine *m); /* evaluations are to leave nothing to compute */
+void replay_resolve(struct machine *m);        /* ... no lazy overflow either */
 /* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
  * could not. */
 void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,

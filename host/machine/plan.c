@@ -383,7 +383,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     find_light(&s, weight);
     find_substitutes(g);
     double best = descend(&s, barriers_everywhere(&s));
-    if (could_be_strips(g, sets, shape)) {
+    g->could_be_strips = could_be_strips(g, sets, shape);
+    if (g->could_be_strips) {
         memcpy(barrier, s.barrier, count * sizeof *barrier);
         s.strips = true;
         double strips = descend(&s, barriers_everywhere(&s));

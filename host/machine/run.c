@@ -63,7 +63,7 @@ struct plan {
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
-    bool could_be_optimised, could_be_boxed;
+    bool could_be_optimised, could_be_boxed, stretches;
     struct plan *next;
 };
 
@@ -412,6 +412,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         g.no_strips = !*strips;
         plan_choose(&g, m->sets, &m->device.shape);
         *strips = g.strips;
+        p->stretches = g.could_be_strips;
         if (m->dump_dir)
             dump_graph(m, m->dump_count, &g);
         good = plan_kernels(m, p, &g, stores);
@@ -483,6 +484,11 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
+bool plan_stretches(const struct plan *p)
+{
+    return p->stretches && p->quality == BOXED;
+}
+
 const int *plan_stored(const struct plan *p, int *count)
 {
     *count = p->stored_count;
@@ -512,7 +518,7 @@ static struct plan *plan_get(struct machine *m, const struct reach *r, const str
                 plan_improve(m, p, r, t);
             return p;
         }
-    struct plan *p = plan_make(m, r, t, quality_after(m, 0));
+    struct plan *p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0));
     if (!p)
         return NULL;
     m->plans_built++;
@@ -661,6 +667,8 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
             good = reshape_unpack(m, wanted[i]);
         else if (!node_is_leaf(wanted[i]))
             good = targets_add(&t, wanted[i]);
+    all = all || replay_thorough(m);
+    replay_resolve(m);
     /* Reading one thing after another is one look: nothing has become older in between. */
     if (all || m->stores != m->stores_evaluated)
         good = good && targets_collect(m, &t, all);
@@ -713,6 +721,8 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     m->stores++;
     if (m->eager)
         return run_evaluate(m, NULL, 0, true);
+    if (m->hold_flush && v->height < HEIGHT_MOST)
+        return MACHINE_OK;
     if (m->flush_status) {
         enum machine_status status = m->flush_status;
         m->flush_status = MACHINE_OK;
@@ -727,6 +737,8 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
     m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
     *oldest = what;
+    if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->nodes_pending < PENDING_MOST)
+        return MACHINE_OK;
     bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
                  m->nodes_pending >= m->flush_after / 8;
     bool many = m->nodes_pending >= (m->flush_hash ? 5 * m->flush_after : m->flush_after);
