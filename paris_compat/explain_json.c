@@ -40,8 +40,9 @@ static void stores(FILE *out, const struct machine_explained_kernel *k)
         text(out, s->where);
         fprintf(out, ", \"operation\": ");
         text(out, s->operation);
-        fprintf(out, ", \"type\": \"%s%d\", \"why\": \"%s\"}",
-                s->type.kind == MACHINE_FLOAT ? "f" : "u", s->type.width, explain_why(s->why));
+        fprintf(out, ", \"type\": \"%s%d\", \"in_ring\": %s, \"why\": \"%s\"}",
+                s->type.kind == MACHINE_FLOAT ? "f" : "u", s->type.width,
+                s->in_ring ? "true" : "false", explain_why(s->why));
     }
     fprintf(out, "]");
 }
@@ -67,8 +68,8 @@ static void kernel(FILE *out, const struct machine_explained_kernel *k)
                 k->arrays_read, k->arrays_written);
         fprintf(out,
                 "\"bytes_read\": %d, \"bytes_written\": %d, \"shifts_computed\": %d, "
-                "\"split\": %s, \"made\": \"%s\"",
-                k->bytes_read, k->bytes_written, k->shifts_computed,
+                "\"stages\": %d, \"rings\": %d, \"split\": %s, \"made\": \"%s\"",
+                k->bytes_read, k->bytes_written, k->shifts_computed, k->stages, k->rings,
                 k->split ? "true" : "false", k->made);
         stores(out, k);
     }

@@ -59,7 +59,8 @@ static void print_cuts(FILE *out, const struct machine_explained *x)
     for (int i = 0; i < x->kernels_count; i++) {
         split += x->kernels[i].split;
         for (int k = 0; k < x->kernels[i].stores_count; k++)
-            by_why[x->kernels[i].stores[k].why] += x->kernels[i].runs;
+            if (!x->kernels[i].stores[k].in_ring)
+                by_why[x->kernels[i].stores[k].why] += x->kernels[i].runs;
     }
     fprintf(out, "  values put into memory, by why\n");
     for (int i = 0; i <= MACHINE_CUT_LATER; i++)
@@ -75,9 +76,9 @@ static void print_stores(FILE *out, const struct machine_explained_kernel *k)
 {
     for (int i = 0; i < k->stores_count && i < STORES_SHOWN; i++) {
         const struct machine_explained_store *s = &k->stores[i];
-        fprintf(out, "       stores %s%s%s, %s of %d bits: %s\n", s->where,
-                *s->where ? " = " : "", s->operation,
-                s->type.kind == MACHINE_FLOAT ? "float" : "word", s->type.width,
+        fprintf(out, "       %s %s%s%s, %s of %d bits: %s\n",
+                s->in_ring ? "keeps a few rows of" : "stores", s->where, *s->where ? " = " : "",
+                s->operation, s->type.kind == MACHINE_FLOAT ? "float" : "word", s->type.width,
                 explain_why(s->why));
     }
     if (k->stores_count > STORES_SHOWN)
@@ -114,6 +115,11 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
             k->vpset, (unsigned long long)k->processors, k->bytes_read, k->arrays_read,
             k->arrays_read == 1 ? "" : "s", k->bytes_written, k->arrays_written, k->operations,
             k->operations_cost, k->made);
+    if (k->stages > 1)
+        fprintf(out,
+                "       in strips of rows: %d stages in one go, %d values kept for a few rows, "
+                "in no array\n",
+                k->stages, k->rings);
     if (k->shifts_computed)
         fprintf(out, "       neighbours' values computed again, not stored first: %d\n",
                 k->shifts_computed);

@@ -1,513 +1,38 @@
-/* emit.c - the text of one kernel.
+/* emit.c - the text of one kernel, of rows.
  *
- * The text follows from the graph alone: numbers are arguments, lengths of axes too. Each
- * (node, offset) is one variable; offsets along the last axis are columns, along the others
- * another row. The shape is
+ * The text follows from the graph alone: numbers are arguments, lengths of axes too. The shape is
  *
  *     row = get_global_id(1); rows at other offsets; a pointer for each array and row
- *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one
- * before it variables, stores
+ *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
+ *         variables, stores
  *
  * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of this
- * kind); with VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants.
- *
- * Comparing a coordinate with a number says that a processor is on one side of a line, and a
- * context made of such comparisons is a box. They are written BOX(...), and the body stands
- * there twice: for vectors that are inside on all lines at every offset, where BOX(...) is true
- * and the compiler drops what only the outside needs, and for the others. */
-#include "internal.h"
-#include "spell.h"
-
-#include <stdarg.h>
+ * kind); with VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "body.h"
 #include "kernels.h"
-
-enum { STREAM_BYTES = 48 << 20 };
-
-struct text {
-    char *data;
-    size_t length, capacity;
-    bool failed;
-};
-
-__attribute__((format(printf, 2, 3))) static void put(struct text *t, const char *format, ...)
-{
-    for (;;) {
-        va_list arguments;
-        va_start(arguments, format);
-        size_t room = t->capacity - t->length;
-        int n = t->data ? vsnprintf(t->data + t->length, room, format, arguments) : -1;
-        va_end(arguments);
-        if (t->data && n >= 0 && (size_t)n < room) {
-            t->length += (size_t)n;
-            return;
-        }
-        size_t capacity = t->capacity ? 2 * t->capacity : 8192;
-        char *data = realloc(t->data, capacity);
-        if (!data) {
-            t->failed = true;
-            return;
-        }
-        t->data = data;
-        t->capacity = capacity;
-    }
-}
-
-struct variable {
-    int32_t node, row, dx;
-    bool canonical;
-    int name;
-    uint32_t next; /* in its chain, + 1 */
-};
-
-struct row_offset {
-    int d[MACHINE_AXES_MAX]; /* the last axis is always 0 here */
-};
-
-struct pointer {
-    int node, row;
-};
-
-struct emitter {
-    const struct plan_graph *g;
-    const struct vpset *set;
-    int stage;
-    struct text body, rows, pointers, constants;
-    struct text row_tests, column_tests; /* whether a vector is inside all boxes */
-    struct variable *variables;
-    uint32_t variables_count, variables_capacity, chains[1024];
-    struct row_offset *row_offsets;
-    int rows_count, rows_capacity;
-    struct pointer *seen_pointers;
-    int pointers_count, pointers_capacity;
-    int *input_number, *constant_number; /* of a node: + 1 */
-    struct kernel_argument *arguments;
-    int arguments_count, arguments_capacity;
-    int inputs, constants_count, names;
-    int reach; /* furthest column */
-    bool wide, soft, formats, math, integers, axes_used, failed;
-    int ops, loads, cost;
-};
-
-static const char *memory_kind(struct machine_type t)
-{
-    if (t.kind == MACHINE_FLOAT)
-        return t.width == 32 ? "f32" : "f64";
-    return t.width == 1    ? "bit"
-           : t.width <= 8  ? "u8"
-           : t.width <= 16 ? "u16"
-           : t.width <= 32 ? "u32"
-           : t.width <= 64 ? "u64"
-                           : "u128";
-}
-
-static const char *memory_type(struct machine_type t)
-{
-    if (t.kind == MACHINE_FLOAT)
-        return t.width == 32 ? "float" : "double";
-    return t.width <= 8 ? "uchar" : t.width <= 16 ? "ushort" : t.width <= 32 ? "uint" : "ulong";
-}
-
-static void *more(struct emitter *e, void *old, int *capacity, size_t size)
-{
-    int wanted = *capacity ? 2 * *capacity : 64;
-    void *new = realloc(old, (size_t)wanted * size);
-    if (!new) {
-        e->failed = true;
-        return old;
-    }
-    *capacity = wanted;
-    return new;
-}
-
-static int add_argument(struct emitter *e, int kind, int node, int size)
-{
-    if (e->arguments_count == e->arguments_capacity)
-        e->arguments = more(e, e->arguments, &e->arguments_capacity, sizeof *e->arguments);
-    if (e->failed)
-        return 0;
-    e->arguments[e->arguments_count] =
-        (struct kernel_argument){.kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
-    return e->arguments_count++;
-}
-
-/* ---- rows and pointers ---- */
-
-static int row_moved(struct emitter *e, int from, int axis, int distance)
-{
-    struct row_offset wanted = e->row_offsets[from];
-    int length = e->set->dimensions[axis];
-    wanted.d[axis] = (wanted.d[axis] + distance) % length;
-    for (int i = 0; i < e->rows_count; i++)
-        if (!memcmp(&e->row_offsets[i], &wanted, sizeof wanted))
-            return i;
-    if (e->rows_count == e->rows_capacity)
-        e->row_offsets = more(e, e->row_offsets, &e->rows_capacity, sizeof *e->row_offsets);
-    if (e->failed)
-        return 0;
-    e->row_offsets[e->rows_count] = wanted;
-    put(&e->rows, "    const int r%d = row", e->rows_count);
-    for (int a = 0; a < e->set->rank - 1; a++)
-        if (wanted.d[a])
-            put(&e->rows, " + (wrap(c%d + (%d), D%d) - c%d) * S%d", a, wanted.d[a], a, a, a);
-    put(&e->rows, ";\n");
-    e->axes_used = true;
-    return e->rows_count++;
-}
-
-static int input_of(struct emitter *e, int node)
-{
-    if (!e->input_number[node]) {
-        add_argument(e, ARGUMENT_INPUT, node, 0);
-        e->input_number[node] = ++e->inputs;
-    }
-    return e->input_number[node] - 1;
-}
-
-static int pointer_of(struct emitter *e, int node, int row)
-{
-    for (int i = 0; i < e->pointers_count; i++)
-        if (e->seen_pointers[i].node == node && e->seen_pointers[i].row == row)
-            return i;
-    if (e->pointers_count == e->pointers_capacity)
-        e->seen_pointers =
-            more(e, e->seen_pointers, &e->pointers_capacity, sizeof *e->seen_pointers);
-    if (e->failed)
-        return 0;
-    struct machine_type type = e->g->nodes[node].type;
-    e->seen_pointers[e->pointers_count] = (struct pointer){node, row};
-    put(&e->pointers, "    const __global %s *p%d = b%d + ((size_t)r%d * PITCH + HALO)%s;\n",
-        memory_type(type), e->pointers_count, input_of(e, node), row,
-        type.width > 64 ? " * 2" : "");
-    return e->pointers_count++;
-}
-
-/* ---- variables ---- */
-
-static uint32_t chain_of(int node, int row, int dx)
-{
-    uint32_t h =
-        (uint32_t)node * 0x9e3779b1u ^ (uint32_t)row * 0x85ebca6bu ^ (uint32_t)dx * 0xc2b2ae35u;
-    return h >> 22;
-}
-
-static int variable_find(const struct emitter *e, int node, int row, int dx, bool canonical)
-{
-    for (uint32_t i = e->chains[chain_of(node, row, dx)]; i; i = e->variables[i - 1].next) {
-        const struct variable *v = &e->variables[i - 1];
-        if (v->node == node && v->row == row && v->dx == dx && v->canonical == canonical)
-            return v->name;
-    }
-    return -1;
-}
-
-static int variable_add(struct emitter *e, int node, int row, int dx, bool canonical)
-{
-    if (e->variables_count == e->variables_capacity) {
-        int capacity = (int)e->variables_capacity;
-        e->variables = more(e, e->variables, &capacity, sizeof *e->variables);
-        e->variables_capacity = (uint32_t)capacity;
-    }
-    if (e->failed)
-        return 0;
-    uint32_t h = chain_of(node, row, dx);
-    e->variables[e->variables_count] =
-        (struct variable){node, row, dx, canonical, e->names, e->chains[h]};
-    e->chains[h] = ++e->variables_count;
-    return e->names++;
-}
-
-/* A number: an argument, made a vector once, before the loop. */
-static int constant_of(struct emitter *e, int node)
-{
-    if (e->constant_number[node])
-        return e->constant_number[node] - 1;
-    struct machine_type t = e->g->nodes[node].type;
-    int k = e->constants_count++;
-    switch (spell_letter(t)) {
-    case 'I':
-    case 'U':
-    case 'F':
-        add_argument(e, ARGUMENT_CONSTANT, node, 4);
-        break;
-    default:
-        add_argument(e, ARGUMENT_CONSTANT, node, 8);
-        break;
-    }
-    if (spell_letter(t) == 'Q') {
-        add_argument(e, ARGUMENT_SECOND, node, 8);
-        put(&e->constants, "    const VQ k%d = q_of((VL)(a%d), (VL)(h%d));\n", k, k, k);
-        e->wide = true;
-    } else {
-        put(&e->constants, "    const %s k%d = (%s)(a%d);\n", spell_container(t), k,
-            spell_container(t), k);
-    }
-    e->constant_number[node] = k + 1;
-    return k;
-}
-
-struct operand {
-    char text[24];
-};
-
-static struct operand value_at(struct emitter *e, int node, int row, int dx, bool canonical);
-
-/* A comparison of a coordinate with a number: writes the scalar test that it holds for a whole
- * vector, which, since it holds on one side of a line, is that it holds at both ends. */
-static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
-{
-    static const char *const symbols[] = {
-        [MACHINE_ULT] = "<", [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
-    if (n->op < MACHINE_ULT || n->op > MACHINE_SLE)
-        return false;
-    const struct plan_node *a = &e->g->nodes[n->in[0]], *b = &e->g->nodes[n->in[1]];
-    const struct plan_node *place = a->constant ? b : a;
-    int width = place->type.width;
-    if (a->constant == b->constant || place->op != NODE_COORDINATE || place->leaf || width > 32)
-        return false;
-    bool is_signed = n->op == MACHINE_SLT || n->op == MACHINE_SLE;
-    int k = constant_of(e, a->constant ? n->in[0] : n->in[1]),
-        bits = is_signed ? width - 1 : width;
-    char number[64], ends[2][64];
-    if (is_signed)
-        snprintf(number, sizeof number, "((int)(a%d << %d) >> %d)", k, 32 - width, 32 - width);
-    else
-        snprintf(number, sizeof number, "a%d", k);
-    bool column = place->axis == e->set->rank - 1;
-    struct text *t = column ? &e->column_tests : &e->row_tests;
-    if (column) {
-        snprintf(ends[0], sizeof ends[0], "(x + (%d))", dx);
-        put(t, " && %s >= 0 && %s + VECTOR <= W", ends[0], ends[0]);
-        snprintf(ends[1], sizeof ends[1], "(x + (%d) + VECTOR - 1)", dx);
-    } else {
-        e->axes_used = true;
-        for (int i = 0; i < 2; i++)
-            snprintf(ends[i], sizeof ends[i], "wrap(c%d + (%d), D%d)", place->axis,
-                     e->row_offsets[row].d[place->axis], place->axis);
-    }
-    if (bits < 31)
-        put(t, " && %s >> %d == 0", ends[1], bits);
-    for (int i = 0; i < (column ? 2 : 1); i++) {
-        const char *sign = is_signed ? "" : "(uint)";
-        if (a->constant)
-            put(t, " && %s %s %s%s", number, symbols[n->op], sign, ends[i]);
-        else
-            put(t, " && %s%s %s %s", sign, ends[i], symbols[n->op], number);
-    }
-    return true;
-}
-
-static void emit_generated(struct emitter *e, char *out, size_t size, const struct plan_node *n,
-                           int node, int row, int dx)
-{
-    char index[96], raw[300];
-    int last = e->set->rank - 1;
-    if (n->op == NODE_COORDINATE && n->axis != last) {
-        e->axes_used = true;
-        snprintf(index, sizeof index, "(VU)((uint)wrap(c%d + (%d), D%d))", n->axis,
-                 e->row_offsets[row].d[n->axis], n->axis);
-    } else if (n->op == NODE_COORDINATE) {
-        snprintf(index, sizeof index, "column(x + (%d), W)", dx);
-    } else {
-        snprintf(index, sizeof index, "(column(x + (%d), W) + (uint)(r%d * W))", dx, row);
-    }
-    int reach = abs(dx);
-    e->reach = reach > e->reach ? reach : e->reach;
-    if (n->op == NODE_RANDOM) {
-        int k = e->constants_count++;
-        add_argument(e, ARGUMENT_CONSTANT, node, 8);
-        add_argument(e, ARGUMENT_SECOND, node, 8);
-        put(&e->constants, "    /* draw: key a%d, limit h%d */\n", k, k);
-        if (n->detail == 0)
-            snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k,
-                     64 - n->type.width);
-        else if (n->detail == 1)
-            snprintf(raw, sizeof raw, "(((random_bits(%s, a%d) >> 32UL) * h%d) >> 32UL)", index,
-                     k, k);
-        else
-            snprintf(raw, sizeof raw, "mul_hi(random_bits(%s, a%d), (VL)(h%d))", index, k, k);
-        if (n->type.width == 1)
-            snprintf(out, size, "CMP_L((%s & 1UL) != 0UL)", raw);
-        else {
-            char w[340];
-            spell_widened(w, sizeof w, raw, MACHINE_UINT(64), spell_letter(n->type));
-            spell_cut(out, size, w, n->type.width);
-        }
-        return;
-    }
-    if (n->op == NODE_SEND_ADDRESS)
-        snprintf(raw, sizeof raw, "((%s & ((1u << PLOG2) - 1u)) * (uint)RATIO + (%s >> PLOG2))",
-                 index, index);
-    else
-        snprintf(raw, sizeof raw, "%s", index);
-    if (n->type.width == 1)
-        snprintf(out, size, "CMP_U((%s & 1u) != 0u)", raw);
-    else {
-        char w[340];
-        spell_widened(w, sizeof w, raw, MACHINE_UINT(32), spell_letter(n->type));
-        if (n->type.width < 32)
-            spell_cut(out, size, w, n->type.width);
-        else
-            snprintf(out, size, "%s", w);
-    }
-}
-
-/* Some of it may be a NaN whose bits are the program's, not an operation's. */
-static bool holds_bits(const struct plan_graph *g, int node)
-{
-    const struct plan_node *n = &g->nodes[node];
-    if (!n->maybe_nan)
-        return true;
-    if (n->leaf || n->op != NODE_SELECT)
-        return n->op == NODE_SHIFT && !n->leaf ? holds_bits(g, n->in[0]) : n->leaf;
-    return holds_bits(g, n->in[1]) || holds_bits(g, n->in[2]);
-}
-
-static struct operand named(int name)
-{
-    struct operand o;
-    snprintf(o.text, sizeof o.text, "v%d", name);
-    return o;
-}
-
-static struct operand value_at(struct emitter *e, int node, int row, int dx, bool canonical)
-{
-    const struct plan_node *n = &e->g->nodes[node];
-    struct operand result;
-    if (e->failed)
-        return named(0);
-    if (n->constant) {
-        snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
-        return result;
-    }
-    bool loads = plan_loads(n, e->stage);
-    canonical = canonical && n->maybe_nan && !loads;
-    int known = variable_find(e, node, row, dx, canonical);
-    if (known >= 0)
-        return named(known);
-    char expression[1200];
-    const char *type = spell_container(n->type);
-    e->wide = e->wide || type[1] == 'Q';
-    if (loads) {
-        int p = pointer_of(e, node, row);
-        e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
-        snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p,
-                 dx);
-        e->loads++;
-    } else if (n->op == NODE_SHIFT) {
-        bool along_row = n->axis == e->set->rank - 1;
-        int moved_row = along_row ? row : row_moved(e, row, n->axis, n->detail);
-        return value_at(e, n->in[0], moved_row, along_row ? dx + n->detail : dx, canonical);
-    } else if (canonical && !(n->op == NODE_SELECT && holds_bits(e->g, node))) {
-        struct operand a = value_at(e, node, row, dx, false);
-        snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
-    } else if (node_ops[n->op].inputs == 0) {
-        emit_generated(e, expression, sizeof expression, n, node, row, dx);
-        e->cost += node_cost(n->op, n->type);
-    } else {
-        struct operand in[3] = {{""}, {""}, {""}};
-        for (int i = 0; i < node_ops[n->op].inputs; i++) {
-            bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
-            in[i] = value_at(e, plan_input(e->g, n, i, e->stage), row, dx, want);
-        }
-        struct machine_type from = e->g->nodes[n->in[0]].type;
-        const char *a = in[0].text, *b = in[1].text;
-        e->ops++;
-        e->cost += node_cost(n->op, n->type);
-        e->wide = e->wide || spell_letter(from) == 'Q';
-        enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
-        bool spelt = soft != SPELL_SOFT_NOT;
-        if (spelt)
-            ; /* by that */
-        else if (n->op == NODE_SELECT)
-            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
-                     in[2].text);
-        else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG) {
-            char raw[100];
-            if (type[1] == 'Q')
-                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg",
-                         a);
-            else
-                snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
-            if (type[1] == 'I')
-                snprintf(expression, sizeof expression, "%s", raw);
-            else
-                spell_cut(expression, sizeof expression, raw, n->type.width);
-        } else if (op_is_integer(n->op)) {
-            e->integers = true;
-            spell_integer(expression, sizeof expression, n->op, from, a, b);
-        } else if (n->op < MACHINE_FNEG)
-            spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
-        else if (op_is_math(n->op)) {
-            spell_math(expression, sizeof expression, n->op, from, a, b);
-            e->math = true;
-        } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
-            spell_float(expression, sizeof expression, n->op, from, a, b);
-        else if (n->op >= NODE_OVERFLOW_UADD) {
-            spell_overflow(expression, sizeof expression, n->op, from, a, b);
-            e->wide = e->wide || from.width > 32;
-        } else if (n->op == NODE_CONCAT) {
-            char low[120], high[120];
-            struct machine_type to = e->g->nodes[n->in[1]].type;
-            spell_widened(low, sizeof low, a, from, type[1]);
-            spell_widened(high, sizeof high, b, to, type[1]);
-            if (type[1] == 'Q')
-                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high,
-                         from.width);
-            else
-                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high,
-                         from.width, type[1] == 'L' ? "UL" : "");
-        } else {
-            spell_conversion(expression, sizeof expression, n, from, a);
-        }
-        if (!spelt)
-            soft = spell_soft_rounding(expression, sizeof expression, n);
-        e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
-        e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
-    }
-    int name = variable_add(e, node, row, dx, canonical);
-    bool box = !loads && note_box(e, n, row, dx);
-    put(&e->body, box ? "        const %s v%d = BOX(%s);\n" : "        const %s v%d = %s;\n",
-        type, name, expression);
-    return named(name);
-}
-
-/* ---- the whole ---- */
 
 static void header(struct emitter *e, struct text *t)
 {
-    put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO");
+    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO");
     for (int a = 0; a < e->set->rank - 1; a++)
-        put(t, ", int D%d", a);
+        text_put(t, ", int D%d", a);
     int input = 0, output = 0, constant = 0;
     for (int i = 0; i < e->arguments_count; i++) {
         const struct kernel_argument *arg = &e->arguments[i];
         struct machine_type type = e->g->nodes[arg->node].type;
-        switch (arg->kind) {
-        case ARGUMENT_INPUT:
-            put(t, ",\n    const __global %s *restrict b%d", memory_type(type), input++);
-            break;
-        case ARGUMENT_OUTPUT:
-            put(t, ",\n    __global %s *restrict o%d", memory_type(type), output++);
-            break;
-        case ARGUMENT_CONSTANT: {
-            static const char letters[] = "IUFDLQ";
-            static const char *const names[] = {"int",    "uint",  "float",
-                                                "double", "ulong", "ulong"};
-            const char *name = e->g->nodes[arg->node].op == NODE_RANDOM
-                                   ? "ulong"
-                                   : names[strchr(letters, spell_letter(type)) - letters];
-            put(t, ", %s a%d", name, constant++);
-            break;
-        }
-        default:
-            put(t, ", ulong h%d", constant - 1);
-            break;
-        }
+        if (arg->kind == ARGUMENT_INPUT)
+            text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), input++);
+        else if (arg->kind == ARGUMENT_OUTPUT)
+            text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), output++);
+        else if (arg->kind == ARGUMENT_CONSTANT)
+            emit_number(t, e->g, arg->node, constant++);
+        else
+            text_put(t, ", ulong h%d", constant - 1);
     }
-    put(t, ")\n{\n");
+    text_put(t, ")\n{\n");
 }
 
 void kernel_text_finish(struct kernel_text *k)
@@ -517,15 +42,14 @@ void kernel_text_finish(struct kernel_text *k)
     memset(k, 0, sizeof *k);
 }
 
-/* Stores that pass the caches by pay where the arrays do not fit anyway. */
-static bool streams(const struct emitter *e, int vector)
+static double bytes_touched(const struct emitter *e)
 {
     double bytes = 0;
     for (int i = 0; i < e->arguments_count; i++)
         if (e->arguments[i].kind == ARGUMENT_INPUT || e->arguments[i].kind == ARGUMENT_OUTPUT)
             bytes += (double)(e->set->pitch * e->set->rows) *
                      (double)type_bytes(e->g->nodes[e->arguments[i].node].type);
-    return vector > 1 && e->set->width % vector == 0 && bytes > (double)STREAM_BYTES;
+    return bytes;
 }
 
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
@@ -536,22 +60,14 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     memset(out, 0, sizeof *out);
     if (!e)
         return false;
-    e->g = g;
-    e->set = set;
-    e->stage = g->nodes[stores[0]].stage;
-    e->input_number = calloc((size_t)g->count, sizeof *e->input_number);
-    e->constant_number = calloc((size_t)g->count, sizeof *e->constant_number);
-    e->row_offsets = calloc(64, sizeof *e->row_offsets);
-    e->rows_capacity = 64;
-    e->failed = !e->input_number || !e->constant_number || !e->row_offsets;
-    e->rows_count = 1; /* row 0: where we are */
+    emitter_init(e, g, set, g->nodes[stores[0]].stage);
     for (int i = 0; i < stores_count && !e->failed; i++) {
-        struct operand v = value_at(e, stores[i], 0, 0, true);
+        struct operand v = emit_value(e, stores[i], 0, 0, true);
         struct machine_type type = g->nodes[stores[i]].type;
-        add_argument(e, ARGUMENT_OUTPUT, stores[i], 0);
-        put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n",
-            memory_type(type), i, i, type.width > 64 ? " * 2" : "");
-        put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
+        emit_argument(e, ARGUMENT_OUTPUT, stores[i], 0);
+        text_put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n",
+                 memory_type(type), i, i, type.width > 64 ? " * 2" : "");
+        text_put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
     }
     bool wraps = set->halo == 0 || e->reach > set->halo;
     /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
@@ -565,33 +81,17 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->math = e->math;
     struct text t = {0};
     if (e->integers)
-        put(&t, "%s", kernel_integers_cl);
+        text_put(&t, "%s", kernel_integers_cl);
     header(e, &t);
-    put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");
-    if (e->axes_used && set->rank > 1) {
-        put(&t, "    const int S%d = 1;\n", set->rank - 2);
-        for (int a = set->rank - 3; a >= 0; a--)
-            put(&t, "    const int S%d = S%d * D%d;\n", a, a + 1, a + 1);
-        for (int a = 0; a < set->rank - 1; a++)
-            put(&t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
-    }
-    put(&t, "%s%s%s", e->rows.data ? e->rows.data : "",
-        e->pointers.data ? e->pointers.data : "", e->constants.data ? e->constants.data : "");
-    put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
+    text_put(&t, "    const int row = get_global_id(1);\n    const int r0 = row;\n");
+    emit_axes(e, &t);
+    text_put(&t, "%s%s%s", e->rows.data ? e->rows.data : "",
+             e->pointers.data ? e->pointers.data : "",
+             e->constants.data ? e->constants.data : "");
+    text_put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
     out->has_boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
-    bool boxes = out->has_boxes && g->boxes;
-    const char *body = e->body.data ? e->body.data : "";
-    if (boxes)
-        put(&t, "    const int row_inside = 1%s;\n",
-            e->row_tests.data ? e->row_tests.data : "");
-    put(&t, "    for (int at = begin; at < end; at += VECTOR) {\n"
-            "        const int x = min(at, W - VECTOR);\n");
-    if (boxes)
-        put(&t,
-            "        if (row_inside%s) {\n#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        "
-            "continue;\n        }\n",
-            e->column_tests.data ? e->column_tests.data : "", body);
-    put(&t, "#define BOX(e) (e)\n%s    }\n}\n", body);
+    emit_loop(e, &t, out->has_boxes && g->boxes);
+    text_put(&t, "}\n");
     out->text = t.data;
     out->arguments = e->arguments;
     out->arguments_count = e->arguments_count;
@@ -599,21 +99,12 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->cost = e->cost;
     out->loads = e->loads;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
-             out->vector, set->halo, wraps ? 1 : 0, streams(e, out->vector) ? 1 : 0);
+             out->vector, set->halo, wraps ? 1 : 0,
+             emit_streams(set, out->vector, bytes_touched(e)) ? 1 : 0);
     bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed &&
                 !e->pointers.failed && !e->constants.failed && !e->row_tests.failed &&
                 !e->column_tests.failed;
-    free(e->body.data);
-    free(e->rows.data);
-    free(e->pointers.data);
-    free(e->constants.data);
-    free(e->row_tests.data);
-    free(e->column_tests.data);
-    free(e->variables);
-    free(e->row_offsets);
-    free(e->seen_pointers);
-    free(e->input_number);
-    free(e->constant_number);
+    emitter_finish(e);
     free(e);
     if (!good)
         kernel_text_finish(out);

@@ -39,7 +39,7 @@ void explain_destroy(struct explain *e)
 
 /* ---- calls ---- */
 
-void explain_call(struct explain *e, const char *name, bool foreseen, double time_s)
+void explain_call(struct explain *e, const char *name, int foreseen, double time_s)
 {
     uint32_t h = 2166136261u;
     for (const char *c = name; *c; c++)
@@ -52,7 +52,7 @@ void explain_call(struct explain *e, const char *name, bool foreseen, double tim
     }
     struct machine_explained *f = &e->facts;
     f->calls_recorded += !foreseen;
-    f->calls_foreseen += foreseen;
+    f->calls_foreseen += (uint64_t)foreseen;
     if (!*place) {
         if (f->calls_count == CALL_NAMES_MOST)
             return;
@@ -61,7 +61,7 @@ void explain_call(struct explain *e, const char *name, bool foreseen, double tim
     }
     struct machine_explained_row *row = &e->calls[*place - 1];
     row->count += !foreseen;
-    row->bytes += foreseen;
+    row->bytes += (uint64_t)foreseen;
     row->time_s += time_s;
 }
 
@@ -182,13 +182,14 @@ static enum machine_cut why_of(const struct explain *e, const struct plan_graph 
     return MACHINE_CUT_LATER;
 }
 
-/* Neighbours' values that the kernel computes, which has another for itself or none. */
-static int shifts_computed(const struct plan_graph *g, const int *stores, int stores_count)
+/* Neighbours' values that a stage computes, which has another for itself or none. */
+static int shifts_computed(const struct plan_graph *g, const int *stores, int stores_count,
+                           int stage)
 {
-    int stage = g->nodes[stores[0]].stage, count = 0;
+    int count = 0;
     bool *needed = calloc((size_t)g->count, sizeof *needed);
     for (int i = 0; needed && i < stores_count; i++)
-        needed[stores[i]] = true;
+        needed[stores[i]] = g->nodes[stores[i]].stage == stage;
     for (int i = g->count - 1; needed && i >= 0; i--) {
         const struct plan_node *n = &g->nodes[i];
         if (!needed[i] || n->constant || plan_loads(n, stage))
@@ -211,18 +212,22 @@ static char *name_of(const struct machine_explained_store *stores, int count)
     enum { SHOWN = 3 };
     char text[SHOWN * 100 + 20] = "";
     size_t length = 0;
-    for (int i = 0; i < count && i < SHOWN; i++) {
+    int shown = 0, all = 0;
+    for (int i = 0; i < count; i++) {
         const struct machine_explained_store *s = &stores[i];
+        all += !s->in_ring;
+        if (s->in_ring || shown == SHOWN)
+            continue;
         const char *of = s->why == MACHINE_CUT_NEIGHBOURS ? " for neighbours"
                          : s->why == MACHINE_CUT_LATER    ? " for a later kernel"
                          : *s->where                      ? ""
                                                           : " to look at";
-        length +=
-            (size_t)snprintf(text + length, sizeof text - length, "%s%s%s%s%s", i ? ", " : "",
-                             s->where, *s->where ? " = " : "", s->operation, of);
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s%s%s%s",
+                                   shown++ ? ", " : "", s->where, *s->where ? " = " : "",
+                                   s->operation, of);
     }
-    if (count > SHOWN)
-        snprintf(text + length, sizeof text - length, ", %d more", count - SHOWN);
+    if (all > SHOWN)
+        snprintf(text + length, sizeof text - length, ", %d more", all - SHOWN);
     return strdup(text);
 }
 
@@ -259,6 +264,8 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
         return n;
     for (int i = 0; i < stores_count; i++) {
         list[i] = (struct machine_explained_store){.why = why_of(e, g, stores[i]),
+                                                   .in_ring =
+                                                       g->strips && !g->nodes[stores[i]].target,
                                                    .type = g->nodes[stores[i]].type,
                                                    .operation = operation_of(g, stores[i])};
         where_of(m, e->nodes[stores[i]], list[i].where, sizeof list[i].where);
@@ -276,7 +283,14 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
     f->stores_count = stores_count;
     f->operations = k->ops;
     f->operations_cost = k->cost;
-    f->shifts_computed = shifts_computed(g, stores, stores_count);
+    for (int i = 0; i < stores_count; i++) {
+        int stage = g->nodes[stores[i]].stage;
+        f->stages = stage >= f->stages ? stage + 1 : f->stages;
+        f->rings += list[i].in_ring;
+    }
+    for (int stage = g->strips ? 0 : f->stages - 1; stage < f->stages; stage++)
+        f->shifts_computed += shifts_computed(g, stores, stores_count, stage);
+    f->stages = g->strips ? f->stages : 1;
     f->split = split;
     /* A lane by itself takes the time of a whole vector. */
     double lanes = k->vector == 1 ? m->device.shape.vector : 1;

@@ -5,7 +5,9 @@
  *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
- *   emit.c      the text of one kernel                                (pure; no OpenCL)
+ *   body.c      the text of what a kernel computes                    (pure; no OpenCL)
+ *   emit.c      the text of a kernel of rows                          (pure; no OpenCL)
+ *   strips.c    ... of several stages, line by line                   (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
@@ -179,12 +181,14 @@ struct vpset {
 
 /* ---- the device ---- */
 
-struct device_shape { /* what generated code should look like there */
-    int vector;       /* lanes of 32 bits in a work-item; 1 on a GPU */
-    int halo;         /* columns of padding, where vectors are used */
-    double op_ns;     /* cost model: one vector instruction, for an element */
-    double byte_ns;   /* ... one byte to or from memory */
-    double launch_ns; /* ... a launch */
+struct device_shape {              /* what generated code should look like there */
+    int vector;                    /* lanes of 32 bits in a work-item; 1 on a GPU */
+    int halo;                      /* columns of padding, where vectors are used */
+    double op_ns;                  /* cost model: one vector instruction, for an element */
+    double byte_ns;                /* ... one byte to or from memory */
+    double near_byte_ns;           /* ... to or from a cache */
+    bool no_strips, always_strips; /* see plan.c; for tests */
+    double launch_ns;              /* ... a launch */
 };
 
 struct program_entry;
@@ -270,11 +274,13 @@ struct machine {
     uint32_t trace_count;
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    uint64_t flush_after;             /* values waiting */
-    bool sliced;                      /* there has been a slice: see slices.c */
-    bool rolling;                     /* in reshape_roll() */
-    uint64_t roll_after;              /* values waiting before the next try */
-    bool flush_due, flushing;         /* before the next instruction; just now */
+    uint64_t flush_after;     /* values waiting */
+    bool sliced;              /* there has been a slice: see slices.c */
+    bool rolling;             /* in reshape_roll() */
+    uint64_t roll_after;      /* values waiting before the next try */
+    bool flush_due, flushing; /* before the next instruction; just now */
+    bool hold_flush;          /* none becomes due */
+    bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
     uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
@@ -406,7 +412,10 @@ struct plan_node {
 struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
-    bool boxes; /* write kernels that tell inside from outside: see emit.c */
+    bool boxes;     /* write kernels that tell inside from outside: see body.c */
+    bool strips;    /* decided: all stages in one kernel, see strips.c */
+    bool no_strips; /* but not so */
+    bool could_be_strips;
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -432,7 +441,8 @@ enum kernel_argument_kind {
     ARGUMENT_INPUT,
     ARGUMENT_OUTPUT,
     ARGUMENT_CONSTANT,
-    ARGUMENT_SECOND
+    ARGUMENT_SECOND,
+    ARGUMENT_SCRATCH /* of strips */
 };
 struct kernel_argument {
     uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
@@ -446,12 +456,18 @@ struct kernel_text {
     int arguments_count;
     int vector;
     bool wide, soft, formats, wraps, math;
-    bool has_boxes; /* or would have, if asked for */
-    int ops, loads; /* emitted */
-    int cost;       /* node_cost() of these operations, and of coordinates and random numbers */
+    bool has_boxes;     /* or would have, if asked for */
+    int ops, loads;     /* emitted */
+    size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
+    int strip_margin;   /* rows that each computes besides its own */
+    int cost; /* node_cost() of these operations, and of coordinates and random numbers */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out);
+/* strips.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
+bool emit_strips(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);
 void kernel_text_finish(struct kernel_text *k);
@@ -469,6 +485,7 @@ void run_flush_due(struct machine *m);
 struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
+bool plan_stretches(const struct plan *p); /* many turns of it may be cheaper in one kernel */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
@@ -493,6 +510,9 @@ void replay_impure(struct machine *m);
 /* Before fields die, or VP sets change their shape. */
 void replay_forget(struct machine *m);
 bool replay_in_call(const struct machine *m);
+bool replay_in_loop(const struct machine *m);  /* then evaluations become due after calls */
+bool replay_thorough(const struct machine *m); /* evaluations are to leave nothing to compute */
+void replay_resolve(struct machine *m);        /* ... no lazy overflow either */
 /* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
  * could not. */
 void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,

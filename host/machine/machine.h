@@ -195,6 +195,7 @@ struct machine_explained_store {
     enum machine_cut why;
     struct machine_type type;
     const char *operation; /* that gave it, under the context or not */
+    bool in_ring;          /* in a few rows of it at a time, and no array: see strips.c */
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
@@ -210,8 +211,9 @@ struct machine_explained_kernel {
     int arrays_read, arrays_written;
     int bytes_read, bytes_written; /* for a processor */
     int shifts_computed;           /* neighbours' values that were computed again, not loaded */
-    bool split;                    /* of one that would have had too many arguments */
-    const char *made;              /* how well: "quick", "optimised", "boxed" */
+    int stages, rings; /* in strips: one after the other; values in rings of rows. Else 1, 0 */
+    bool split;        /* of one that would have had too many arguments */
+    const char *made;  /* how well: "quick", "optimised", "boxed" */
     const struct machine_explained_store *stores;
     int stores_count;
     uint64_t runs;

@@ -38,14 +38,15 @@ struct search {
     bool *barrier; /* of shift nodes */
     bool *light;   /* never stored: computed wherever it is needed */
     int *earliest;
-    int *loaded; /* stamp: counted in this kernel's bytes already */
+    int *loaded, loads_stamp; /* stamp: counted in this kernel's bytes already */
     struct visit *visits;
     uint32_t visits_size, stamp, visits_count;
     /* offsets met: vectors of rank numbers */
     int (*offsets)[MACHINE_AXES_MAX];
     int offsets_count;
-    bool first; /* the first plan must do, whatever it costs */
-    double operations, bytes;
+    bool strips;                          /* all stages in one kernel */
+    bool first;                           /* the first plan must do, whatever it costs */
+    double operations, bytes, near_bytes; /* near: of rings */
     bool too_much;
 };
 
@@ -99,8 +100,10 @@ static void expand(struct search *s, int index, int offset, int stage)
         return;
     if (plan_loads(n, stage)) {
         s->operations += 1;
-        if (s->loaded[index] != (int)s->stamp) {
-            s->loaded[index] = (int)s->stamp;
+        if (s->strips && !n->leaf)
+            s->near_bytes += (double)type_bytes(n->type);
+        else if (s->loaded[index] != s->loads_stamp) {
+            s->loaded[index] = s->loads_stamp;
             s->bytes += (double)type_bytes(n->type);
         }
         return;
@@ -171,12 +174,23 @@ static int assign(struct search *s)
     return last;
 }
 
+/* Computing and moving overlap in part. */
+static double time_of(const struct search *s, const struct vpset *set)
+{
+    double c = s->operations * s->shape->op_ns + s->near_bytes * s->shape->near_byte_ns,
+           b = s->bytes * s->shape->byte_ns;
+    return (double)set->count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
+}
+
 static double cost(struct search *s)
 {
     struct plan_graph *g = s->g;
     int last = assign(s);
     double total = 0;
     s->too_much = false;
+    s->operations = s->bytes = s->near_bytes = 0;
+    s->loads_stamp++;
+    const struct vpset *only = NULL;
     for (int stage = 0; stage <= last; stage++) {
         uint16_t sets_done[64];
         int sets_count = 0;
@@ -190,25 +204,32 @@ static double cost(struct search *s)
                 continue;
             uint16_t set = g->nodes[i].set;
             sets_done[sets_count++] = set;
+            only = &s->sets[set];
             s->stamp++;
             s->visits_count = 0;
             s->offsets_count = 1;
-            s->operations = s->bytes = 0;
+            if (!s->strips) {
+                s->operations = s->bytes = 0;
+                s->loads_stamp++;
+            }
             for (int k = i; k < g->count; k++)
                 if (g->nodes[k].stored && g->nodes[k].stage == stage &&
                     g->nodes[k].set == set) {
-                    s->bytes += (double)type_bytes(g->nodes[k].type);
+                    double bytes = (double)type_bytes(g->nodes[k].type);
+                    if (g->nodes[k].target || !s->strips)
+                        s->bytes += bytes;
+                    if (!g->nodes[k].target && s->strips)
+                        s->near_bytes += bytes;
                     s->operations += 1;
                     expand(s, k, 0, stage);
                 }
             if (s->too_much || s->visits_count > EVALUATIONS_MAX)
                 return s->first ? 1e300 : HUGE_VAL;
-            double c = s->operations * s->shape->op_ns, b = s->bytes * s->shape->byte_ns;
-            total += (double)s->sets[set].count * (fmax(c, b) + fmin(c, b) / 4) +
-                     s->shape->launch_ns;
+            if (!s->strips)
+                total += time_of(s, only);
         }
     }
-    return total;
+    return s->strips && only ? time_of(s, only) : total;
 }
 
 static void find_light(struct search *s, double *weight)
@@ -263,7 +284,7 @@ static void find_substitutes(struct plan_graph *g)
             bool first =
                 n->op == NODE_SELECT && k == 1; /* looked at where n's own condition holds */
             int32_t here = first && where[i] == EVERYWHERE ? n->in[0] : where[i];
-            if (s >= 0 && s < i && g->nodes[s].in[0] == here)
+            if (s >= 0 && g->nodes[s].in[0] == here)
                 n->instead[k] = s;
         }
     }
@@ -284,7 +305,7 @@ static int by_cost(const void *a, const void *b)
 
 /* Twice: tries each barrier that is left, and takes them away in the order of what that seemed
  * to gain. */
-static void descend(struct search *s, double best)
+static double descend(struct search *s, double best)
 {
     struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
     INVARIANT(gains != NULL);
@@ -309,13 +330,42 @@ static void descend(struct search *s, double best)
         }
     }
     free(gains);
+    return best;
+}
+
+/* One VP set of two axes, in rows with halos. */
+static bool could_be_strips(const struct plan_graph *g, const struct vpset *sets,
+                            const struct device_shape *shape)
+{
+    uint16_t only = 0;
+    if (g->no_strips || shape->no_strips || shape->vector < 2)
+        return false;
+    for (int i = 0; i < g->count; i++) {
+        const struct plan_node *n = &g->nodes[i];
+        if (!n->set || (n->constant && !n->leaf))
+            continue;
+        if (only && n->set != only)
+            return false;
+        only = n->set;
+    }
+    return only && sets[only].rank == 2 && sets[only].halo >= shape->vector;
+}
+
+/* A barrier at each shift of something that must be computed. */
+static double barriers_everywhere(struct search *s)
+{
+    for (int i = 0; i < s->g->count; i++)
+        s->barrier[i] = s->g->nodes[i].op == NODE_SHIFT && !s->g->nodes[i].leaf &&
+                        !s->light[s->g->nodes[i].in[0]];
+    s->first = true;
+    return cost(s);
 }
 
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape)
 {
     size_t count = (size_t)g->count;
-    struct search s = {.g = g, .sets = sets, .shape = shape, .first = true};
+    struct search s = {.g = g, .sets = sets, .shape = shape};
     s.visits_size = 1024;
     while (s.visits_size < 4 * count + 4 * EVALUATIONS_MAX)
         s.visits_size *= 2;
@@ -326,15 +376,24 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     s.visits = calloc(s.visits_size, sizeof *s.visits);
     s.offsets = calloc(OFFSETS_MAX, sizeof *s.offsets);
     double *weight = calloc(count, sizeof *weight);
+    bool *barrier = calloc(count, sizeof *barrier);
     INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets &&
-              weight);
+              weight && barrier);
     s.offsets_count = 1;
     find_light(&s, weight);
-    for (int i = 0; i < g->count; i++)
-        if (g->nodes[i].op == NODE_SHIFT && !g->nodes[i].leaf && !s.light[g->nodes[i].in[0]])
-            s.barrier[i] = true;
     find_substitutes(g);
-    descend(&s, cost(&s));
+    double best = descend(&s, barriers_everywhere(&s));
+    g->could_be_strips = could_be_strips(g, sets, shape);
+    if (g->could_be_strips) {
+        memcpy(barrier, s.barrier, count * sizeof *barrier);
+        s.strips = true;
+        double strips = descend(&s, barriers_everywhere(&s));
+        g->strips = assign(&s) > 0 && (strips < best || shape->always_strips);
+        if (!g->strips) {
+            s.strips = false;
+            memcpy(s.barrier, barrier, count * sizeof *barrier);
+        }
+    }
     cost(&s);
     free(s.barrier);
     free(s.light);
@@ -343,4 +402,5 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     free(s.visits);
     free(s.offsets);
     free(weight);
+    free(barrier);
 }

@@ -33,20 +33,30 @@
 
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
 
+/* A loop that has turned so often is tried with so many turns at once. */
+enum { TURNS_SEEN = 6, TURNS_MOST = 8 };
+
+/* What an evaluation ran, and what became of the buffers. */
+struct deed {
+    struct plan *plan; /* NULL: there is none */
+    uint32_t version;  /* of the plan */
+    uint64_t stores;
+    int nodes_count;               /* of the plan's signature */
+    int32_t *from;                 /* each node's buffer in the first state; -1: none */
+    struct machine_value **values; /* each node that is a number, or keeps its own buffer */
+    int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
+};
+
 struct edge {
     struct machine_call *calls;
     int calls_count;
-    bool
-        alone; /* the evaluation came of itself after the last call, not because somebody looked */
-    int to;    /* state */
-    struct plan *plan;
-    uint32_t version; /* of the plan */
-    uint64_t stores;
-    int nodes_count; /* of the plan's signature */
-    int32_t *from;   /* each node's buffer in the first state; -1: none */
-    struct machine_value *
-        *values;   /* each node that is a number, or keeps its own buffer; else NULL */
-    int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
+    bool alone; /* the evaluation came of itself after the last call; nobody looked */
+    int to;     /* state */
+    struct deed deed;
+    /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
+    struct deed turns;
+    uint64_t runs;
+    bool one_by_one; /* many turns were tried in vain */
 };
 
 struct leaf {
@@ -72,14 +82,33 @@ struct state {
     int edges_count, edge_last;
 };
 
+/* The last calls that were performed one by one, by hash, to see that they repeat: those that the last few
+ * were met with before tell a period, and a whole period more that it is one. */
+enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024 };
+
+struct history {
+    uint64_t hashes[HISTORY], window;
+    uint32_t count, period, match;
+    struct {
+        uint64_t window;
+        uint32_t at;
+    } met[WINDOWS];
+};
+
 struct replay {
+    struct history history;
+    uint32_t since; /* calls performed one by one since the last evaluation */
     struct state states[STATES_MOST];
     int states_count, active; /* -1: none */
     uint64_t seen[HASHES_SEEN];
     uint32_t seen_count;
 
-    struct edge *
-        edge; /* of the active state: the first machine.calls_noted of its calls are to be performed */
+    /* Of the active state: its calls, in a loop's case again and again, are noted; `at` is the next one. */
+    struct edge *edge;
+    int at;
+    int turns_most; /* evaluated at once */
+    bool thorough;  /* evaluations leave nothing to compute: all turns of a loop begin alike */
+    uint64_t built_at; /* evaluations when many turns ran last */
 
     /* Calls performed since the last evaluation, in a state that was `from` then. */
     struct machine_call *log;
@@ -122,6 +151,8 @@ bool replay_init(struct machine *m)
     if (!m->replay)
         return false;
     m->replay->active = m->replay->from = -1;
+    const char *turns = getenv("LUTETIA_TURNS");
+    m->replay->turns_most = turns && *turns ? atoi(turns) : TURNS_MOST;
     return true;
 }
 
@@ -366,18 +397,25 @@ static void activate(struct machine *m, int index, struct device_buffer *const *
         m->sets[i].overflow.op = s->overflows[i];
     p->active = index;
     p->edge = s->edges_count && !p->catching_up ? &s->edges[s->edge_last] : NULL;
-    m->calls_noted = 0;
+    p->at = m->calls_noted = 0;
+}
+
+static void deed_finish(struct machine *m, struct deed *d)
+{
+    for (int i = 0; d->values && i < d->nodes_count; i++)
+        if (d->values[i])
+            graph_unref(m, d->values[i]);
+    free(d->from);
+    free(d->values);
+    free(d->next);
+    *d = (struct deed){.plan = NULL};
 }
 
 static void edge_finish(struct machine *m, struct edge *e)
 {
-    for (int i = 0; e->values && i < e->nodes_count; i++)
-        if (e->values[i])
-            graph_unref(m, e->values[i]);
+    deed_finish(m, &e->deed);
+    deed_finish(m, &e->turns);
     free(e->calls);
-    free(e->from);
-    free(e->values);
-    free(e->next);
 }
 
 static void template_release(struct machine *m, struct state *s)
@@ -491,52 +529,61 @@ void replay_forget(struct machine *m)
 
 /* ---- performing what was noted ---- */
 
-/* The edge whose calls have all been noted, at once. False: that cannot be done now. */
-static bool edge_run(struct machine *m)
+static bool is_loop(const struct machine *m, const struct edge *e)
+{
+    return e->alone && e->to == m->replay->active;
+}
+
+/* How many turns of it are noted before any is performed. */
+static int turns_noted(const struct machine *m, const struct edge *e)
+{
+    const struct replay *p = m->replay;
+    bool many = is_loop(m, e) && p->thorough && !e->one_by_one && e->runs >= TURNS_SEEN &&
+                plan_stretches(e->deed.plan) &&
+                (int64_t)e->calls_count * p->turns_most <= CALLS_MOST;
+    return many ? p->turns_most : 1;
+}
+
+/* False: that cannot be done now. */
+static bool deed_do(struct machine *m, const struct deed *d, int to)
 {
     struct replay *p = m->replay;
-    struct edge *e = p->edge;
-    struct state *s = &p->states[p->active], *t = &p->states[e->to];
-    if (plan_version(m, e->plan) != e->version)
+    struct state *s = &p->states[p->active], *t = &p->states[to];
+    if (!d->plan || plan_version(m, d->plan) != d->version)
         return false;
-    double start = watch_clock(m);
     graph_give_back(m);
-    if (e->nodes_count + t->buffers_count > p->scratch_capacity) {
-        p->scratch_capacity = e->nodes_count + t->buffers_count;
+    if (d->nodes_count + t->buffers_count > p->scratch_capacity) {
+        p->scratch_capacity = d->nodes_count + t->buffers_count;
         free(p->scratch);
         p->scratch = allocated((size_t)p->scratch_capacity, sizeof *p->scratch);
     }
-    struct device_buffer **buffers = p->scratch, **next = p->scratch + e->nodes_count;
-    for (int i = 0; i < e->nodes_count; i++)
-        buffers[i] = e->from[i] >= 0 ? s->buffers[e->from[i]]
-                     : e->values[i]  ? e->values[i]->buffer
+    struct device_buffer **buffers = p->scratch, **next = p->scratch + d->nodes_count;
+    for (int i = 0; i < d->nodes_count; i++)
+        buffers[i] = d->from[i] >= 0 ? s->buffers[d->from[i]]
+                     : d->values[i]  ? d->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, e->plan, buffers,
-                 e->values)) /* it is going to be tried, and said, once more */
+    if (plan_run(m, d->plan, buffers,
+                 d->values)) /* it is going to be tried, and said, once more */
         return false;
     for (int k = 0; k < t->buffers_count; k++) {
-        next[k] = e->next[k] >= 0 ? s->buffers[e->next[k]] : buffers[~e->next[k]];
+        next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];
         device_buffer_ref(next[k]);
     }
     int count;
-    const int *stored = plan_stored(e->plan, &count);
+    const int *stored = plan_stored(d->plan, &count);
     for (int i = 0; i < count; i++)
         device_buffer_unref(m, buffers[stored[i]]);
-    m->stores += e->stores;
+    p->since = 0;
+    m->stores += d->stores;
     m->stores_evaluated = m->stores;
     m->flushes++;
-    m->calls_foreseen += (uint64_t)e->calls_count;
-    m->calls_noted = 0;
-    if (m->watch)
-        watch_replayed(m, start, e->calls, e->calls_count, e->alone);
     p->log_count = 0;
-    s->edge_last = (int)(e - s->edges);
     if (s == t) {
         for (int i = 0; i < s->leaves_count; i++)
             leaf_set(m, s->leaves[i].node, next[s->leaves[i].number]);
         memcpy(s->buffers, next, (size_t)s->buffers_count * sizeof *next);
     } else {
-        activate(m, e->to, next);
+        activate(m, to, next);
         for (int i = 0; i < s->leaves_count; i++)
             leaf_set(m, s->leaves[i].node, NULL);
     }
@@ -551,8 +598,9 @@ static void catch_up(struct machine *m)
     struct replay *p = m->replay;
     int count = m->calls_noted, set = m->set_current;
     struct machine_call *calls = allocated((size_t)count, sizeof *calls);
-    memcpy(calls, p->edge->calls, (size_t)count * sizeof *calls);
-    m->calls_noted = 0;
+    for (int i = 0; i < count; i++)
+        calls[i] = p->edge->calls[i % p->edge->calls_count];
+    m->calls_noted = p->at = 0;
     p->edge = NULL;
     p->catching_up = true;
     for (int i = 0; i < count; i++) {
@@ -568,6 +616,91 @@ static void catch_up(struct machine *m)
     }
 }
 
+/* Loops that are worth it are to be evaluated many turns at a time. For that all turns must begin alike, and those
+ * that are known do not. */
+static bool become_thorough(struct machine *m, const struct edge *e)
+{
+    struct replay *p = m->replay;
+    if (p->thorough || p->turns_most < 2 || e->runs != TURNS_SEEN || !e->alone ||
+        !plan_stretches(e->deed.plan))
+        return false;
+    p->thorough = true;
+    p->built_at = m->flushes;
+    forget(m);
+    return true;
+}
+
+/* Where many turns have not run for long, temporaries are left alone again. */
+static void stay_thorough(struct machine *m, bool turns)
+{
+    struct replay *p = m->replay;
+    if (turns)
+        p->built_at = m->flushes;
+    else if (p->thorough && m->flushes - p->built_at > 256) {
+        p->thorough = false;
+        forget(m);
+    }
+}
+
+/* Many turns of the loop, for the first time: performed call by call, and evaluated at the end. */
+static void build_turns(struct machine *m)
+{
+    struct replay *p = m->replay;
+    int active = p->active, at = (int)(p->edge - p->states[active].edges);
+    m->building = m->hold_flush = true;
+    catch_up(m);
+    m->hold_flush = false;
+    m->flush_due = true;
+    run_flush_due(m);
+    m->building = false;
+    bool back = p->active == active && p->states[active].edges_count > at;
+    if (back && !p->states[active].edges[at].turns.plan)
+        p->states[active].edges[at].one_by_one = true;
+}
+
+/* All turns of the edge that have been noted, but for the last one that is not whole. False: it cannot be
+ * done, and nothing of what is still noted has been. */
+static bool turns_do(struct machine *m)
+{
+    struct replay *p = m->replay;
+    struct edge *e = p->edge;
+    int turns = turns_noted(m, e), whole = m->calls_noted / e->calls_count;
+    double start = watch_clock(m);
+    if (turns > 1 && whole >= turns) {
+        if (!e->turns.plan) {
+            build_turns(m);
+            return true;
+        }
+        if (!deed_do(m, &e->turns, e->to))
+            return false;
+        m->calls_noted -= turns * e->calls_count;
+        m->calls_foreseen += (uint64_t)turns * (uint64_t)e->calls_count;
+        if (m->watch)
+            watch_replayed(m, start, e->calls, e->calls_count, turns, e->alone);
+        whole -= turns;
+        stay_thorough(m, true);
+    }
+    for (; whole > 0; whole--) {
+        int left = m->calls_noted - e->calls_count;
+        struct state *s = &p->states[p->active];
+        start = watch_clock(m);
+        if (!deed_do(m, &e->deed, e->to))
+            return false;
+        m->calls_foreseen += (uint64_t)e->calls_count;
+        m->calls_noted = left;
+        if (m->watch)
+            watch_replayed(m, start, e->calls, e->calls_count, 1, e->alone);
+        s->edge_last = (int)(e - s->edges);
+        e->runs++;
+    }
+    if (m->calls_noted == 0) {
+        p->at = 0;
+        if (!become_thorough(m, e))
+            stay_thorough(m, false);
+    }
+    return true;
+}
+
 static bool same_call(const struct machine_call *a, const struct machine_call *b)
 {
     if (a->again != b->again || a->vpset != b->vpset || a->words_count != b->words_count)
@@ -580,7 +713,7 @@ static bool same_call(const struct machine_call *a, const struct machine_call *b
 
 static bool begins_alike(const struct edge *a, const struct edge *b, int count)
 {
-    if (a->calls_count < count)
+    if (a->calls_count < count || b->calls_count < count)
         return false;
     for (int i = 0; i < count; i++)
         if (!same_call(&a->calls[i], &b->calls[i]))
@@ -608,13 +741,61 @@ static struct edge *other_edge(struct machine *m, const struct machine_call *cal
 void replay_perform(struct machine *m)
 {
     struct replay *p = m->replay;
+    if (m->calls_noted > p->edge->calls_count && !turns_do(m)) {
+        catch_up(m);
+        return;
+    }
+    if (!m->calls_noted)
+        return;
     struct edge *e = p->edge->calls_count == m->calls_noted ? p->edge : other_edge(m, NULL);
     if (e) {
         p->edge = e;
-        if (edge_run(m))
+        if (turns_do(m))
             return;
     }
     catch_up(m);
+}
+
+/* ---- loops ---- */
+
+#define WINDOW_FACTOR 0x9e3779b97f4a7c15u
+
+static void history_add(struct history *h, const struct machine_call *call)
+{
+    uint64_t hash = (uint64_t)(uintptr_t)call->again ^ (uint64_t)call->vpset << 48, leaving = 1;
+    for (uint32_t i = 0; i < call->words_count; i++)
+        hash = (hash ^ hash >> 29 ^ call->words[i]) * 0xbf58476d1ce4e5b9u;
+    hash ^= hash >> 32;
+    for (int i = 0; i < WINDOW; i++)
+        leaving *= WINDOW_FACTOR;
+    uint32_t at = h->count++;
+    if (h->period && h->hashes[(at - h->period) % HISTORY] == hash)
+        h->match++;
+    else
+        h->period = h->match = 0;
+    uint64_t old = at >= WINDOW ? h->hashes[(at - WINDOW) % HISTORY] : 0;
+    h->window = h->window * WINDOW_FACTOR + hash - old * leaving;
+    h->hashes[at % HISTORY] = hash;
+    uint32_t slot = (uint32_t)(h->window >> 40) % WINDOWS;
+    if (!h->period && h->met[slot].window == h->window &&
+        at - h->met[slot].at < HISTORY - WINDOW)
+        h->period = at - h->met[slot].at;
+    h->met[slot].window = h->window;
+    h->met[slot].at = at;
+}
+
+bool replay_in_loop(const struct machine *m)
+{
+    const struct history *h = m->replay ? &m->replay->history : NULL;
+    return h && h->period && h->match >= h->period;
+}
+
+/* After a call: a turn of the loop is complete, or several if they are short. */
+static bool turn_ends(const struct machine *m)
+{
+    const struct replay *p = m->replay;
+    return replay_in_loop(m) && p->since % p->history.period == 0 &&
+           m->nodes_pending >= m->flush_after / 8;
 }
 
 /* ---- calls ---- */
@@ -623,12 +804,29 @@ static bool take_note(struct machine *m, const struct machine_call *call)
 {
     struct replay *p = m->replay;
     struct edge *e = p->edge;
-    if (!e || m->calls_noted >= e->calls_count || !same_call(call, &e->calls[m->calls_noted]))
+    if (!e || p->at >= e->calls_count || !same_call(call, &e->calls[p->at]))
         return false;
     m->calls_noted++;
-    if (m->calls_noted == e->calls_count && e->alone && !edge_run(m))
-        catch_up(m);
+    if (++p->at == e->calls_count && e->alone) {
+        p->at = 0;
+        if (m->calls_noted >= turns_noted(m, e) * e->calls_count && !turns_do(m))
+            catch_up(m);
+    }
     return true;
+}
+
+/* The call is not the next one of the edge: but perhaps that of another. */
+static bool take_note_elsewhere(struct machine *m, const struct machine_call *call)
+{
+    struct replay *p = m->replay;
+    if (p->edge && m->calls_noted > p->edge->calls_count && !turns_do(m))
+        return false;
+    struct edge *other = p->edge ? other_edge(m, call) : NULL;
+    if (!other)
+        return false;
+    p->edge = other;
+    p->at = m->calls_noted;
+    return take_note(m, call);
 }
 
 static bool foreseen(struct machine *m, struct machine_call *call)
@@ -641,19 +839,15 @@ static bool foreseen(struct machine *m, struct machine_call *call)
         return false;
     }
     call->vpset = m->set_current;
-    if (take_note(m, call))
+    if (take_note(m, call) || take_note_elsewhere(m, call))
         return true;
-    struct edge *other = p->edge ? other_edge(m, call) : NULL;
-    if (other) {
-        p->edge = other;
-        return take_note(m, call);
-    }
     replay_settle(m);
-    if (m->flush_due) {
+    if (m->flush_due)
         run_flush_due(m);
-        if (!p->catching_up && take_note(m, call))
-            return true;
-    }
+    if (!p->catching_up && take_note(m, call))
+        return true;
+    history_add(&p->history, call);
+    p->since++;
     if (p->active >= 0 || p->from >= 0) {
         if (p->log_count == CALLS_MOST)
             from_forget(m);
@@ -679,8 +873,8 @@ void machine_call_performed(struct machine *m)
     struct replay *p = m->replay;
     if (m->watch)
         watch_performed(m);
-    if (p && p->depth)
-        p->depth--;
+    if (p && p->depth && --p->depth == 0 && !m->hold_flush && turn_ends(m))
+        m->flush_due = true;
 }
 
 void machine_call_failed(struct machine *m)
@@ -697,6 +891,23 @@ void machine_call_failed(struct machine *m)
 void machine_calls_forget(struct machine *m)
 {
     replay_forget(m);
+}
+
+bool replay_thorough(const struct machine *m)
+{
+    return m->replay && m->replay->thorough;
+}
+
+void replay_resolve(struct machine *m)
+{
+    struct replay *p = m->replay;
+    if (!replay_thorough(m))
+        return;
+    p->depth++; /* it belongs to the calls before */
+    for (int i = 1; i < m->sets_count; i++)
+        if (m->sets[i].used)
+            flag_resolved(m, &m->sets[i], MACHINE_OVERFLOW);
+    p->depth--;
 }
 
 bool replay_in_call(const struct machine *m)
@@ -726,21 +937,21 @@ static void number_buffers(struct machine *m, struct device_buffer *const *buffe
     }
 }
 
-static bool sources_find(struct machine *m, struct edge *e, struct machine_value *const *nodes,
+static bool sources_find(struct machine *m, struct deed *d, struct machine_value *const *nodes,
                          struct device_buffer *const *buffers)
 {
     const struct replay *p = m->replay;
     number_buffers(m, p->from_buffers, p->from_buffers_count);
-    for (int i = 0; i < e->nodes_count; i++) {
+    for (int i = 0; i < d->nodes_count; i++) {
         struct machine_value *v = nodes[i];
-        e->from[i] = -1;
+        d->from[i] = -1;
         if (v->op == NODE_CONSTANT || (buffers[i] && !is_leaf(v))) {
-            e->values[i] = v;
+            d->values[i] = v;
             graph_ref(v);
         } else if (buffers[i]) {
             if (buffers[i]->mark != m->mark)
                 return false;
-            e->from[i] = (int32_t)buffers[i]->number;
+            d->from[i] = (int32_t)buffers[i]->number;
         }
     }
     return true;
@@ -756,15 +967,16 @@ void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value
         from_forget(m);
     if (p->from < 0)
         return;
-    struct edge e = {.calls_count = p->log_count,
-                     .alone = m->flushing,
-                     .plan = plan,
-                     .version = plan_version(m, plan),
-                     .stores = m->stores - p->from_stores,
-                     .nodes_count = count,
-                     .from = allocated((size_t)count, sizeof *e.from),
-                     .values = allocated((size_t)count, sizeof *e.values)};
-    p->making = sources_find(m, &e, nodes, buffers);
+    struct edge e = {
+        .calls_count = p->log_count,
+        .alone = m->flushing,
+        .deed = {.plan = plan,
+                 .version = plan_version(m, plan),
+                 .stores = m->stores - p->from_stores,
+                 .nodes_count = count,
+                 .from = allocated((size_t)count, sizeof *e.deed.from),
+                 .values = allocated((size_t)count, sizeof(struct machine_value *))}};
+    p->making = sources_find(m, &e.deed, nodes, buffers);
     if (p->making)
         p->made = e;
     else
@@ -781,7 +993,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
     int count;
     if (p->states[p->from].places != p->states[to].places)
         return false;
-    const int *stored = plan_stored(e->plan, &count);
+    const int *stored = plan_stored(e->deed.plan, &count);
     number_buffers(m, w->buffers, w->buffers_count);
     for (int i = 0; i < wanted_count;
          i++) /* what was computed for somebody must be in the state */
@@ -793,16 +1005,39 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
         buffers[stored[k]]->mark = m->mark;
         buffers[stored[k]]->number = ~(uint32_t)stored[k];
     }
-    e->next = allocated((size_t)w->buffers_count, sizeof *e->next);
+    int32_t *next = allocated((size_t)w->buffers_count, sizeof *next);
+    e->deed.next = next;
     for (int k = 0; k < w->buffers_count; k++) {
         if (w->buffers[k]->mark != m->mark)
             return false;
-        e->next[k] = (int32_t)w->buffers[k]->number;
+        next[k] = (int32_t)w->buffers[k]->number;
     }
     e->to = to;
     e->calls = allocated((size_t)e->calls_count, sizeof *e->calls);
     memcpy(e->calls, p->log, (size_t)e->calls_count * sizeof *e->calls);
     return true;
+}
+
+/* Many turns of a loop of that state: they are no edge of their own. */
+static bool turns_add(struct machine *m, struct state *s, int to)
+{
+    struct replay *p = m->replay;
+    if (!m->building || s != &p->states[to])
+        return false;
+    for (int i = 0; i < s->edges_count; i++) {
+        struct edge *e = &s->edges[i];
+        bool same =
+            e->alone && e->to == to && e->calls_count * p->turns_most == p->made.calls_count;
+        for (int k = 0; same && k < p->made.calls_count; k++)
+            same = same_call(&e->calls[k % e->calls_count], &p->made.calls[k]);
+        if (!same)
+            continue;
+        deed_finish(m, &e->turns);
+        e->turns = p->made.deed;
+        p->made.deed = (struct deed){.plan = NULL};
+        return true;
+    }
+    return false;
 }
 
 /* In the place of one with the same calls, or of the oldest. */
@@ -871,6 +1106,8 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
     struct replay *p = m->replay;
     if (!p)
         return;
+    if (!p->depth)
+        p->since = 0;
     if (p->active >= 0) /* it changed nothing that is kept */
         return;
     if (p->depth) { /* in the middle of a call: what follows is no state's beginning */
@@ -886,7 +1123,7 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
     int to = w.good ? state_find(m, &w, &visit) : -1;
     bool complete =
         to >= 0 && p->making && edge_complete(m, &w, to, buffers, wanted, wanted_count);
-    if (complete) {
+    if (complete && !turns_add(m, &p->states[p->from], to) && !m->building) {
         edge_add(m, &p->states[p->from], &p->made);
         p->making = false;
     }

@@ -45,6 +45,8 @@ struct launch {
     cl_kernel kernel;
     struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
+    size_t strip_bytes; /* 0: not in strips */
+    int strip_margin;
     struct kernel_argument *arguments;
     int arguments_count;
 };
@@ -62,7 +64,7 @@ struct plan {
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
-    bool could_be_optimised, could_be_boxed;
+    bool could_be_optimised, could_be_boxed, stretches;
     struct plan *next;
 };
 
@@ -272,9 +274,15 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     int set = g->nodes[stores[0]].set;
     struct kernel_text k;
     double start = watch_clock(m);
-    if (!emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
+    if (g->strips
+            ? !emit_strips(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)
+            : !emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
         return false;
+    }
+    if (g->strips && too_many_arguments(&k)) {
+        kernel_text_finish(&k);
+        return false; /* plan_make() does without */
     }
     if (stores_count > 1 && too_many_arguments(&k)) { /* two kernels, each with what it needs */
         int half = stores_count / 2;
@@ -317,6 +325,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .note = note,
                                                        .set = set,
                                                        .vector = k.vector,
+                                                       .strip_bytes = k.strip_bytes,
+                                                       .strip_margin = k.strip_margin,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
     k.arguments = NULL;
@@ -324,20 +334,14 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     return true;
 }
 
-static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                              enum quality quality)
+static bool plan_graph_init(struct plan_graph *g, const struct reach *r,
+                            const struct targets *t)
 {
-    struct plan_graph g = {.nodes = calloc((size_t)r->count, sizeof *g.nodes),
-                           .count = r->count,
-                           .boxes = quality == BOXED};
-    struct plan *p = calloc(1, sizeof *p);
-    int *stores = calloc((size_t)r->count, sizeof *stores);
-    bool good = g.nodes && p && stores;
-    if (!good)
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
-    for (int i = 0; good && i < r->count; i++) {
+    *g = (struct plan_graph){.nodes = calloc((size_t)r->count, sizeof *g->nodes),
+                             .count = r->count};
+    for (int i = 0; g->nodes && i < r->count; i++) {
         const struct machine_value *v = r->nodes[i];
-        struct plan_node *n = &g.nodes[i];
+        struct plan_node *n = &g->nodes[i];
         *n = (struct plan_node){.op = v->buffer ? NODE_BUFFER : v->op,
                                 .type = v->type,
                                 .axis = v->axis,
@@ -350,40 +354,86 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
         for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++)
             n->in[k] = (int32_t)v->in[k]->local;
     }
-    for (int i = 0; good && i < t->count; i++)
-        g.nodes[t->values[i]->local].target = true;
+    for (int i = 0; g->nodes && i < t->count; i++)
+        g->nodes[t->values[i]->local].target = true;
+    return g->nodes != NULL;
+}
+
+/* What is stored in that stage (-1: in all) and VP set; in stages' order. */
+static int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
+{
+    int count = 0;
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].stored && (stage < 0 || g->nodes[i].stage == stage) &&
+            g->nodes[i].set == set)
+            stores[count++] = i;
+    return count;
+}
+
+/* In strips, what only neighbours look at is in no array. */
+static void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
+                        const int *stores, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const struct plan_node *n = &g->nodes[stores[i]];
+        if (g->strips && !n->target)
+            continue;
+        p->stored_bytes[p->stored_count] = observe_buffer_bytes(&m->sets[n->set], n->type);
+        p->stored[p->stored_count++] = stores[i];
+    }
+}
+
+static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_graph *g,
+                         int *stores)
+{
+    int last = 0;
+    uint64_t work = 0;
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].stored) {
+            last = g->nodes[i].stage > last ? g->nodes[i].stage : last;
+            work =
+                m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
+        }
+    if (p->quality == QUICK && work >= m->optimise_after / 4)
+        p->quality = OPTIMISED;
+    for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
+        for (int set = 1; set < m->sets_count; set++) {
+            int count = plan_stores(g, stage, set, stores);
+            plan_arrays(m, p, g, stores, count);
+            if (count && !plan_kernel(m, p, g, stores, count))
+                return false;
+        }
+    return true;
+}
+
+static struct plan *plan_attempt(struct machine *m, const struct reach *r,
+                                 const struct targets *t, enum quality quality, bool *strips)
+{
+    struct plan_graph g;
+    struct plan *p = calloc(1, sizeof *p);
+    int *stores = calloc((size_t)r->count, sizeof *stores);
+    bool good = plan_graph_init(&g, r, t) && p && stores;
     if (good) {
-        double start = watch_clock(m);
-        plan_choose(&g, m->sets, &m->device.shape);
-        if (m->watch)
-            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
+        p->quality = quality;
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
         p->stored_bytes = calloc((size_t)r->count, sizeof *p->stored_bytes);
         good = p->stored && p->stored_bytes;
     }
-    if (good && m->dump_dir)
-        dump_graph(m, m->dump_count, &g);
-    int last = 0;
-    uint64_t work = 0;
-    for (int i = 0; good && i < g.count; i++)
-        if (g.nodes[i].stored) {
-            last = g.nodes[i].stage > last ? g.nodes[i].stage : last;
-            work = m->sets[g.nodes[i].set].count > work ? m->sets[g.nodes[i].set].count : work;
-        }
-    if (good)
-        p->quality = quality == QUICK && work >= m->optimise_after / 4 ? OPTIMISED : quality;
-    for (int stage = 0; good && stage <= last; stage++)
-        for (int set = 1; good && set < m->sets_count; set++) {
-            int count = 0;
-            for (int i = 0; i < g.count; i++)
-                if (g.nodes[i].stored && g.nodes[i].stage == stage && g.nodes[i].set == set) {
-                    stores[count++] = i;
-                    p->stored_bytes[p->stored_count] =
-                        observe_buffer_bytes(&m->sets[set], g.nodes[i].type);
-                    p->stored[p->stored_count++] = i;
-                }
-            good = count == 0 || plan_kernel(m, p, &g, stores, count);
-        }
+    if (good) {
+        g.boxes = quality == BOXED;
+        g.no_strips = !*strips;
+        double start = watch_clock(m);
+        plan_choose(&g, m->sets, &m->device.shape);
+        if (m->watch)
+            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
+        *strips = g.strips;
+        p->stretches = g.could_be_strips;
+        if (m->dump_dir)
+            dump_graph(m, m->dump_count, &g);
+        good = plan_kernels(m, p, &g, stores);
+    } else {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+    }
     free(g.nodes);
     free(stores);
     if (!good) {
@@ -391,6 +441,18 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
         return NULL;
     }
     return p;
+}
+
+static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
+                              enum quality quality)
+{
+    bool strips = quality != QUICK || m->device.shape.always_strips;
+    struct plan *p = plan_attempt(m, r, t, quality, &strips);
+    if (p || !strips)
+        return p;
+    machine_error_clear(m); /* it cannot be done in strips */
+    strips = false;
+    return plan_attempt(m, r, t, quality, &strips);
 }
 
 /* How well a plan that has run on so many processors is to be made. */
@@ -439,6 +501,11 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
+bool plan_stretches(const struct plan *p)
+{
+    return p->stretches && p->quality == BOXED;
+}
+
 const int *plan_stored(const struct plan *p, int *count)
 {
     *count = p->stored_count;
@@ -468,7 +535,7 @@ static struct plan *plan_get(struct machine *m, const struct reach *r, const str
                 plan_improve(m, p, r, t);
             return p;
         }
-    struct plan *p = plan_make(m, r, t, quality_after(m, 0));
+    struct plan *p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0));
     if (!p)
         return NULL;
     m->plans_built++;
@@ -500,13 +567,33 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
+/* So many strips that all units of a CPU have one, and another to make up for one that is late; not so many
+ * that what each computes besides its own rows counts. */
+static size_t strip_rows(const struct machine *m, const struct launch *l, const struct vpset *s)
+{
+    size_t strips = 2 * (size_t)m->device.units, least = 8 + 4 * (size_t)l->strip_margin,
+           rows = ((size_t)s->rows + strips - 1) / strips;
+    return rows < least ? least : rows;
+}
+
 static enum machine_status launch(struct machine *m, const struct launch *l,
                                   struct device_buffer *const *buffers,
                                   struct machine_value *const *nodes)
 {
     const struct vpset *s = &m->sets[l->set];
-    cl_int run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
-    cl_int fixed[5] = {s->width, (cl_int)s->pitch, run, m->processors_log2, (cl_int)s->ratio};
+    struct device_buffer *scratch = NULL;
+    size_t run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
+    size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
+    if (l->strip_bytes) {
+        run = strip_rows(m, l, s);
+        global[0] = 1;
+        global[1] = ((size_t)s->rows + run - 1) / run;
+        scratch = device_buffer_get(m, global[1] * l->strip_bytes);
+        if (!scratch)
+            return m->status;
+    }
+    cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->processors_log2,
+                       (cl_int)s->ratio};
     cl_uint at = 0;
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < 5; i++)
@@ -515,15 +602,20 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
-        if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
+        if (a->kind == ARGUMENT_SCRATCH)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
+        else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
         else
             error |= set_constant(l->kernel, at, nodes[a->node], a);
     }
-    size_t global[2] = {((size_t)s->width + (size_t)run - 1) / (size_t)run, (size_t)s->rows};
     if (m->watch)
         watch_launch(m, l->note);
-    return device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
+    enum machine_status status =
+        device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
+    if (scratch)
+        device_buffer_unref(m, scratch); /* the queue is in order */
+    return status;
 }
 
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
@@ -601,6 +693,8 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
             good = reshape_unpack(m, wanted[i]);
         else if (!node_is_leaf(wanted[i]))
             good = targets_add(&t, wanted[i]);
+    all = all || replay_thorough(m);
+    replay_resolve(m);
     /* Reading one thing after another is one look: nothing has become older in between. */
     if (all || m->stores != m->stores_evaluated)
         good = good && targets_collect(m, &t, all);
@@ -638,7 +732,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
             watch_reached(m, r.nodes, r.count, p->stored_count);
         status = execute(m, p, &r, wanted, count);
         if (m->watch)
-            watch_evaluated(m, start, count > 0, all, t.count);
+            watch_evaluated(m, start, count > 0, t.count);
         m->flushes++;
     } else if (!status) {
         status = m->status;
@@ -669,6 +763,8 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     m->stores++;
     if (m->eager)
         return run_evaluate(m, NULL, 0, true);
+    if (m->hold_flush && v->height < HEIGHT_MOST)
+        return MACHINE_OK;
     if (m->flush_status) {
         enum machine_status status = m->flush_status;
         m->flush_status = MACHINE_OK;
@@ -683,6 +779,8 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
     m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
     *oldest = what;
+    if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->nodes_pending < PENDING_MOST)
+        return MACHINE_OK;
     bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
                  m->nodes_pending >= m->flush_after / 8;
     bool many = m->nodes_pending >= (m->flush_hash ? 5 * m->flush_after : m->flush_after);

@@ -164,7 +164,7 @@ void watch_performed(struct machine *m)
     if (!w->depth || --w->depth)
         return;
     double end = machine_clock_s();
-    explain_call(w->explain, w->call, false, end - w->call_start);
+    explain_call(w->explain, w->call, 0, end - w->call_start);
     span(m, WATCH_RECORD, w->call, w->call_start, end, NULL);
 }
 
@@ -181,7 +181,7 @@ void machine_instruction(struct machine *m, const char *name)
     if (!w)
         return;
     if (!w->depth) {
-        explain_call(w->explain, name, false, 0);
+        explain_call(w->explain, name, 0, 0);
         if (w->machine)
             trace_event(w->machine, TRACE_FRONT_END, name, "record", machine_clock_s(), 0,
                         NULL);
@@ -200,18 +200,18 @@ void machine_explain_between(struct machine *m, void (*between)(void))
 static void settle(struct machine *m, bool wait);
 
 void watch_replayed(struct machine *m, double start, const struct machine_call *calls,
-                    int count, bool alone)
+                    int count, int turns, bool alone)
 {
     struct watch *w = m->watch;
     char text[60];
     for (int i = 0; i < count && w->explains; i++)
-        explain_call(w->explain, calls[i].name, true, 0);
+        explain_call(w->explain, calls[i].name, turns, 0);
     *(alone ? &w->explain->alone : &w->explain->looked) += 1;
-    snprintf(text, sizeof text, "\"calls\":%d", count);
+    snprintf(text, sizeof text, "\"calls\":%d,\"turns\":%d", count * turns, turns);
     if (w->noted_start > 0)
         span(m, WATCH_NOTE, watch_phase_names[WATCH_NOTE], w->noted_start, start, text);
-    w->noted_start = 0;
     watch_span(m, WATCH_REPLAY, start, "%s", text);
+    w->noted_start = m->calls_noted ? machine_clock_s() : 0; /* those that are left */
     settle(m, false);
     if (w->machine)
         trace_flush();
@@ -219,15 +219,15 @@ void watch_replayed(struct machine *m, double start, const struct machine_call *
 
 /* ---- evaluations ---- */
 
-void watch_evaluated(struct machine *m, double start, bool wanted, bool all, int targets)
+void watch_evaluated(struct machine *m, double start, bool wanted, int targets)
 {
     struct watch *w = m->watch;
     struct explain *e = w->explain;
     const char *why = wanted        ? "looked at"
                       : m->flushing ? "much was waiting"
-                      : all         ? "at once"
+                      : m->eager    ? "at once"
                                     : "asked to";
-    *(wanted ? &e->looked : m->flushing ? &e->alone : all ? &e->eager : &e->flushed) += 1;
+    *(wanted ? &e->looked : m->flushing ? &e->alone : m->eager ? &e->eager : &e->flushed) += 1;
     watch_span(m, WATCH_EVALUATE, start, "\"why\":\"%s\",\"targets\":%d", why, targets);
     settle(m, false);
     if (w->machine)

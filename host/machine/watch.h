@@ -64,12 +64,13 @@ static inline double watch_clock(const struct machine *m)
 void watch_span(struct machine *m, enum watch_phase phase, double start, const char *details,
                 ...) __attribute__((format(printf, 4, 5)));
 
-/* Calls: one that is foreseen, or is now going to be performed; a performed one's end. */
+/* Calls: one that is foreseen, or is now going to be performed; a performed one's end. So many turns of some that were
+ * noted have been performed. */
 void watch_call(struct machine *m, const char *name, bool foreseen);
 void watch_performed(struct machine *m);
 void watch_call_failed(struct machine *m);
 void watch_replayed(struct machine *m, double start, const struct machine_call *calls,
-                    int count, bool alone);
+                    int count, int turns, bool alone);
 
 /* Values: one is let go of; one in a field or flag gives way to another; some are going to be computed. */
 void watch_released(struct machine *m, const struct machine_value *v);
@@ -77,7 +78,7 @@ void watch_overwritten(struct machine *m, const struct machine_value *old,
                        const struct machine_value *new);
 void watch_reached(struct machine *m, struct machine_value *const *nodes, int count,
                    int stored);
-void watch_evaluated(struct machine *m, double start, bool wanted, bool all, int targets);
+void watch_evaluated(struct machine *m, double start, bool wanted, int targets);
 
 /* Plans: the values that the next one is for (kept until the next evaluation's); a kernel of it. */
 void watch_nodes(struct machine *m, struct machine_value *const *nodes,
@@ -132,7 +133,8 @@ struct explain {
 struct explain *explain_create(void); /* NULL: not enough memory */
 void explain_ready(struct machine *m, struct explain *e);
 void explain_destroy(struct explain *e);
-void explain_call(struct explain *e, const char *name, bool foreseen, double time_s);
+/* One that was recorded, or so many that were foreseen. */
+void explain_call(struct explain *e, const char *name, int foreseen, double time_s);
 /* The kernel's note, made if there is none of it: its name, by hand, and of which VP set (0: none). */
 struct kernel_note *explain_note(struct explain *e, cl_kernel kernel, const char *name,
                                  int vpset, uint64_t processors);

@@ -7,16 +7,28 @@ enum { ROWS = 24, COLUMNS = 160, COUNT = ROWS * COLUMNS };
 static struct machine *machine;
 static int set;
 
-static int setup(void **state)
+static int begin(const char *strips)
 {
     struct machine_config config = machine_config_default();
 
-    (void)state;
+    setenv("LUTETIA_STRIPS", strips, 1);
     config.eager = 0;
     config.explain = 1;
     assert_ok(machine_create(&config, &machine), machine);
     set = support_set(machine, 2, ROWS, COLUMNS);
     return 0;
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    return begin("0");
+}
+
+static int setup_strips(void **state)
+{
+    (void)state;
+    return begin("1");
 }
 
 static int teardown(void **state)
@@ -202,6 +214,36 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_int_equal(found, 1);
 }
 
+/* The same in strips: a row of the dear value is used while it is still near. */
+static void strips_keep_rows_in_no_array(void **state)
+{
+    uint32_t a = field_of(1), c = field_of(3);
+    struct machine_value *v;
+    float out[COUNT];
+
+    (void)state;
+    v = machine_unary(machine, MACHINE_FEXP, machine_unary(machine, MACHINE_FLN, value(a)));
+    v = machine_unary(machine, MACHINE_FLN, v);
+    store(c, machine_binary(machine, MACHINE_FADD, machine_shift(machine, v, 0, 1),
+                            machine_shift(machine, v, 0, -1)));
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+    const struct machine_explained *x = explained();
+    assert_int_equal(x->kernels_count, 1);
+    const struct machine_explained_kernel *k = &x->kernels[0];
+    if (k->stages == 1)
+        skip(); /* a device without vectors has no strips */
+    assert_int_equal(k->stages, 2);
+    assert_int_equal(k->rings, 1);
+    assert_int_equal(k->stores_count, 2);
+    assert_int_equal(k->stores[0].in_ring + k->stores[1].in_ring, 1);
+    assert_int_equal(k->stores[k->stores[0].in_ring ? 0 : 1].why, MACHINE_CUT_NEIGHBOURS);
+    assert_int_equal(k->operations, 4);
+    assert_int_equal(k->bytes_read, 4);
+    assert_int_equal(k->bytes_written, 4);
+    assert_null(strstr(k->name, "FLN"));
+    assert_non_null(strstr(k->name, "FADD"));
+}
+
 /* ---- calls ---- */
 
 static uint32_t water;
@@ -309,6 +351,7 @@ int main(void)
         CASE(kernel_has_the_bytes_and_operations_of_its_formula),
         CASE(overwritten_value_has_vanished),
         CASE(dear_value_is_stored_for_its_neighbours),
+        cmocka_unit_test_setup_teardown(strips_keep_rows_in_no_array, setup_strips, teardown),
         CASE(calls_are_recorded_or_foreseen),
         CASE(bound_is_measured_when_asked_for),
         cmocka_unit_test(nobody_who_did_not_ask_is_told),

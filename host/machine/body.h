@@ -1,0 +1,80 @@
+/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c and strips.c.
+ *
+ * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last axis are columns,
+ * along the others another row. */
+#ifndef LUTETIA_MACHINE_BODY_H
+#define LUTETIA_MACHINE_BODY_H
+
+#include "internal.h"
+
+struct text {
+    char *data;
+    size_t length, capacity;
+    bool failed;
+};
+
+__attribute__((format(printf, 2, 3))) void text_put(struct text *t, const char *format, ...);
+
+struct variable {
+    int32_t node, row, dx;
+    bool canonical;
+    int name;
+    uint32_t next; /* in its chain, + 1 */
+};
+
+struct row_offset {
+    int d[MACHINE_AXES_MAX]; /* the last axis is always 0 here */
+};
+
+struct pointer {
+    int node, row;
+};
+
+struct emitter {
+    const struct plan_graph *g;
+    const struct vpset *set;
+    int stage;
+    struct text body, rows, pointers, constants;
+    struct text row_tests, column_tests; /* whether a vector is inside all boxes */
+    struct variable *variables;
+    uint32_t variables_count, variables_capacity, chains[1024];
+    struct row_offset *row_offsets;
+    int rows_count, rows_capacity;
+    struct pointer *seen_pointers;
+    int pointers_count, pointers_capacity;
+    int *input_number, *constant_number; /* of a node: + 1 */
+    struct kernel_argument *arguments;
+    int arguments_count, arguments_capacity;
+    int inputs, constants_count, names;
+    int reach; /* furthest column */
+    bool wide, soft, formats, math, integers, axes_used, failed;
+    bool bare; /* pointers are somebody else's: only which there are is noted */
+    int ops, loads, cost;
+};
+
+/* Text for nodes of that stage. False: out of memory. */
+bool emitter_init(struct emitter *e, const struct plan_graph *g, const struct vpset *set,
+                  int stage);
+void emitter_finish(struct emitter *e);
+
+struct operand {
+    char text[24];
+};
+/* The node's value in that row and column; canonical: a NaN in it has the bits that are stored. */
+struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical);
+
+int emit_argument(struct emitter *e, int kind, int node, int size);
+/* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
+void emit_axes(const struct emitter *e, struct text *t);
+/* The loop over columns from begin to end, with the body. */
+void emit_loop(const struct emitter *e, struct text *t, bool boxes);
+/* How the kernel's argument for a number is declared, and that of its upper half. */
+void emit_number(struct text *t, const struct plan_graph *g, int node, int number);
+
+/* As the prelude calls a type in memory. */
+const char *memory_kind(struct machine_type t);
+const char *memory_type(struct machine_type t);
+/* Stores that pass the caches by pay where the arrays, of so many bytes, do not fit anyway. */
+bool emit_streams(const struct vpset *set, int vector, double bytes);
+
+#endif
