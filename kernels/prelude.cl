@@ -135,7 +135,6 @@ inline VU column(int x, int W)
 
 #if HALO == 0
 #define STORE(kind, p, v) OUT_##kind(p, x, v)
-#define STORE_NEAR STORE
 #elif VECTOR == 1
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
@@ -145,20 +144,10 @@ inline VU column(int x, int W)
         if (x >= W - HALO)                                                                     \
             OUT_##kind(p, x - W, v);                                                           \
     } while (0)
-#define STORE_NEAR STORE
 #else /* VECTOR == HALO: the first vector is the right halo, the last one the left */
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
         PASS_##kind(p, x, v);                                                                  \
-        if (x == 0)                                                                            \
-            OUT_##kind(p, W, v);                                                               \
-        if (x == W - VECTOR)                                                                   \
-            OUT_##kind(p, -VECTOR, v);                                                         \
-    } while (0)
-/* What is read again at once. */
-#define STORE_NEAR(kind, p, v)                                                                 \
-    do {                                                                                       \
-        OUT_##kind(p, x, v);                                                                   \
         if (x == 0)                                                                            \
             OUT_##kind(p, W, v);                                                               \
         if (x == W - VECTOR)                                                                   \

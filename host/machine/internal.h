@@ -183,6 +183,7 @@ struct device_shape {              /* what generated code should look like there
     double op_ns;                  /* cost model: one vector instruction, for an element */
     double byte_ns;                /* ... one byte to or from memory */
     double near_byte_ns;           /* ... to or from a cache */
+    int strip_columns;             /* a multiple of the vector */
     bool no_strips, always_strips; /* see plan.c; for tests */
     double launch_ns;              /* ... a launch */
 };
@@ -440,7 +441,7 @@ struct kernel_argument {
 };
 struct kernel_text {
     char *text; /* without the prelude */
-    char options[96];
+    char options[160];
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
@@ -449,6 +450,7 @@ struct kernel_text {
     int ops, loads;     /* emitted */
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
     int strip_margin;   /* rows that each computes besides its own */
+    int strip_columns;  /* of all but the last, which has what is left, too */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
