@@ -405,7 +405,7 @@ struct plan_graph {
     bool boxes;     /* write kernels that tell inside from outside: see body.c */
     bool strips;    /* decided: all stages in one kernel, see strips.c */
     bool no_strips; /* but not so */
-    bool could_be_strips;
+    int turns_most; /* of a loop, in one kernel of strips; 1: that cannot be */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -475,7 +475,7 @@ void run_flush_due(struct machine *m);
 struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
-bool plan_stretches(const struct plan *p); /* many turns of it may be cheaper in one kernel */
+int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,

@@ -63,7 +63,8 @@ struct plan {
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
-    bool could_be_optimised, could_be_boxed, stretches;
+    bool could_be_optimised, could_be_boxed;
+    int turns_most;
     struct plan *next;
 };
 
@@ -413,7 +414,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         g.no_strips = !*strips;
         plan_choose(&g, m->sets, &m->device.shape);
         *strips = g.strips;
-        p->stretches = g.could_be_strips;
+        p->turns_most = g.turns_most;
         if (m->dump_dir)
             dump_graph(m, m->dump_count, &g);
         good = plan_kernels(m, p, &g, stores);
@@ -485,9 +486,9 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
-bool plan_stretches(const struct plan *p)
+int plan_turns(const struct plan *p)
 {
-    return p->stretches && p->quality == BOXED;
+    return p->quality == BOXED ? p->turns_most : 1;
 }
 
 const int *plan_stored(const struct plan *p, int *count)
