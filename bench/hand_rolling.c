@@ -15,20 +15,41 @@ struct diffusion_rolling {
     struct rolling_layout layout;
     struct rolling_tiling tiling;
     struct bench_opencl cl;
-    int steps_max; /* at a time */
+    bool in_place; /* a single pass */
     int now;       /* the copy that holds the sheet: plane 0 or 4 */
     cl_program program;
     cl_kernel kernel;
     cl_mem sheet, scratch;
+    cl_mem edges[2]; /* in place: of this step and of the next */
     size_t scratch_bytes;
 };
 
-static bool kernel_build(struct diffusion_rolling *r, enum diffusion_rolling_kind kind)
+struct argument {
+    size_t size;
+    const void *value;
+};
+
+#define ARGUMENT(of)                                                                           \
+    {                                                                                          \
+        sizeof(of), &(of)                                                                      \
+    }
+
+static bool run(struct diffusion_rolling *r, cl_kernel kernel, int items_count,
+                const struct argument *arguments, size_t arguments_count)
 {
-    bool single = kind == DIFFUSION_SINGLE_PASS || kind == DIFFUSION_SINGLE_PASS_RELAXED;
-    bool relaxed =
-        kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
-    const char *sources[] = {kernel_diffusion_rolling_cl, single
+    const size_t items = (size_t)items_count, alone = 1;
+    cl_int error = CL_SUCCESS;
+    for (cl_uint i = 0; !error && i < arguments_count; i++)
+        error = clSetKernelArg(kernel, i, arguments[i].size, arguments[i].value);
+    if (!error)
+        error =
+            clEnqueueNDRangeKernel(r->cl.queue, kernel, 1, NULL, &items, &alone, 0, NULL, NULL);
+    return error ? bench_opencl_fail("a launch", error) : true;
+}
+
+static bool kernel_build(struct diffusion_rolling *r, bool relaxed)
+{
+    const char *sources[] = {kernel_diffusion_rolling_cl, r->in_place
                                                               ? kernel_diffusion_single_pass_cl
                                                               : kernel_diffusion_time_tiled_cl};
     char options[64];
@@ -42,7 +63,7 @@ static bool kernel_build(struct diffusion_rolling *r, enum diffusion_rolling_kin
     if (!r->program)
         return false;
     r->kernel = clCreateKernel(
-        r->program, single ? "diffusion_single_pass" : "diffusion_time_tiled", &error);
+        r->program, r->in_place ? "diffusion_single_pass" : "diffusion_time_tiled", &error);
     return error ? bench_opencl_fail("clCreateKernel", error) : true;
 }
 
@@ -83,68 +104,99 @@ static bool scratch_fit(struct diffusion_rolling *r, const struct rolling_tiling
     return true;
 }
 
-/* From the copy at hand to the other. */
-static bool launch(struct diffusion_rolling *r, const struct rolling_tiling *t)
+/* In place: what the bands leave each other. */
+static bool edges_create(struct diffusion_rolling *r)
 {
     const struct rolling_layout *l = &r->layout;
-    const struct diffusion_scene *s = &r->scene;
+    size_t bytes =
+        (size_t)r->tiling.bands_count * 3 * DIFFUSION_FIELDS_COUNT * l->pitch * sizeof(float);
+    const cl_long pitch = (cl_long)l->pitch, plane = (cl_long)l->plane,
+                  origin = (cl_long)l->origin;
+    cl_int error = CL_SUCCESS;
+    for (int i = 0; !error && i < 2; i++)
+        r->edges[i] = clCreateBuffer(r->cl.context, CL_MEM_READ_WRITE, bytes, NULL, &error);
+    if (error)
+        return bench_fail("hand-written kernels: no memory for %zu bytes of rows", bytes);
+    cl_kernel kernel = clCreateKernel(r->program, "diffusion_edges", &error);
+    if (error)
+        return bench_opencl_fail("clCreateKernel", error);
+    bool ok = true;
+    for (int i = 0; ok && i < 2; i++) {
+        const struct argument arguments[] = {ARGUMENT(r->sheet),   ARGUMENT(r->edges[i]),
+                                             ARGUMENT(l->columns), ARGUMENT(l->height),
+                                             ARGUMENT(pitch),      ARGUMENT(plane),
+                                             ARGUMENT(origin)};
+        ok = run(r, kernel, r->tiling.bands_count, arguments,
+                 sizeof arguments / sizeof *arguments);
+    }
+    clReleaseKernel(kernel);
+    return ok;
+}
+
+static bool single_pass(struct diffusion_rolling *r)
+{
+    const struct rolling_layout *l = &r->layout;
+    const float *weight = r->scene.molecular_weight;
+    const cl_long scratch_floats = (cl_long)rolling_tile_floats(l, &r->tiling),
+                  row_floats = (cl_long)rolling_row_floats(l, &r->tiling),
+                  pitch = (cl_long)l->pitch, plane = (cl_long)l->plane,
+                  origin = (cl_long)l->origin;
+    const struct argument arguments[] = {
+        ARGUMENT(r->sheet),   ARGUMENT(r->scratch),  ARGUMENT(scratch_floats),
+        ARGUMENT(row_floats), ARGUMENT(r->edges[0]), ARGUMENT(r->edges[1]),
+        ARGUMENT(l->columns), ARGUMENT(l->height),   ARGUMENT(pitch),
+        ARGUMENT(plane),      ARGUMENT(origin),      ARGUMENT(r->scene.gravity),
+        ARGUMENT(weight[0]),  ARGUMENT(weight[1]),   ARGUMENT(weight[2])};
+    bool ok = run(r, r->kernel, r->tiling.bands_count, arguments,
+                  sizeof arguments / sizeof *arguments);
+    cl_mem swap = r->edges[0];
+    r->edges[0] = r->edges[1];
+    r->edges[1] = swap;
+    return ok;
+}
+
+/* From the copy at hand to the other. */
+static bool time_tiled(struct diffusion_rolling *r, const struct rolling_tiling *t)
+{
+    const struct rolling_layout *l = &r->layout;
+    const float *weight = r->scene.molecular_weight;
     if (!scratch_fit(r, t))
         return false;
     const int from = r->now, to = DIFFUSION_FIELDS_COUNT - from;
     const cl_long scratch_floats = (cl_long)rolling_tile_floats(l, t),
                   row_floats = (cl_long)rolling_row_floats(l, t), pitch = (cl_long)l->pitch,
                   plane = (cl_long)l->plane, origin = (cl_long)l->origin;
-    const struct {
-        size_t size;
-        const void *value;
-    } arguments[] = {
-        {sizeof r->sheet, &r->sheet},
-        {sizeof r->scratch, &r->scratch},
-        {sizeof scratch_floats, &scratch_floats},
-        {sizeof row_floats, &row_floats},
-        {sizeof from, &from},
-        {sizeof to, &to},
-        {sizeof l->columns, &l->columns},
-        {sizeof l->height, &l->height},
-        {sizeof pitch, &pitch},
-        {sizeof plane, &plane},
-        {sizeof origin, &origin},
-        {sizeof t->steps_count, &t->steps_count},
-        {sizeof t->strips_count, &t->strips_count},
-        {sizeof t->bands_count, &t->bands_count},
-        {sizeof s->gravity, &s->gravity},
-        {sizeof(float), &s->molecular_weight[0]},
-        {sizeof(float), &s->molecular_weight[1]},
-        {sizeof(float), &s->molecular_weight[2]},
-    };
-    const size_t tiles = (size_t)(t->strips_count * t->bands_count), alone = 1;
-    cl_int error = CL_SUCCESS;
-    for (cl_uint i = 0; !error && i < sizeof arguments / sizeof *arguments; i++)
-        error = clSetKernelArg(r->kernel, i, arguments[i].size, arguments[i].value);
-    if (!error)
-        error = clEnqueueNDRangeKernel(r->cl.queue, r->kernel, 1, NULL, &tiles, &alone, 0, NULL,
-                                       NULL);
-    return error ? bench_opencl_fail("a launch", error) : true;
+    const struct argument arguments[] = {
+        ARGUMENT(r->sheet),        ARGUMENT(r->scratch),     ARGUMENT(scratch_floats),
+        ARGUMENT(row_floats),      ARGUMENT(from),           ARGUMENT(to),
+        ARGUMENT(l->columns),      ARGUMENT(l->height),      ARGUMENT(pitch),
+        ARGUMENT(plane),           ARGUMENT(origin),         ARGUMENT(t->steps_count),
+        ARGUMENT(t->strips_count), ARGUMENT(t->bands_count), ARGUMENT(r->scene.gravity),
+        ARGUMENT(weight[0]),       ARGUMENT(weight[1]),      ARGUMENT(weight[2])};
+    return run(r, r->kernel, t->strips_count * t->bands_count, arguments,
+               sizeof arguments / sizeof *arguments);
 }
 
 static bool tune_run(void *context, const struct rolling_tiling *t)
 {
     struct diffusion_rolling *r = context;
-    return launch(r, t) && !clFinish(r->cl.queue);
+    return time_tiled(r, t) && !clFinish(r->cl.queue);
 }
 
-static bool tiling_choose(struct diffusion_rolling *r, const struct rolling_tiling *tiling)
+static bool tiling_choose(struct diffusion_rolling *r, const struct rolling_tiling *wanted)
 {
     cl_uint units = 1;
-    if (tiling) {
-        r->tiling = *tiling;
-        if (r->tiling.steps_count > r->steps_max)
-            r->tiling.steps_count = r->steps_max;
-        rolling_tiling_clamp(&r->tiling, &r->layout);
-        return true;
-    }
     clGetDeviceInfo(r->cl.device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    return rolling_tune(&r->layout, r->steps_max, (int)units, tune_run, r, &r->tiling);
+    if (!wanted && !r->in_place)
+        return rolling_tune(&r->layout, (int)units, tune_run, r, &r->tiling);
+    r->tiling = wanted ? *wanted : (struct rolling_tiling){1, 1, 2 * (int)units};
+    if (r->in_place) { /* one step, whole rows, two rows or more in a band */
+        r->tiling.steps_count = r->tiling.strips_count = 1;
+        if (r->tiling.bands_count > r->layout.height / 2)
+            r->tiling.bands_count = r->layout.height / 2;
+    }
+    rolling_tiling_clamp(&r->tiling, &r->layout);
+    return !r->in_place || (scratch_fit(r, &r->tiling) && edges_create(r));
 }
 
 struct diffusion_rolling *diffusion_rolling_create(const struct diffusion_scene *s,
@@ -158,11 +210,11 @@ struct diffusion_rolling *diffusion_rolling_create(const struct diffusion_scene 
         return NULL;
     }
     r->scene = *s;
-    r->steps_max = kind == DIFFUSION_SINGLE_PASS || kind == DIFFUSION_SINGLE_PASS_RELAXED
-                       ? 1
-                       : ROLLING_STEPS_MAX;
+    r->in_place = kind == DIFFUSION_SINGLE_PASS || kind == DIFFUSION_SINGLE_PASS_RELAXED;
+    bool relaxed =
+        kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
     if (rolling_layout_init(&r->layout, s) && bench_opencl_open(&r->cl, device) &&
-        sheet_create(r) && kernel_build(r, kind) && tiling_choose(r, tiling))
+        sheet_create(r) && kernel_build(r, relaxed) && tiling_choose(r, tiling))
         return r;
     diffusion_rolling_destroy(r);
     return NULL;
@@ -176,6 +228,9 @@ void diffusion_rolling_destroy(struct diffusion_rolling *r)
         clReleaseKernel(r->kernel);
     if (r->program)
         clReleaseProgram(r->program);
+    for (int i = 0; i < 2; i++)
+        if (r->edges[i])
+            clReleaseMemObject(r->edges[i]);
     if (r->scratch)
         clReleaseMemObject(r->scratch);
     if (r->sheet)
@@ -190,9 +245,10 @@ bool diffusion_rolling_steps(struct diffusion_rolling *r, int steps_count)
         struct rolling_tiling t = r->tiling;
         if (t.steps_count > left)
             t.steps_count = left;
-        if (!launch(r, &t))
+        if (!(r->in_place ? single_pass(r) : time_tiled(r, &t)))
             return false;
-        r->now = DIFFUSION_FIELDS_COUNT - r->now;
+        if (!r->in_place)
+            r->now = DIFFUSION_FIELDS_COUNT - r->now;
         left -= t.steps_count;
     }
     cl_int error = clFinish(r->cl.queue);

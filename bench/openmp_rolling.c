@@ -344,8 +344,7 @@ diffusion_openmp_rolling_create(const struct diffusion_scene *s,
         o->tiling = *tiling;
         rolling_tiling_clamp(&o->tiling, &o->layout);
     } else if (ok) {
-        ok = rolling_tune(&o->layout, ROLLING_STEPS_MAX, bench_threads_count(), pass, o,
-                          &o->tiling);
+        ok = rolling_tune(&o->layout, bench_threads_count(), pass, o, &o->tiling);
     }
     if (ok)
         return o;

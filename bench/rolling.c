@@ -104,17 +104,15 @@ void rolling_tiling_clamp(struct rolling_tiling *t, const struct rolling_layout 
 
 /* A wide strip has little rim; what the second-level cache does not hold comes from the third.
  * Few bands, for the same reason, but one for each thread at least. */
-static int candidates_list(const struct rolling_layout *l, int steps_max, int threads_count,
+static int candidates_list(const struct rolling_layout *l, int threads_count,
                            struct rolling_tiling *list, int list_max)
 {
-    static const int steps[] = {1, 4, 8, 12, 15};
+    static const int steps[] = {4, 8, 12, 15};
     long cache_bytes = sysconf(_SC_LEVEL2_CACHE_SIZE);
     int count = 0;
     if (cache_bytes <= 0)
         cache_bytes = 1 << 20;
-    for (size_t i = 0; i < sizeof steps / sizeof *steps && steps[i] <= steps_max; i++) {
-        if (steps[i] == 1 && steps_max > 1)
-            continue;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         for (int strips = 1; count < list_max; strips *= 2) {
             struct rolling_tiling t = {steps[i], strips, (threads_count + strips - 1) / strips};
             if (l->height / t.bands_count >= 64 * steps[i])
@@ -132,13 +130,13 @@ static int candidates_list(const struct rolling_layout *l, int steps_max, int th
     return count;
 }
 
-bool rolling_tune(const struct rolling_layout *l, int steps_max, int threads_count,
+bool rolling_tune(const struct rolling_layout *l, int threads_count,
                   bool (*run)(void *context, const struct rolling_tiling *t), void *context,
                   struct rolling_tiling *best)
 {
     struct rolling_tiling list[32];
     double least[32];
-    int count = candidates_list(l, steps_max, threads_count, list, 32);
+    int count = candidates_list(l, threads_count, list, 32);
     for (int round = 0; round < TUNE_ROUNDS; round++)
         for (int i = 0; i < count; i++) {
             double start = bench_now_s();
@@ -148,7 +146,7 @@ bool rolling_tune(const struct rolling_layout *l, int steps_max, int threads_cou
             if (!round || seconds < least[i])
                 least[i] = seconds;
         }
-    *best = (struct rolling_tiling){steps_max < 8 ? steps_max : 8, 1, threads_count};
+    *best = (struct rolling_tiling){8, 1, threads_count};
     rolling_tiling_clamp(best, l);
     for (int i = 0, k = -1; i < count; i++)
         if (k < 0 || least[i] < least[k]) {

@@ -23,7 +23,8 @@
  * The sheet is cut in strips of columns, whose rows fit a cache, and in bands of rows. A tile of
  * both is computed with rims around it that are thrown away: of steps_count fibers towards lower
  * neighbours and steps_count + 1 towards upper ones, as far as a flow reaches. Hence at most 15
- * steps: a rim is a vector of 16. Tiles read one copy of the sheet and write the other.
+ * steps: a rim is a vector of 16. Tiles read one copy of the sheet and write the other. The
+ * single pass needs no rim, and goes in place.
  *
  * The same bits as the listing. The larger of flow * gravity and flow / gravity is the right one
  * (gravity is 1 or more; else the smaller): rounding keeps the order. An absorbency of 0 makes
@@ -76,7 +77,7 @@ size_t rolling_tile_floats(const struct rolling_layout *l, const struct rolling_
 void rolling_tiling_clamp(struct rolling_tiling *t, const struct rolling_layout *l);
 /* The fastest of those whose rows fit the second-level cache or nearly; run takes
  * t->steps_count steps and leaves the sheet as it is. */
-bool rolling_tune(const struct rolling_layout *l, int steps_max, int threads_count,
+bool rolling_tune(const struct rolling_layout *l, int threads_count,
                   bool (*run)(void *context, const struct rolling_tiling *t), void *context,
                   struct rolling_tiling *best);
 

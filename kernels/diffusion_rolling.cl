@@ -9,7 +9,9 @@
 #define LANES 16
 
 #define LOAD(at) (*(const __global float16 *)(at))
-#define LOAD_ANY(at) vload16(0, at)
+/* In one load, which vload16 of some devices is not. */
+typedef float16 float16_anywhere __attribute__((aligned(4)));
+#define LOAD_ANY(at) (*(const __global float16_anywhere *)(at))
 #define STORE(at, v) (*(__global float16 *)(at) = (v))
 #define STORE_PAST STORE
 #if defined(__has_builtin)
@@ -102,38 +104,49 @@ enum {
 /* Columns x0..x1-1, from right to left: row y - 1, in `old`, goes along x and is kept in
  * `along`; row y, which was there, goes along y to `out`. `flow`: into row y + 1, then into
  * row y. carry: the flows into the vector at x1, then at x0. */
-static inline void row(int kind, bool past, struct rows old,
-                       __global const float *upper_absorbency, __global const float *absorbency,
-                       struct rows along, struct rows flow, struct rows out, int x0, int x1,
-                       struct constants c, float16 carry[4])
+static inline __attribute__((always_inline)) void
+row(int kind, bool past, struct rows old, __global const float *upper_absorbency,
+    __global const float *absorbency, struct rows along, struct rows flow, struct rows out,
+    int x0, int x1, struct constants c, float16 carry[4])
 {
+    float16 carry0 = carry[0], carry1 = carry[1], carry2 = carry[2], carry3 = carry[3];
+/* A macro: an array of what is carried would not stay in registers. */
+#define FIELD(i, carried)                                                                      \
+    {                                                                                          \
+        float16 upper = LOAD(old.first + (i)*old.apart + x);                                   \
+        if (kind != ROW_EDGE) {                                                                \
+            float16 lower = LOAD_ANY(old.first + (i)*old.apart + x - 1);                       \
+            float16 in = flow_in(lower, upper, a, water_x, i, c);                              \
+            upper = moved(upper, in, further(in, carried));                                    \
+            carried = in;                                                                      \
+            if ((i) == 0)                                                                      \
+                water_x = upper;                                                               \
+        }                                                                                      \
+        if (kind != ROW_FIRST) {                                                               \
+            float16 here = LOAD(along.first + (i)*along.apart + x);                            \
+            float16 in = flow_in(upper, here, b, water_y, i, c);                               \
+            here = moved(here, in, LOAD(flow.first + (i)*flow.apart + x));                     \
+            STORE(flow.first + (i)*flow.apart + x, in);                                        \
+            if ((i) == 0)                                                                      \
+                water_y = here;                                                                \
+            if (past)                                                                          \
+                STORE_PAST(out.first + (i)*out.apart + x, here);                               \
+            else                                                                               \
+                STORE(out.first + (i)*out.apart + x, here);                                    \
+        }                                                                                      \
+        STORE(along.first + (i)*along.apart + x, upper);                                       \
+    }
     for (int x = x1 - LANES; x >= x0; x -= LANES) {
         float16 a = LOAD(upper_absorbency + x), b = LOAD(absorbency + x);
         float16 water_x = 0.0f, water_y = 0.0f;
-#pragma unroll
-        for (int i = 0; i < 4; i++) {
-            float16 upper = LOAD(old.first + i * old.apart + x);
-            if (kind != ROW_EDGE) {
-                float16 in = flow_in(LOAD_ANY(old.first + i * old.apart + x - 1), upper, a,
-                                     water_x, i, c);
-                upper = moved(upper, in, further(in, carry[i]));
-                carry[i] = in;
-                if (i == 0)
-                    water_x = upper;
-            }
-            if (kind != ROW_FIRST) {
-                float16 here = LOAD(along.first + i * along.apart + x);
-                float16 in = flow_in(upper, here, b, water_y, i, c);
-                here = moved(here, in, LOAD(flow.first + i * flow.apart + x));
-                STORE(flow.first + i * flow.apart + x, in);
-                if (i == 0)
-                    water_y = here;
-                if (past)
-                    STORE_PAST(out.first + i * out.apart + x, here);
-                else
-                    STORE(out.first + i * out.apart + x, here);
-            }
-            STORE(along.first + i * along.apart + x, upper);
-        }
+        FIELD(0, carry0)
+        FIELD(1, carry1)
+        FIELD(2, carry2)
+        FIELD(3, carry3)
     }
+#undef FIELD
+    carry[0] = carry0;
+    carry[1] = carry1;
+    carry[2] = carry2;
+    carry[3] = carry3;
 }
