@@ -57,8 +57,9 @@ static bool kernel_build(struct diffusion_rolling *r, bool relaxed)
     /* Only a sheet of which both copies stay in the last cache is not written past it. */
     double bytes = (double)r->layout.count * sizeof(float);
     long cache_bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
-    snprintf(options, sizeof options, "-DRISES=%d -DRELAXED=%d -DPAST=%d",
-             r->scene.gravity >= 1.0f, relaxed, bytes > 0.75 * (double)cache_bytes);
+    snprintf(options, sizeof options, "-DRISES=%d -DRELAXED=%d -DPAST=%d -DABSORBENCY=%d",
+             r->scene.gravity >= 1.0f, relaxed, bytes > 0.75 * (double)cache_bytes,
+             r->layout.absorbency);
     r->program = bench_opencl_build(&r->cl, sources, 2, options);
     if (!r->program)
         return false;
@@ -213,8 +214,9 @@ struct diffusion_rolling *diffusion_rolling_create(const struct diffusion_scene 
     r->in_place = kind == DIFFUSION_SINGLE_PASS || kind == DIFFUSION_SINGLE_PASS_RELAXED;
     bool relaxed =
         kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
-    if (rolling_layout_init(&r->layout, s) && bench_opencl_open(&r->cl, device) &&
-        sheet_create(r) && kernel_build(r, relaxed) && tiling_choose(r, tiling))
+    if (rolling_layout_init(&r->layout, s, r->in_place ? 1 : 2) &&
+        bench_opencl_open(&r->cl, device) && sheet_create(r) && kernel_build(r, relaxed) &&
+        tiling_choose(r, tiling))
         return r;
     diffusion_rolling_destroy(r);
     return NULL;

@@ -244,7 +244,7 @@ static void tile_row(const struct diffusion_openmp_rolling *o, const struct tile
 {
     const struct rolling_layout *l = &o->layout;
     ptrdiff_t k = (ptrdiff_t)l->origin + (y - 1) * (ptrdiff_t)l->pitch;
-    const float *a = o->memory + ROLLING_ABSORBENCY * l->plane + k, *b = a + l->pitch;
+    const float *a = o->memory + (size_t)l->absorbency * l->plane + k, *b = a + l->pitch;
     struct rows old = {o->memory + (size_t)o->now * l->plane + k, l->plane};
     struct rows along = {rows, row_floats}, flow = {rows + 4 * row_floats, row_floats},
                 out = {rows + 8 * row_floats, row_floats};
@@ -332,7 +332,7 @@ diffusion_openmp_rolling_create(const struct diffusion_scene *s,
         return NULL;
     }
     o->scene = *s;
-    bool ok = rolling_layout_init(&o->layout, s);
+    bool ok = rolling_layout_init(&o->layout, s, 2);
     if (ok) {
         size_t bytes = (o->layout.count * sizeof(float) + 4095) / 4096 * 4096;
         o->memory = aligned_alloc(4096, bytes);

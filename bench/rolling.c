@@ -25,7 +25,8 @@ static size_t off_page(size_t row_floats)
     return row_floats % PAGE_FLOATS ? row_floats : row_floats + ROLLING_LANES;
 }
 
-bool rolling_layout_init(struct rolling_layout *l, const struct diffusion_scene *s)
+bool rolling_layout_init(struct rolling_layout *l, const struct diffusion_scene *s,
+                         int copies_count)
 {
     if (s->x0 < 1 || s->y0 < 1)
         return bench_fail("rolling rows: the rectangle must leave out the first row and the "
@@ -37,7 +38,8 @@ bool rolling_layout_init(struct rolling_layout *l, const struct diffusion_scene 
     l->pitch = off_page(ROLLING_LANES + (size_t)l->columns);
     l->origin = l->pitch + ROLLING_LANES;
     l->plane = round_up(l->pitch * ((size_t)l->height + 1), PAGE_FLOATS) + PLANE_SKEW;
-    l->count = l->plane * ROLLING_PLANES_COUNT;
+    l->absorbency = copies_count * DIFFUSION_FIELDS_COUNT;
+    l->count = l->plane * ((size_t)l->absorbency + 1);
     return true;
 }
 
@@ -49,11 +51,10 @@ void rolling_fill(const struct rolling_layout *l, const struct diffusion_scene *
         size_t from = (size_t)(y + s->y0) * (size_t)s->width + (size_t)s->x0 - 1;
         float *to = planes + (size_t)(y + 1) * l->pitch + ROLLING_LANES - 1;
         size_t bytes = ((size_t)l->width + 1) * sizeof *to;
-        for (size_t i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
-            memcpy(to + i * l->plane, s->field[i] + from, bytes);
-            memcpy(to + (DIFFUSION_FIELDS_COUNT + i) * l->plane, s->field[i] + from, bytes);
-        }
-        memcpy(to + ROLLING_ABSORBENCY * l->plane, s->absorbency + from, bytes);
+        for (int i = 0; i < l->absorbency; i++)
+            memcpy(to + (size_t)i * l->plane, s->field[i % DIFFUSION_FIELDS_COUNT] + from,
+                   bytes);
+        memcpy(to + (size_t)l->absorbency * l->plane, s->absorbency + from, bytes);
     }
 }
 

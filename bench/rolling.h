@@ -41,11 +41,9 @@
 /* ---- where the fibers are ---- */
 
 enum {
-    ROLLING_LANES = 16,       /* of a vector */
-    ROLLING_STEPS_MAX = 15,   /* at a time */
-    ROLLING_ROWS_COUNT = 12,  /* that a step keeps: along x, flows, written; of each field */
-    ROLLING_PLANES_COUNT = 9, /* two copies of four fields, absorbency */
-    ROLLING_ABSORBENCY = 8
+    ROLLING_LANES = 16,      /* of a vector */
+    ROLLING_STEPS_MAX = 15,  /* at a time */
+    ROLLING_ROWS_COUNT = 12, /* that a step keeps: along x, flows, written; of each field */
 };
 
 /* The rectangle only, with the row and the column before it; fiber (0, 0) of the rectangle is at
@@ -53,10 +51,12 @@ enum {
 struct rolling_layout {
     int width, height; /* of the rectangle */
     int columns;       /* width, rounded up to whole vectors */
+    int absorbency;    /* its plane; before it one or two copies of the four fields */
     size_t pitch, plane, origin, count;
 };
 
-bool rolling_layout_init(struct rolling_layout *l, const struct diffusion_scene *s);
+bool rolling_layout_init(struct rolling_layout *l, const struct diffusion_scene *s,
+                         int copies_count);
 /* Shape: planes holds l->count floats. */
 void rolling_fill(const struct rolling_layout *l, const struct diffusion_scene *s,
                   float *planes);

@@ -3,7 +3,7 @@
  * program; bench/rolling.h explains.
  *
  * Built with -DRISES=1 if gravity is 1 or more, else 0; with -DRELAXED=1 for the variants that
- * multiply by 1 / gravity and fold constants, and so give other bits. */
+ * multiply by 1 / gravity and fold constants, and so give other bits; -DABSORBENCY= its plane. */
 #pragma OPENCL FP_CONTRACT OFF
 
 #define LANES 16

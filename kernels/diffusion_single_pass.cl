@@ -64,7 +64,7 @@ __kernel void diffusion_single_pass(__global float *sheet, __global float *scrat
             STORE(flow.first + i * flow.apart + x, (float16)(0.0f));
     for (int y = last + 1; y >= ya; y--) {
         __global float *upper = sheet + origin + (y - 1) * pitch;
-        __global const float *a = upper + 8 * plane, *b = a + pitch;
+        __global const float *a = upper + ABSORBENCY * plane, *b = a + pitch;
         struct rows old = rows_at(upper, plane), out = rows_at(upper + pitch, plane);
         float16 carry[4] = {0.0f, 0.0f, 0.0f, 0.0f};
         if (y > yb)

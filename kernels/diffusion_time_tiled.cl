@@ -31,7 +31,7 @@ __kernel void diffusion_time_tiled(__global float *sheet, __global float *scratc
             if (y > last + 1 || y < first)
                 continue;
             long k = origin + (y - 1) * pitch;
-            __global const float *a = sheet + 8 * plane + k, *b = a + pitch;
+            __global const float *a = sheet + ABSORBENCY * plane + k, *b = a + pitch;
             __global float *mine = own + s * 12 * row_floats;
             struct rows old = rows_at(sheet + from * plane + k, plane);
             struct rows along = rows_at(mine, row_floats);
