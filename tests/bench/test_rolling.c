@@ -77,7 +77,11 @@ static void hand_agrees(enum diffusion_rolling_kind kind, const char *what, bool
         struct diffusion_scene s;
         struct oracle o;
 
+        if (relaxed && n % 3) /* what differs is the arithmetic; one gravity, one build */
+            continue;
         scene_make(n, &s);
+        if (relaxed)
+            s.gravity = 1.25f;
         oracle_init(&o, &s);
         oracle_steps(&o, cases[n].steps[0] + cases[n].steps[1]);
         float *mine = malloc((size_t)s.width * (size_t)s.height * sizeof *mine);
