@@ -123,6 +123,28 @@ void life_openmp_read(const struct grid_openmp *g, uint8_t *out)
         memcpy(out + (size_t)y * (size_t)g->width, row_of(g, 0, y), (size_t)g->width);
 }
 
+/* Not inline: clang would hand the last value to who comes after, and not make vectors. */
+#define APART static __attribute__((noinline))
+
+/* Three cells above each other. */
+APART void columns_add(const uint8_t *restrict above, const uint8_t *restrict here,
+                       const uint8_t *restrict below, uint8_t *restrict columns, int width)
+{
+#pragma omp simd
+    for (int x = 0; x < width; x++)
+        columns[x] = (uint8_t)(above[x] + here[x] + below[x]);
+}
+
+static void bytes_row(const uint8_t *restrict columns, const uint8_t *restrict here,
+                      uint8_t *restrict made, int width)
+{
+#pragma omp simd
+    for (int x = 0; x < width; x++) {
+        uint8_t sum = (uint8_t)(columns[x - 1] + columns[x] + columns[x + 1]);
+        made[x] = (uint8_t)((sum == 3) | ((sum == 4) & here[x]));
+    }
+}
+
 void life_openmp_steps(struct grid_openmp *g, int steps_count)
 {
     const int width = g->width;
@@ -134,16 +156,10 @@ void life_openmp_steps(struct grid_openmp *g, int steps_count)
             for (int y = 0; y < g->height; y++) {
                 const uint8_t *above = row_round(g, y - 1), *here = row_of(g, 0, y),
                               *below = row_round(g, y + 1);
-#pragma omp simd
-                for (int x = 0; x < width; x++)
-                    columns[x] = (uint8_t)(above[x] + here[x] + below[x]);
+                columns_add(above, here, below, columns, width);
                 columns[-1] = columns[width - 1];
                 columns[width] = columns[0];
-#pragma omp simd
-                for (int x = 0; x < width; x++) {
-                    uint8_t sum = (uint8_t)(columns[x - 1] + columns[x] + columns[x + 1]);
-                    made[x] = (uint8_t)((sum == 3) | ((sum == 4) & here[x]));
-                }
+                bytes_row(columns, here, made, width);
                 row_write(g, y, made);
             }
             writes_settle();
@@ -185,10 +201,22 @@ void life_bits_read(const struct grid_openmp *g, uint8_t *out)
     }
 }
 
+APART void columns_add_bits(const uint64_t *restrict above, const uint64_t *restrict here,
+                            const uint64_t *restrict below, uint64_t *restrict low,
+                            uint64_t *restrict high, int words)
+{
+#pragma omp simd
+    for (int i = 0; i < words; i++) {
+        uint64_t a = above[i], b = here[i], c = below[i];
+        low[i] = a ^ b ^ c;
+        high[i] = (a & b) | (c & (a ^ b));
+    }
+}
+
 /* low and high: the bits of the sum of three cells above each other, with a word beyond each
  * end. Three such sums side by side are added bit by bit. */
-static void bits_row(const uint64_t *here, const uint64_t *low, const uint64_t *high,
-                     uint64_t *made, int words)
+static void bits_row(const uint64_t *restrict here, const uint64_t *restrict low,
+                     const uint64_t *restrict high, uint64_t *restrict made, int words)
 {
 #pragma omp simd
     for (int i = 0; i < words; i++) {
@@ -219,12 +247,7 @@ void life_bits_steps(struct grid_openmp *g, int steps_count)
             for (int y = 0; y < g->height; y++) {
                 const uint64_t *above = row_round(g, y - 1), *here = row_of(g, 0, y),
                                *below = row_round(g, y + 1);
-#pragma omp simd
-                for (int i = 0; i < words; i++) {
-                    uint64_t a = above[i], b = here[i], c = below[i];
-                    low[i] = a ^ b ^ c;
-                    high[i] = (a & b) | (c & (a ^ b));
-                }
+                columns_add_bits(above, here, below, low, high, words);
                 low[-1] = low[words - 1];
                 high[-1] = high[words - 1];
                 low[words] = low[0];
