@@ -123,7 +123,8 @@ void life_openmp_read(const struct grid_openmp *g, uint8_t *out)
         memcpy(out + (size_t)y * (size_t)g->width, row_of(g, 0, y), (size_t)g->width);
 }
 
-/* Not inline: clang would hand the last value to who comes after, and not make vectors. */
+/* Not inline: clang would hand values to who comes after, or from one turn of the loop to the
+ * next, and not make vectors. */
 #define APART static __attribute__((noinline))
 
 /* Three cells above each other. */
@@ -135,12 +136,12 @@ APART void columns_add(const uint8_t *restrict above, const uint8_t *restrict he
         columns[x] = (uint8_t)(above[x] + here[x] + below[x]);
 }
 
-static void bytes_row(const uint8_t *restrict columns, const uint8_t *restrict here,
-                      uint8_t *restrict made, int width)
+APART void bytes_row(const uint8_t *left, const uint8_t *middle, const uint8_t *right,
+                     const uint8_t *here, uint8_t *restrict made, int width)
 {
 #pragma omp simd
     for (int x = 0; x < width; x++) {
-        uint8_t sum = (uint8_t)(columns[x - 1] + columns[x] + columns[x + 1]);
+        uint8_t sum = (uint8_t)(left[x] + middle[x] + right[x]);
         made[x] = (uint8_t)((sum == 3) | ((sum == 4) & here[x]));
     }
 }
@@ -159,7 +160,7 @@ void life_openmp_steps(struct grid_openmp *g, int steps_count)
                 columns_add(above, here, below, columns, width);
                 columns[-1] = columns[width - 1];
                 columns[width] = columns[0];
-                bytes_row(columns, here, made, width);
+                bytes_row(columns - 1, columns, columns + 1, here, made, width);
                 row_write(g, y, made);
             }
             writes_settle();
@@ -285,10 +286,27 @@ void heat_openmp_read(const struct grid_openmp *g, float *out)
                (size_t)g->width * sizeof(float));
 }
 
+/* Three rows, each as seen from its left, from itself, and from its right. */
+APART void heat_row(const float *const up[3], const float *const here[3],
+                    const float *const down[3], float *restrict made, int begin, int end)
+{
+    const float *up_left = up[0], *up_middle = up[1], *up_right = up[2];
+    const float *left = here[0], *middle = here[1], *right = here[2];
+    const float *down_left = down[0], *down_middle = down[1], *down_right = down[2];
+    const float rate = (float)HEAT_RATE;
+#pragma omp simd
+    for (int x = begin; x < end; x++) {
+        float corners = up_right[x] + up_left[x] + down_right[x] + down_left[x];
+        float t = up_middle[x] + down_middle[x] + right[x] + left[x];
+        t = t * 4.0f + corners;
+        t = t - middle[x] * 20.0f;
+        made[x] = middle[x] + t * rate;
+    }
+}
+
 void heat_openmp_steps(struct grid_openmp *g, int steps_count)
 {
     const int width = g->width;
-    const float rate = (float)HEAT_RATE;
 #pragma omp parallel
     {
         float *made = row_buffer(g);
@@ -297,14 +315,10 @@ void heat_openmp_steps(struct grid_openmp *g, int steps_count)
             for (int y = 1; y < g->height - 1; y++) {
                 const float *up = row_of(g, 0, y + 1), *here = row_of(g, 0, y),
                             *down = row_of(g, 0, y - 1);
-#pragma omp simd
-                for (int x = 1; x < width - 1; x++) {
-                    float corners = up[x + 1] + up[x - 1] + down[x + 1] + down[x - 1];
-                    float t = up[x] + down[x] + here[x + 1] + here[x - 1];
-                    t = t * 4.0f + corners;
-                    t = t - here[x] * 20.0f;
-                    made[x] = here[x] + t * rate;
-                }
+                const float *const ups[] = {up - 1, up, up + 1},
+                                   *const heres[] = {here - 1, here, here + 1},
+                                   *const downs[] = {down - 1, down, down + 1};
+                heat_row(ups, heres, downs, made, 1, width - 1);
                 made[0] = here[0];
                 made[width - 1] = here[width - 1];
                 row_write(g, y, made);
