@@ -31,7 +31,7 @@ enum {
     COPY_BYTES = 256 << 20
 };
 static const double FIBERS_SMALL = 4e6;  /* in the last cache, mostly: a run has more steps */
-static const double FIBERS_PEERS = 32e6; /* scripts hold several copies */
+static const double FIBERS_PEERS = 32e6; /* above, memory is for those that matter most */
 
 /* Read and written for each fiber and axis: water and pigments both ways, absorbency one way. */
 static const double COMPULSORY_BYTES = 2 * (2 * DIFFUSION_FIELDS_COUNT + 1) * sizeof(float);
@@ -176,13 +176,8 @@ static bool peer_start(const struct sheet *s, struct bench_peer **peer, const ch
     return *peer || missing;
 }
 
-static bool peers_start(struct sheet *s, double fibers)
+static bool peers_start(struct sheet *s)
 {
-    if (fibers > FIBERS_PEERS) {
-        fprintf(stderr,
-                "diffusion: the sheet is too large for Halide and numpy, no such rows\n");
-        return true;
-    }
     bool ok = peer_start(s, &s->halide, "Halide", "python3-halide, python3-numpy",
                          kernel_halide_peer_py, "1") &&
               peer_start(s, &s->numpy, "numpy", "python3-numpy", kernel_numpy_peer_py, NULL);
@@ -192,18 +187,30 @@ static bool peers_start(struct sheet *s, double fibers)
     return ok;
 }
 
+/* A relaxed one is cut as the one before it. */
 static bool sheet_start(struct sheet *s, int width, int height)
 {
+    const bool all = (double)width * height <= FIBERS_PEERS;
     if (!diffusion_scene_init(&s->scene, width, height) ||
         !(s->openmp = diffusion_openmp_create(&s->scene)) ||
         !(s->openmp_rolling = diffusion_openmp_rolling_create(&s->scene, NULL)) ||
         !(s->hand = diffusion_hand_create(&s->scene, NULL, DIFFUSION_SHAPE_BEST)))
         return false;
-    for (int kind = 0; kind < 4; kind++)
-        if (!(s->rolling[kind] = diffusion_rolling_create(
-                  &s->scene, NULL, (enum diffusion_rolling_kind)kind, NULL)))
+    for (int kind = 0; kind < 4; kind++) {
+        const bool relaxed =
+            kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
+        if (relaxed && !all)
+            continue;
+        s->rolling[kind] = diffusion_rolling_create(
+            &s->scene, NULL, (enum diffusion_rolling_kind)kind,
+            relaxed ? diffusion_rolling_tiling(s->rolling[kind - 1]) : NULL);
+        if (!s->rolling[kind])
             return false;
-    return listing_start(s, false) && peers_start(s, (double)width * height);
+    }
+    if (!all)
+        fprintf(stderr, "diffusion: the sheet is too large for Halide, numpy and the relaxed "
+                        "kernels, no such rows\n");
+    return listing_start(s, false) && (!all || peers_start(s));
 }
 
 static void sheet_finish(struct sheet *s)
@@ -227,9 +234,7 @@ static int runners_list(struct sheet *s, struct runner *list)
     const bool small = (double)s->scene.width * s->scene.height < FIBERS_SMALL;
     const int few = small ? 16 : 3;
     int openmp_tiled = diffusion_openmp_rolling_tiling(s->openmp_rolling)->steps_count;
-    int tiled[2];
-    for (int i = 0; i < 2; i++)
-        tiled[i] = diffusion_rolling_tiling(s->rolling[DIFFUSION_TIME_TILED + i])->steps_count;
+    int tiled = diffusion_rolling_tiling(s->rolling[DIFFUSION_TIME_TILED])->steps_count;
     const struct runner all[] = {
         {"listing", listing_steps, listing_read, 1, few, false, s},
         {"listing observed every 16", listing_steps, listing_read, 16, 16, false, s},
@@ -239,9 +244,9 @@ static int runners_list(struct sheet *s, struct runner *list)
         {"hand single pass relaxed", rolling_steps, rolling_field,
          DIFFUSION_SINGLE_PASS_RELAXED, few, true, s},
         {"hand time-tiled", rolling_steps, rolling_field, DIFFUSION_TIME_TILED,
-         tiled[0] * (1 + small), false, s},
+         tiled * (1 + small), false, s},
         {"hand time-tiled relaxed", rolling_steps, rolling_field, DIFFUSION_TIME_TILED_RELAXED,
-         tiled[1] * (1 + small), true, s},
+         tiled * (1 + small), true, s},
         {"openmp", openmp_steps, openmp_read, 0, few, false, s},
         {"openmp time-tiled", openmp_steps, openmp_read, 1, openmp_tiled * (1 + small), false,
          s},
@@ -250,7 +255,8 @@ static int runners_list(struct sheet *s, struct runner *list)
     };
     int count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i].steps != peer_steps || peer_of(s, all[i].which))
+        if ((all[i].steps != peer_steps || peer_of(s, all[i].which)) &&
+            (all[i].steps != rolling_steps || s->rolling[all[i].which]))
             list[count++] = all[i];
     return count;
 }
@@ -318,10 +324,11 @@ static bool runners_measure(struct bench_report *report, const char *size, doubl
 {
     struct bench_contender contenders[RUNNERS_MAX];
     for (int i = 0; i < count; i++)
-        contenders[i] = (struct bench_contender){.what = runners[i].what,
-                                                 .ready = runner_ready,
-                                                 .work = runner_work,
-                                                 .context = &runners[i]};
+        contenders[i] =
+            (struct bench_contender){.what = runners[i].what,
+                                     .ready = fibers < FIBERS_SMALL ? runner_ready : NULL,
+                                     .work = runner_work,
+                                     .context = &runners[i]};
     if (!bench_measure_in_turns(contenders, count, repeat_count))
         return false;
     for (int i = 0; i < count; i++)

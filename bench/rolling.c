@@ -11,8 +11,10 @@ enum {
     PAGE_FLOATS = 1024,
     PLANE_SKEW = 7 * 16, /* planes begin at different places of a page */
     STRIP_LEAST = 4,     /* vectors */
-    TUNE_ROUNDS = 3
+    TUNE_ROUNDS_LEAST = 2,
+    TUNE_ROUNDS_MOST = 12
 };
+static const double TUNE_S = 0.7; /* no further round after that */
 
 static size_t round_up(size_t n, size_t unit)
 {
@@ -138,7 +140,10 @@ bool rolling_tune(const struct rolling_layout *l, int threads_count,
     struct rolling_tiling list[32];
     double least[32];
     int count = candidates_list(l, threads_count, list, 32);
-    for (int round = 0; round < TUNE_ROUNDS; round++)
+    const double begun = bench_now_s();
+    for (int round = 0; round < TUNE_ROUNDS_LEAST ||
+                        (round < TUNE_ROUNDS_MOST && bench_now_s() - begun < TUNE_S);
+         round++)
         for (int i = 0; i < count; i++) {
             double start = bench_now_s();
             if (!run(context, &list[i]))

@@ -15,6 +15,10 @@ steps_at_once = int(sys.argv[1])
 numbers = commands.readline().split()
 width, height, x0, y0, x1, y1 = map(int, numbers[:6])
 gravity, *weights = (float.fromhex(number.decode()) for number in numbers[6:])
+# Where a tile does not fit, it is moved in: none is larger than the rectangle.
+columns, rows = x1 - x0, y1 - y0
+lanes = LANES if columns >= LANES else 1
+band, tile = min(BAND, rows), (min(TILE[0], columns), min(TILE[1], rows))
 x, y, xo, yo, xi, yi = map(hl.Var, ("x", "y", "xo", "yo", "xi", "yi"))
 
 
@@ -81,12 +85,12 @@ def pipeline(inputs, absorbency):
             stages.append(fields)
     last = stages.pop()
     if steps_at_once == 1:
-        last.split(y, yo, yi, BAND).parallel(yo).vectorize(x, LANES)
-        stages[0].compute_at(last, yi).store_at(last, yo).vectorize(x, LANES)
+        last.split(y, yo, yi, band).parallel(yo).vectorize(x, lanes)
+        stages[0].compute_at(last, yi).store_at(last, yo).vectorize(x, lanes)
     else:
-        last.tile(x, y, xo, yo, xi, yi, *TILE).parallel(yo).vectorize(xi, LANES)
+        last.tile(x, y, xo, yo, xi, yi, *tile).parallel(yo).vectorize(xi, lanes)
         for stage in stages:
-            stage.compute_at(last, xo).vectorize(x, LANES)
+            stage.compute_at(last, xo).vectorize(x, lanes)
     return last
 
 
