@@ -319,26 +319,39 @@ static bool runner_work(void *context)
     return r->steps(r->sheet, r->which, r->steps_count);
 }
 
+/* copy: NULL, or takes turns, too, and gives the rows of the memory's limit. */
 static bool runners_measure(struct bench_report *report, const char *size, double fibers,
-                            struct runner *runners, int count, int repeat_count)
+                            struct runner *runners, int count, int repeat_count,
+                            struct bench_copy *copy)
 {
-    struct bench_contender contenders[RUNNERS_MAX];
+    struct bench_contender contenders[RUNNERS_MAX + 1];
     for (int i = 0; i < count; i++)
         contenders[i] =
             (struct bench_contender){.what = runners[i].what,
                                      .ready = fibers < FIBERS_SMALL ? runner_ready : NULL,
                                      .work = runner_work,
                                      .context = &runners[i]};
-    if (!bench_measure_in_turns(contenders, count, repeat_count))
+    contenders[count] = (struct bench_contender){.work = bench_copy_work, .context = copy};
+    if (!bench_measure_in_turns(contenders, count + (copy != NULL), repeat_count))
         return false;
     for (int i = 0; i < count; i++)
         bench_report_add(report, contenders[i].what, size, contenders[i].seconds,
                          1e9 / fibers / runners[i].steps_count, FIBER_STEP);
+    if (!copy)
+        return true;
+    struct bench_sample rate = bench_copy_rate(copy, contenders[count].seconds);
+    for (int passes = 2; passes; passes--)
+        bench_report_add(report, passes == 2 ? "traffic bound" : "traffic bound, one pass",
+                         size,
+                         (struct bench_sample){COMPULSORY_BYTES / 2 * passes / rate.median,
+                                               COMPULSORY_BYTES / 2 * passes / rate.min},
+                         1, FIBER_STEP);
+    bench_report_add(report, "copy bandwidth", size, rate, 1, "GB/s");
     return true;
 }
 
 static bool agree_and_measure(struct bench_report *report, const struct bench_options *o,
-                              struct sheet *s, const char *size)
+                              struct sheet *s, const char *size, struct bench_copy *copy)
 {
     double fibers = (double)s->scene.width * s->scene.height;
     struct runner runners[RUNNERS_MAX], unobserved[3];
@@ -360,9 +373,9 @@ static bool agree_and_measure(struct bench_report *report, const struct bench_op
         once[once_count++] = numpy;
     if (!all_agree(s, once, once_count, 0, STEPS_AGREED) ||
         !all_agree(s, unobserved, unobserved_count, STEPS_AGREED, STEPS_UNOBSERVED) ||
-        !runners_measure(report, size, fibers, runners, count, o->repeat_count))
+        !runners_measure(report, size, fibers, runners, count, o->repeat_count, copy))
         return false;
-    return !s->numpy || runners_measure(report, size, fibers, &numpy, 1, REPEAT_SLOW);
+    return !s->numpy || runners_measure(report, size, fibers, &numpy, 1, REPEAT_SLOW, NULL);
 }
 
 /* From the start again, for the agreement. */
@@ -370,32 +383,27 @@ static bool eager_measure(struct bench_report *report, int width, int height, co
 {
     struct sheet s = {0};
     struct runner eager = {"listing eager", listing_steps, listing_read, 1, 1, false, &s};
-    bool ok = diffusion_scene_init(&s.scene, width, height) &&
-              (s.openmp = diffusion_openmp_create(&s.scene)) != NULL &&
-              listing_start(&s, true) && all_agree(&s, &eager, 1, 0, STEPS_AGREED) &&
-              runners_measure(report, size, (double)width * height, &eager, 1, REPEAT_SLOW);
+    bool ok =
+        diffusion_scene_init(&s.scene, width, height) &&
+        (s.openmp = diffusion_openmp_create(&s.scene)) != NULL && listing_start(&s, true) &&
+        all_agree(&s, &eager, 1, 0, STEPS_AGREED) &&
+        runners_measure(report, size, (double)width * height, &eager, 1, REPEAT_SLOW, NULL);
     sheet_finish(&s);
     return ok;
 }
 
 static bool size_measure(struct bench_report *r, const struct bench_options *o, int width,
-                         int height, struct bench_sample gigabytes_a_second)
+                         int height)
 {
     struct sheet s = {0};
+    struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     char size[32];
     snprintf(size, sizeof size, "%dx%d", width, height);
     fprintf(stderr, "diffusion: %s ...\n", size);
-    bool ok = sheet_start(&s, width, height) && agree_and_measure(r, o, &s, size);
+    bool ok = copy && sheet_start(&s, width, height) && agree_and_measure(r, o, &s, size, copy);
     sheet_finish(&s);
-    if (!ok || !eager_measure(r, width, height, size))
-        return false;
-    for (int passes = 2; passes; passes--)
-        bench_report_add(
-            r, passes == 2 ? "traffic bound" : "traffic bound, one pass", size,
-            (struct bench_sample){COMPULSORY_BYTES / 2 * passes / gigabytes_a_second.median,
-                                  COMPULSORY_BYTES / 2 * passes / gigabytes_a_second.min},
-            1, FIBER_STEP);
-    return true;
+    bench_copy_destroy(copy);
+    return ok && eager_measure(r, width, height, size);
 }
 
 /* A sheet that fits the caches, looked at every hundredth step. */
@@ -460,7 +468,6 @@ int bench_diffusion_main(int argc, char **argv)
                                     .size_most = 8192,
                                     .repeat_least = 10,
                                     .repeat_count = 11};
-    struct bench_sample gigabytes_a_second;
     char device[256];
 
     setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
@@ -470,13 +477,10 @@ int bench_diffusion_main(int argc, char **argv)
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, "diffusion", bench_threads_count(), device);
 
-    bool ok = bench_copy_bandwidth(COPY_BYTES, options.repeat_count, &gigabytes_a_second);
+    bool ok = true;
     for (int i = 0; ok && i < options.sizes_count; i++)
-        ok = size_measure(&report, &options, options.sizes[i][0], options.sizes[i][1],
-                          gigabytes_a_second);
+        ok = size_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
     ok = ok && small_measure(&report, options.repeat_count) && front_end_measure(&report);
-    if (ok)
-        bench_report_add(&report, "copy bandwidth", "256 MB", gigabytes_a_second, 1, "GB/s");
     status = bench_options_finish(&options, &report, "hand single pass", ok);
     if (ok)
         printf("all but the relaxed ones agree in every bit after %d steps, and after %d more "

@@ -146,8 +146,7 @@ int bench_paris_main(int argc, char **argv)
 {
     static struct bench_report report;
     struct bench_options options = {.name = "paris", .repeat_least = 10, .repeat_count = 15};
-    struct bench_contender contenders[FAMILIES_COUNT];
-    struct bench_sample gigabytes_a_second;
+    struct bench_contender contenders[FAMILIES_COUNT + 1];
     struct fields fields;
     char device[256];
     int status = bench_options_parse(&options, argc, argv);
@@ -156,14 +155,16 @@ int bench_paris_main(int argc, char **argv)
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, "paris", bench_threads_count(), device);
     fields_allocate(&fields);
-    bool ok = finished() &&
-              bench_copy_bandwidth(COPY_BYTES, options.repeat_count, &gigabytes_a_second);
+    struct bench_copy *copy = bench_copy_create(COPY_BYTES);
+    bool ok = copy && finished();
     for (int i = 0; i < FAMILIES_COUNT; i++)
         contenders[i] = (struct bench_contender){.what = families[i].what,
                                                  .ready = sources_renew,
                                                  .work = families[i].work,
                                                  .context = &fields};
-    ok = ok && bench_measure_in_turns(contenders, FAMILIES_COUNT, options.repeat_count);
+    contenders[FAMILIES_COUNT] =
+        (struct bench_contender){.work = bench_copy_work, .context = copy};
+    ok = ok && bench_measure_in_turns(contenders, FAMILIES_COUNT + 1, options.repeat_count);
     for (int i = 0; ok && i < FAMILIES_COUNT; i++) {
         double gigabytes = families[i].bytes * SIDE * SIDE * 1e-9;
         bench_report_add(&report, families[i].what, OF_CASE,
@@ -172,6 +173,8 @@ int bench_paris_main(int argc, char **argv)
                          1, "GB/s");
     }
     if (ok)
-        bench_report_add(&report, "copy bandwidth", OF_CASE, gigabytes_a_second, 1, "GB/s");
+        bench_report_add(&report, "copy bandwidth", OF_CASE,
+                         bench_copy_rate(copy, contenders[FAMILIES_COUNT].seconds), 1, "GB/s");
+    bench_copy_destroy(copy);
     return bench_options_finish(&options, &report, "copy bandwidth", ok);
 }

@@ -210,8 +210,7 @@ static bool agree(const struct kind *k, struct grid *g, unsigned char *a, unsign
 }
 
 static bool size_measure(struct bench_report *r, const struct bench_options *o,
-                         const struct kind *k, int width, int height,
-                         struct bench_sample gigabytes_a_second)
+                         const struct kind *k, int width, int height, struct bench_copy *copy)
 {
     size_t count = (size_t)width * (size_t)height;
     struct grid g = {.width = width,
@@ -241,18 +240,24 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o,
          .work = paris_work,
          .context = &sixteenth},
         {.what = "openmp", .ready = openmp_ready, .work = openmp_work, .context = &each},
+        {.what = "copy bandwidth", .work = bench_copy_work, .context = copy},
         {.what = "openmp, bits", .work = bits_work, .context = &each},
     };
-    int contenders_count = g.bits ? 4 : 3;
+    const int of_copy = 3;
+    int contenders_count = g.bits ? 5 : 4;
     ok = ok && bench_measure_in_turns(contenders, contenders_count, o->repeat_count);
     for (int i = 0; ok && i < contenders_count; i++)
-        bench_report_add(r, contenders[i].what, size, contenders[i].seconds,
-                         1e9 / (double)count / g.steps_count, CELL_STEP);
-    if (ok)
-        bench_report_add(r, "traffic bound", size,
-                         (struct bench_sample){k->traffic_bytes / gigabytes_a_second.median,
-                                               k->traffic_bytes / gigabytes_a_second.min},
-                         1, CELL_STEP);
+        if (i != of_copy)
+            bench_report_add(r, contenders[i].what, size, contenders[i].seconds,
+                             1e9 / (double)count / g.steps_count, CELL_STEP);
+    if (ok) {
+        struct bench_sample rate = bench_copy_rate(copy, contenders[of_copy].seconds);
+        bench_report_add(
+            r, "traffic bound", size,
+            (struct bench_sample){k->traffic_bytes / rate.median, k->traffic_bytes / rate.min},
+            1, CELL_STEP);
+        bench_report_add(r, "copy bandwidth", size, rate, 1, "GB/s");
+    }
     grid_openmp_destroy(g.openmp);
     grid_openmp_destroy(g.bits);
     free(a);
@@ -270,7 +275,6 @@ static int run(const struct kind *k, int argc, char **argv)
                                     .size_most = 16384,
                                     .repeat_least = 10,
                                     .repeat_count = 11};
-    struct bench_sample gigabytes_a_second;
     char device[256];
     int status = bench_options_parse(&options, argc, argv);
     if (status >= 0)
@@ -278,12 +282,11 @@ static int run(const struct kind *k, int argc, char **argv)
     setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, k->name, bench_threads_count(), device);
-    bool ok = bench_copy_bandwidth(COPY_BYTES, options.repeat_count, &gigabytes_a_second);
+    struct bench_copy *copy = bench_copy_create(COPY_BYTES);
+    bool ok = copy != NULL;
     for (int i = 0; ok && i < options.sizes_count; i++)
-        ok = size_measure(&report, &options, k, options.sizes[i][0], options.sizes[i][1],
-                          gigabytes_a_second);
-    if (ok)
-        bench_report_add(&report, "copy bandwidth", "256 MB", gigabytes_a_second, 1, "GB/s");
+        ok = size_measure(&report, &options, k, options.sizes[i][0], options.sizes[i][1], copy);
+    bench_copy_destroy(copy);
     return bench_options_finish(&options, &report, "openmp", ok);
 }
 

@@ -123,34 +123,49 @@ static void copy_pass(float *restrict to, const float *restrict from, size_t cou
     }
 }
 
-bool bench_copy_bandwidth(size_t bytes, int repeat_count,
-                          struct bench_sample *gigabytes_a_second)
+struct bench_copy {
+    size_t count; /* floats */
+    float *from, *to;
+};
+
+struct bench_copy *bench_copy_create(size_t bytes)
 {
-    size_t count = bytes / sizeof(float) / 16 * 16;
-    float *from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
-    float *to = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
-    double *rates = malloc((size_t)repeat_count * sizeof *rates);
-    bool ok = from && to && rates;
-    if (!ok) {
+    struct bench_copy *c = calloc(1, sizeof *c);
+    if (c) {
+        c->count = bytes / sizeof(float) / 16 * 16;
+        c->from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+        c->to = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+    }
+    if (!c || !c->from || !c->to) {
         bench_fail("no memory for two arrays of %zu bytes", bytes);
-        goto cleanup;
+        bench_copy_destroy(c);
+        return NULL;
     }
-    memset(from, 0, bytes);
-    memset(to, 0, bytes);
-    copy_pass(to, from, count);
-    for (int i = 0; i < repeat_count; i++) {
-        double start = bench_now_s();
-        copy_pass(to, from, count);
-        rates[i] = -2e-9 * (double)(count * sizeof(float)) /
-                   (bench_now_s() - start); /* best sorts first */
+    memset(c->from, 0, c->count * sizeof(float));
+    memset(c->to, 0, c->count * sizeof(float));
+    return c;
+}
+
+void bench_copy_destroy(struct bench_copy *c)
+{
+    if (c) {
+        free(c->from);
+        free(c->to);
     }
-    struct bench_sample negative = bench_sample_of(rates, repeat_count);
-    *gigabytes_a_second = (struct bench_sample){-negative.median, -negative.min};
-cleanup:
-    free(from);
-    free(to);
-    free(rates);
-    return ok;
+    free(c);
+}
+
+bool bench_copy_work(void *context)
+{
+    struct bench_copy *c = context;
+    copy_pass(c->to, c->from, c->count);
+    return true;
+}
+
+struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds)
+{
+    double gigabytes = 2e-9 * (double)(c->count * sizeof(float));
+    return (struct bench_sample){gigabytes / seconds.median, gigabytes / seconds.min};
 }
 
 /* ---- rows ---- */
