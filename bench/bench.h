@@ -12,5 +12,8 @@ int bench_diffusion_main(int argc, char **argv);
 int bench_calls_main(int argc, char **argv);
 int bench_scan_main(int argc, char **argv);
 int bench_rank_main(int argc, char **argv);
+int bench_life_main(int argc, char **argv);
+int bench_heat_main(int argc, char **argv);
+int bench_paris_main(int argc, char **argv);
 
 #endif

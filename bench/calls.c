@@ -15,6 +15,7 @@
 
 #include "bench.h"
 #include "harness.h"
+#include "options.h"
 #include "paris_internal.h"
 
 enum { SIDE = 256, CALLS_TIMED = 10000, CALLS_GROWTH = 1000000, REPEAT_MIN = 10 };
@@ -154,61 +155,21 @@ static void growth_measure(struct bench_report *r, const struct calls *c)
                      "KiB");
 }
 
-/* ---- options ---- */
-
-static const char USAGE[] = "usage: lutetia bench calls [--repeat N] [--json FILE]\n"
-                            "\n"
-                            "  --repeat N   counted runs of 10000 calls, 10 or more (21)\n"
-                            "  --json FILE  write the rows there too\n";
-
-static bool options_parse(int argc, char **argv, int *repeat_count, const char **json_path)
-{
-    for (int i = 1; i < argc; i += 2) {
-        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
-        if (strcmp(name, "--repeat") && strcmp(name, "--json"))
-            return bench_fail("there is no option \"%s\"", name);
-        if (!value)
-            return bench_fail("%s needs a value", name);
-        if (!strcmp(name, "--json")) {
-            *json_path = value;
-            continue;
-        }
-        char *end;
-        long n = strtol(value, &end, 10);
-        if (end == value || *end || n < REPEAT_MIN || n > 1000)
-            return bench_fail("--repeat must be %d..1000 (got \"%s\")", REPEAT_MIN, value);
-        *repeat_count = (int)n;
-    }
-    return true;
-}
-
 int bench_calls_main(int argc, char **argv)
 {
     static struct bench_report report;
+    struct bench_options options = {
+        .name = "calls", .repeat_least = REPEAT_MIN, .repeat_count = 21};
     struct calls c;
     char device[256];
-    int repeat_count = 21;
-    const char *json_path = NULL;
-
-    for (int i = 1; i < argc; i++)
-        if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
-            fputs(USAGE, stdout);
-            return 0;
-        }
-    if (!options_parse(argc, argv, &repeat_count, &json_path)) {
-        fprintf(stderr, "lutetia bench calls: %s\n%s", bench_error(), USAGE);
-        return 2;
-    }
+    int status = bench_options_parse(&options, argc, argv);
+    if (status >= 0)
+        return status;
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, "calls", bench_threads_count(), device);
     calls_init(&c, SIDE, SIDE);
-    bool ok = cost_measure(&report, &c, repeat_count);
-    if (ok) {
+    bool ok = cost_measure(&report, &c, options.repeat_count);
+    if (ok)
         growth_measure(&report, &c);
-        bench_report_print(&report, "recorded", stdout);
-        ok = !json_path || bench_report_write(&report, json_path);
-    }
-    if (!ok)
-        fprintf(stderr, "lutetia bench calls: %s\n", bench_error());
-    return ok ? 0 : 1;
+    return bench_options_finish(&options, &report, "recorded", ok);
 }

@@ -1,52 +1,64 @@
 /* diffusion.c - `lutetia bench diffusion`: the thesis's step through the machine, beside
- * hand-written code that gives the same bits and beside the memory's limit.
+ * hand-written code that gives the same bits, peers, and the memory's limit.
  *
- * For each size: the listing (fused, the sheet computed after every step), the hand-written
- * kernels and plain C with OpenMP first take the same few steps, and must agree in every bit;
- * then they are timed in turns. The listing in eager mode comes last, on a machine of its own.
- */
+ * For each size all first take the same few steps, and must agree in every bit (the relaxed ones
+ * nearly); then they are timed in turns. The slow ones, the listing in eager mode and numpy, come
+ * last and more seldom; eager has a machine of its own. */
 #include "bench.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "harness.h"
 #include "listing.h"
+#include "options.h"
 #include "paris_internal.h"
+#include "peer.h"
+#include "peers.h"
+#include "rolling.h"
 #include "scene.h"
 
 enum {
-    SIZES_MAX = 16,
-    SIDE_MIN = 16,
-    SIDE_MAX = 8192,
-    REPEAT_MIN = 10,
-    REPEAT_EAGER = 3,
-    STEPS_AGREED = 5,
+    REPEAT_SLOW = 3,
+    STEPS_AGREED = 4,      /* all */
+    STEPS_UNOBSERVED = 16, /* of the listing, and then compared again */
     FRONT_END_SIDE = 256,
     FRONT_END_STEPS = 200,
+    SMALL_SIDE = 128,
+    SMALL_STEPS = 100, /* between two looks at it */
     COPY_BYTES = 256 << 20
 };
-/* Read and written for each fiber and axis: water and pigments both ways, absorbency one way.
- */
+static const double FIBERS_SMALL = 4e6;  /* in the last cache, mostly: a run has more steps */
+static const double FIBERS_PEERS = 32e6; /* above, memory is for those that matter most */
+
+/* Read and written for each fiber and axis: water and pigments both ways, absorbency one way. */
 static const double COMPULSORY_BYTES = 2 * (2 * DIFFUSION_FIELDS_COUNT + 1) * sizeof(float);
 
 static const char FIBER_STEP[] = "ns/fiber-step";
-
-struct options {
-    int sizes[SIZES_MAX][2], sizes_count; /* width, height */
-    int repeat_count;
-    const char *json_path; /* NULL: none */
-};
 
 /* ---- the contenders ---- */
 
 struct sheet {
     struct diffusion_scene scene;
-    int steps_count; /* in a counted run */
     struct listing listing;
     struct diffusion_hand *hand;
     struct diffusion_openmp *openmp;
+    struct diffusion_openmp_rolling *openmp_rolling;
+    struct diffusion_rolling *rolling[4];             /* by kind */
+    struct bench_peer *halide, *halide_tiled, *numpy; /* NULL: not here */
+};
+
+/* One of them: takes steps, and says what a field then holds. `which` is of a family. */
+struct runner {
+    const char *what;
+    bool (*steps)(struct sheet *s, int which, int steps_count);
+    bool (*read)(struct sheet *s, int which, int field, float *out);
+    int which;
+    int steps_count; /* in a counted run */
+    bool relaxed;
+    struct sheet *sheet;
 };
 
 static bool machine_said(enum machine_status status)
@@ -55,53 +67,70 @@ static bool machine_said(enum machine_status status)
            bench_fail("the machine: %s", machine_error(paris_machine()));
 }
 
-static bool listing_run(struct sheet *s, int steps_count)
+/* which: steps between two looks at it. */
+static bool listing_steps(struct sheet *s, int which, int steps_count)
 {
     bool ok = true;
-    for (int i = 0; ok && i < steps_count; i++) {
+    for (int i = 1; ok && i <= steps_count; i++) {
         listing_step(&s->listing);
-        ok = machine_said(machine_flush(paris_machine()));
+        if (i % which == 0 || i == steps_count)
+            ok = machine_said(machine_flush(paris_machine()));
     }
     return ok && machine_said(machine_finish(paris_machine()));
 }
 
-static bool listing_ready(void *context)
+static bool hand_steps(struct sheet *s, int which, int steps_count)
 {
-    return listing_run(context, 1);
+    (void)which;
+    return diffusion_hand_steps(s->hand, steps_count);
 }
 
-static bool listing_work(void *context)
+static bool hand_read(struct sheet *s, int which, int field, float *out)
 {
-    return listing_run(context, ((struct sheet *)context)->steps_count);
+    (void)which;
+    return diffusion_hand_read(s->hand, field, out);
 }
 
-static bool listing_once(void *context)
+static bool rolling_steps(struct sheet *s, int which, int steps_count)
 {
-    return listing_run(context, 1);
+    return diffusion_rolling_steps(s->rolling[which], steps_count);
 }
 
-static bool hand_ready(void *context)
+static bool rolling_field(struct sheet *s, int which, int field, float *out)
 {
-    return diffusion_hand_steps(((struct sheet *)context)->hand, 1);
+    return diffusion_rolling_read(s->rolling[which], field, out);
 }
 
-static bool hand_work(void *context)
+static bool openmp_steps(struct sheet *s, int which, int steps_count)
 {
-    struct sheet *s = context;
-    return diffusion_hand_steps(s->hand, s->steps_count);
-}
-
-static bool openmp_ready(void *context)
-{
-    diffusion_openmp_steps(((struct sheet *)context)->openmp, 1);
+    if (which)
+        return diffusion_openmp_rolling_steps(s->openmp_rolling, steps_count);
+    diffusion_openmp_steps(s->openmp, steps_count);
     return true;
 }
 
-static bool openmp_work(void *context)
+static bool openmp_read(struct sheet *s, int which, int field, float *out)
 {
-    struct sheet *s = context;
-    diffusion_openmp_steps(s->openmp, s->steps_count);
+    if (which)
+        diffusion_openmp_rolling_read(s->openmp_rolling, field, out);
+    else
+        diffusion_openmp_read(s->openmp, field, out);
     return true;
+}
+
+static struct bench_peer *peer_of(const struct sheet *s, int which)
+{
+    return which == 0 ? s->numpy : which == 1 ? s->halide : s->halide_tiled;
+}
+
+static bool peer_steps(struct sheet *s, int which, int steps_count)
+{
+    return bench_peer_steps(peer_of(s, which), steps_count);
+}
+
+static bool peer_read(struct sheet *s, int which, int field, float *out)
+{
+    return bench_peer_read(peer_of(s, which), field, out);
 }
 
 /* Makes the machine anew and puts the scene on it. */
@@ -128,44 +157,147 @@ static bool listing_start(struct sheet *s, bool eager)
     return ok;
 }
 
-static bool listing_read(const struct sheet *s, int field, float *out)
+static bool listing_read(struct sheet *s, int which, int field, float *out)
 {
+    (void)which;
     CM_field_id_t id = field == DIFFUSION_WATER ? s->listing.water
                                                 : s->listing.pigment[field - DIFFUSION_PIGMENT];
     return machine_said(machine_field_download(paris_machine(), id, MACHINE_F32, out));
 }
 
+/* A script that is not installed leaves its rows out. */
+static bool peer_start(const struct sheet *s, struct bench_peer **peer, const char *what,
+                       const char *package, const char *script, const char *argument)
+{
+    bool missing;
+    *peer = bench_peer_start(&s->scene, script, argument, &missing);
+    if (!*peer && missing)
+        fprintf(stderr, "diffusion: no %s here (%s), no such row\n", what, package);
+    return *peer || missing;
+}
+
+static bool peers_start(struct sheet *s)
+{
+    bool ok = peer_start(s, &s->halide, "Halide", "python3-halide, python3-numpy",
+                         kernel_halide_peer_py, "1") &&
+              peer_start(s, &s->numpy, "numpy", "python3-numpy", kernel_numpy_peer_py, NULL);
+    if (ok && s->halide)
+        ok = peer_start(s, &s->halide_tiled, "Halide", "python3-halide", kernel_halide_peer_py,
+                        "4");
+    return ok;
+}
+
+/* A relaxed one is cut as the one before it. */
+static bool sheet_start(struct sheet *s, int width, int height)
+{
+    const bool all = (double)width * height <= FIBERS_PEERS;
+    if (!diffusion_scene_init(&s->scene, width, height) ||
+        !(s->openmp = diffusion_openmp_create(&s->scene)) ||
+        !(s->openmp_rolling = diffusion_openmp_rolling_create(&s->scene, NULL)) ||
+        !(s->hand = diffusion_hand_create(&s->scene, NULL, DIFFUSION_SHAPE_BEST)))
+        return false;
+    for (int kind = 0; kind < 4; kind++) {
+        const bool relaxed =
+            kind == DIFFUSION_SINGLE_PASS_RELAXED || kind == DIFFUSION_TIME_TILED_RELAXED;
+        if (relaxed && !all)
+            continue;
+        s->rolling[kind] = diffusion_rolling_create(
+            &s->scene, NULL, (enum diffusion_rolling_kind)kind,
+            relaxed ? diffusion_rolling_tiling(s->rolling[kind - 1]) : NULL);
+        if (!s->rolling[kind])
+            return false;
+    }
+    if (!all)
+        fprintf(stderr, "diffusion: the sheet is too large for Halide, numpy and the relaxed "
+                        "kernels, no such rows\n");
+    return listing_start(s, false) && (!all || peers_start(s));
+}
+
+static void sheet_finish(struct sheet *s)
+{
+    for (int kind = 0; kind < 4; kind++)
+        diffusion_rolling_destroy(s->rolling[kind]);
+    diffusion_hand_destroy(s->hand);
+    diffusion_openmp_destroy(s->openmp);
+    diffusion_openmp_rolling_destroy(s->openmp_rolling);
+    bench_peer_stop(s->halide);
+    bench_peer_stop(s->halide_tiled);
+    bench_peer_stop(s->numpy);
+    diffusion_scene_finish(&s->scene);
+}
+
+enum { RUNNERS_MAX = 16 };
+
+/* Those that are here. A counted run of the time-tiled ones is a whole number of passes. */
+static int runners_list(struct sheet *s, struct runner *list)
+{
+    const bool small = (double)s->scene.width * s->scene.height < FIBERS_SMALL;
+    const int few = small ? 16 : 3;
+    int openmp_tiled = diffusion_openmp_rolling_tiling(s->openmp_rolling)->steps_count;
+    int tiled = diffusion_rolling_tiling(s->rolling[DIFFUSION_TIME_TILED])->steps_count;
+    const struct runner all[] = {
+        {"listing", listing_steps, listing_read, 1, few, false, s},
+        {"listing observed every 16", listing_steps, listing_read, 16, 16, false, s},
+        {"hand per axis", hand_steps, hand_read, 0, few, false, s},
+        {"hand single pass", rolling_steps, rolling_field, DIFFUSION_SINGLE_PASS, few, false,
+         s},
+        {"hand single pass relaxed", rolling_steps, rolling_field,
+         DIFFUSION_SINGLE_PASS_RELAXED, few, true, s},
+        {"hand time-tiled", rolling_steps, rolling_field, DIFFUSION_TIME_TILED,
+         tiled * (1 + small), false, s},
+        {"hand time-tiled relaxed", rolling_steps, rolling_field, DIFFUSION_TIME_TILED_RELAXED,
+         tiled * (1 + small), true, s},
+        {"openmp", openmp_steps, openmp_read, 0, few, false, s},
+        {"openmp time-tiled", openmp_steps, openmp_read, 1, openmp_tiled * (1 + small), false,
+         s},
+        {"halide", peer_steps, peer_read, 1, few, false, s},
+        {"halide 4 at a time", peer_steps, peer_read, 2, small ? 16 : 4, false, s},
+    };
+    int count = 0;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if ((all[i].steps != peer_steps || peer_of(s, all[i].which)) &&
+            (all[i].steps != rolling_steps || s->rolling[all[i].which]))
+            list[count++] = all[i];
+    return count;
+}
+
 /* ---- agreement ---- */
 
 /* False where a bit differs, or reading failed. yardstick: what OpenMP has. */
-static bool agree(const struct diffusion_scene *scene, const char *what, int field,
-                  const float *yardstick, const float *mine)
+static bool agree(const struct diffusion_scene *scene, const struct runner *r, int field,
+                  const float *yardstick, const float *mine, int steps_count)
 {
-    size_t count = (size_t)scene->width * (size_t)scene->height;
-    if (!memcmp(yardstick, mine, count * sizeof *mine))
+    size_t count = (size_t)scene->width * (size_t)scene->height, k = 0;
+    if (!r->relaxed && !memcmp(yardstick, mine, count * sizeof *mine))
         return true;
-    size_t k = 0;
-    while (!memcmp(yardstick + k, mine + k, sizeof *mine))
+    while (k < count && (r->relaxed ? fabsf(yardstick[k] - mine[k]) <= 1e-5f
+                                    : !memcmp(yardstick + k, mine + k, sizeof *mine)))
         k++;
-    return bench_fail("%s differs from openmp after %d steps: field %d, row %zu, column %zu: "
+    return k == count ||
+           bench_fail("%s differs from openmp after %d steps: field %d, row %zu, column %zu: "
                       "%a, openmp has %a",
-                      what, STEPS_AGREED, field, k / (size_t)scene->width,
+                      r->what, steps_count, field, k / (size_t)scene->width,
                       k % (size_t)scene->width, (double)mine[k], (double)yardstick[k]);
 }
 
-/* The listing in the machine's present mode, and the hand-written kernels if there are any
- * here. */
-static bool all_agree(struct sheet *s, const char *listing_name)
+/* openmp and each of the runners take so many steps more; steps_before: that they had taken. */
+static bool all_agree(struct sheet *s, struct runner *runners, int runners_count,
+                      int steps_before, int steps_count)
 {
     size_t bytes = (size_t)s->scene.width * (size_t)s->scene.height * sizeof(float);
     float *yardstick = malloc(bytes), *mine = malloc(bytes);
     bool ok = (yardstick && mine) || bench_fail("no memory for two fields of %zu bytes", bytes);
-    for (int i = 0; ok && i < DIFFUSION_FIELDS_COUNT; i++) {
-        diffusion_openmp_read(s->openmp, i, yardstick);
-        ok = listing_read(s, i, mine) && agree(&s->scene, listing_name, i, yardstick, mine);
-        if (ok && s->hand)
-            ok = diffusion_hand_read(s->hand, i, mine) &&
-                 agree(&s->scene, "hand per axis", i, yardstick, mine);
+    if (ok)
+        diffusion_openmp_steps(s->openmp, steps_count);
+    for (int i = 0; ok && i < runners_count; i++)
+        if (runners[i].steps != openmp_steps || runners[i].which)
+            ok = runners[i].steps(s, runners[i].which, steps_count);
+    for (int field = 0; ok && field < DIFFUSION_FIELDS_COUNT; field++) {
+        diffusion_openmp_read(s->openmp, field, yardstick);
+        for (int i = 0; ok && i < runners_count; i++)
+            ok = runners[i].read(s, runners[i].which, field, mine) &&
+                 agree(&s->scene, &runners[i], field, yardstick, mine,
+                       steps_before + steps_count);
     }
     free(yardstick);
     free(mine);
@@ -174,74 +306,144 @@ static bool all_agree(struct sheet *s, const char *listing_name)
 
 /* ---- one size ---- */
 
-static bool size_measure(struct bench_report *r, const struct options *o, int width, int height,
-                         struct bench_sample gigabytes_a_second)
+static bool runner_ready(void *context)
+{
+    struct runner *r = context;
+    /* As many as are one pipeline. */
+    return r->steps(r->sheet, r->which, r->steps == peer_steps && r->which == 2 ? 4 : 1);
+}
+
+static bool runner_work(void *context)
+{
+    struct runner *r = context;
+    return r->steps(r->sheet, r->which, r->steps_count);
+}
+
+/* copy: NULL, or takes turns, too, and gives the rows of the memory's limit. */
+static bool runners_measure(struct bench_report *report, const char *size, double fibers,
+                            struct runner *runners, int count, int repeat_count,
+                            struct bench_copy *copy)
+{
+    struct bench_contender contenders[RUNNERS_MAX + 1];
+    for (int i = 0; i < count; i++)
+        contenders[i] =
+            (struct bench_contender){.what = runners[i].what,
+                                     .ready = fibers < FIBERS_SMALL ? runner_ready : NULL,
+                                     .work = runner_work,
+                                     .context = &runners[i]};
+    contenders[count] = (struct bench_contender){.work = bench_copy_work, .context = copy};
+    if (!bench_measure_in_turns(contenders, count + (copy != NULL), repeat_count))
+        return false;
+    for (int i = 0; i < count; i++)
+        bench_report_add(report, contenders[i].what, size, contenders[i].seconds,
+                         1e9 / fibers / runners[i].steps_count, FIBER_STEP);
+    if (!copy)
+        return true;
+    struct bench_sample rate = bench_copy_rate(copy, contenders[count].seconds);
+    for (int passes = 2; passes; passes--)
+        bench_report_add(report, passes == 2 ? "traffic bound" : "traffic bound, one pass",
+                         size,
+                         (struct bench_sample){COMPULSORY_BYTES / 2 * passes / rate.median,
+                                               COMPULSORY_BYTES / 2 * passes / rate.min},
+                         1, FIBER_STEP);
+    bench_report_add(report, "copy bandwidth", size, rate, 1, "GB/s");
+    return true;
+}
+
+static bool agree_and_measure(struct bench_report *report, const struct bench_options *o,
+                              struct sheet *s, const char *size, struct bench_copy *copy)
+{
+    double fibers = (double)s->scene.width * s->scene.height;
+    struct runner runners[RUNNERS_MAX], unobserved[3];
+    int count = runners_list(s, runners), unobserved_count = 0;
+    /* The second is the listing again. */
+    struct runner once[RUNNERS_MAX];
+    int once_count = 0;
+    for (int i = 0; i < count; i++) {
+        bool tiled =
+            runners[i].steps == rolling_steps && runners[i].which == DIFFUSION_TIME_TILED;
+        bool listing_16 = runners[i].steps == listing_steps && runners[i].which > 1;
+        if (!listing_16)
+            once[once_count++] = runners[i];
+        if (listing_16 || tiled || (runners[i].steps == openmp_steps && runners[i].which))
+            unobserved[unobserved_count++] = runners[i];
+    }
+    struct runner numpy = {"numpy", peer_steps, peer_read, 0, 1, false, s};
+    if (s->numpy)
+        once[once_count++] = numpy;
+    if (!all_agree(s, once, once_count, 0, STEPS_AGREED) ||
+        !all_agree(s, unobserved, unobserved_count, STEPS_AGREED, STEPS_UNOBSERVED) ||
+        !runners_measure(report, size, fibers, runners, count, o->repeat_count, copy))
+        return false;
+    return !s->numpy || runners_measure(report, size, fibers, &numpy, 1, REPEAT_SLOW, NULL);
+}
+
+/* From the start again, for the agreement. */
+static bool eager_measure(struct bench_report *report, int width, int height, const char *size)
 {
     struct sheet s = {0};
-    char size[32];
-    double fibers = (double)width * height;
-    snprintf(size, sizeof size, "%dx%d", width, height);
-    s.steps_count = fibers < 4e6 ? 16 : 3;
-
-    fprintf(stderr, "diffusion: %s ...\n", size);
-    bool ok = diffusion_scene_init(&s.scene, width, height) &&
-              (s.openmp = diffusion_openmp_create(&s.scene)) != NULL &&
-              (s.hand = diffusion_hand_create(&s.scene, NULL, DIFFUSION_SHAPE_BEST)) != NULL &&
-              listing_start(&s, false);
-    if (!ok)
-        goto cleanup;
-    diffusion_openmp_steps(s.openmp, STEPS_AGREED);
-    ok = diffusion_hand_steps(s.hand, STEPS_AGREED) && listing_run(&s, STEPS_AGREED) &&
-         all_agree(&s, "listing");
-    if (!ok)
-        goto cleanup;
-
-    struct bench_contender contenders[] = {
-        {.what = "listing", .ready = listing_ready, .work = listing_work, .context = &s},
-        {.what = "hand per axis", .ready = hand_ready, .work = hand_work, .context = &s},
-        {.what = "openmp", .ready = openmp_ready, .work = openmp_work, .context = &s},
-    };
-    const int contenders_count = sizeof contenders / sizeof *contenders;
-    ok = bench_measure_in_turns(contenders, contenders_count, o->repeat_count);
-    if (!ok)
-        goto cleanup;
-    for (int i = 0; i < contenders_count; i++)
-        bench_report_add(r, contenders[i].what, size, contenders[i].seconds,
-                         1e9 / fibers / s.steps_count, FIBER_STEP);
-
-    /* Eager: from the start again, for the agreement. */
-    diffusion_hand_destroy(s.hand);
-    s.hand = NULL;
-    diffusion_openmp_destroy(s.openmp);
-    struct bench_sample eager;
-    ok = (s.openmp = diffusion_openmp_create(&s.scene)) != NULL && listing_start(&s, true);
-    if (!ok)
-        goto cleanup;
-    diffusion_openmp_steps(s.openmp, STEPS_AGREED);
-    ok = listing_run(&s, STEPS_AGREED) && all_agree(&s, "listing eager") &&
-         bench_measure(listing_once, &s, REPEAT_EAGER, &eager);
-    if (!ok)
-        goto cleanup;
-    bench_report_add(r, "listing eager", size, eager, 1e9 / fibers, FIBER_STEP);
-    bench_report_add(r, "traffic bound", size,
-                     (struct bench_sample){COMPULSORY_BYTES / gigabytes_a_second.median,
-                                           COMPULSORY_BYTES / gigabytes_a_second.min},
-                     1, FIBER_STEP);
-cleanup:
-    diffusion_hand_destroy(s.hand);
-    diffusion_openmp_destroy(s.openmp);
-    diffusion_scene_finish(&s.scene);
+    struct runner eager = {"listing eager", listing_steps, listing_read, 1, 1, false, &s};
+    bool ok =
+        diffusion_scene_init(&s.scene, width, height) &&
+        (s.openmp = diffusion_openmp_create(&s.scene)) != NULL && listing_start(&s, true) &&
+        all_agree(&s, &eager, 1, 0, STEPS_AGREED) &&
+        runners_measure(report, size, (double)width * height, &eager, 1, REPEAT_SLOW, NULL);
+    sheet_finish(&s);
     return ok;
 }
 
-/* What the program's own thread does in a step seen before: its calls, and handing over the work. The
- * device's threads may run on the same cores meanwhile: processor time, not time by the clock. */
+static bool size_measure(struct bench_report *r, const struct bench_options *o, int width,
+                         int height)
+{
+    struct sheet s = {0};
+    struct bench_copy *copy = bench_copy_create(COPY_BYTES);
+    char size[32];
+    snprintf(size, sizeof size, "%dx%d", width, height);
+    fprintf(stderr, "diffusion: %s ...\n", size);
+    bool ok = copy && sheet_start(&s, width, height) && agree_and_measure(r, o, &s, size, copy);
+    sheet_finish(&s);
+    bench_copy_destroy(copy);
+    return ok && eager_measure(r, width, height, size);
+}
+
+/* A sheet that fits the caches, looked at every hundredth step. */
+static bool small_measure(struct bench_report *r, int repeat_count)
+{
+    struct sheet s = {0};
+    struct runner runners[] = {
+        {"small sheet", listing_steps, listing_read, SMALL_STEPS, SMALL_STEPS, false, &s},
+        {"small sheet, hand", rolling_steps, rolling_field, DIFFUSION_TIME_TILED, SMALL_STEPS,
+         false, &s},
+        {"small sheet, openmp", openmp_steps, openmp_read, 1, SMALL_STEPS, false, &s},
+    };
+    struct bench_contender contenders[3];
+    bool ok = diffusion_scene_init(&s.scene, SMALL_SIDE, SMALL_SIDE) &&
+              (s.openmp = diffusion_openmp_create(&s.scene)) != NULL &&
+              (s.openmp_rolling = diffusion_openmp_rolling_create(&s.scene, NULL)) != NULL &&
+              (s.rolling[DIFFUSION_TIME_TILED] = diffusion_rolling_create(
+                   &s.scene, NULL, DIFFUSION_TIME_TILED, NULL)) != NULL &&
+              listing_start(&s, false) && all_agree(&s, runners, 3, 0, SMALL_STEPS);
+    for (int i = 0; i < 3; i++)
+        contenders[i] = (struct bench_contender){.work = runner_work, .context = &runners[i]};
+    ok = ok && bench_measure_in_turns(contenders, 3, repeat_count);
+    for (int i = 0; ok && i < 3; i++)
+        bench_report_add(r, runners[i].what, "128x128",
+                         (struct bench_sample){SMALL_STEPS / contenders[i].seconds.median,
+                                               SMALL_STEPS / contenders[i].seconds.min},
+                         1, "steps/s");
+    sheet_finish(&s);
+    return ok;
+}
+
+/* What the program's own thread does in a step seen before: its calls, and handing over the
+ * work. The device's threads may run on the same cores meanwhile: processor time, not time by
+ * the clock. */
 static bool front_end_measure(struct bench_report *r)
 {
     struct sheet s = {0};
     double seconds[FRONT_END_STEPS];
     bool ok = diffusion_scene_init(&s.scene, FRONT_END_SIDE, FRONT_END_SIDE) &&
-              listing_start(&s, false) && listing_run(&s, STEPS_AGREED);
+              listing_start(&s, false) && listing_steps(&s, 1, STEPS_AGREED);
     for (int i = 0; ok && i < FRONT_END_STEPS; i++) {
         double start = bench_thread_s();
         listing_step(&s.listing);
@@ -256,99 +458,33 @@ static bool front_end_measure(struct bench_report *r)
     return ok;
 }
 
-/* ---- options ---- */
-
-static const char USAGE[] =
-    "usage: lutetia bench diffusion [--sizes N,WxH,...] [--repeat N] [--json FILE]\n"
-    "\n"
-    "  --sizes N,WxH,...  sheets, in fibers (1024,4096)\n"
-    "  --repeat N         counted runs of each, 10 or more (11)\n"
-    "  --json FILE        write the rows there too\n";
-
-static bool sizes_parse(const char *text, struct options *o)
-{
-    const char *at = text;
-    for (o->sizes_count = 0; o->sizes_count < SIZES_MAX; at++) {
-        int *size = o->sizes[o->sizes_count++];
-        char *end;
-        if (!bench_number_parse(at, &end, SIDE_MIN, SIDE_MAX, &size[0]))
-            break;
-        size[1] = size[0];
-        if (*end == 'x' && !bench_number_parse(end + 1, &end, SIDE_MIN, SIDE_MAX, &size[1]))
-            break;
-        at = end;
-        if (!*at)
-            return true;
-        if (*at != ',')
-            break;
-    }
-    return bench_fail(
-        "--sizes must be like 1024,640x480: at most %d sheets, sides %d..%d (got \"%s\")",
-        SIZES_MAX, SIDE_MIN, SIDE_MAX, text);
-}
-
-static bool options_parse(struct options *o, int argc, char **argv)
-{
-    char *end;
-    *o = (struct options){
-        .sizes = {{1024, 1024}, {4096, 4096}}, .sizes_count = 2, .repeat_count = 11};
-    for (int i = 1; i < argc; i += 2) {
-        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
-        bool known =
-            !strcmp(name, "--sizes") || !strcmp(name, "--repeat") || !strcmp(name, "--json");
-        if (!known)
-            return bench_fail("there is no option \"%s\"", name);
-        if (!value)
-            return bench_fail("%s needs a value", name);
-        if (!strcmp(name, "--sizes")) {
-            if (!sizes_parse(value, o))
-                return false;
-        } else if (!strcmp(name, "--repeat")) {
-            if (!bench_number_parse(value, &end, REPEAT_MIN, 1000, &o->repeat_count) || *end)
-                return bench_fail("--repeat must be %d..1000 (got \"%s\")", REPEAT_MIN, value);
-        } else {
-            o->json_path = value;
-        }
-    }
-    return true;
-}
-
 int bench_diffusion_main(int argc, char **argv)
 {
     static struct bench_report report;
-    struct options options;
-    struct bench_sample gigabytes_a_second;
+    struct bench_options options = {.name = "diffusion",
+                                    .sizes = {{1024, 1024}, {4096, 4096}},
+                                    .sizes_count = 2,
+                                    .size_least = 16,
+                                    .size_most = 8192,
+                                    .repeat_least = 10,
+                                    .repeat_count = 11};
     char device[256];
 
-    for (int i = 1; i < argc; i++)
-        if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
-            fputs(USAGE, stdout);
-            return 0;
-        }
     setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
-    if (!options_parse(&options, argc, argv)) {
-        fprintf(stderr, "lutetia bench diffusion: %s\n%s", bench_error(), USAGE);
-        return 2;
-    }
+    int status = bench_options_parse(&options, argc, argv);
+    if (status >= 0)
+        return status;
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, "diffusion", bench_threads_count(), device);
 
-    bool ok = bench_copy_bandwidth(COPY_BYTES, options.repeat_count, &gigabytes_a_second);
+    bool ok = true;
     for (int i = 0; ok && i < options.sizes_count; i++)
-        ok = size_measure(&report, &options, options.sizes[i][0], options.sizes[i][1],
-                          gigabytes_a_second);
+        ok = size_measure(&report, &options, options.sizes[i][0], options.sizes[i][1]);
+    ok = ok && small_measure(&report, options.repeat_count) && front_end_measure(&report);
+    status = bench_options_finish(&options, &report, "hand single pass", ok);
     if (ok)
-        ok = front_end_measure(&report);
-    if (ok) {
-        bench_report_add(&report, "copy bandwidth", "256 MB", gigabytes_a_second, 1, "GB/s");
-        bench_report_print(&report, "hand per axis", stdout);
-        printf("listing, listing eager, hand per axis and openmp agree in every bit after %d "
-               "steps\n",
-               STEPS_AGREED);
-    }
-    if (ok && options.json_path)
-        ok = bench_report_write(&report, options.json_path);
-    if (!ok)
-        fprintf(stderr, "lutetia bench diffusion: %s\n", bench_error());
-    return ok ? 0 : 1;
+        printf("all but the relaxed ones agree in every bit after %d steps, and after %d more "
+               "unobserved\n",
+               STEPS_AGREED, STEPS_UNOBSERVED);
+    return status;
 }

@@ -1,8 +1,6 @@
 /* hand.c - runs kernels/diffusion_per_axis.cl: two launches a step. */
 #include "scene.h"
 
-#include <CL/cl.h>
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +8,7 @@
 
 #include "harness.h"
 #include "kernels.h"
+#include "opencl.h"
 
 enum {
     MARGIN = 16, /* of the kernel */
@@ -18,63 +17,18 @@ enum {
     ABSORBENCY = 8,
     BANDS_COUNT = 64, /* work-items that share the rows */
     PAGE_FLOATS = 1024,
-    PLANE_SKEW = 7 * 16,
-    DEVICES_MAX = 64
+    PLANE_SKEW = 7 * 16
 };
 
 struct diffusion_hand {
     struct diffusion_scene scene; /* its arrays are not ours */
     enum diffusion_shape shape;
     size_t pitch, plane; /* floats */
-    char device_name[128];
-    cl_device_id device;
-    cl_context context;
-    cl_command_queue queue;
+    struct bench_opencl cl;
     cl_program program;
     cl_kernel kernel[2]; /* along x, along y */
     cl_mem sheet;
 };
-
-static bool cl_fail(const char *what, cl_int error)
-{
-    return bench_fail("hand-written kernels: %s failed (OpenCL error %d)", what, (int)error);
-}
-
-/* ---- the device ---- */
-
-static bool device_choose(struct diffusion_hand *h, const char *wanted)
-{
-    cl_platform_id platforms[16];
-    cl_uint platforms_count = 0;
-    int index = 0;
-    if (!wanted || !*wanted)
-        wanted = getenv("LUTETIA_DEVICE");
-    if (clGetPlatformIDs(16, platforms, &platforms_count) || !platforms_count)
-        return bench_fail("hand-written kernels: no OpenCL platform; install pocl-opencl-icd");
-    for (cl_uint p = 0; p < platforms_count && p < 16; p++) {
-        cl_device_id devices[DEVICES_MAX];
-        cl_uint count = 0;
-        char platform_name[128] = "";
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices, &count))
-            continue;
-        clGetPlatformInfo(platforms[p], CL_PLATFORM_NAME, sizeof platform_name, platform_name,
-                          NULL);
-        for (cl_uint d = 0; d < count && d < DEVICES_MAX; d++, index++) {
-            clGetDeviceInfo(devices[d], CL_DEVICE_NAME, sizeof h->device_name, h->device_name,
-                            NULL);
-            bool fits = !wanted || !*wanted;
-            if (!fits && isdigit((unsigned char)wanted[0]))
-                fits = atoi(wanted) == index;
-            else if (!fits)
-                fits = strcasestr(h->device_name, wanted) || strcasestr(platform_name, wanted);
-            if (fits) {
-                h->device = devices[d];
-                return true;
-            }
-        }
-    }
-    return bench_fail("hand-written kernels: no OpenCL device \"%s\"", wanted ? wanted : "");
-}
 
 static long last_cache_bytes(void)
 {
@@ -106,17 +60,9 @@ static bool program_build(struct diffusion_hand *h)
              "-DSTREAM_PAST_CACHES=%d",
              s->width, s->height, h->pitch, h->plane, s->x0, s->y0, s->x1, s->y1,
              bytes > (double)last_cache_bytes());
-    h->program = clCreateProgramWithSource(h->context, 1, &source, NULL, &error);
-    if (error)
-        return cl_fail("clCreateProgramWithSource", error);
-    error = clBuildProgram(h->program, 1, &h->device, options, NULL, NULL);
-    if (error) {
-        static char log[8192];
-        clGetProgramBuildInfo(h->program, h->device, CL_PROGRAM_BUILD_LOG, sizeof log, log,
-                              NULL);
-        fprintf(stderr, "%s\n", log);
-        return cl_fail("clBuildProgram", error);
-    }
+    h->program = bench_opencl_build(&h->cl, &source, 1, options);
+    if (!h->program)
+        return false;
     static const char *const names[][2] = {
         [DIFFUSION_IN_PLACE] = {"diffusion_x_in_place", "diffusion_y_in_place"},
         [DIFFUSION_STREAMING] = {"diffusion_x_streaming", "diffusion_y_streaming"}};
@@ -125,7 +71,7 @@ static bool program_build(struct diffusion_hand *h)
         cl_uint n = 0;
         h->kernel[axis] = clCreateKernel(h->program, names[h->shape][axis], &error);
         if (error)
-            return cl_fail("clCreateKernel", error);
+            return bench_opencl_fail("clCreateKernel", error);
         error = clSetKernelArg(h->kernel[axis], n++, sizeof h->sheet, &h->sheet);
         error |= clSetKernelArg(h->kernel[axis], n++, sizeof from, &from);
         error |= clSetKernelArg(h->kernel[axis], n++, sizeof to, &to);
@@ -134,7 +80,7 @@ static bool program_build(struct diffusion_hand *h)
             error |=
                 clSetKernelArg(h->kernel[axis], n++, sizeof(float), &s->molecular_weight[i]);
         if (error)
-            return cl_fail("clSetKernelArg", error);
+            return bench_opencl_fail("clSetKernelArg", error);
     }
     return true;
 }
@@ -151,10 +97,10 @@ static cl_int plane_copy(struct diffusion_hand *h, size_t plane, float *host, bo
      * beyond one pitch. */
     size_t at[3] = {origin[0] % pitch, origin[0] / pitch, 0};
     if (write)
-        return clEnqueueWriteBufferRect(h->queue, h->sheet, CL_TRUE, at, zero, region, pitch, 0,
-                                        row, 0, host, 0, NULL, NULL);
-    return clEnqueueReadBufferRect(h->queue, h->sheet, CL_TRUE, at, zero, region, pitch, 0, row,
-                                   0, host, 0, NULL, NULL);
+        return clEnqueueWriteBufferRect(h->cl.queue, h->sheet, CL_TRUE, at, zero, region, pitch,
+                                        0, row, 0, host, 0, NULL, NULL);
+    return clEnqueueReadBufferRect(h->cl.queue, h->sheet, CL_TRUE, at, zero, region, pitch, 0,
+                                   row, 0, host, 0, NULL, NULL);
 }
 
 static bool sheet_create(struct diffusion_hand *h)
@@ -169,13 +115,13 @@ static bool sheet_create(struct diffusion_hand *h)
     h->plane = (h->pitch * (size_t)s->height + PAGE_FLOATS - 1) / PAGE_FLOATS * PAGE_FLOATS +
                PLANE_SKEW;
     size_t bytes = (h->plane * PLANES_COUNT + h->pitch) * sizeof(float);
-    h->sheet = clCreateBuffer(h->context, CL_MEM_READ_WRITE, bytes, NULL, &error);
+    h->sheet = clCreateBuffer(h->cl.context, CL_MEM_READ_WRITE, bytes, NULL, &error);
     if (error)
         return bench_fail("hand-written kernels: no memory for a sheet of %dx%d", s->width,
                           s->height);
     const float zero = 0.0f;
     error =
-        clEnqueueFillBuffer(h->queue, h->sheet, &zero, sizeof zero, 0, bytes, 0, NULL, NULL);
+        clEnqueueFillBuffer(h->cl.queue, h->sheet, &zero, sizeof zero, 0, bytes, 0, NULL, NULL);
     for (size_t i = 0; !error && i < DIFFUSION_FIELDS_COUNT; i++) {
         error = plane_copy(h, i, s->field[i], true);
         if (!error)
@@ -183,7 +129,7 @@ static bool sheet_create(struct diffusion_hand *h)
     }
     if (!error)
         error = plane_copy(h, ABSORBENCY, s->absorbency, true);
-    return error ? cl_fail("writing the sheet", error) : true;
+    return error ? bench_opencl_fail("writing the sheet", error) : true;
 }
 
 /* ---- what is offered ---- */
@@ -192,21 +138,13 @@ struct diffusion_hand *diffusion_hand_create(const struct diffusion_scene *s,
                                              const char *device, enum diffusion_shape shape)
 {
     struct diffusion_hand *h = calloc(1, sizeof *h);
-    cl_int error = CL_SUCCESS;
     if (!h) {
         bench_fail("no memory");
         return NULL;
     }
     h->scene = *s;
     h->shape = shape == DIFFUSION_SHAPE_BEST ? shape_best(s) : shape;
-    bool ok = device_choose(h, device);
-    if (ok) {
-        h->context = clCreateContext(NULL, 1, &h->device, NULL, NULL, &error);
-        if (!error)
-            h->queue = clCreateCommandQueueWithProperties(h->context, h->device, NULL, &error);
-        ok = error ? cl_fail("clCreateContext", error) : true;
-    }
-    if (ok && sheet_create(h) && program_build(h))
+    if (bench_opencl_open(&h->cl, device) && sheet_create(h) && program_build(h))
         return h;
     diffusion_hand_destroy(h);
     return NULL;
@@ -223,10 +161,7 @@ void diffusion_hand_destroy(struct diffusion_hand *h)
         clReleaseProgram(h->program);
     if (h->sheet)
         clReleaseMemObject(h->sheet);
-    if (h->queue)
-        clReleaseCommandQueue(h->queue);
-    if (h->context)
-        clReleaseContext(h->context);
+    bench_opencl_close(&h->cl);
     free(h);
 }
 
@@ -239,20 +174,20 @@ bool diffusion_hand_steps(struct diffusion_hand *h, int steps_count)
     for (int step = 0; step < steps_count && !error; step++)
         for (int axis = 0; axis < 2 && !error; axis++)
             error = clEnqueueNDRangeKernel(
-                h->queue, h->kernel[axis], 2, NULL,
+                h->cl.queue, h->kernel[axis], 2, NULL,
                 axis && h->shape == DIFFUSION_IN_PLACE ? strips : rows, local, 0, NULL, NULL);
     if (!error)
-        error = clFinish(h->queue);
-    return error ? cl_fail("a launch", error) : true;
+        error = clFinish(h->cl.queue);
+    return error ? bench_opencl_fail("a launch", error) : true;
 }
 
 bool diffusion_hand_read(struct diffusion_hand *h, int field, float *out)
 {
     cl_int error = plane_copy(h, (size_t)field, out, false);
-    return error ? cl_fail("reading the sheet", error) : true;
+    return error ? bench_opencl_fail("reading the sheet", error) : true;
 }
 
 const char *diffusion_hand_device(const struct diffusion_hand *h)
 {
-    return h->device_name;
+    return h->cl.device_name;
 }

@@ -30,13 +30,6 @@ bool bench_fail(const char *format, ...)
     return false;
 }
 
-bool bench_number_parse(const char *text, char **end, int least, int most, int *out)
-{
-    long n = strtol(text, end, 10);
-    *out = (int)n;
-    return *end != text && n >= least && n <= most;
-}
-
 const char *bench_error(void)
 {
     return error_text;
@@ -130,34 +123,49 @@ static void copy_pass(float *restrict to, const float *restrict from, size_t cou
     }
 }
 
-bool bench_copy_bandwidth(size_t bytes, int repeat_count,
-                          struct bench_sample *gigabytes_a_second)
+struct bench_copy {
+    size_t count; /* floats */
+    float *from, *to;
+};
+
+struct bench_copy *bench_copy_create(size_t bytes)
 {
-    size_t count = bytes / sizeof(float) / 16 * 16;
-    float *from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
-    float *to = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
-    double *rates = malloc((size_t)repeat_count * sizeof *rates);
-    bool ok = from && to && rates;
-    if (!ok) {
+    struct bench_copy *c = calloc(1, sizeof *c);
+    if (c) {
+        c->count = bytes / sizeof(float) / 16 * 16;
+        c->from = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+        c->to = aligned_alloc(4096, (bytes + 4095) / 4096 * 4096);
+    }
+    if (!c || !c->from || !c->to) {
         bench_fail("no memory for two arrays of %zu bytes", bytes);
-        goto cleanup;
+        bench_copy_destroy(c);
+        return NULL;
     }
-    memset(from, 0, bytes);
-    memset(to, 0, bytes);
-    copy_pass(to, from, count);
-    for (int i = 0; i < repeat_count; i++) {
-        double start = bench_now_s();
-        copy_pass(to, from, count);
-        rates[i] = -2e-9 * (double)(count * sizeof(float)) /
-                   (bench_now_s() - start); /* best sorts first */
+    memset(c->from, 0, c->count * sizeof(float));
+    memset(c->to, 0, c->count * sizeof(float));
+    return c;
+}
+
+void bench_copy_destroy(struct bench_copy *c)
+{
+    if (c) {
+        free(c->from);
+        free(c->to);
     }
-    struct bench_sample negative = bench_sample_of(rates, repeat_count);
-    *gigabytes_a_second = (struct bench_sample){-negative.median, -negative.min};
-cleanup:
-    free(from);
-    free(to);
-    free(rates);
-    return ok;
+    free(c);
+}
+
+bool bench_copy_work(void *context)
+{
+    struct bench_copy *c = context;
+    copy_pass(c->to, c->from, c->count);
+    return true;
+}
+
+struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds)
+{
+    double gigabytes = 2e-9 * (double)(c->count * sizeof(float));
+    return (struct bench_sample){gigabytes / seconds.median, gigabytes / seconds.min};
 }
 
 /* ---- rows ---- */
@@ -196,12 +204,12 @@ const struct bench_row *bench_report_find(const struct bench_report *r, const ch
 void bench_report_print(const struct bench_report *r, const char *yardstick, FILE *out)
 {
     fprintf(out, "%s on %s, %d threads\n", r->name, r->device, r->threads_count);
-    fprintf(out, "%-22s %-11s %10s %10s  %-14s %s\n", "", "", "median", "best", "unit",
+    fprintf(out, "%-26s %-16s %10s %10s  %-14s %s\n", "", "", "median", "best", "unit",
             yardstick);
     for (int i = 0; i < r->rows_count; i++) {
         const struct bench_row *row = &r->rows[i];
         const struct bench_row *peer = bench_report_find(r, yardstick, row->of_case);
-        fprintf(out, "%-22s %-11s %10.3f %10.3f  %-14s", row->what, row->of_case, row->value,
+        fprintf(out, "%-26s %-16s %10.3f %10.3f  %-14s", row->what, row->of_case, row->value,
                 row->min, row->unit);
         if (peer && peer->value > 0 && !strcmp(peer->unit, row->unit))
             fprintf(out, " %.2fx", row->value / peer->value);

@@ -74,11 +74,14 @@ void bench_report_print(const struct bench_report *r, const char *yardstick, FIL
 /* One JSON object; the file appears under its name only when it is complete. Errors: false. */
 bool bench_report_write(const struct bench_report *r, const char *path);
 
-/* Copy bandwidth of this machine: arrays of bytes each, several passes, non-temporal stores
- * where the compiler has them; read and written bytes count. median and min are GB/s here, min
- * the best. Errors: false. */
-bool bench_copy_bandwidth(size_t bytes, int repeat_count,
-                          struct bench_sample *gigabytes_a_second);
+/* Copy bandwidth of this machine, as one of the contenders: a turn copies bytes, past the caches
+ * where the compiler can. Its rate: bytes read and written, by the seconds of a turn. */
+struct bench_copy;
+struct bench_copy *bench_copy_create(size_t bytes); /* Errors: NULL */
+void bench_copy_destroy(struct bench_copy *c);      /* takes NULL */
+bench_work bench_copy_work;
+/* GB/s, from the seconds of its turns; min is the best. */
+struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds);
 
 int bench_threads_count(void); /* that OpenMP uses; 1 without it */
 
@@ -87,8 +90,6 @@ int bench_threads_count(void); /* that OpenMP uses; 1 without it */
 /* Keeps the text and returns false. */
 bool bench_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A number from least to most; *end: behind it. */
-bool bench_number_parse(const char *text, char **end, int least, int most, int *out);
 const char *bench_error(void);
 
 #endif

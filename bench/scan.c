@@ -8,16 +8,12 @@
 #include <string.h>
 
 #include "harness.h"
+#include "options.h"
 #include "paris_internal.h"
 #include "prefix.h"
 #include <cm/paris.h>
 
-enum { SIZES_MAX = 16, COUNT_MAX = 1 << 26, REPEAT_MIN = 10, SEGMENT = 100 };
-
-struct options {
-    int sizes[SIZES_MAX], sizes_count, repeat_count;
-    const char *json_path; /* NULL: none */
-};
+enum { COUNT_MAX = 1 << 26, REPEAT_MIN = 10, SEGMENT = 100 };
 
 struct line {
     size_t count;
@@ -158,7 +154,7 @@ static void line_finish(struct line *l)
     free(l->begins);
 }
 
-static bool match_measure(struct bench_report *r, const struct options *o, struct line *l,
+static bool match_measure(struct bench_report *r, const struct bench_options *o, struct line *l,
                           const struct match *match)
 {
     char of_case[32];
@@ -180,81 +176,33 @@ static bool match_measure(struct bench_report *r, const struct options *o, struc
     return true;
 }
 
-static const char USAGE[] =
-    "usage: lutetia bench %s [--sizes N,...] [--repeat N] [--json FILE]\n"
-    "\n"
-    "  --sizes N,...  processors (65536,1048576)\n"
-    "  --repeat N     counted runs of each, 10 or more (31)\n"
-    "  --json FILE    write the rows there too\n";
-
-static bool options_parse(struct options *o, int argc, char **argv)
-{
-    char *end;
-    *o = (struct options){.sizes = {1 << 16, 1 << 20}, .sizes_count = 2, .repeat_count = 31};
-    for (int i = 1; i < argc; i += 2) {
-        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
-        bool sizes = !strcmp(name, "--sizes"), repeat = !strcmp(name, "--repeat");
-        if (!sizes && !repeat && strcmp(name, "--json"))
-            return bench_fail("there is no option \"%s\"", name);
-        if (!value)
-            return bench_fail("%s needs a value", name);
-        if (repeat) {
-            if (!bench_number_parse(value, &end, REPEAT_MIN, 10000, &o->repeat_count) || *end)
-                return bench_fail("--repeat must be %d..10000 (got \"%s\")", REPEAT_MIN, value);
-        } else if (sizes) {
-            const char *at = value;
-            bool good = true;
-            for (o->sizes_count = 0; good && o->sizes_count < SIZES_MAX;) {
-                good = bench_number_parse(at, &end, 1, COUNT_MAX, &o->sizes[o->sizes_count++]);
-                if (!*end)
-                    break;
-                good = good && *end == ',';
-                at = end + 1;
-            }
-            if (!good || *end)
-                return bench_fail("--sizes must be like 65536,1048576: at most %d, each 1..%d "
-                                  "(got \"%s\")",
-                                  SIZES_MAX, COUNT_MAX, value);
-        } else {
-            o->json_path = value;
-        }
-    }
-    return true;
-}
-
 static int run(const char *name, const struct match *matches, int matches_count, int argc,
                char **argv)
 {
     static struct bench_report report;
-    struct options options;
+    struct bench_options options = {.name = name,
+                                    .sizes = {{1 << 16, 1}, {1 << 20, 1}},
+                                    .sizes_count = 2,
+                                    .lines = true,
+                                    .size_least = 1,
+                                    .size_most = COUNT_MAX,
+                                    .repeat_least = REPEAT_MIN,
+                                    .repeat_count = 31};
     char device[256];
-    for (int i = 1; i < argc; i++)
-        if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
-            printf(USAGE, name);
-            return 0;
-        }
-    if (!options_parse(&options, argc, argv)) {
-        fprintf(stderr, "lutetia bench %s: %s\n", name, bench_error());
-        fprintf(stderr, USAGE, name);
-        return 2;
-    }
+    int status = bench_options_parse(&options, argc, argv);
+    if (status >= 0)
+        return status;
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(&report, name, bench_threads_count(), device);
     bool ok = true;
     for (int i = 0; ok && i < options.sizes_count; i++) {
         struct line line;
-        ok = line_start(&line, options.sizes[i]);
+        ok = line_start(&line, options.sizes[i][0]);
         for (int k = 0; ok && k < matches_count; k++)
             ok = match_measure(&report, &options, &line, &matches[k]);
         line_finish(&line);
     }
-    if (ok)
-        bench_report_print(&report, "plain C", stdout);
-    if (ok && options.json_path)
-        ok = bench_report_write(&report, options.json_path);
-    if (!ok)
-        fprintf(stderr, "lutetia bench %s: %s\n", name, bench_error());
-    return ok ? 0 : 1;
+    return bench_options_finish(&options, &report, "plain C", ok);
 }
 
 int bench_scan_main(int argc, char **argv)

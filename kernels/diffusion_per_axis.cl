@@ -28,7 +28,9 @@
 
 #define AT(plane, k) (sheet + (long)(plane)*PLANE + MARGIN + (k))
 #define LOAD(plane, k) (*(const __global float16 *)AT(plane, k)) /* k a multiple of 16 */
-#define LOAD_ANY(plane, k) vload16(0, AT(plane, k))
+/* In one load, which vload16 of some devices is not. */
+typedef float16 float16_anywhere __attribute__((aligned(4)));
+#define LOAD_ANY(plane, k) (*(const __global float16_anywhere *)AT(plane, k))
 #define STORE(plane, k, v) (*(__global float16 *)AT(plane, k) = (v))
 #if defined(__has_builtin) && STREAM_PAST_CACHES
 #if __has_builtin(__builtin_nontemporal_store)

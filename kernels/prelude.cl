@@ -26,7 +26,7 @@ typedef double VD;
 #define SEL_L(m, a, b) ((m) ? (a) : (b))
 #define IOTA 0
 #define GET(type, p, i) ((p)[i])
-#define PUT(p, i, v) ((p)[i] = (v))
+#define PUT(type, p, i, v) ((p)[i] = (v))
 #else
 typedef JOIN(int, VECTOR) VI;
 typedef JOIN(uint, VECTOR) VU;
@@ -46,8 +46,17 @@ typedef JOIN(double, VECTOR) VD;
 #else
 #define IOTA ((int4)(0, 1, 2, 3))
 #endif
-#define GET(type, p, i) JOIN(vload, VECTOR)(0, (p) + (i))
-#define PUT(p, i, v) JOIN(vstore, VECTOR)(v, 0, (p) + (i))
+/* In one load or store each, which vload and vstore of some devices are not. */
+#define ANYWHERE(type, bytes)                                                                  \
+    typedef JOIN(type, VECTOR) JOIN(type, _anywhere) __attribute__((aligned(bytes)))
+ANYWHERE(uchar, 1);
+ANYWHERE(ushort, 2);
+ANYWHERE(uint, 4);
+ANYWHERE(ulong, 8);
+ANYWHERE(float, 4);
+ANYWHERE(double, 8);
+#define GET(type, p, i) (*(const __global JOIN(type, _anywhere) *)((p) + (i)))
+#define PUT(type, p, i, v) (*(__global JOIN(type, _anywhere) *)((p) + (i)) = (v))
 #endif
 #define SEL_F SEL_U
 #define SEL_D SEL_L
@@ -125,17 +134,16 @@ inline VU column(int x, int W)
 #define PASS_u16 OUT_u16
 #define PASS_u128 OUT_u128
 
-#define OUT_bit(p, i, v) PUT(p, i, CONVERT(uchar, (v)&1))
-#define OUT_u8(p, i, v) PUT(p, i, CONVERT(uchar, v))
-#define OUT_u16(p, i, v) PUT(p, i, CONVERT(ushort, v))
-#define OUT_u32(p, i, v) PUT(p, i, v)
-#define OUT_u64(p, i, v) PUT(p, i, v)
-#define OUT_f32(p, i, v) PUT(p, i, v)
-#define OUT_f64(p, i, v) PUT(p, i, v)
+#define OUT_bit(p, i, v) PUT(uchar, p, i, CONVERT(uchar, (v)&1))
+#define OUT_u8(p, i, v) PUT(uchar, p, i, CONVERT(uchar, v))
+#define OUT_u16(p, i, v) PUT(ushort, p, i, CONVERT(ushort, v))
+#define OUT_u32(p, i, v) PUT(uint, p, i, v)
+#define OUT_u64(p, i, v) PUT(ulong, p, i, v)
+#define OUT_f32(p, i, v) PUT(float, p, i, v)
+#define OUT_f64(p, i, v) PUT(double, p, i, v)
 
 #if HALO == 0
 #define STORE(kind, p, v) OUT_##kind(p, x, v)
-#define STORE_NEAR STORE
 #elif VECTOR == 1
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
@@ -145,20 +153,10 @@ inline VU column(int x, int W)
         if (x >= W - HALO)                                                                     \
             OUT_##kind(p, x - W, v);                                                           \
     } while (0)
-#define STORE_NEAR STORE
 #else /* VECTOR == HALO: the first vector is the right halo, the last one the left */
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
         PASS_##kind(p, x, v);                                                                  \
-        if (x == 0)                                                                            \
-            OUT_##kind(p, W, v);                                                               \
-        if (x == W - VECTOR)                                                                   \
-            OUT_##kind(p, -VECTOR, v);                                                         \
-    } while (0)
-/* What is read again at once. */
-#define STORE_NEAR(kind, p, v)                                                                 \
-    do {                                                                                       \
-        OUT_##kind(p, x, v);                                                                   \
         if (x == 0)                                                                            \
             OUT_##kind(p, W, v);                                                               \
         if (x == W - VECTOR)                                                                   \

@@ -117,7 +117,7 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
             k->operations_cost, k->made);
     if (k->stages > 1)
         fprintf(out,
-                "       in strips of rows: %d stages in one go, %d values kept for a few rows, "
+                "       in strips: %d stages in one go, %d values kept for a few rows, "
                 "in no array\n",
                 k->stages, k->rings);
     if (k->shifts_computed)

@@ -17,6 +17,9 @@ static const struct {
     {"calls", bench_calls_main, "what a C/Paris call costs the front end"},
     {"scan", bench_scan_main, "scans along a line, beside plain C"},
     {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
+    {"life", bench_life_main, "Conway's Life in Paris, beside C with OpenMP"},
+    {"heat", bench_heat_main, "a heat equation of nine points in Paris, beside C with OpenMP"},
+    {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };

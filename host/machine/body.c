@@ -124,7 +124,7 @@ static int pointer_of(struct emitter *e, int node, int row)
     if (e->failed)
         return 0;
     struct machine_type type = e->g->nodes[node].type;
-    e->seen_pointers[e->pointers_count] = (struct pointer){node, row};
+    e->seen_pointers[e->pointers_count] = (struct pointer){.node = node, .row = row};
     if (e->bare)
         return e->pointers_count++;
     text_put(&e->pointers,
@@ -336,6 +336,9 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     e->wide = e->wide || type[1] == 'Q';
     if (loads) {
         int p = pointer_of(e, node, row);
+        struct pointer *seen = &e->seen_pointers[p];
+        seen->low = dx < seen->low ? dx : seen->low;
+        seen->high = dx > seen->high ? dx : seen->high;
         e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
         snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p,
                  dx);
@@ -461,14 +464,13 @@ void emit_axes(const struct emitter *e, struct text *t)
         text_put(t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
 }
 
-void emit_loop(const struct emitter *e, struct text *t, bool boxes)
+void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes)
 {
     const char *body = e->body.data ? e->body.data : "";
     if (boxes)
         text_put(t, "    const int row_inside = 1%s;\n",
                  e->row_tests.data ? e->row_tests.data : "");
-    text_put(t, "    for (int at = begin; at < end; at += VECTOR) {\n"
-                "        const int x = min(at, W - VECTOR);\n");
+    text_put(t, "%s", head);
     if (boxes)
         text_put(
             t,

@@ -28,6 +28,7 @@ struct row_offset {
 
 struct pointer {
     int node, row;
+    int low, high; /* columns that are looked at, from where we are */
 };
 
 struct emitter {
@@ -66,8 +67,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
 int emit_argument(struct emitter *e, int kind, int node, int size);
 /* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
 void emit_axes(const struct emitter *e, struct text *t);
-/* The loop over columns from begin to end, with the body. */
-void emit_loop(const struct emitter *e, struct text *t, bool boxes);
+/* A loop with the body; head: what it begins with, which declares x. */
+void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes);
 /* How the kernel's argument for a number is declared, and that of its upper half. */
 void emit_number(struct text *t, const struct plan_graph *g, int node, int number);
 

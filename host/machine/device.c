@@ -149,12 +149,13 @@ static struct device_shape shape_of(const struct device *d)
     if (forced && *forced)
         width = (cl_uint)strtoul(forced, NULL, 10);
     int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-    const char *strips = getenv("LUTETIA_STRIPS");
+    const char *strips = getenv("LUTETIA_STRIPS"), *columns = getenv("LUTETIA_COLUMNS");
     return (struct device_shape){.vector = vector,
                                  .halo = vector > 1 ? vector : 0,
                                  .op_ns = 0.064 / vector,
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
+                                 .strip_columns = columns && *columns ? atoi(columns) : 256,
                                  .no_strips = strips && *strips == '0',
                                  .always_strips = strips && *strips == '1',
                                  .launch_ns = 3000};

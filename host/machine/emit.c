@@ -90,7 +90,10 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
              e->constants.data ? e->constants.data : "");
     text_put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
     out->has_boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
-    emit_loop(e, &t, out->has_boxes && g->boxes);
+    emit_loop(e, &t,
+              "    for (int at = begin; at < end; at += VECTOR) {\n"
+              "        const int x = min(at, W - VECTOR);\n",
+              out->has_boxes && g->boxes);
     text_put(&t, "}\n");
     out->text = t.data;
     out->arguments = e->arguments;

@@ -187,6 +187,7 @@ struct device_shape {              /* what generated code should look like there
     double op_ns;                  /* cost model: one vector instruction, for an element */
     double byte_ns;                /* ... one byte to or from memory */
     double near_byte_ns;           /* ... to or from a cache */
+    int strip_columns;             /* a multiple of the vector */
     bool no_strips, always_strips; /* see plan.c; for tests */
     double launch_ns;              /* ... a launch */
 };
@@ -415,7 +416,7 @@ struct plan_graph {
     bool boxes;     /* write kernels that tell inside from outside: see body.c */
     bool strips;    /* decided: all stages in one kernel, see strips.c */
     bool no_strips; /* but not so */
-    bool could_be_strips;
+    int turns_most; /* of a loop, in one kernel of strips; 1: that cannot be */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
@@ -451,7 +452,7 @@ struct kernel_argument {
 };
 struct kernel_text {
     char *text; /* without the prelude */
-    char options[96];
+    char options[160];
     struct kernel_argument *arguments;
     int arguments_count;
     int vector;
@@ -460,6 +461,7 @@ struct kernel_text {
     int ops, loads;     /* emitted */
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
     int strip_margin;   /* rows that each computes besides its own */
+    int strip_columns;  /* of all but the last, which has what is left, too */
     int cost; /* node_cost() of these operations, and of coordinates and random numbers */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
@@ -485,7 +487,7 @@ void run_flush_due(struct machine *m);
 struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
-bool plan_stretches(const struct plan *p); /* many turns of it may be cheaper in one kernel */
+int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,

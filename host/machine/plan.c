@@ -249,18 +249,50 @@ static void find_light(struct search *s, double *weight)
     }
 }
 
-/* Where select(c, x, old) is stored, x itself need not be for those who look at it only where c
- * holds. Looked at only where c holds is what is used only for the first branch of selects by
- * c. */
+/* Conditions that hold wherever a value is looked at, none of them an AND; of more than a few, some. */
+enum { CONDITIONS = 8 };
+struct conditions {
+    int32_t of[CONDITIONS];
+    int count; /* UNSEEN: nobody looks */
+};
+
+static bool is_and(const struct plan_graph *g, int32_t condition)
+{
+    return g->nodes[condition].op == MACHINE_AND && !g->nodes[condition].leaf;
+}
+
+static bool conditions_say(const struct plan_graph *g, const struct conditions *c,
+                           int32_t condition)
+{
+    if (is_and(g, condition))
+        return conditions_say(g, c, g->nodes[condition].in[0]) &&
+               conditions_say(g, c, g->nodes[condition].in[1]);
+    for (int i = 0; i < c->count; i++)
+        if (c->of[i] == condition)
+            return true;
+    return false;
+}
+
+static void conditions_add(const struct plan_graph *g, struct conditions *c, int32_t condition)
+{
+    if (is_and(g, condition)) {
+        conditions_add(g, c, g->nodes[condition].in[0]);
+        conditions_add(g, c, g->nodes[condition].in[1]);
+    } else if (c->count < CONDITIONS && !conditions_say(g, c, condition)) {
+        c->of[c->count++] = condition;
+    }
+}
+
+/* Where select(c, x, old) is stored, x itself need not be for those who look at it only where c holds. Looked at
+ * only where c holds is what is used only for the first branch of selects by c. */
 static void find_substitutes(struct plan_graph *g)
 {
-    enum { UNSEEN = -1, EVERYWHERE = -2 };
-    int32_t *where =
-        malloc((size_t)g->count * sizeof *where); /* a node is looked at: the condition */
+    enum { UNSEEN = -1 };
+    struct conditions *where = malloc((size_t)g->count * sizeof *where);
     int32_t *select = malloc((size_t)g->count * sizeof *select); /* of a node: its select */
     INVARIANT(where && select);
     for (int i = 0; i < g->count; i++) {
-        where[i] = g->nodes[i].target ? EVERYWHERE : UNSEEN;
+        where[i].count = g->nodes[i].target ? 0 : UNSEEN;
         select[i] = -1;
         for (int k = 0; k < 3; k++)
             g->nodes[i].instead[k] = -1;
@@ -268,11 +300,20 @@ static void find_substitutes(struct plan_graph *g)
     for (int i = g->count - 1; i >= 0; i--) {
         const struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++) {
-            int32_t here = n->op == NODE_SHIFT ? EVERYWHERE : where[i];
-            if (n->op == NODE_SELECT && k == 1 && here == EVERYWHERE)
-                here = n->in[0];
-            int32_t *w = &where[n->in[k]];
-            *w = *w == UNSEEN || *w == here ? here : EVERYWHERE;
+            struct conditions here = where[i], *w = &where[n->in[k]];
+            if (n->op == NODE_SHIFT || here.count == UNSEEN)
+                here.count = 0;
+            if (n->op == NODE_SELECT && k == 1)
+                conditions_add(g, &here, n->in[0]);
+            if (w->count == UNSEEN) {
+                *w = here;
+                continue;
+            }
+            int kept = 0;
+            for (int c = 0; c < w->count; c++)
+                if (conditions_say(g, &here, w->of[c]))
+                    w->of[kept++] = w->of[c];
+            w->count = kept;
         }
         if (n->op == NODE_SELECT && !n->leaf)
             select[n->in[1]] = i;
@@ -281,10 +322,13 @@ static void find_substitutes(struct plan_graph *g)
         struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
             int32_t s = select[n->in[k]];
-            bool first =
-                n->op == NODE_SELECT && k == 1; /* looked at where n's own condition holds */
-            int32_t here = first && where[i] == EVERYWHERE ? n->in[0] : where[i];
-            if (s >= 0 && g->nodes[s].in[0] == here)
+            if (s < 0 || s == i)
+                continue;
+            int32_t condition = g->nodes[s].in[0];
+            struct conditions here = where[i];
+            if (n->op == NODE_SELECT && k == 1)
+                conditions_add(g, &here, n->in[0]);
+            if (conditions_say(g, &here, condition))
                 n->instead[k] = s;
         }
     }
@@ -351,6 +395,24 @@ static bool could_be_strips(const struct plan_graph *g, const struct vpset *sets
     return only && sets[only].rank == 2 && sets[only].halo >= shape->vector;
 }
 
+/* How many turns of a loop with this graph can be one kernel of strips: what they look at, all together, must lie
+ * in the halos. */
+static int turns_most(const struct plan_graph *g, const struct device_shape *shape)
+{
+    int *reach = calloc((size_t)g->count, sizeof *reach), most = 1;
+    INVARIANT(reach != NULL);
+    for (int i = 0; i < g->count; i++) {
+        const struct plan_node *n = &g->nodes[i];
+        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
+            reach[i] = reach[n->in[k]] > reach[i] ? reach[n->in[k]] : reach[i];
+        if (n->op == NODE_SHIFT && !n->leaf && n->axis == 1)
+            reach[i] += abs(n->detail);
+        most = reach[i] > most ? reach[i] : most;
+    }
+    free(reach);
+    return (shape->halo - 1) / most;
+}
+
 /* A barrier at each shift of something that must be computed. */
 static double barriers_everywhere(struct search *s)
 {
@@ -383,8 +445,9 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     find_light(&s, weight);
     find_substitutes(g);
     double best = descend(&s, barriers_everywhere(&s));
-    g->could_be_strips = could_be_strips(g, sets, shape);
-    if (g->could_be_strips) {
+    bool could = could_be_strips(g, sets, shape);
+    g->turns_most = could ? turns_most(g, shape) : 1;
+    if (could) {
         memcpy(barrier, s.barrier, count * sizeof *barrier);
         s.strips = true;
         double strips = descend(&s, barriers_everywhere(&s));

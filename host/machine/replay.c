@@ -538,10 +538,11 @@ static bool is_loop(const struct machine *m, const struct edge *e)
 static int turns_noted(const struct machine *m, const struct edge *e)
 {
     const struct replay *p = m->replay;
-    bool many = is_loop(m, e) && p->thorough && !e->one_by_one && e->runs >= TURNS_SEEN &&
-                plan_stretches(e->deed.plan) &&
-                (int64_t)e->calls_count * p->turns_most <= CALLS_MOST;
-    return many ? p->turns_most : 1;
+    if (!is_loop(m, e) || !p->thorough || e->one_by_one || e->runs < TURNS_SEEN)
+        return 1;
+    int turns = plan_turns(e->deed.plan);
+    turns = turns < p->turns_most ? turns : p->turns_most;
+    return turns * e->calls_count <= CALLS_MOST ? turns : 1;
 }
 
 /* False: that cannot be done now. */
@@ -622,7 +623,7 @@ static bool become_thorough(struct machine *m, const struct edge *e)
 {
     struct replay *p = m->replay;
     if (p->thorough || p->turns_most < 2 || e->runs != TURNS_SEEN || !e->alone ||
-        !plan_stretches(e->deed.plan))
+        plan_turns(e->deed.plan) < 2)
         return false;
     p->thorough = true;
     p->built_at = m->flushes;
@@ -1027,7 +1028,7 @@ static bool turns_add(struct machine *m, struct state *s, int to)
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
         bool same =
-            e->alone && e->to == to && e->calls_count * p->turns_most == p->made.calls_count;
+            e->alone && e->to == to && e->calls_count * turns_noted(m, e) == p->made.calls_count;
         for (int k = 0; same && k < p->made.calls_count; k++)
             same = same_call(&e->calls[k % e->calls_count], &p->made.calls[k]);
         if (!same)

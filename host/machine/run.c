@@ -46,7 +46,7 @@ struct launch {
     struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
-    int strip_margin;
+    int strip_margin, strip_columns;
     struct kernel_argument *arguments;
     int arguments_count;
 };
@@ -64,7 +64,8 @@ struct plan {
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
-    bool could_be_optimised, could_be_boxed, stretches;
+    bool could_be_optimised, could_be_boxed;
+    int turns_most;
     struct plan *next;
 };
 
@@ -327,6 +328,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .vector = k.vector,
                                                        .strip_bytes = k.strip_bytes,
                                                        .strip_margin = k.strip_margin,
+                                                       .strip_columns = k.strip_columns,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
     k.arguments = NULL;
@@ -427,7 +429,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         if (m->watch)
             watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
         *strips = g.strips;
-        p->stretches = g.could_be_strips;
+        p->turns_most = g.turns_most;
         if (m->dump_dir)
             dump_graph(m, m->dump_count, &g);
         good = plan_kernels(m, p, &g, stores);
@@ -501,9 +503,9 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
-bool plan_stretches(const struct plan *p)
+int plan_turns(const struct plan *p)
 {
-    return p->stretches && p->quality == BOXED;
+    return p->quality == BOXED ? p->turns_most : 1;
 }
 
 const int *plan_stored(const struct plan *p, int *count)
@@ -567,13 +569,18 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
-/* So many strips that all units of a CPU have one, and another to make up for one that is late; not so many
- * that what each computes besides its own rows counts. */
-static size_t strip_rows(const struct machine *m, const struct launch *l, const struct vpset *s)
+/* So many strips that all units of a CPU have some, and some more to make up for what is late; not so many that
+ * what each computes besides its own rows counts. */
+static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
+                         size_t global[2], size_t *rows)
 {
-    size_t strips = 2 * (size_t)m->device.units, least = 8 + 4 * (size_t)l->strip_margin,
-           rows = ((size_t)s->rows + strips - 1) / strips;
-    return rows < least ? least : rows;
+    size_t wanted = 3 * (size_t)m->device.units, least = 8 + 4 * (size_t)l->strip_margin;
+    global[0] = (size_t)(s->width / l->strip_columns);
+    global[0] = global[0] ? global[0] : 1;
+    size_t down = (wanted + global[0] - 1) / global[0];
+    *rows = ((size_t)s->rows + down - 1) / down;
+    *rows = *rows < least ? least : *rows;
+    global[1] = ((size_t)s->rows + *rows - 1) / *rows;
 }
 
 static enum machine_status launch(struct machine *m, const struct launch *l,
@@ -585,10 +592,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     size_t run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
-        run = strip_rows(m, l, s);
-        global[0] = 1;
-        global[1] = ((size_t)s->rows + run - 1) / run;
-        scratch = device_buffer_get(m, global[1] * l->strip_bytes);
+        strips_count(m, l, s, global, &run);
+        scratch = device_buffer_get(m, global[0] * global[1] * l->strip_bytes);
         if (!scratch)
             return m->status;
     }

@@ -1,8 +1,8 @@
-/* strips.c - the text of one kernel for several stages: a strip of rows, line by line.
+/* strips.c - the text of one kernel for several stages: a strip of columns, line by line.
  *
  * What one stage stores for the neighbours of the next need not exist as a whole: each work-item goes down
- * a strip of rows, and each stage handles a row as soon as the rows that it looks at have been made. Those are
- * kept in rings of a few rows, which stay in the caches.
+ * a strip, and each stage handles a row as soon as the rows that it looks at have been made. Those are kept
+ * in rings of a few rows as wide as the strip, which stay in the caches.
  *
  *     i = row that the strip has come to
  *
@@ -11,13 +11,17 @@
  *     stage 2  at row i - 3      reads ring a, ring b    writes an array
  *
  *     delay   how many rows a stage is behind: enough for the lowest row that it looks at
- *     above   how many rows above its strip a stage begins, since later ones look at those; below: likewise
+ *     above   how many rows above its strip a stage begins, since later ones look at those; below,
+ *             left, right: likewise
  *     ring    rows of an array that are alive at the same time
  *
- * Rows beyond a strip are computed twice, by both neighbours; the sheet is a torus, so they are rows
- * of it too, and what they would store goes into a sink. A ring's rows have halos as arrays' rows have. So many
- * steps of a stencil can go through the caches at once; see Hegarty et al., "Darkroom" (SIGGRAPH 2014), for
- * the same among image filters.
+ * What lies beyond a strip is computed twice, by both neighbours, and stored in rings only. The sheet is a
+ * torus: rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide
+ * enough for all stages together. So many steps of a stencil can go through the caches at once; see Hegarty
+ * et al., "Darkroom" (SIGGRAPH 2014), for the same among image filters.
+ *
+ *     first - left   first                            last   last + right
+ *          [ vector ]  [ vector ][ vector ][ vector ]  [ vector ]         those at the ends overlap others
  *
  * Each stage is a function; stages with the same text (as those of one step and the next are) share one. */
 #include <stdlib.h>
@@ -30,7 +34,7 @@ struct stage {
     struct emitter e;
     struct text text; /* of its function, but for its name */
     int same;         /* the first stage with that text */
-    int delay, above, below;
+    int delay, above, below, left, right;
     int *outputs; /* nodes, those of its rings first, then those of arrays */
     int rings_count, outputs_count;
 };
@@ -106,6 +110,8 @@ static void schedule(struct strips *s)
             int rows = to->delay - from->delay - down + 1;
             from->above = to->above - down > from->above ? to->above - down : from->above;
             from->below = to->below + down > from->below ? to->below + down : from->below;
+            from->left = to->left - p->low > from->left ? to->left - p->low : from->left;
+            from->right = to->right + p->high > from->right ? to->right + p->high : from->right;
             s->ring_rows[p->node] = rows > s->ring_rows[p->node] ? rows : s->ring_rows[p->node];
         }
     }
@@ -129,7 +135,8 @@ static void stage_text(struct strips *s, struct stage *stage)
     struct emitter *e = &stage->e;
     struct text *t = &stage->text;
     text_put(t, "(const int W, const int PITCH, const int PLOG2, const int RATIO, const int "
-                "D0, const int row");
+                "D0, const int row,\n    const int first, const int last, const int left, "
+                "const int right, const int own");
     for (int i = 0; i < e->pointers_count; i++)
         text_put(t, ",\n    const __global %s *restrict p%d",
                  memory_type(s->g->nodes[e->seen_pointers[i].node].type), i);
@@ -146,8 +153,14 @@ static void stage_text(struct strips *s, struct stage *stage)
     emit_axes(e, t);
     text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
              e->constants.data ? e->constants.data : "");
-    text_put(t, "    const int begin = 0, end = W;\n");
-    emit_loop(e, t, (e->row_tests.data || e->column_tests.data) && s->g->boxes);
+    emit_loop(
+        e, t,
+        "    const int whole = (last - first + VECTOR - 1) / VECTOR;\n"
+        "    for (int n = -(left > 0); n < whole + (right > 0); n++) {\n"
+        "        const bool inside = n >= 0 && n < whole && own;\n"
+        "        const int x = n < 0 ? first - left : n == whole ? last + right - VECTOR\n"
+        "            : min(first + n * VECTOR, last - VECTOR);\n",
+        (e->row_tests.data || e->column_tests.data) && s->g->boxes);
     text_put(t, "}\n");
     s->failed = s->failed || t->failed || e->failed || e->body.failed || e->rows.failed ||
                 e->constants.failed || e->row_tests.failed || e->column_tests.failed;
@@ -179,9 +192,10 @@ static void stage_outputs(struct strips *s, int k, const int *stores, int count)
             if (n->stage != k || !(target ? n->target : s->ring_rows[stores[i]] > 0))
                 continue;
             struct operand v = emit_value(&stage->e, stores[i], 0, 0, true);
-            text_put(&stage->e.body, "        %s(%s, q%d, %s);\n",
-                     target ? "STORE" : "STORE_NEAR", memory_kind(n->type),
-                     stage->outputs_count, v.text);
+            text_put(&stage->e.body,
+                     target ? "        if (inside)\n            STORE(%s, q%d, %s);\n"
+                            : "        OUT_%s(q%d, x, %s);\n",
+                     memory_kind(n->type), stage->outputs_count, v.text);
             stage->outputs[stage->outputs_count++] = stores[i];
         }
         if (!target)
@@ -245,21 +259,23 @@ static void kernel_head(struct strips *s, struct text *t)
     text_put(
         t,
         ")\n{\n"
-        "    const int first = get_global_id(1) * RUN, last = min(first + RUN, D0);\n"
-        "    __global uchar *const own = scratch + (size_t)get_global_id(1) * PITCH * %d;\n"
-        "    __global uchar *const sink = own + (size_t)PITCH * %d;\n",
-        s->memory + 8, s->memory);
+        "    const int top = get_global_id(1) * RUN, bottom = min(top + RUN, D0);\n"
+        "    const int first = get_global_id(0) * COLUMNS;\n"
+        "    const int last = get_global_id(0) + 1 == get_global_size(0) ? W : first + "
+        "COLUMNS;\n"
+        "    __global uchar *const near = scratch + (get_global_id(1) * get_global_size(0) +\n"
+        "        get_global_id(0)) * (size_t)(NEAR * %d);\n",
+        s->memory + 8);
     for (int i = 0; i < s->g->count; i++)
         if (s->ring_rows[i])
-            text_put(
-                t, "    __global %s *const n%d = (__global %s *)(own + (size_t)PITCH * %d);\n",
-                memory_type(s->g->nodes[i].type), i, memory_type(s->g->nodes[i].type),
-                s->ring_at[i]);
+            text_put(t, "    __global %s *const n%d = (__global %s *)(near + NEAR * %d);\n",
+                     memory_type(s->g->nodes[i].type), i, memory_type(s->g->nodes[i].type),
+                     s->ring_at[i]);
 }
 
 static void ring_row(struct strips *s, struct text *t, int node, int down)
 {
-    text_put(t, ",\n                n%d + ((size_t)ring(y + (%d), %d) * PITCH + HALO)", node,
+    text_put(t, ",\n                n%d + (ring(y + (%d), %d) * NEAR + HALO) - first", node,
              down, s->ring_rows[node]);
 }
 
@@ -269,9 +285,10 @@ static void stage_call(struct strips *s, struct text *t, int k)
     const struct emitter *e = &stage->e;
     text_put(t,
              "        {\n            const int y = i - %d, row = wrap(y, D0);\n"
-             "            if (y >= first - %d && y < last + %d)\n"
-             "                s%d(W, PITCH, PLOG2, RATIO, D0, row",
-             stage->delay, stage->above, stage->below, stage->same);
+             "            if (y >= top - %d && y < bottom + %d)\n"
+             "                s%d(W, PITCH, PLOG2, RATIO, D0, row, first, last, %d, %d, "
+             "y >= top && y < bottom",
+             stage->delay, stage->above, stage->below, stage->same, stage->left, stage->right);
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
         int down = short_way(s, rows_down(stage, p));
@@ -283,14 +300,8 @@ static void stage_call(struct strips *s, struct text *t, int k)
     }
     for (int i = 0; i < stage->outputs_count; i++) {
         int node = stage->outputs[i];
-        const char *type = memory_type(s->g->nodes[node].type);
         if (i < stage->rings_count)
             ring_row(s, t, node, 0);
-        else if (stage->above || stage->below)
-            text_put(t,
-                     ",\n                (y >= first && y < last ? o%d + (size_t)row * PITCH : "
-                     "(__global %s *)sink) + HALO",
-                     node, type);
         else
             text_put(t, ",\n                o%d + ((size_t)row * PITCH + HALO)", node);
     }
@@ -318,21 +329,34 @@ static void kernel_text(struct strips *s, struct text *t)
         if (s->stages[k].same == k)
             text_put(t, "__attribute__((noinline)) void s%d%s\n", k, s->stages[k].text.data);
     kernel_head(s, t);
-    text_put(t, "    for (int i = first + (%d); i < last + (%d); i++) {\n", begin, end);
+    text_put(t, "    for (int i = top + (%d); i < bottom + (%d); i++) {\n", begin, end);
     for (int k = 0; k < s->stages_count; k++)
         stage_call(s, t, k);
     text_put(t, "    }\n}\n");
 }
 
-/* Vectors that lie in a row and its halo, elements of up to 64 bits. */
+/* Elements of up to 64 bits, and what all stages together look at lies in the halos of arrays. */
 static bool suits(const struct strips *s, const struct device_shape *shape)
 {
     for (int k = 0; k < s->stages_count; k++) {
-        const struct emitter *e = &s->stages[k].e;
-        if (e->reach > s->set->halo || e->wide || e->soft)
+        const struct stage *stage = &s->stages[k];
+        if (stage->e.wide || stage->e.soft)
             return false;
+        for (int i = 0; i < stage->e.pointers_count; i++) {
+            const struct pointer *p = &stage->e.seen_pointers[i];
+            if (stage->left - p->low > s->set->halo || stage->right + p->high > s->set->halo)
+                return false;
+        }
     }
-    return s->set->halo >= shape->vector && s->set->width >= shape->vector;
+    return s->set->halo >= shape->vector && s->set->width >= 2 * shape->vector;
+}
+
+/* A row of a ring: as wide as a strip, of which the last takes what is left, too, and both halos. */
+static int near_columns(const struct vpset *set, const struct device_shape *shape)
+{
+    int columns = 2 * shape->strip_columns;
+    columns = columns < set->width ? columns : set->width;
+    return (columns + 2 * set->halo + 15) / 16 * 16 + 16;
 }
 
 static void describe(const struct strips *s, const struct device_shape *shape,
@@ -353,13 +377,16 @@ static void describe(const struct strips *s, const struct device_shape *shape,
             bytes += (double)(s->set->pitch * s->set->rows) *
                      (double)type_bytes(s->g->nodes[s->arguments[i].node].type);
     out->vector = shape->vector;
-    out->strip_bytes = (size_t)(s->memory + 8) * s->set->pitch;
+    out->strip_columns = shape->strip_columns;
+    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)near_columns(s->set, shape);
     for (int k = 0; k < s->stages_count; k++) {
         int rows = s->stages[k].above + s->stages[k].below;
         out->strip_margin = rows > out->strip_margin ? rows : out->strip_margin;
     }
-    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
-             out->vector, s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0);
+    snprintf(out->options, sizeof out->options,
+             "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d -DCOLUMNS=%d -DNEAR=%d", out->vector,
+             s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0,
+             shape->strip_columns, near_columns(s->set, shape));
 }
 
 bool emit_strips(const struct plan_graph *g, const int *stores, int count,
@@ -379,10 +406,11 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
     s.failed = !s.stages || !s.ring_rows || !s.ring_at || !s.number;
     for (int k = 0; k < s.stages_count && !s.failed; k++)
         stage_values(&s, k, stores, count);
-    bool good = !s.failed && suits(&s, shape);
+    bool good = !s.failed;
     if (good) {
         schedule(&s);
         lay_out(&s);
+        good = suits(&s, shape);
     }
     for (int k = 0; k < s.stages_count && good; k++) {
         stage_outputs(&s, k, stores, count);

@@ -10,111 +10,10 @@
 
 #include <cmocka.h>
 
+#include "diffusion_oracle.h"
 #include "harness.h"
-#include "scene.h"
 
 enum { STEPS = 7 };
-
-/* ---- the oracle ---- */
-
-struct oracle {
-    const struct diffusion_scene *s;
-    float *field[DIFFUSION_FIELDS_COUNT], *inflow, *inward, *outward;
-};
-
-static size_t neighbour(const struct diffusion_scene *s, int x, int y, int axis, int distance)
-{
-    if (axis == 0)
-        x = (x + distance + s->width) % s->width;
-    else
-        y = (y + distance + s->height) % s->height;
-    return (size_t)y * (size_t)s->width + (size_t)x;
-}
-
-#define EACH_ACTIVE(s)                                                                         \
-    for (int y = (s)->y0; y < (s)->y1; y++)                                                    \
-        for (int x = (s)->x0; x < (s)->x1; x++)
-
-static void oracle_substance(struct oracle *o, int which, int axis)
-{
-    const struct diffusion_scene *s = o->s;
-    float *f = o->field[which];
-
-    EACH_ACTIVE(s) o->inflow[neighbour(s, x, y, 0, 0)] = f[neighbour(s, x, y, axis, -1)];
-    EACH_ACTIVE(s)
-    {
-        size_t k = neighbour(s, x, y, 0, 0);
-        float t = o->inflow[k] - f[k];
-
-        t *= s->absorbency[k];
-        if (which) {
-            t *= o->field[DIFFUSION_WATER][k];
-            t *= s->molecular_weight[which - 1];
-        }
-        if (t > 0.0f)
-            t *= s->gravity;
-        if (t < 0.0f)
-            t /= s->gravity;
-        o->inward[k] = t;
-    }
-    EACH_ACTIVE(s)
-    o->outward[neighbour(s, x, y, 0, 0)] = o->inward[neighbour(s, x, y, axis, 1)];
-    EACH_ACTIVE(s)
-    {
-        size_t k = neighbour(s, x, y, 0, 0);
-        float t = f[k] + o->inward[k];
-
-        t -= o->outward[k];
-        t = t < 1.0f ? t : 1.0f;
-        f[k] = t > 0.0f ? t : 0.0f;
-    }
-}
-
-static void oracle_init(struct oracle *o, const struct diffusion_scene *s)
-{
-    size_t count = (size_t)s->width * (size_t)s->height, bytes = count * sizeof(float);
-    float **const temporaries[] = {&o->inflow, &o->inward, &o->outward};
-
-    o->s = s;
-    for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
-        o->field[i] = malloc(bytes);
-        assert_non_null(o->field[i]);
-        memcpy(o->field[i], s->field[i], bytes);
-    }
-    for (int i = 0; i < 3; i++) {
-        *temporaries[i] = calloc(count, sizeof(float));
-        assert_non_null(*temporaries[i]);
-    }
-    for (int step = 0; step < STEPS; step++)
-        for (int axis = 0; axis < 2; axis++)
-            for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++)
-                oracle_substance(o, i, axis);
-}
-
-static void oracle_finish(struct oracle *o)
-{
-    for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++)
-        free(o->field[i]);
-    free(o->inflow);
-    free(o->inward);
-    free(o->outward);
-}
-
-static void compare(const struct oracle *o, const char *what, int field, const float *mine)
-{
-    const struct diffusion_scene *s = o->s;
-
-    for (int y = 0; y < s->height; y++)
-        for (int x = 0; x < s->width; x++) {
-            size_t k = neighbour(s, x, y, 0, 0);
-            if (memcmp(&mine[k], &o->field[field][k], sizeof mine[k]))
-                fail_msg("%s, %dx%d, rectangle %d..%d by %d..%d: field %d, row %d, column %d: "
-                         "%a, the "
-                         "oracle has %a",
-                         what, s->width, s->height, s->x0, s->x1, s->y0, s->y1, field, y, x,
-                         (double)mine[k], (double)o->field[field][k]);
-        }
-}
 
 /* ---- the sheets ---- */
 
@@ -152,6 +51,7 @@ static void openmp_agrees(void **state)
 
         scene_make(n, &s);
         oracle_init(&o, &s);
+        oracle_steps(&o, STEPS);
         float *mine = malloc((size_t)s.width * (size_t)s.height * sizeof *mine);
         struct diffusion_openmp *peer = diffusion_openmp_create(&s);
         assert_true(mine && peer);
@@ -159,7 +59,7 @@ static void openmp_agrees(void **state)
         diffusion_openmp_steps(peer, STEPS - 3);
         for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
             diffusion_openmp_read(peer, i, mine);
-            compare(&o, "openmp", i, mine);
+            oracle_compare(&o, "openmp", i, mine);
         }
         diffusion_openmp_destroy(peer);
         free(mine);
@@ -181,6 +81,7 @@ static void hand_agrees(enum diffusion_shape shape, const char *what)
             continue;
         }
         oracle_init(&o, &s);
+        oracle_steps(&o, STEPS);
         float *mine = malloc((size_t)s.width * (size_t)s.height * sizeof *mine);
         struct diffusion_hand *peer = diffusion_hand_create(&s, NULL, shape);
         if (!mine || !peer)
@@ -188,7 +89,7 @@ static void hand_agrees(enum diffusion_shape shape, const char *what)
         assert_true(diffusion_hand_steps(peer, STEPS));
         for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
             assert_true(diffusion_hand_read(peer, i, mine));
-            compare(&o, what, i, mine);
+            oracle_compare(&o, what, i, mine);
         }
         diffusion_hand_destroy(peer);
         free(mine);
