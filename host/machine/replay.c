@@ -1027,8 +1027,8 @@ static bool turns_add(struct machine *m, struct state *s, int to)
         return false;
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
-        bool same =
-            e->alone && e->to == to && e->calls_count * turns_noted(m, e) == p->made.calls_count;
+        bool same = e->alone && e->to == to &&
+                    e->calls_count * turns_noted(m, e) == p->made.calls_count;
         for (int k = 0; same && k < p->made.calls_count; k++)
             same = same_call(&e->calls[k % e->calls_count], &p->made.calls[k]);
         if (!same)
