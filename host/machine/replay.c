@@ -34,7 +34,7 @@
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
 
 /* A loop that has turned so often is tried with so many turns at once. */
-enum { TURNS_SEEN = 6, TURNS_MOST = 8 };
+enum { TURNS_SEEN = 6, TURNS_MOST = 8, TRY_AGAIN = 8192 };
 
 /* What an evaluation ran, and what became of the buffers. */
 struct deed {
@@ -56,7 +56,6 @@ struct edge {
     /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
     struct deed turns;
     uint64_t runs;
-    bool one_by_one; /* many turns were tried in vain */
 };
 
 struct leaf {
@@ -108,7 +107,9 @@ struct replay {
     int at;
     int turns_most; /* evaluated at once */
     bool thorough;  /* evaluations leave nothing to compute: all turns of a loop begin alike */
-    uint64_t built_at; /* evaluations when many turns ran last */
+    int building_calls;  /* in the turns that are being performed */
+    uint64_t not_before; /* evaluations: many turns are tried again then */
+    uint64_t built_at;   /* evaluations when many turns ran last */
 
     /* Calls performed since the last evaluation, in a state that was `from` then. */
     struct machine_call *log;
@@ -538,7 +539,7 @@ static bool is_loop(const struct machine *m, const struct edge *e)
 static int turns_noted(const struct machine *m, const struct edge *e)
 {
     const struct replay *p = m->replay;
-    if (!is_loop(m, e) || !p->thorough || e->one_by_one || e->runs < TURNS_SEEN)
+    if (!is_loop(m, e) || !p->thorough || e->runs < TURNS_SEEN)
         return 1;
     int turns = plan_turns(e->deed.plan);
     turns = turns < p->turns_most ? turns : p->turns_most;
@@ -622,8 +623,8 @@ static void catch_up(struct machine *m)
 static bool become_thorough(struct machine *m, const struct edge *e)
 {
     struct replay *p = m->replay;
-    if (p->thorough || p->turns_most < 2 || e->runs != TURNS_SEEN || !e->alone ||
-        plan_turns(e->deed.plan) < 2)
+    if (p->thorough || p->turns_most < 2 || m->flushes < p->not_before ||
+        e->runs != TURNS_SEEN || !e->alone || plan_turns(e->deed.plan) < 2)
         return false;
     p->thorough = true;
     p->built_at = m->flushes;
@@ -649,14 +650,18 @@ static void build_turns(struct machine *m)
     struct replay *p = m->replay;
     int active = p->active, at = (int)(p->edge - p->states[active].edges);
     m->building = m->hold_flush = true;
+    p->building_calls = m->calls_noted;
     catch_up(m);
     m->hold_flush = false;
     m->flush_due = true;
     run_flush_due(m);
     m->building = false;
     bool back = p->active == active && p->states[active].edges_count > at;
-    if (back && !p->states[active].edges[at].turns.plan)
-        p->states[active].edges[at].one_by_one = true;
+    if (back && p->states[active].edges[at].turns.plan)
+        return;
+    p->thorough = false; /* in vain */
+    p->not_before = m->flushes + TRY_AGAIN;
+    forget(m);
 }
 
 /* All turns of the edge that have been noted, but for the last one that is not whole. False: it cannot be
@@ -1027,8 +1032,7 @@ static bool turns_add(struct machine *m, struct state *s, int to)
         return false;
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
-        bool same = e->alone && e->to == to &&
-                    e->calls_count * turns_noted(m, e) == p->made.calls_count;
+        bool same = e->alone && e->to == to && p->made.calls_count == p->building_calls;
         for (int k = 0; same && k < p->made.calls_count; k++)
             same = same_call(&e->calls[k % e->calls_count], &p->made.calls[k]);
         if (!same)
