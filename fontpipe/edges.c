@@ -19,7 +19,7 @@
 
 /* A line whose ends differ less in y is horizontal: it is then wrong by less than a tenth of a 255th. */
 static const double flat_px = 4e-4;
-static const double lengths_last = 5.6568542494923806; /* the longest that was measured */
+static const float lengths_last = 6.727f; /* the longest that was measured */
 
 enum { PAD = 16 };
 
@@ -108,19 +108,74 @@ enum font_status font_edges_line_add(struct font_edges *e, double x0, double x1,
     return FONT_OK;
 }
 
-/* How many nodes a piece of this length (squared) needs, whose dx is that. */
-static int nodes_needed(const struct font_filter *f, double square, double dx)
+/* How many nodes an edge needs and, where the most are not enough, on how many pieces of it. across, down: all the way it
+ * goes along x and y, at its flattest. */
+static inline int nodes_needed(const struct font_filter *f, float length, float across, float down,
+                               int *pieces)
 {
-    int l = 0;
-    double at = 0.0625; /* a quarter, squared */
-    while (l < FONT_LENGTHS - 1 && square > at) {
-        at *= 2;
-        l++;
+    int s = (down > 0.2f * across) + (down > 0.5f * across) + (down > across) +
+            (down > 2 * across) + (down > 5 * across);
+    int n = length > lengths_last ? (int)ceilf(length / lengths_last) : 1;
+    for (;; n += 1 + n / 4) {
+        /* The bin of length / n, a quarter of a pixel times the fourth root of 2 each, from the number's exponent. */
+        float quarter = 4 * length / (float)n, power = quarter * quarter * quarter * quarter;
+        union {
+            float number;
+            uint32_t bits;
+        } u = {.number = power};
+        int l = (int)(u.bits >> 23) - 126;
+        l = l < 0 ? 0 : l > FONT_LENGTHS - 1 ? FONT_LENGTHS - 1 : l;
+        const float *error = f->node_error[s][l] + 1;
+        /* The pieces' errors add up where they lie above each other, but not all with one sign. */
+        float allowed = (float)FONT_PIECE_TOLERANCE * (n > 1 ? sqrtf((float)n) : 1);
+        int m = 1;
+        for (int k = 0; k < FONT_NODES_MAX; k++) /* errors fall: as many as are too large, and one */
+            m += error[k] * across > allowed;
+        if (m <= FONT_NODES_MAX || n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
+            *pieces = n;
+            return m <= FONT_NODES_MAX ? m : FONT_NODES_MAX;
+        }
     }
-    int m = 1;
-    while (m < FONT_NODES_MAX && f->node_error[m][l] * dx > FONT_PIECE_TOLERANCE)
-        m++;
-    return m;
+}
+
+/* ---- nodes, eight at a time ---- */
+
+typedef float eight __attribute__((vector_size(32)));
+typedef float eight_loose __attribute__((vector_size(32), aligned(4), may_alias));
+
+static float gauss_at[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
+static float gauss_weight[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
+
+__attribute__((constructor)) static void gauss_begin(void)
+{
+    for (int m = 1; m <= FONT_NODES_MAX; m++)
+        for (int k = 0; k < m; k++) {
+            gauss_at[m][k] = (float)font_gauss_at[m][k];
+            gauss_weight[m][k] = (float)font_gauss_weight[m][k];
+        }
+}
+
+/* A curve as polynomials in t: x = x0 + t (c + t (b + t a)). */
+struct cubic {
+    float x, cx, bx, ax, y, cy, by, ay;
+};
+
+/* m nodes on each of the pieces. There is room for eight more than are kept. */
+static inline void nodes_put(struct font_edges *e, const struct cubic *c, int m, int pieces,
+                             float side)
+{
+    float part = 1 / (float)pieces;
+    eight at = *(const eight *)gauss_at[m] * part;
+    eight weight = *(const eight *)gauss_weight[m] * (part * side);
+    int count = e->nodes_count;
+    for (int k = 0; k < pieces; k++, count += m) {
+        eight t = at + (float)k * part;
+        *(eight_loose *)(e->node_x + count) = c->x + t * (c->cx + t * (c->bx + t * c->ax));
+        *(eight_loose *)(e->node_y + count) = c->y + t * (c->cy + t * (c->by + t * c->ay));
+        *(eight_loose *)(e->node_weight + count) =
+            weight * (c->cx + t * (2 * c->bx + t * (3 * c->ax)));
+    }
+    e->nodes_count = count;
 }
 
 /* ---- affine maps ---- */
@@ -153,22 +208,13 @@ static enum font_status line_build(struct font_edges *e, const struct font_filte
         }
         return FONT_OK;
     }
-    double square = dx * dx + dy * dy;
-    int pieces = 1;
-    if (square > lengths_last * lengths_last) {
-        pieces = (int)ceil(sqrt(square) / lengths_last);
-        square /= (double)pieces * pieces;
-    }
-    double part = 1.0 / pieces;
-    int m = nodes_needed(f, square, fabs(dx) * part);
+    float across = fabsf((float)dx), down = fabsf((float)dy);
+    int pieces, m = nodes_needed(f, sqrtf(across * across + down * down), across, down, &pieces);
     status = nodes_reserve(e, m * pieces);
     if (status != FONT_OK)
         return status;
-    for (int k = 0; k < pieces; k++)
-        for (int i = 0; i < m; i++) {
-            double t = (k + font_gauss_at[m][i]) * part;
-            node_put(e, a.x + t * dx, a.y + t * dy, side * dx * part * font_gauss_weight[m][i]);
-        }
+    struct cubic c = {(float)a.x, (float)dx, 0, 0, (float)a.y, (float)dy, 0, 0};
+    nodes_put(e, &c, m, pieces, (float)side);
     return FONT_OK;
 }
 
@@ -176,12 +222,16 @@ static enum font_status curve_build(struct font_edges *e, const struct font_filt
                                     const struct font_segment *s, double side)
 {
     const struct font_point *p = s->p;
-    double polygon = 0, across = 0, down = 0;
+    /* Nodes are even in t: they lie apart as far as where the curve is fastest. They must suffice for where it is
+     * flattest. */
+    float fastest = 0, across = 0, down = 0, flattest = 1e9f;
     for (int k = 0; k < s->degree; k++) {
-        double dx = p[k + 1].x - p[k].x, dy = p[k + 1].y - p[k].y;
-        polygon += sqrt(dx * dx + dy * dy);
-        across += fabs(dx);
-        down += fabs(dy);
+        float dx = fabsf((float)(p[k + 1].x - p[k].x)), dy = fabsf((float)(p[k + 1].y - p[k].y));
+        float square = dx * dx + dy * dy, slant = dy / (dx + 1e-9f);
+        fastest = square > fastest ? square : fastest;
+        flattest = slant < flattest ? slant : flattest;
+        across += dx;
+        down += dy;
     }
     if (across == 0)
         return FONT_OK;
@@ -201,39 +251,31 @@ static enum font_status curve_build(struct font_edges *e, const struct font_filt
         }
         return FONT_OK;
     }
-    int pieces = polygon > 3 ? (int)ceil(polygon / 3) : 1;
-    double part = 1.0 / pieces;
-    int m = nodes_needed(f, polygon * polygon * part * part, across * part);
+    float length = (float)s->degree * sqrtf(fastest);
+    if (s->degree == 2)
+        flattest = down / across; /* they bend little */
+    int pieces, m = nodes_needed(f, length, across, flattest * across, &pieces);
     /* So many nodes that the area under the curve is exact; specks can do with less. */
-    if (m < s->degree && polygon > 0.3)
-        m = s->degree;
+    int least = length > 0.4f ? s->degree : length > 0.02f ? 2 : 1;
+    m = m < least ? least : m;
     status = nodes_reserve(e, m * pieces);
     if (status != FONT_OK)
         return status;
-    /* x and y as polynomials in t. */
-    double ax, bx, cx, ay, by, cy;
+    struct cubic c = {.x = (float)p[0].x, .y = (float)p[0].y};
     if (s->degree == 2) {
-        ax = ay = 0;
-        bx = p[0].x - 2 * p[1].x + p[2].x;
-        by = p[0].y - 2 * p[1].y + p[2].y;
-        cx = 2 * (p[1].x - p[0].x);
-        cy = 2 * (p[1].y - p[0].y);
+        c.bx = (float)(p[0].x - 2 * p[1].x + p[2].x);
+        c.by = (float)(p[0].y - 2 * p[1].y + p[2].y);
+        c.cx = (float)(2 * (p[1].x - p[0].x));
+        c.cy = (float)(2 * (p[1].y - p[0].y));
     } else {
-        ax = p[3].x - p[0].x + 3 * (p[1].x - p[2].x);
-        ay = p[3].y - p[0].y + 3 * (p[1].y - p[2].y);
-        bx = 3 * (p[0].x - 2 * p[1].x + p[2].x);
-        by = 3 * (p[0].y - 2 * p[1].y + p[2].y);
-        cx = 3 * (p[1].x - p[0].x);
-        cy = 3 * (p[1].y - p[0].y);
+        c.ax = (float)(p[3].x - p[0].x + 3 * (p[1].x - p[2].x));
+        c.ay = (float)(p[3].y - p[0].y + 3 * (p[1].y - p[2].y));
+        c.bx = (float)(3 * (p[0].x - 2 * p[1].x + p[2].x));
+        c.by = (float)(3 * (p[0].y - 2 * p[1].y + p[2].y));
+        c.cx = (float)(3 * (p[1].x - p[0].x));
+        c.cy = (float)(3 * (p[1].y - p[0].y));
     }
-    for (int k = 0; k < pieces; k++)
-        for (int i = 0; i < m; i++) {
-            double t = (k + font_gauss_at[m][i]) * part;
-            double x = p[0].x + t * (cx + t * (bx + t * ax));
-            double y = p[0].y + t * (cy + t * (by + t * ay));
-            double speed = cx + t * (2 * bx + t * 3 * ax);
-            node_put(e, x, y, side * speed * part * font_gauss_weight[m][i]);
-        }
+    nodes_put(e, &c, m, pieces, (float)side);
     return FONT_OK;
 }
 
@@ -268,7 +310,7 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
                                      int orientation, double side)
 {
     enum { SAMPLES = 8 };
-    double length = 0, across = 0, longest = 0;
+    double across = 0, down = 0, longest = 0;
     struct mapped before, here;
     if (!mapped_at(map, s, 0, orientation, &before))
         return outside();
@@ -276,9 +318,9 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
         if (!mapped_at(map, s, (double)k / SAMPLES, orientation, &here))
             return outside();
         double d = hypot(here.at.x - before.at.x, here.at.y - before.at.y);
-        length += d;
         longest = fmax(longest, d);
         across += fabs(here.at.x - before.at.x);
+        down += fabs(here.at.y - before.at.y);
         before = here;
     }
     /* Where the map stretches, pieces are as short as the most stretched needs. */
@@ -302,9 +344,13 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
         }
         return FONT_OK;
     }
-    int pieces = (int)ceil(all / 2) + (s->degree > 1);
-    double part = 1.0 / pieces, piece = 1.1 * all * part;
-    int m = nodes_needed(f, piece * piece, fmin(piece, 1.5 * across * part + 1e-3)) + 1;
+    int halves = (int)ceil(all / 2) + (s->degree > 1), pieces;
+    int m = nodes_needed(f, (float)(1.1 * all / halves),
+                         (float)(fmin(1.1 * all, 1.5 * across + 1e-3) / halves),
+                         (float)(down / halves), &pieces) +
+            1;
+    pieces *= halves;
+    double part = 1.0 / pieces;
     if (m < s->degree)
         m = s->degree;
     if (m > FONT_NODES_MAX)
@@ -321,34 +367,46 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
 
 /* ---- all of an outline ---- */
 
+typedef int eight_ints __attribute__((vector_size(32)));
+
+/* a where the mask is set, b elsewhere. */
+#define chosen(a, b, mask) ((eight)(((eight_ints)(a) & (mask)) | ((eight_ints)(b) & ~(mask))))
+
+/* The least and the most of an array that has room for eight more. */
+static void range_find(float *at, int count, float *least, float *most)
+{
+    if (!count)
+        return;
+    for (int k = count; k < count + 8; k++)
+        at[k] = at[0];
+    eight low = *(const eight_loose *)at, high = low;
+    for (int k = 8; k < count; k += 8) {
+        eight here = *(const eight_loose *)(at + k);
+        low = chosen(here, low, here < low);
+        high = chosen(here, high, here > high);
+    }
+    for (int k = 0; k < 8; k++) {
+        *least = low[k] < *least ? low[k] : *least;
+        *most = high[k] > *most ? high[k] : *most;
+    }
+}
+
 static void bounds_find(struct font_edges *e)
 {
-    float x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
-    for (int i = 0; i < e->nodes_count; i++) {
-        float x = e->node_x[i], y = e->node_y[i];
-        x0 = x < x0 ? x : x0;
-        x1 = x > x1 ? x : x1;
-        y0 = y < y0 ? y : y0;
-        y1 = y > y1 ? y : y1;
-    }
-    for (int i = 0; i < e->lines_count; i++) {
-        float a = e->line_x0[i], b = e->line_x1[i], y = e->line_y[i];
-        x0 = fminf(x0, fminf(a, b));
-        x1 = fmaxf(x1, fmaxf(a, b));
-        y0 = y < y0 ? y : y0;
-        y1 = y > y1 ? y : y1;
-    }
     bool none = e->nodes_count + e->lines_count == 0;
-    e->x0 = none ? 1 : x0;
-    e->y0 = none ? 1 : y0;
-    e->x1 = none ? -1 : x1;
-    e->y1 = none ? -1 : y1;
+    e->x0 = e->y0 = none ? 1 : INFINITY;
+    e->x1 = e->y1 = none ? -1 : -INFINITY;
+    range_find(e->node_x, e->nodes_count, &e->x0, &e->x1);
+    range_find(e->node_y, e->nodes_count, &e->y0, &e->y1);
+    range_find(e->line_x0, e->lines_count, &e->x0, &e->x1);
+    range_find(e->line_x1, e->lines_count, &e->x0, &e->x1);
+    range_find(e->line_y, e->lines_count, &e->y0, &e->y1);
 }
 
 /* Which way the map turns things, from its middle. */
 static int map_orientation(const struct font_map *map, const struct font_outline *outline)
 {
-    struct font_box box = font_outline_box(outline);
+    struct font_box box = outline->box;
     struct font_point middle = {(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2}, to;
     double j[4] = {0};
     if (!font_map_point(map, middle, &to, j))
@@ -360,7 +418,7 @@ static int map_orientation(const struct font_map *map, const struct font_outline
 /* The most an affine map makes of the outline, to refuse what is too large before it is taken apart. */
 static bool fits(const struct font_map *map, const struct font_outline *outline)
 {
-    struct font_box box = font_outline_box(outline);
+    struct font_box box = outline->box;
     for (int i = 0; i < 4; i++) {
         struct font_point p = {i & 1 ? box.x1 : box.x0, i & 2 ? box.y1 : box.y0}, to;
         double j[4];

@@ -441,6 +441,7 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     }
     if (status == FONT_OK) {
         o->crossings = w.crossings;
+        o->box = font_outline_box(o);
         o->prepared = true;
     }
     free(out.segments);

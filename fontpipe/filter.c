@@ -364,7 +364,7 @@ static const struct named_filter {
     {"box", FONT_BOX, 0, 0.5},
     {"pillbox", FONT_PILLBOX, 0, 0.75},
     {"cone", FONT_CONE, 0, 1.25},
-    {"gaussian-slow", FONT_GAUSSIAN, 0.75, 2.5},
+    {"gaussian-slow", FONT_GAUSSIAN, 0.75, 3},
     {"gaussian-fast", FONT_GAUSSIAN, 0.5, 2},
     {"mitchell", FONT_MITCHELL, 0, 2},
     {"lanczos", FONT_LANCZOS, 0, 3},

@@ -25,7 +25,8 @@ enum {
     FONT_TERMS_MAX = 8,
     FONT_TERM_FLOATS = FONT_PHASES * 2 * (FONT_X_ROW + FONT_H_ROW + FONT_Y_ROW),
     FONT_NODES_MAX = 8,
-    FONT_LENGTHS = 10 /* a quarter of a pixel, times sqrt(2) each */
+    FONT_LENGTHS = 20, /* a quarter of a pixel, times the fourth root of 2 each */
+    FONT_SLANTS = 6
 };
 
 /* One product: the profile as its integral at evenly spaced knots, and the density there. */
@@ -44,8 +45,9 @@ struct font_filter {
     struct font_filter_term terms[FONT_TERMS_MAX];
     float *tables; /* for each term x, h, y; aligned to 64 bytes */
     bool round;
-    /* Of an edge of unit dx: what m nodes on a length are wrong by at most. */
-    float node_error[FONT_NODES_MAX + 1][FONT_LENGTHS];
+    /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
+     * font_slants[s] of |dx|. */
+    float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX + 1];
     bool use_nodes;
     double step_px;
     struct font_filter_info info;
@@ -71,6 +73,7 @@ double font_term_density(const struct font_filter *f, int term, double v);
 double font_term_integral(const struct font_filter *f, int term, double v);
 
 /* filter_measure.c */
+extern const double font_slants[FONT_SLANTS];
 void font_filter_measure(struct font_filter *f);
 
 /* filter_round.c: fills the terms of a round filter. */
@@ -81,6 +84,6 @@ extern const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 extern const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 
 /* What an edge may be wrong by for each of its pieces: a sixteenth of a 255th. */
-#define FONT_PIECE_TOLERANCE 2.5e-4
+#define FONT_PIECE_TOLERANCE 3e-4
 
 #endif

@@ -11,7 +11,7 @@
 
 enum { REFERENCE_PER_PX = 48, GRID_PER_PX = 4, GRID_MAX = 80, REFERENCE_MAX = 288 };
 
-static const double slants[] = {0.17, 0.52, 0.87, 1.22}; /* radians from the horizontal */
+const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1, 2, 5, 30}; /* the last: steeper ones too */
 
 /* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per unit of dx. */
 struct trial {
@@ -80,8 +80,8 @@ static double trial_error(const struct trial *t)
 static void trial_begin(struct trial *t, const struct font_filter *f, double length,
                         double slant)
 {
-    t->dx = length * cos(slant);
-    t->dy = length * sin(slant);
+    t->dx = length / hypot(1, slant);
+    t->dy = t->dx * slant;
     t->x_count = grid_fill(t->x, t->dx, f->radius);
     t->y_count = grid_fill(t->y, t->dy, f->radius);
     int steps = (int)ceil(length * REFERENCE_PER_PX);
@@ -90,21 +90,21 @@ static void trial_begin(struct trial *t, const struct font_filter *f, double len
 
 static void nodes_measure(struct font_filter *f, struct trial *t)
 {
-    for (int l = 0; l < FONT_LENGTHS; l++) {
-        double length = 0.25 * pow(2, 0.5 * l);
-        for (int m = 1; m <= FONT_NODES_MAX; m++)
-            f->node_error[m][l] = 0;
-        for (size_t s = 0; s < sizeof slants / sizeof *slants; s++) {
-            trial_begin(t, f, length, slants[s]);
+    for (int l = 0; l < FONT_LENGTHS; l++)
+        for (int s = 0; s < FONT_SLANTS; s++) {
+            trial_begin(t, f, 0.25 * pow(2, 0.25 * l), font_slants[s]);
+            float *error = f->node_error[s][l];
             for (int m = 1; m <= FONT_NODES_MAX; m++) {
                 trial_nodes(t, f, m, t->sum);
-                f->node_error[m][l] =
-                    (float)fmax(f->node_error[m][l], trial_error(t) / t->dx);
+                error[m] = (float)(trial_error(t) / t->dx);
+                if (m > 1 && error[m] * t->dx < FONT_PIECE_TOLERANCE / 8) {
+                    while (++m <= FONT_NODES_MAX) /* more are as good */
+                        error[m] = error[m - 1];
+                }
             }
+            if (l == 8 && s == 0 && error[4] * t->dx > 2 * FONT_PIECE_TOLERANCE)
+                return; /* a pixel's length needs more than four: steps */
         }
-        if (l == 4 && f->node_error[4][l] > 2 * FONT_PIECE_TOLERANCE)
-            return; /* a pixel's length needs more than four: steps */
-    }
     f->use_nodes = true;
 }
 
@@ -112,8 +112,8 @@ static void steps_measure(struct font_filter *f, struct trial *t)
 {
     for (f->step_px = 0.5; f->step_px > 1.0 / 20; f->step_px /= 2) {
         double worst = 0;
-        for (size_t s = 0; s < sizeof slants / sizeof *slants; s++) {
-            trial_begin(t, f, 3, slants[s]);
+        for (int s = 0; s < FONT_SLANTS; s++) {
+            trial_begin(t, f, 3, font_slants[s]);
             trial_steps(t, f, (int)ceil(fmax(t->dx, t->dy) / f->step_px), t->sum);
             worst = fmax(worst, trial_error(t));
         }

@@ -138,7 +138,13 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     int pitch = gray->pitch, height = gray->height_px;
     job.width = gray->width_px;
     job.pitch = pitch;
-    job.stride = job.width <= FONT_NARROW ? FONT_NARROW : pitch + 16; /* lines write past it */
+    /* Lines write up to 16 floats past the width, odd blocks 8 past 4 more. */
+    if (f->taps <= 5) {
+        job.odd = pitch == 16 ? 16 : pitch + 16;
+        job.stride = pitch == 16 ? FONT_NARROW_STRIDE : 2 * pitch + 48;
+    } else {
+        job.stride = pitch + 16;
+    }
     int rows = FONT_SUMS_FLOATS / job.stride - 2 * FONT_MARGIN_ROWS;
     rows = rows < 32 ? 32 : rows;
     rows = rows > height ? height : rows;

@@ -12,9 +12,17 @@
  *      v   . . . x x x x . . . .         a horizontal line the same with wider taps
  *          . . . x x x x . . . .
  *
- * At the end one pass down the columns adds the rows up. A row is always 16 floats at an address that is a multiple of
- * 32 bytes, whatever column the taps begin at, because the tables are padded: what one node stores the
- * next loads with the same alignment, which processors forward without waiting. */
+ * At the end one pass down the columns adds the rows up.
+ *
+ * Two nodes beside each other add to overlapping columns. A processor hands what was just stored to the next load without
+ * waiting only if the load is of the same bytes; so sums are touched in whole blocks alone. Up to five taps, wherever
+ * they begin, lie in one of the blocks of 8 columns that begin at multiples of 4:
+ *
+ *     even   |0       |8       |16      |         a row of sums is two rows of blocks,
+ *     odd    |   4    |   12   |   20   |         each block aligned, added up at the end
+ *
+ * The tables are padded, so that a block's values are one load whatever column the taps begin at. More taps take 16
+ * columns from a multiple of 8, as two blocks of the even row. */
 #include "gray_internal.h"
 
 #include <string.h>
@@ -45,55 +53,125 @@ INLINE half_vector half_load(const float *at)
     return *(const half_loose *)at;
 }
 
+/* Weights are written and read again one by one: a processor broadcasts from memory for nothing. */
+#define IN_MEMORY() __asm__ volatile("" ::: "memory")
+
+#define SHORT(taps) ((taps) <= 5)            /* they lie in one block */
+#define WEIGHTS(taps) ((taps) < 8 ? 8 : ROW) /* floats for taps + 1 */
+
 /* What rows get: the taps down, times the weight. */
-INLINE void rows_weigh(float *out, const float *table, float a, float weight, int *row, int taps)
+INLINE void rows_weigh(float *out, const float *y, float t, float weight, int taps)
 {
-    int i = (int)a;
-    float at = (a - (float)i) * FONT_PHASES;
-    int phase = (int)at;
-    float t = at - (float)phase;
-    const float *y = table + phase * 2 * FONT_Y_ROW;
-    *row = i;
-    for (int k = 0; k < (taps < 8 ? 8 : ROW); k += HALF_LANES)
+    for (int k = 0; k < WEIGHTS(taps); k += HALF_LANES)
         *(half_loose *)(out + k) =
             (half_load(y + k) + half_load(y + FONT_Y_ROW + k) * t) * weight;
 }
 
-INLINE bool row_in_band(const struct font_gray_job *job, int *row)
+/* The row that y reaches first, and its phase. */
+INLINE void row_weigh(float *out, const float *table, float a, int *row, int taps)
 {
-    *row -= job->row;
-    return *row > -FONT_MARGIN_ROWS && *row < job->rows;
+    int i = (int)a;
+    float at = (a - (float)i) * FONT_PHASES;
+    int phase = (int)at;
+    *row = i;
+    rows_weigh(out, table + phase * 2 * FONT_Y_ROW, at - (float)phase, 1, taps);
 }
 
-/* ---- pictures of up to 16 columns ---- */
+INLINE bool row_in_band(const struct font_gray_job *job, int row)
+{
+    return row > -FONT_MARGIN_ROWS && row < job->rows;
+}
 
-INLINE void narrow_add(float *sums, const vector *columns, const float *weights, int rows)
+/* ---- nodes, a batch at a time ---- */
+
+enum { BATCH = 64 };
+
+typedef int ints __attribute__((vector_size(LANES * 4)));
+typedef int ints_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
+
+/* For each node: where its column's and its rows' values begin in the tables, how far it is to the next phase, and
+ * where its sums are. */
+struct batch {
+    int column[BATCH], rows[BATCH], row[BATCH], sums[BATCH];
+    float column_t[BATCH], rows_t[BATCH];
+    float weights[BATCH * ROW] __attribute__((aligned(64)));
+};
+
+INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const float *ys,
+                       int first, int count, int stride, int taps)
+{
+    int odd = job->odd;
+    for (int k = 0; k < count; k += LANES) { /* the arrays are longer than the count */
+        vector ax = load(job->node_x + first + k) + job->ax;
+        vector ay = load(job->node_y + first + k) + job->ay;
+        ints ix = __builtin_convertvector(ax, ints), iy = __builtin_convertvector(ay, ints);
+        vector px = (ax - __builtin_convertvector(ix, vector)) * FONT_PHASES;
+        vector py = (ay - __builtin_convertvector(iy, vector)) * FONT_PHASES;
+        ints qx = __builtin_convertvector(px, ints), qy = __builtin_convertvector(py, ints);
+        ints row = iy - job->row;
+        ints within = SHORT(taps) ? ix & 3 : ix & 7, block = ix - within;
+        if (SHORT(taps)) /* odd blocks have a row of their own, 4 columns to the right */
+            block += (block >> 2 & 1) * (odd + 4);
+        *(ints_loose *)(b->column + k) = qx * (2 * FONT_X_ROW) + 16 - within;
+        *(ints_loose *)(b->rows + k) = qy * (2 * FONT_Y_ROW);
+        *(ints_loose *)(b->row + k) = row;
+        *(ints_loose *)(b->sums + k) = (row + FONT_MARGIN_ROWS) * stride + block;
+        *(vector_loose *)(b->column_t + k) = px - __builtin_convertvector(qx, vector);
+        *(vector_loose *)(b->rows_t + k) = py - __builtin_convertvector(qy, vector);
+    }
+    const float *weight = job->node_weight + first;
+    for (int k = 0; k < count; k++)
+        rows_weigh(b->weights + k * WEIGHTS(taps), ys + b->rows[k], b->rows_t[k], weight[k],
+                   taps);
+    IN_MEMORY();
+}
+
+INLINE void block_add(float *sums, int stride, const half_vector *columns, int parts,
+                      const float *weights, int rows)
 {
     for (int r = 0; r < rows; r++)
-        for (int p = 0; p < PARTS; p++)
-            *(vector *)(sums + r * ROW + p * LANES) += columns[p] * weights[r];
+        for (int p = 0; p < parts; p++)
+            *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
 }
 
-INLINE void narrow_nodes(const struct font_gray_job *job, int term, int taps)
+INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
+                     const float *xs, float *sums, int stride, int taps)
+{
+    if (job->banded && !row_in_band(job, b->row[k]))
+        return;
+    const int parts = (SHORT(taps) ? 8 : ROW) / HALF_LANES;
+    const float *x = xs + b->column[k];
+    float t = b->column_t[k];
+    half_vector columns[HALF_PARTS];
+    for (int p = 0; p < parts; p++)
+        columns[p] =
+            half_load(x + p * HALF_LANES) + half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
+    block_add(sums + b->sums[k], stride, columns, parts, b->weights + k * WEIGHTS(taps),
+              taps + 1);
+}
+
+/* Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
+ * through from three places in turns. */
+INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps)
 {
     const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
-    float weights[ROW] __attribute__((aligned(64)));
-    for (int n = 0; n < job->nodes_count; n++) {
-        float a = job->node_x[n] + job->ax;
-        int i = (int)a, row;
-        float at = (a - (float)i) * FONT_PHASES;
-        int phase = (int)at;
-        float t = at - (float)phase;
-        const float *x = xs + phase * 2 * FONT_X_ROW + 16 - i;
-        vector columns[PARTS];
-        for (int p = 0; p < PARTS; p++)
-            columns[p] = load(x + p * LANES) + load(x + FONT_X_ROW + p * LANES) * t;
-        rows_weigh(weights, ys, job->node_y[n] + job->ay, job->node_weight[n], &row, taps);
-        if (job->banded && !row_in_band(job, &row))
-            continue;
-        narrow_add(job->sums + (FONT_MARGIN_ROWS + row) * ROW, columns, weights, taps + 1);
+    float *sums = job->sums;
+    struct batch b;
+    for (int first = 0; first < job->nodes_count; first += BATCH) {
+        int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
+        int third = count / 3;
+        batch_fill(&b, job, ys, first, count, stride, taps);
+        for (int k = 0; k < third; k++) {
+            node_add(job, &b, k, xs, sums, stride, taps);
+            node_add(job, &b, k + third, xs, sums, stride, taps);
+            node_add(job, &b, k + 2 * third, xs, sums, stride, taps);
+        }
+        for (int k = 3 * third; k < count; k++)
+            node_add(job, &b, k, xs, sums, stride, taps);
     }
 }
+
+/* ---- lines ---- */
 
 /* 16 columns, from `offset` columns left of a line's end: what is right of it. */
 INLINE const float *line_end(const float *table, float a, int first, float *t)
@@ -107,71 +185,18 @@ INLINE const float *line_end(const float *table, float a, int first, float *t)
     return table + phase * 2 * FONT_H_ROW + 16 - offset;
 }
 
-INLINE void narrow_lines(const struct font_gray_job *job, int term, int taps)
+INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int taps)
 {
     const float *hs = font_filter_h(job->filter, term), *ys = font_filter_y(job->filter, term);
     float weights[ROW] __attribute__((aligned(64)));
-    for (int n = 0; n < job->lines_count; n++) {
-        float t0, t1;
-        int row;
-        const float *h0 = line_end(hs, job->line_x0[n] + job->ax, 0, &t0);
-        const float *h1 = line_end(hs, job->line_x1[n] + job->ax, 0, &t1);
-        vector columns[PARTS];
-        for (int p = 0; p < PARTS; p++)
-            columns[p] = (load(h0 + p * LANES) + load(h0 + FONT_H_ROW + p * LANES) * t0) -
-                         (load(h1 + p * LANES) + load(h1 + FONT_H_ROW + p * LANES) * t1);
-        rows_weigh(weights, ys, job->line_y[n] + job->ay, 1, &row, taps);
-        if (job->banded && !row_in_band(job, &row))
-            continue;
-        narrow_add(job->sums + (FONT_MARGIN_ROWS + row) * ROW, columns, weights, taps + 1);
-    }
-}
-
-/* ---- wider ones: 16 columns that begin at a multiple of 8 ---- */
-
-INLINE void wide_add(float *sums, int stride, const half_vector *columns, int parts,
-                     const float *weights, int rows)
-{
-    for (int r = 0; r < rows; r++)
-        for (int p = 0; p < parts; p++)
-            *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
-}
-
-INLINE void wide_nodes(const struct font_gray_job *job, int term, int taps)
-{
-    const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
-    float weights[ROW] __attribute__((aligned(64)));
-    int stride = job->stride;
-    for (int n = 0; n < job->nodes_count; n++) {
-        float a = job->node_x[n] + job->ax;
-        int i = (int)a, row;
-        float at = (a - (float)i) * FONT_PHASES;
-        int phase = (int)at;
-        float t = at - (float)phase;
-        const float *x = xs + phase * 2 * FONT_X_ROW + 16 - (i & 7);
-        half_vector columns[HALF_PARTS];
-        for (int p = 0; p < HALF_PARTS; p++)
-            columns[p] =
-                half_load(x + p * HALF_LANES) + half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
-        rows_weigh(weights, ys, job->node_y[n] + job->ay, job->node_weight[n], &row, taps);
-        if (job->banded && !row_in_band(job, &row))
-            continue;
-        wide_add(job->sums + (long)(FONT_MARGIN_ROWS + row) * stride + (i & ~7), stride, columns,
-                 HALF_PARTS, weights, taps + 1);
-    }
-}
-
-INLINE void wide_lines(const struct font_gray_job *job, int term, int taps)
-{
-    const float *hs = font_filter_h(job->filter, term), *ys = font_filter_y(job->filter, term);
-    float weights[ROW] __attribute__((aligned(64)));
-    int stride = job->stride;
     for (int n = 0; n < job->lines_count; n++) {
         float a0 = job->line_x0[n] + job->ax, a1 = job->line_x1[n] + job->ax;
         int row;
-        rows_weigh(weights, ys, job->line_y[n] + job->ay, 1, &row, taps);
-        if (job->banded && !row_in_band(job, &row))
+        row_weigh(weights, ys, job->line_y[n] + job->ay, &row, taps);
+        row -= job->row;
+        if (job->banded && !row_in_band(job, row))
             continue;
+        IN_MEMORY();
         int first = (int)(a0 < a1 ? a0 : a1) & ~7, last = (int)(a0 < a1 ? a1 : a0) + taps;
         float *sums = job->sums + (long)(FONT_MARGIN_ROWS + row) * stride;
         for (; first <= last; first += ROW) {
@@ -183,7 +208,7 @@ INLINE void wide_lines(const struct font_gray_job *job, int term, int taps)
                 columns[p] = (half_load(h0 + at) + half_load(h0 + FONT_H_ROW + at) * t0) -
                              (half_load(h1 + at) + half_load(h1 + FONT_H_ROW + at) * t1);
             }
-            wide_add(sums + first, stride, columns, HALF_PARTS, weights, taps + 1);
+            block_add(sums + first, stride, columns, HALF_PARTS, weights, taps + 1);
         }
     }
 }
@@ -223,20 +248,25 @@ INLINE void pixels_store(uint8_t *out, const vector *sum)
 #endif
 }
 
-INLINE void rows_add_up(const struct font_gray_job *job, int stride, bool exact)
+INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bool exact)
 {
-    for (int column = 0; column < job->width; column += ROW) {
+    int rows = job->rows, width = job->width;
+    long pitch = job->pitch;
+    for (int column = 0; column < width; column += ROW) {
         vector sum[PARTS];
         const float *sums = job->sums + (long)FONT_MARGIN_ROWS * stride + column;
+        uint8_t *out = job->out + column;
+        float *values = exact ? job->exact + column : NULL;
         for (int p = 0; p < PARTS; p++)
             sum[p] = load(job->carry + column + p * LANES);
-        for (int r = 0; r < job->rows; r++, sums += stride) {
+        for (int r = 0; r < rows; r++, sums += stride, out += pitch) {
             for (int p = 0; p < PARTS; p++)
                 sum[p] += load(sums + p * LANES);
-            pixels_store(job->out + (long)r * job->pitch + column, sum);
+            for (int p = 0; odd && p < PARTS; p++)
+                sum[p] += load(sums + odd + 4 + p * LANES);
+            pixels_store(out, sum);
             for (int p = 0; exact && p < PARTS; p++)
-                *(vector_loose *)(job->exact + (long)r * job->pitch + column + p * LANES) =
-                    sum[p];
+                *(vector_loose *)(values + r * pitch + p * LANES) = sum[p];
         }
         for (int p = 0; p < PARTS; p++)
             *(vector_loose *)(job->carry + column + p * LANES) = sum[p];
@@ -245,47 +275,50 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, bool exact)
 
 /* ---- by the number of taps: loops of a known length ---- */
 
-INLINE void edges_add(const struct font_gray_job *job, int taps)
+INLINE void edges_add(const struct font_gray_job *job, int stride, int taps)
 {
     for (int term = 0; term < job->filter->terms_count; term++) {
-        if (job->stride == ROW) {
-            narrow_nodes(job, term, taps);
-            narrow_lines(job, term, taps);
-        } else {
-            wide_nodes(job, term, taps);
-            wide_lines(job, term, taps);
-        }
+        nodes_add(job, term, stride, taps);
+        lines_add(job, term, stride, taps);
     }
+}
+
+INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
+{
+    if (job->stride == FONT_NARROW_STRIDE)
+        edges_add(job, FONT_NARROW_STRIDE, taps);
+    else
+        edges_add(job, job->stride, taps);
 }
 
 void KERNEL(const struct font_gray_job *job)
 {
     switch (job->filter->taps) {
     case 1:
-        edges_add(job, 1);
+        edges_add_taps(job, 1);
         break;
     case 2:
-        edges_add(job, 2);
+        edges_add_taps(job, 2);
         break;
     case 3:
-        edges_add(job, 3);
+        edges_add_taps(job, 3);
         break;
     case 4:
-        edges_add(job, 4);
+        edges_add_taps(job, 4);
         break;
     case 5:
-        edges_add(job, 5);
+        edges_add_taps(job, 5);
         break;
     case 6:
-        edges_add(job, 6);
+        edges_add(job, job->stride, 6);
         break;
     default:
-        edges_add(job, job->filter->taps);
+        edges_add(job, job->stride, job->filter->taps);
     }
     if (job->exact)
-        rows_add_up(job, job->stride, true);
-    else if (job->stride == ROW)
-        rows_add_up(job, ROW, false);
+        rows_add_up(job, job->stride, job->odd, true);
+    else if (job->odd)
+        rows_add_up(job, job->stride, job->odd, false);
     else
-        rows_add_up(job, job->stride, false);
+        rows_add_up(job, job->stride, 0, false);
 }

@@ -28,6 +28,10 @@ struct font_point {
     double x, y;
 };
 
+struct font_box {
+    double x0, y0, x1, y1;
+};
+
 /* Degree 1..3; p[0] is where it begins and p[degree] where it ends. */
 struct font_segment {
     int degree;
@@ -49,6 +53,7 @@ struct font_outline {
     bool rebuilt;   /* parts were covered more than once: segments are pieces of a boundary, in no order */
     int turn;       /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
     int crossings;  /* of segments that were found */
+    struct font_box box; /* of all its points */
     /* The drawing's side of font_outline_move() and so on. */
     struct font_point first, last;
     bool open;
@@ -82,9 +87,6 @@ struct font_point font_segment_at(const struct font_segment *s, double t,
 /* The part from t0 to t1 (t1 < t0: turned around). */
 struct font_segment font_segment_part(const struct font_segment *s, double t0, double t1);
 
-struct font_box {
-    double x0, y0, x1, y1;
-};
 /* Of all the points, those that curves only lean to included; zeros if there is none. */
 struct font_box font_outline_box(const struct font_outline *o);
 
