@@ -110,8 +110,8 @@ enum font_status font_edges_line_add(struct font_edges *e, double x0, double x1,
 
 /* How many nodes an edge needs and, where the most are not enough, on how many pieces of it. across, down: all the way it
  * goes along x and y, at its flattest. */
-static inline int nodes_needed(const struct font_filter *f, float length, float across, float down,
-                               int *pieces)
+static inline int nodes_needed(const struct font_filter *f, float length, float across,
+                               float down, int *pieces)
 {
     int s = (down > 0.2f * across) + (down > 0.5f * across) + (down > across) +
             (down > 2 * across) + (down > 5 * across);
@@ -129,9 +129,11 @@ static inline int nodes_needed(const struct font_filter *f, float length, float 
         /* The pieces' errors add up where they lie above each other, but not all with one sign. */
         float allowed = (float)FONT_PIECE_TOLERANCE * (n > 1 ? sqrtf((float)n) : 1);
         int m = 1;
-        for (int k = 0; k < FONT_NODES_MAX; k++) /* errors fall: as many as are too large, and one */
+        for (int k = 0; k < FONT_NODES_MAX;
+             k++) /* errors fall: as many as are too large, and one */
             m += error[k] * across > allowed;
-        if (m <= FONT_NODES_MAX || n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
+        if (m <= FONT_NODES_MAX ||
+            n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
             *pieces = n;
             return m <= FONT_NODES_MAX ? m : FONT_NODES_MAX;
         }
@@ -209,7 +211,8 @@ static enum font_status line_build(struct font_edges *e, const struct font_filte
         return FONT_OK;
     }
     float across = fabsf((float)dx), down = fabsf((float)dy);
-    int pieces, m = nodes_needed(f, sqrtf(across * across + down * down), across, down, &pieces);
+    int pieces,
+        m = nodes_needed(f, sqrtf(across * across + down * down), across, down, &pieces);
     status = nodes_reserve(e, m * pieces);
     if (status != FONT_OK)
         return status;
@@ -226,7 +229,8 @@ static enum font_status curve_build(struct font_edges *e, const struct font_filt
      * flattest. */
     float fastest = 0, across = 0, down = 0, flattest = 1e9f;
     for (int k = 0; k < s->degree; k++) {
-        float dx = fabsf((float)(p[k + 1].x - p[k].x)), dy = fabsf((float)(p[k + 1].y - p[k].y));
+        float dx = fabsf((float)(p[k + 1].x - p[k].x)),
+              dy = fabsf((float)(p[k + 1].y - p[k].y));
         float square = dx * dx + dy * dy, slant = dy / (dx + 1e-9f);
         fastest = square > fastest ? square : fastest;
         flattest = slant < flattest ? slant : flattest;
@@ -338,8 +342,8 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
             if (!mapped_at(map, s, (double)k / n, orientation, &here) ||
                 !mapped_at(map, s, (k - 0.5) / n, orientation, &middle))
                 return outside();
-            line_put(e, side > 0 ? before.at.x : here.at.x,
-                     side > 0 ? here.at.x : before.at.x, middle.at.y);
+            line_put(e, side > 0 ? before.at.x : here.at.x, side > 0 ? here.at.x : before.at.x,
+                     middle.at.y);
             before = here;
         }
         return FONT_OK;
@@ -441,8 +445,8 @@ enum font_status font_edges_build(struct font_edges *e, const struct font_outlin
         if (!isfinite(map->m[i]))
             return font_fail(FONT_BAD_ARGUMENT, "a size or a map cannot hold %g", map->m[i]);
     const double *m = map->m;
-    e->advance_px = map->kind == FONT_AFFINE ? outline->advance * hypot(m[0], m[3])
-                                             : outline->advance;
+    e->advance_px =
+        map->kind == FONT_AFFINE ? outline->advance * hypot(m[0], m[3]) : outline->advance;
     if (!outline->segments_count)
         return FONT_OK;
     int orientation = map_orientation(map, outline);
@@ -452,7 +456,8 @@ enum font_status font_edges_build(struct font_edges *e, const struct font_outlin
         return outside();
     }
     if (map->kind == FONT_AFFINE && !fits(map, outline))
-        return font_fail(FONT_TOO_LARGE, "a glyph would reach more than %d pixels from its origin",
+        return font_fail(FONT_TOO_LARGE,
+                         "a glyph would reach more than %d pixels from its origin",
                          FONT_SIDE_MAX);
     double side = outline->turn * -orientation;
     enum font_status status = FONT_OK;

@@ -33,7 +33,8 @@ struct font_face {
 
 static _Atomic uint64_t versions;
 
-static enum font_status face_fail(const struct font_face *face, const char *what, FT_Error error)
+static enum font_status face_fail(const struct font_face *face, const char *what,
+                                  FT_Error error)
 {
     const char *reason = FT_Error_String(error);
     char number[32];
@@ -308,8 +309,8 @@ static int take_line(const FT_Vector *to, void *context)
 static int take_quad(const FT_Vector *c, const FT_Vector *to, void *context)
 {
     struct take *t = context;
-    t->status = font_outline_quad(t->outline, (double)c->x, (double)c->y, (double)to->x,
-                                  (double)to->y);
+    t->status =
+        font_outline_quad(t->outline, (double)c->x, (double)c->y, (double)to->x, (double)to->y);
     return t->status != FONT_OK;
 }
 
@@ -365,9 +366,9 @@ enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
 {
     enum font_status status = font_face_outline_raw(face, glyph, out);
     if (status == FONT_OK)
-        status = font_outline_prepare(out, face->ft->glyph->outline.flags & FT_OUTLINE_EVEN_ODD_FILL
-                                               ? FONT_EVEN_ODD
-                                               : FONT_NONZERO);
+        status = font_outline_prepare(
+            out, face->ft->glyph->outline.flags & FT_OUTLINE_EVEN_ODD_FILL ? FONT_EVEN_ODD
+                                                                           : FONT_NONZERO);
     if (status != FONT_OK)
         font_outline_finish(out);
     return status;

@@ -58,7 +58,7 @@ enum font_status font_filter_create(const struct font_filter_def *def,
 /* box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, each with `:radius` if wanted;
  * gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,... and round:RADIUS,S0,S1,... from the centre outwards. */
 enum font_status font_filter_create_named(const char *name, struct font_filter **out);
-const char *const *font_filter_names(void); /* the simple ones; NULL ends them */
+const char *const *font_filter_names(void);           /* the simple ones; NULL ends them */
 void font_filter_destroy(struct font_filter *filter); /* NULL is fine */
 
 /* What is known of a filter once its table is made. */
@@ -66,12 +66,12 @@ struct font_filter_info {
     const char *name;
     double radius_px;
     int terms, taps;
-    double residual;         /* of 1: what the stored products leave out at an edge, at most */
-    double raw_integral;     /* before it was normalised */
-    double peak;             /* f in the centre */
-    double half_width_px;    /* h is above half its peak over this width */
-    double ripple;           /* how much a thin line's weight changes with its place between pixels */
-    double undershoot;       /* how far beyond 0 and 1 the picture of an edge goes */
+    double residual;      /* of 1: what the stored products leave out at an edge, at most */
+    double raw_integral;  /* before it was normalised */
+    double peak;          /* f in the centre */
+    double half_width_px; /* h is above half its peak over this width */
+    double ripple;     /* how much a thin line's weight changes with its place between pixels */
+    double undershoot; /* how far beyond 0 and 1 the picture of an edge goes */
     double response_nyquist; /* of a wave of two pixels; 1 is all of it */
     double response_pixel;   /* of a wave of one pixel: what turns into moire */
     bool nodes;              /* edges are integrated at Gauss's nodes, not in steps */

@@ -11,7 +11,8 @@
 
 enum { REFERENCE_PER_PX = 48, GRID_PER_PX = 4, GRID_MAX = 80, REFERENCE_MAX = 288 };
 
-const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1, 2, 5, 30}; /* the last: steeper ones too */
+const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1,
+                                         2,   5,   30}; /* the last: steeper ones too */
 
 /* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per unit of dx. */
 struct trial {
@@ -24,15 +25,16 @@ struct trial {
 static int grid_fill(double *grid, double length, double radius)
 {
     int count = 0;
-    for (double at = -radius; at <= length + radius && count < GRID_MAX; at += 1.0 / GRID_PER_PX)
+    for (double at = -radius; at <= length + radius && count < GRID_MAX;
+         at += 1.0 / GRID_PER_PX)
         grid[count++] = at + 0.03; /* beside the profile's own corners */
     return count;
 }
 
 /* Adds weight[i] * column(x_i) * H(Y - y_i). Steps add the difference of integrals from x_i - half to x_i + half,
  * nodes the density. */
-static void trial_add(struct trial *t, const struct font_filter *f, int term, double x, double y,
-                      double half, double weight, double (*sum)[GRID_MAX])
+static void trial_add(struct trial *t, const struct font_filter *f, int term, double x,
+                      double y, double half, double weight, double (*sum)[GRID_MAX])
 {
     double column[GRID_MAX];
     for (int i = 0; i < t->x_count; i++)
@@ -64,8 +66,8 @@ static void trial_nodes(struct trial *t, const struct font_filter *f, int count,
     for (int term = 0; term < f->terms_count; term++)
         for (int k = 0; k < count; k++)
             trial_add(t, f, term, t->dx * font_gauss_at[count][k],
-                      t->dy * font_gauss_at[count][k], 0,
-                      t->dx * font_gauss_weight[count][k], sum);
+                      t->dy * font_gauss_at[count][k], 0, t->dx * font_gauss_weight[count][k],
+                      sum);
 }
 
 static double trial_error(const struct trial *t)
@@ -85,7 +87,11 @@ static void trial_begin(struct trial *t, const struct font_filter *f, double len
     t->x_count = grid_fill(t->x, t->dx, f->radius);
     t->y_count = grid_fill(t->y, t->dy, f->radius);
     int steps = (int)ceil(length * REFERENCE_PER_PX);
-    trial_steps(t, f, steps < 16 ? 16 : steps > REFERENCE_MAX ? REFERENCE_MAX : steps, t->exact);
+    trial_steps(t, f,
+                steps < 16              ? 16
+                : steps > REFERENCE_MAX ? REFERENCE_MAX
+                                        : steps,
+                t->exact);
 }
 
 static void nodes_measure(struct font_filter *f, struct trial *t)
@@ -231,7 +237,8 @@ const char *font_filter_choose(double detail_px, enum font_display display)
         }
         double lost = 1 - fmin(mean, 1), uneven = sqrt(fmax(0, square - mean * mean));
         /* What rings beside the line is as bad as what it loses. */
-        double cost = lost * lost + 9 * uneven * uneven + 4 * f->info.undershoot * f->info.undershoot;
+        double cost =
+            lost * lost + 9 * uneven * uneven + 4 * f->info.undershoot * f->info.undershoot;
         if (cost < least) {
             least = cost;
             best = *name;

@@ -43,8 +43,8 @@ static double cells_fill(const struct font_filter *f, struct round_work *w)
             double mean = 0;
             for (int a = 0; a < FINER; a++)
                 for (int b = 0; b < FINER; b++)
-                    mean += radial(f, hypot(i + (a + 0.5) / FINER, j + (b + 0.5) / FINER) /
-                                          CELLS);
+                    mean +=
+                        radial(f, hypot(i + (a + 0.5) / FINER, j + (b + 0.5) / FINER) / CELLS);
             mean /= FINER * FINER;
             w->a[i][j] = w->a[j][i] = mean;
             sum += i == j ? mean : 2 * mean;
@@ -158,7 +158,8 @@ enum font_status font_filter_decompose(struct font_filter *f)
     f->info.raw_integral = whole * cell * cell;
     if (!(whole > 1e-6) || !isfinite(whole)) {
         free(w);
-        return font_fail(FONT_BAD_ARGUMENT, "filter %s: its integral must be positive", f->name);
+        return font_fail(FONT_BAD_ARGUMENT, "filter %s: its integral must be positive",
+                         f->name);
     }
     f->scale = 1 / (whole * cell * cell);
     if (f->def.kind == FONT_PILLBOX)

@@ -25,7 +25,9 @@ static void step_add(struct gold *g, double x0, double y0, double x1, double y1)
     int top = (int)fmax(0, ceil(y - r - 0.5 - fabs(dy)));
     int bottom = (int)fmin(g->height - 1, floor(y + r - 0.5 + fabs(dy)));
     int left = (int)fmax(0, ceil(x - r - 0.5)), right = (int)floor(x + r - 0.5) + 1;
-    right = right < left ? left : right; /* left of the picture: all of it counts from the first column on */
+    right = right < left
+                ? left
+                : right; /* left of the picture: all of it counts from the first column on */
     double columns[2 * FONT_FILTER_RADIUS_MAX + 4], whole = 0;
     if (!f->round) {
         for (int i = left; i <= right; i++)
@@ -47,8 +49,8 @@ static void step_add(struct gold *g, double x0, double y0, double x1, double y1)
         if (weight == 0 || whole == 0)
             continue;
         for (int i = left; i <= right && i <= g->width; i++) {
-            double here = f->round ? font_filter_row_integral(f, i + 0.5 - x, v)
-                                   : columns[i - left];
+            double here =
+                f->round ? font_filter_row_integral(f, i + 0.5 - x, v) : columns[i - left];
             if (i == right)
                 here = whole; /* from here on all of it */
             row[i] += weight * (here - before);

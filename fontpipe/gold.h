@@ -18,8 +18,8 @@ enum font_status font_gold_draw(const struct font_outline *outline, const struct
 
 /* How far a picture is from gold, over all of gold's pixels (those outside the picture are 0 there). */
 struct font_difference {
-    double max;          /* of 255 */
-    double square_sum;   /* of 1; with pixels_count for the mean */
+    double max;           /* of 255 */
+    double square_sum;    /* of 1; with pixels_count for the mean */
     double ink, ink_gold; /* sums */
     long pixels_count;
 };

@@ -22,9 +22,10 @@
 struct font_gray {
     int left_px, top_px; /* of the first pixel, from the glyph's origin's pixel; y downwards */
     int width_px, height_px;
-    int pitch;      /* bytes from row to row, a multiple of 16, at least width_px */
+    int pitch;       /* bytes from row to row, a multiple of 16, at least width_px */
     uint8_t *pixels; /* valid until the next drawing into it; NULL if there is no ink */
-    float *exact;    /* the same pixels before they were rounded, if asked for; pitch floats a row */
+    float
+        *exact; /* the same pixels before they were rounded, if asked for; pitch floats a row */
     /* What drawing keeps. */
     void *memory, *work;
     size_t memory_bytes, work_bytes;

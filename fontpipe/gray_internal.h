@@ -7,8 +7,9 @@
 #include <stdint.h>
 
 enum {
-    FONT_MARGIN_ROWS = 16,  /* above and below a band: what is written there belongs to another */
-    FONT_NARROW_STRIDE = 48, /* of pictures of up to 16 columns */
+    FONT_MARGIN_ROWS =
+        16, /* above and below a band: what is written there belongs to another */
+    FONT_NARROW_STRIDE = 48,   /* of pictures of up to 16 columns */
     FONT_SUMS_FLOATS = 1 << 16 /* of a band */
 };
 
@@ -20,12 +21,12 @@ struct font_gray_job {
     int nodes_count, lines_count;
     float ax, ay; /* a = x + ax: the column, and the place between two, where the taps begin */
     int width, stride, pitch;
-    int odd; /* where a row's odd blocks begin (see gray_kernel.h); 0: there are none */
+    int odd;       /* where a row's odd blocks begin (see gray_kernel.h); 0: there are none */
     int row, rows; /* the band */
     int banded;    /* there is more than one */
     float *sums, *carry; /* carry: the row above the band, width rounded up to 16 */
-    uint8_t *out; /* of the band's first row */
-    float *exact; /* or NULL */
+    uint8_t *out;        /* of the band's first row */
+    float *exact;        /* or NULL */
 };
 
 void font_gray_kernel_plain(const struct font_gray_job *job);

@@ -218,8 +218,8 @@ INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int
 INLINE void pixels_store(uint8_t *out, const vector *sum)
 {
 #if LANES == 16
-    __m512 scaled = _mm512_add_ps(_mm512_mul_ps((__m512)sum[0], _mm512_set1_ps(255)),
-                                  _mm512_set1_ps(0.5f));
+    __m512 scaled =
+        _mm512_add_ps(_mm512_mul_ps((__m512)sum[0], _mm512_set1_ps(255)), _mm512_set1_ps(0.5f));
     __m512i whole = _mm512_cvttps_epi32(_mm512_max_ps(scaled, _mm512_setzero_ps()));
     _mm_storeu_si128((__m128i_u *)out, _mm512_cvtusepi32_epi8(whole));
 #elif LANES == 8
@@ -238,7 +238,7 @@ INLINE void pixels_store(uint8_t *out, const vector *sum)
         whole[p] = _mm_cvttps_epi32(
             _mm_add_ps(_mm_mul_ps((__m128)sum[p], _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
     _mm_storeu_si128((__m128i_u *)out, _mm_packus_epi16(_mm_packs_epi32(whole[0], whole[1]),
-                                                      _mm_packs_epi32(whole[2], whole[3])));
+                                                        _mm_packs_epi32(whole[2], whole[3])));
 #else
     for (int p = 0; p < PARTS; p++)
         for (int l = 0; l < LANES; l++) {

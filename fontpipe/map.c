@@ -71,9 +71,15 @@ static struct font_map square_to(enum font_map_kind kind, const struct font_poin
     double dy1 = q[1].y - q[2].y, dy2 = q[3].y - q[2].y;
     double det = dx1 * dy2 - dx2 * dy1;
     double g = (sx * dy2 - sy * dx2) / det, h = (dx1 * sy - dy1 * sx) / det;
-    double m[9] = {q[1].x - q[0].x + g * q[1].x, q[3].x - q[0].x + h * q[3].x, q[0].x,
-                   q[1].y - q[0].y + g * q[1].y, q[3].y - q[0].y + h * q[3].y, q[0].y,
-                   g,                            h,                            1};
+    double m[9] = {q[1].x - q[0].x + g * q[1].x,
+                   q[3].x - q[0].x + h * q[3].x,
+                   q[0].x,
+                   q[1].y - q[0].y + g * q[1].y,
+                   q[3].y - q[0].y + h * q[3].y,
+                   q[0].y,
+                   g,
+                   h,
+                   1};
     for (int i = 0; i < 9; i++)
         map.m[i] = m[i];
     return map;
@@ -82,15 +88,16 @@ static struct font_map square_to(enum font_map_kind kind, const struct font_poin
 enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
                                   struct font_map *out)
 {
-    const double *a = first->m, *m = second->m;
-    if (first->kind != FONT_AFFINE)
+    struct font_map before = *first, after = *second; /* *out may be either */
+    const double *a = before.m, *m = after.m;
+    if (before.kind != FONT_AFFINE)
         return font_fail(FONT_BAD_ARGUMENT, "a distortion comes last, after affine maps");
-    *out = *second;
+    *out = after;
     double *r = out->m;
-    switch (second->kind) {
+    switch (after.kind) {
     case FONT_AFFINE:
     case FONT_PROJECTIVE:
-        for (int row = 0; row < (second->kind == FONT_AFFINE ? 2 : 3); row++) {
+        for (int row = 0; row < (after.kind == FONT_AFFINE ? 2 : 3); row++) {
             const double *s = m + 3 * row;
             r[3 * row] = s[0] * a[0] + s[1] * a[3];
             r[3 * row + 1] = s[0] * a[1] + s[1] * a[4];
@@ -101,9 +108,11 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
         break;
     }
     /* x y becomes a square form of which only the mixed term may stay. */
-    if (fabs(a[0] * a[3]) > 1e-12 * fabs(a[0] * a[4]) || fabs(a[1] * a[4]) > 1e-12 * fabs(a[0] * a[4]))
-        return font_fail(FONT_BAD_ARGUMENT,
-                         "before a bilinear distortion type can be sized and moved, not turned");
+    if (fabs(a[0] * a[3]) > 1e-12 * fabs(a[0] * a[4]) ||
+        fabs(a[1] * a[4]) > 1e-12 * fabs(a[0] * a[4]))
+        return font_fail(
+            FONT_BAD_ARGUMENT,
+            "before a bilinear distortion type can be sized and moved, not turned");
     for (int row = 0; row < 2; row++) {
         const double *s = m + 4 * row;
         r[4 * row] = s[0] + s[1] * a[2] + s[2] * a[5] + s[3] * a[2] * a[5];
@@ -115,8 +124,7 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
 }
 
 enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
-                                  double y1, const struct font_point q[4],
-                                  struct font_map *out)
+                                  double y1, const struct font_point q[4], struct font_map *out)
 {
     double least = 1e300, most = -1e300;
     for (int i = 0; i < 4; i++) {

@@ -223,8 +223,8 @@ enum font_status font_outline_embolden(struct font_outline *o, double x, double 
     if (!moved)
         return font_fail(FONT_NO_MEMORY, "no memory for an outline");
     for (int begin = 0, end; begin < o->segments_count; begin = end) {
-        for (end = begin + 1; end < o->segments_count &&
-                              o->segments[end].contour == o->segments[begin].contour;)
+        for (end = begin + 1;
+             end < o->segments_count && o->segments[end].contour == o->segments[begin].contour;)
             end++;
         for (int i = begin; i < end; i++) {
             const struct font_segment *s = &o->segments[i];

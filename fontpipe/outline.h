@@ -50,9 +50,10 @@ struct font_outline {
     double advance; /* to the next glyph's origin */
     /* Set by font_outline_prepare(). */
     bool prepared;
-    bool rebuilt;   /* parts were covered more than once: segments are pieces of a boundary, in no order */
-    int turn;       /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
-    int crossings;  /* of segments that were found */
+    bool
+        rebuilt; /* parts were covered more than once: segments are pieces of a boundary, in no order */
+    int turn; /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
+    int crossings;       /* of segments that were found */
     struct font_box box; /* of all its points */
     /* The drawing's side of font_outline_move() and so on. */
     struct font_point first, last;
