@@ -53,7 +53,7 @@ struct font_edges {
     float *node_x, *node_y, *node_weight;
     float *line_x0, *line_x1, *line_y;
     int nodes_count, lines_count;
-    float x0, y0, x1, y1; /* around nodes and lines; x0 > x1 if there is none */
+    float x0, y0, x1, y1; /* around nodes and lines, if there are any */
     double advance_px;    /* of an affine map along the x-axis, else that many font units */
     void *memory;
     int nodes_capacity, lines_capacity;

@@ -421,7 +421,8 @@ enum font_status font_filter_create_named(const char *name, struct font_filter *
             def.sigma_px = named[i].sigma_px;
             known = true;
         }
-    if (!known && length == 8 && strncmp(name, "gaussian", 8) == 0 && count == 2) {
+    if (!known && length == 8 && strncmp(name, "gaussian", 8) == 0 && count == 2 &&
+        numbers[0] != 0) {
         def = (struct font_filter_def){
             .kind = FONT_GAUSSIAN, .sigma_px = numbers[0], .radius_px = numbers[1]};
         known = true;

@@ -194,7 +194,7 @@ static double spot(enum font_display display, double v)
 {
     switch (display) {
     case FONT_DISPLAY_LCD:
-        return fabs(v) <= 0.5 ? 1 : 0; /* a square pixel */
+        return v >= -0.5 && v < 0.5 ? 1 : 0; /* a square pixel */
     case FONT_DISPLAY_CRT:
         return exp(-0.5 * v * v / (0.45 * 0.45)) / (0.45 * sqrt(2 * M_PI)); /* a beam */
     case FONT_DISPLAY_PRINT:

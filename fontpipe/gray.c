@@ -85,7 +85,7 @@ static enum font_status place(struct font_gray *gray, const struct font_edges *e
     empty(gray);
     if (!(fabs(x_px) <= FONT_SIDE_MAX && fabs(y_px) <= FONT_SIDE_MAX))
         return font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be drawn at (%g, %g)", x_px, y_px);
-    if (e->x0 > e->x1)
+    if (e->nodes_count + e->lines_count == 0)
         return FONT_OK;
     float radius = (float)f->radius, x = (float)x_px, y = (float)y_px;
     int left = (int)floorf(e->x0 + x + 0.5f - radius);
@@ -110,6 +110,17 @@ static enum font_status place(struct font_gray *gray, const struct font_edges *e
     gray->height_px = height;
     gray->pitch = (width + 15) & ~15;
     return FONT_OK;
+}
+
+enum font_status font_gray_place_at(struct font_gray *gray, const struct font_edges *edges,
+                                    const struct font_filter *filter, double x_px, double y_px,
+                                    float *ax, float *ay)
+{
+    struct font_gray_job job = {0};
+    enum font_status status = place(gray, edges, filter, x_px, y_px, &job);
+    *ax = job.ax;
+    *ay = job.ay;
+    return status;
 }
 
 enum font_status font_gray_place(struct font_gray *gray, const struct font_edges *edges,

@@ -3,6 +3,7 @@
 #define LUTETIA_FONT_GRAY_INTERNAL_H
 
 #include "filter_internal.h"
+#include "gray.h"
 
 #include <stdint.h>
 
@@ -28,6 +29,11 @@ struct font_gray_job {
     uint8_t *out;        /* of the band's first row */
     float *exact;        /* or NULL */
 };
+
+/* font_gray_place(), and the job's ax and ay. */
+enum font_status font_gray_place_at(struct font_gray *gray, const struct font_edges *edges,
+                                    const struct font_filter *filter, double x_px, double y_px,
+                                    float *ax, float *ay);
 
 void font_gray_kernel_plain(const struct font_gray_job *job);
 void font_gray_kernel_avx2(const struct font_gray_job *job);

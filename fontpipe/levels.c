@@ -44,7 +44,8 @@ static bool size_fits(double size_px)
 }
 
 enum font_status font_levels_create(const struct font_outline *outline, int em_px,
-                                    double size_px, const char *filter, struct font_levels **out)
+                                    double size_px, const char *filter,
+                                    struct font_levels **out)
 {
     *out = NULL;
     if (!size_fits(size_px))

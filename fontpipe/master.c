@@ -45,7 +45,8 @@ static void row_fill(uint64_t *row, int words)
     }
 }
 
-enum font_status font_master_make(struct font_master *m, const struct font_outline *o, int em_px)
+enum font_status font_master_make(struct font_master *m, const struct font_outline *o,
+                                  int em_px)
 {
     font_master_finish(m);
     if (em_px < 1 || em_px > FONT_MASTER_EM_MAX || !o->prepared || !(o->units_per_em > 0))
@@ -233,8 +234,9 @@ enum font_status font_rectangles_edges(const struct font_rectangles *r, double s
     e->x0 = e->y0 = 1;
     e->x1 = e->y1 = -1;
     if (!(size_px > 0 && size_px <= FONT_SIDE_MAX) || (r->count && r->em_px < 1))
-        return font_fail(FONT_BAD_ARGUMENT, "a size must be above 0 and at most %d pixels (got %g)",
-                         FONT_SIDE_MAX, size_px);
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "a size must be above 0 and at most %d pixels (got %g)", FONT_SIDE_MAX,
+                         size_px);
     double scale = r->count ? size_px / r->em_px : 0;
     e->advance_px = r->advance_px * scale;
     for (int i = 0; i < r->count; i++) {
