@@ -12,5 +12,6 @@ int bench_diffusion_main(int argc, char **argv);
 int bench_calls_main(int argc, char **argv);
 int bench_scan_main(int argc, char **argv);
 int bench_rank_main(int argc, char **argv);
+int bench_fonts_main(int argc, char **argv);
 
 #endif

@@ -133,7 +133,7 @@ static inline int nodes_needed(const struct font_filter *f, float length, float 
              k++) /* errors fall: as many as are too large, and one */
             m += error[k] * across > allowed;
         if (m <= FONT_NODES_MAX ||
-            n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
+            (float)n > 8 * length) { /* or an eighth of a pixel: as fine as it gets */
             *pieces = n;
             return m <= FONT_NODES_MAX ? m : FONT_NODES_MAX;
         }

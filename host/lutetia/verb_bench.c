@@ -17,6 +17,7 @@ static const struct {
     {"calls", bench_calls_main, "what a C/Paris call costs the front end"},
     {"scan", bench_scan_main, "scans along a line, beside plain C"},
     {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
+    {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };
