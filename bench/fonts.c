@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LETTERS = 94, PAGE = 5000, SIZES = 40, EXIT_WRONG = 2, TURNS = 15, WORK_MAX = 24 };
+enum { LETTERS = 94, PAGE = 5000, SIZES = 40, EXIT_WRONG = 2, TURNS = 101, WORK_MAX = 24 };
 
 struct place {
     int letter;
@@ -294,7 +294,7 @@ static bool case_run(struct fonts *f, const char *of_case, double size_px,
     int count = 0;
     if (!case_prepare(f, size_px))
         return false;
-    f->rounds = f->page ? 1 : size_px < 40 ? 20 : 8;
+    f->rounds = f->page ? 1 : 2;
     for (int i = 0; i < WAYS; i++) {
         if (f->page && ways[i].no_page)
             continue;
@@ -309,7 +309,7 @@ static bool case_run(struct fonts *f, const char *of_case, double size_px,
     }
     contenders[count++] =
         (struct bench_contender){.what = "opencl", .work = many_work, .context = f};
-    if (!bench_measure_in_turns(contenders, count, TURNS))
+    if (!bench_measure_in_turns(contenders, count, f->page ? TURNS / 4 : TURNS))
         return false;
     double glyphs = (double)f->rounds * f->places_count;
     for (int i = 0; i < count; i++)
@@ -365,7 +365,7 @@ static bool forty_run(struct fonts *f, struct bench_report *r)
     struct bench_contender contenders[] = {
         {.what = "cached edges", .work = forty_one_thread, .context = &t},
         {.what = "opencl", .work = many_work, .context = f}};
-    ok = ok && bench_measure_in_turns(contenders, 2, 2 * TURNS);
+    ok = ok && bench_measure_in_turns(contenders, 2, TURNS);
     for (int i = 0; ok && i < 2; i++)
         rate_add(r, contenders[i].what, "40 sizes", contenders[i].seconds, SIZES * LETTERS);
     for (int i = 0; t.edges && i < SIZES * LETTERS; i++)

@@ -442,7 +442,8 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     if (status == FONT_OK) {
         o->crossings = w.crossings;
         o->box = font_outline_box(o);
-        o->prepared = true;
+        status = font_outline_polynomials(o);
+        o->prepared = status == FONT_OK;
     }
     free(out.segments);
     free(w.pieces);

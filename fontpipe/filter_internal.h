@@ -47,7 +47,7 @@ struct font_filter {
     bool round;
     /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
      * font_slants[s] of |dx|. */
-    float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX + 1];
+    float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
     bool use_nodes;
     double step_px;
     struct font_filter_info info;

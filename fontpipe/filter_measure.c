@@ -99,7 +99,7 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
     for (int l = 0; l < FONT_LENGTHS; l++)
         for (int s = 0; s < FONT_SLANTS; s++) {
             trial_begin(t, f, 0.25 * pow(2, 0.25 * l), font_slants[s]);
-            float *error = f->node_error[s][l];
+            float *error = f->node_error[s][l] - 1;
             for (int m = 1; m <= FONT_NODES_MAX; m++) {
                 trial_nodes(t, f, m, t->sum);
                 error[m] = (float)(trial_error(t) / t->dx);

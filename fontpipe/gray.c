@@ -4,6 +4,7 @@
  * a = x - left + 1/2 - radius, floor(a) is the first column that a point at x reaches, and a - floor(a) its phase in
  * the tables. Rows are the same. Pictures whose sums would not stay in the cache are drawn in bands. */
 #include "gray.h"
+#include "edges_internal.h"
 #include "gray_internal.h"
 #include "internal.h"
 
@@ -16,23 +17,27 @@
 typedef void gray_kernel(const struct font_gray_job *job);
 
 static gray_kernel *kernel;
+enum font_status (*font_edges_kernel)(const struct font_edges_job *job);
 
 enum font_simd font_simd_use(enum font_simd most)
 {
     enum font_simd used = FONT_SIMD_PLAIN;
     kernel = font_gray_kernel_plain;
+    font_edges_kernel = font_edges_kernel_plain;
 #ifdef FONT_X86
     __builtin_cpu_init();
     if (most >= FONT_SIMD_AVX2 && __builtin_cpu_supports("avx2") &&
         __builtin_cpu_supports("fma")) {
         used = FONT_SIMD_AVX2;
         kernel = font_gray_kernel_avx2;
+        font_edges_kernel = font_edges_kernel_avx2;
     }
     if (most >= FONT_SIMD_AVX512 && used == FONT_SIMD_AVX2 &&
         __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")) {
         used = FONT_SIMD_AVX512;
         kernel = font_gray_kernel_avx512;
+        font_edges_kernel = font_edges_kernel_avx512;
     }
 #else
     (void)most;

@@ -15,4 +15,8 @@ enum font_status font_fail(enum font_status status, const char *format, ...)
  * was. */
 bool font_array_reserve(void **array, int *capacity, int count, size_t element_bytes);
 
+/* outline.c: of a prepared outline. */
+struct font_outline;
+enum font_status font_outline_polynomials(struct font_outline *o);
+
 #endif

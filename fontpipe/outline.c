@@ -11,13 +11,45 @@ static const double coordinate_max = 1e7;
 void font_outline_finish(struct font_outline *o)
 {
     free(o->segments);
+    free(o->polynomials);
     *o = (struct font_outline){0};
+}
+
+enum font_status font_outline_polynomials(struct font_outline *o)
+{
+    int stride = (o->segments_count + 15) / 16 * 16 + 16;
+    float *at = aligned_alloc(64, sizeof(float) * 8 * (size_t)stride);
+    free(o->polynomials);
+    o->polynomials = at;
+    o->polynomials_stride = stride;
+    if (!at)
+        return font_fail(FONT_NO_MEMORY, "no memory for an outline");
+    memset(at, 0, sizeof(float) * 8 * (size_t)stride);
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        const struct font_point *p = s->p;
+        double d = s->degree,
+               c[8] = {p[0].x, p[0].y, d * (p[1].x - p[0].x), d * (p[1].y - p[0].y)};
+        if (s->degree > 1) {
+            double pairs = d == 2 ? 1 : 3;
+            c[4] = pairs * (p[0].x - 2 * p[1].x + p[2].x);
+            c[5] = pairs * (p[0].y - 2 * p[1].y + p[2].y);
+        }
+        if (s->degree == 3) {
+            c[6] = p[3].x - p[0].x + 3 * (p[1].x - p[2].x);
+            c[7] = p[3].y - p[0].y + 3 * (p[1].y - p[2].y);
+        }
+        for (int k = 0; k < 8; k++)
+            at[k * stride + i] = (float)c[k];
+    }
+    return FONT_OK;
 }
 
 enum font_status font_outline_copy(const struct font_outline *from, struct font_outline *to)
 {
     *to = *from;
     to->segments = NULL;
+    to->polynomials = NULL;
     to->segments_capacity = 0;
     to->segments_count = 0;
     if (!font_array_reserve((void **)&to->segments, &to->segments_capacity,
@@ -27,7 +59,7 @@ enum font_status font_outline_copy(const struct font_outline *from, struct font_
         memcpy(to->segments, from->segments,
                (size_t)from->segments_count * sizeof *to->segments);
     to->segments_count = from->segments_count;
-    return FONT_OK;
+    return to->prepared ? font_outline_polynomials(to) : FONT_OK;
 }
 
 static bool point_fits(double x, double y)

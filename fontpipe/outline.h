@@ -16,7 +16,8 @@
  *
  * Prepared. What is filled afterwards must be covered once: font_outline_prepare() looks for parts that are
  * covered twice (contours that overlap or cross themselves, as variable fonts have them) and replaces such an
- * outline by the boundary of what the rule fills. Most outlines have none and stay as they are. */
+ * outline by the boundary of what the rule fills. Most outlines have none and stay as they are. A prepared outline is
+ * not written to: adding to it or emboldening it makes it one that is not prepared. */
 #ifndef LUTETIA_FONT_OUTLINE_H
 #define LUTETIA_FONT_OUTLINE_H
 
@@ -55,6 +56,9 @@ struct font_outline {
     int turn; /* +1 the inside is on the right of its segments (y upwards), -1 on the left */
     int crossings;       /* of segments that were found */
     struct font_box box; /* of all its points */
+    /* Segments as polynomials, for edges: x0 + t (c + t (b + t a)); see edges_kernel.h. */
+    float *polynomials;
+    int polynomials_stride;
     /* The drawing's side of font_outline_move() and so on. */
     struct font_point first, last;
     bool open;
