@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIECES_MAX = 400000, PAIRS_MAX = 60000000, PIECES_OF_SEGMENT_MAX = 64 };
+enum { PIECES_MAX = 400000, PAIRS_MAX = 20000000, PIECES_OF_SEGMENT_MAX = 64 };
 
 struct piece {
     double x0, y0, x1, y1; /* y0 < y1 */

@@ -163,7 +163,8 @@ enum font_status font_many_create(const char *device, const struct font_filter *
     cl_uint units = 1;
     if (status == FONT_OK)
         clGetDeviceInfo(m->device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    m->workers = 16 * (size_t)units; /* shares small enough that all end together */
+    /* PoCL hands out groups 32 at a time: so many that all threads get some, and end together. */
+    m->workers = 256 * (size_t)(units > 64 ? 64 : units);
     if (status == FONT_OK)
         *out = m;
     else
