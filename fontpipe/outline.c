@@ -243,6 +243,9 @@ enum font_status font_outline_embolden(struct font_outline *o, double x, double 
     if (o->rebuilt)
         return font_fail(FONT_BAD_ARGUMENT,
                          "an outline is emboldened before it is prepared, not after");
+    enum font_status status = font_outline_close(o);
+    if (status != FONT_OK)
+        return status;
     /* Outwards is to the left where contours turn clockwise (their area is negative, y upwards). */
     double area = 0;
     for (int i = 0; i < o->segments_count; i++) {

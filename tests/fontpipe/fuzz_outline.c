@@ -5,13 +5,16 @@
 #include <levels.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define must(condition)                                                                        \
     do {                                                                                       \
-        if (!(condition))                                                                      \
+        if (!(condition)) {                                                                    \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);            \
             abort();                                                                           \
+        }                                                                                      \
     } while (0)
 
 struct input {
