@@ -353,5 +353,9 @@ enum font_status font_edges_build(struct font_edges *e, const struct font_outlin
         e->x0 = e->y0 = 1;
         e->x1 = e->y1 = -1;
     }
+    if (e->nodes_count) { /* drawing reads whole vectors */
+        memset(e->node_x + e->nodes_count, 0, PAD * sizeof(float));
+        memset(e->node_y + e->nodes_count, 0, PAD * sizeof(float));
+    }
     return status;
 }

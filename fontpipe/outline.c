@@ -283,7 +283,8 @@ enum font_status font_outline_embolden(struct font_outline *o, double x, double 
             }
         }
     }
-    memcpy(o->segments, moved, (size_t)o->segments_count * sizeof *moved);
+    if (o->segments_count)
+        memcpy(o->segments, moved, (size_t)o->segments_count * sizeof *moved);
     free(moved);
     o->prepared = false;
     return FONT_OK;
