@@ -54,7 +54,13 @@ struct work {
     int portions_count, portions_capacity, flat_count, flat_capacity;
     int ends_count, ends_capacity, active_capacity, middles_capacity;
     int crossings;
+    double grid; /* heights are multiples of it, so that what is all but equal is equal */
 };
+
+static double height(const struct work *w, double y)
+{
+    return rint(y / w->grid) * w->grid;
+}
 
 static double piece_x(const struct piece *p, double y)
 {
@@ -94,7 +100,10 @@ static int pieces_of(const struct font_segment *s, double tolerance)
 static enum font_status pieces_make(struct work *w, const struct font_outline *o)
 {
     struct font_box box = font_outline_box(o);
-    double tolerance = fmax(box.x1 - box.x0, box.y1 - box.y0) / 32768;
+    double extent = fmax(box.x1 - box.x0, box.y1 - box.y0), tolerance = extent / 32768;
+    int exponent;
+    frexp(fmax(extent, fmax(fabs(box.y0), fabs(box.y1))), &exponent);
+    w->grid = ldexp(1, exponent - 40);
     for (int i = 0; i < o->segments_count; i++) {
         const struct font_segment *s = &o->segments[i];
         int n = s->degree == 1 ? 1 : pieces_of(s, tolerance);
@@ -105,10 +114,11 @@ static enum font_status pieces_make(struct work *w, const struct font_outline *o
             !font_array_reserve((void **)&w->levels, &w->levels_capacity,
                                 w->levels_count + 2 * n, sizeof *w->levels))
             return no_memory();
-        struct font_point a = s->p[0];
+        struct font_point a = {s->p[0].x, height(w, s->p[0].y)};
         for (int k = 1; k <= n; k++) {
             double ta = (double)(k - 1) / n, tb = (double)k / n;
             struct font_point b = k == n ? s->p[s->degree] : font_segment_at(s, tb, NULL);
+            b.y = height(w, b.y);
             if (a.y != b.y) {
                 bool up = b.y > a.y;
                 w->pieces[w->pieces_count++] =
@@ -151,7 +161,7 @@ static enum font_status crossing_find(struct work *w, const struct piece *p,
                             sizeof *w->levels))
         return no_memory();
     double y = low + (high - low) * (before / (before - after));
-    w->levels[w->levels_count++] = fmin(fmax(y, low), high);
+    w->levels[w->levels_count++] = height(w, fmin(fmax(y, low), high));
     return FONT_OK;
 }
 
