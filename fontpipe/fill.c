@@ -242,9 +242,9 @@ static enum font_status level_close(struct work *w, double y)
     for (int i = 0; i + 1 < w->ends_count; i++) {
         inside += w->ends[i].change;
         double from = w->ends[i].x, to = w->ends[i + 1].x;
-        if (!inside || to <= from)
-            continue;
-        if (!font_array_reserve((void **)&w->flat, &w->flat_capacity, w->flat_count + 1,
+        /* More than one where a strip of no height has its pieces out of order: the boundary is closed all the same. */
+        int times = to > from ? abs(inside) : 0;
+        if (!font_array_reserve((void **)&w->flat, &w->flat_capacity, w->flat_count + times,
                                 sizeof *w->flat))
             return no_memory();
         struct font_segment line = {.degree = 1, .p = {{from, y}, {to, y}}};
@@ -252,7 +252,8 @@ static enum font_status level_close(struct work *w, double y)
             line.p[0].x = to;
             line.p[1].x = from;
         }
-        w->flat[w->flat_count++] = line;
+        for (int k = 0; k < times; k++)
+            w->flat[w->flat_count++] = line;
     }
     w->ends_count = 0;
     return FONT_OK;
