@@ -255,8 +255,8 @@ static int compare_write(const struct compare *c, const char *path, const char *
     int panel_height = c->height * zoom + LABEL + GAP;
     double max, psnr, width = 3.0 * panel_width + GAP;
     struct display_image image = {0};
-    int status =
-        type_image_create("type", fmax(width, 700), rows * (double)panel_height + GAP, &image);
+    int status = type_image_create("type", fmax(width, 2.0 * panel_width + 370),
+                                   rows * (double)panel_height + GAP, &image);
     if (status != EXIT_SUCCESS)
         return status;
     struct type_labels *labels = type_labels_create(13);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES = 1000, OUTLINES = 1200, TEXTS = 400 };
+enum { FILES = 1000, OUTLINES = 800, TEXTS = 400 };
 
 static const char *const fonts[] = {"DejaVuSansMono", "EBGaramond12-Italic",
                                     "NimbusSans-Regular.t1"};
