@@ -84,8 +84,10 @@ struct font_range {
 #define FONT_CHOSEN(a, b, mask)                                                                \
     ((eight)(((eight_ints)(a) & (mask)) | ((eight_ints)(b) & ~(mask))))
 
-static inline void font_range_add(struct font_range *r, eight x, eight y)
+/* By address: a vector as an argument would depend on the instruction set. */
+static inline void font_range_add(struct font_range *r, const eight *px, const eight *py)
 {
+    eight x = *px, y = *py;
     r->x0 = FONT_CHOSEN(x, r->x0, x < r->x0);
     r->x1 = FONT_CHOSEN(x, r->x1, x > r->x1);
     r->y0 = FONT_CHOSEN(y, r->y0, y < r->y0);
@@ -108,7 +110,7 @@ static inline void font_nodes_put(struct font_edges *e, const struct font_cubic 
         *(eight_loose *)(e->node_y + count) = y;
         *(eight_loose *)(e->node_weight + count) =
             weight * (c->cx + t * (2 * c->bx + t * (3 * c->ax)));
-        font_range_add(range, x, y);
+        font_range_add(range, &x, &y);
     }
     e->nodes_count = count;
 }

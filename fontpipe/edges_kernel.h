@@ -125,7 +125,8 @@ enum font_status KERNEL(const struct font_edges_job *job)
                 e->line_x0[i] = job->side > 0 ? x : end;
                 e->line_x1[i] = job->side > 0 ? end : x;
                 float y = e->line_y[i] = q.y[k] + 0.5f * q.cy[k];
-                font_range_add(&range, (eight){x, end, x, x, x, x, x, x}, (eight){0} + y);
+                eight xs = {x, end, x, x, x, x, x, x}, ys = (eight){0} + y;
+                font_range_add(&range, &xs, &ys);
                 continue;
             }
             const float *error = errors + q.row[k];
