@@ -48,6 +48,7 @@ struct font_many {
     int grays_capacity;
     uint8_t *result; /* the pixels, mapped */
     size_t workers;
+    int sums; /* floats in local memory */
 };
 
 static enum font_status device_fail(cl_int error, const char *what)
@@ -114,6 +115,7 @@ static enum font_status program_build(struct font_many *m)
     int sums = least;
     if (local < sizeof(float) * (size_t)least + 1024) /* such a device draws narrower ones */
         sums = (int)((local > 2048 ? local - 2048 : 0) / sizeof(float)) & ~15;
+    m->sums = sums;
     char options[160];
     snprintf(options, sizeof options, "-cl-std=CL1.2 -DTAPS=%d -DTERMS=%d -DSUMS=%d",
              m->filter->taps, m->filter->terms_count, sums);
@@ -347,10 +349,14 @@ static enum font_status jobs_place(struct font_many *m, const struct font_many_j
                                                      jobs[i].y_px, &ax, &ay);
         if (status != FONT_OK)
             return status;
-        if (gray->width_px > FONT_MANY_WIDTH_MAX)
+        /* As glyphs.cl has it: margins and at least a row must fit local memory. */
+        int stride = m->filter->taps > 5 ? gray->pitch + 16
+                     : gray->pitch == 16 ? FONT_NARROW_STRIDE
+                                         : 2 * gray->pitch + 48;
+        if (gray->width_px > FONT_MANY_WIDTH_MAX || m->sums / stride <= 2 * FONT_MARGIN_ROWS)
             return font_fail(FONT_TOO_LARGE,
-                             "a glyph of %d pixels is wider than %d; draw it by itself",
-                             gray->width_px, FONT_MANY_WIDTH_MAX);
+                             "a glyph %d pixels wide is too wide for %s; draw it by itself",
+                             gray->width_px, m->name);
         *job = (struct device_job){
             k->node_first,  k->shape.nodes_count, k->line_first, k->shape.lines_count, ax, ay,
             gray->width_px, gray->height_px,      gray->pitch,   (cl_uint)pixels};

@@ -31,8 +31,8 @@ struct job {
 /* Eight columns of each of the rows. */
 void block_add(__local float *sums, int stride, float8 columns, const float *weights)
 {
-    __attribute__((opencl_unroll_hint)) for (int r = 0; r < ROWS; r++)
-    {
+#pragma unroll
+    for (int r = 0; r < ROWS; r++) {
         __local float8 *at = (__local float8 *)(sums + r * stride);
         *at = fma(columns, (float8)(weights[r]), *at);
     }
