@@ -97,10 +97,12 @@ static int pieces_of(const struct font_segment *s, double tolerance)
     return (int)fmax(1, fmin(n, PIECES_OF_SEGMENT_MAX));
 }
 
-static enum font_status pieces_make(struct work *w, const struct font_outline *o)
+/* fineness: curves leave their pieces by at most the outline's extent over that. */
+static enum font_status pieces_make(struct work *w, const struct font_outline *o,
+                                    double fineness)
 {
     struct font_box box = font_outline_box(o);
-    double extent = fmax(box.x1 - box.x0, box.y1 - box.y0), tolerance = extent / 32768;
+    double extent = fmax(box.x1 - box.x0, box.y1 - box.y0), tolerance = extent / fineness;
     int exponent;
     frexp(fmax(extent, fmax(fabs(box.y0), fabs(box.y1))), &exponent);
     w->grid = ldexp(1, exponent - 40);
@@ -415,6 +417,12 @@ static void levels_unique(struct work *w)
     w->levels_count = kept;
 }
 
+/* By the winding numbers met: more than none and one, or none and minus one. */
+static bool covered_twice(int least, int most)
+{
+    return least < 0 ? most > 0 || least < -1 : most > 1;
+}
+
 enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule)
 {
     if (o->prepared)
@@ -423,17 +431,24 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     struct work w = {0};
     struct font_outline out = {0};
     int least = 0, most = 0;
-    if (status == FONT_OK)
-        status = pieces_make(&w, o);
-    if (status == FONT_OK && w.pieces_count) {
+    /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline is not seen, here or in
+     * pictures. What is to be rebuilt is cut finely. */
+    static const double fineness[] = {12000, 32768};
+    for (int pass = 0; pass < 2 && status == FONT_OK; pass++) {
+        if (pass == 1 && !covered_twice(least, most))
+            break;
+        w.pieces_count = w.levels_count = w.crossings = least = most = 0;
+        status = pieces_make(&w, o, fineness[pass]);
+        if (status != FONT_OK || !w.pieces_count)
+            break;
         qsort(w.pieces, (size_t)w.pieces_count, sizeof *w.pieces, pieces_compare);
         status = crossings_find(&w);
-        if (status == FONT_OK) {
-            levels_unique(&w);
-            status = strips_pass(&w, rule, false, &least, &most);
-        }
+        if (status != FONT_OK)
+            break;
+        levels_unique(&w);
+        status = strips_pass(&w, rule, false, &least, &most);
     }
-    if (status == FONT_OK && (least < 0 ? most > 0 || least < -1 : most > 1)) {
+    if (status == FONT_OK && covered_twice(least, most)) {
         status = strips_pass(&w, rule, true, NULL, NULL);
         if (status == FONT_OK)
             status = result_make(&w, o, &out);
