@@ -135,15 +135,16 @@ enum font_status KERNEL(const struct font_edges_job *job)
             int m = 1;
             for (int i = 0; i < 8; i++)
                 m -= large[i];
-            if (m > FONT_NODES_MAX || length > FONT_LENGTH_LAST) {
+            if (m > FONT_NODES_MAX || length > FONT_LENGTH_LAST)
                 m = font_nodes_needed(f, length, across, q.flat[k] * across, &pieces);
+            /* So many nodes that the area under the curve is exact; specks can do with less. */
+            int least = degree == 1 ? 1 : length > 0.4f ? degree : length > 0.02f ? 2 : 1;
+            m = m < least ? least : m;
+            if (pieces > 1) {
                 status = font_nodes_reserve(e, m * pieces + LANES * FONT_NODES_MAX);
                 if (status != FONT_OK)
                     return status;
             }
-            /* So many nodes that the area under the curve is exact; specks can do with less. */
-            int least = degree == 1 ? 1 : length > 0.4f ? degree : length > 0.02f ? 2 : 1;
-            m = m < least ? least : m;
             struct font_cubic c = {q.x[k], q.cx[k], q.bx[k], q.ax[k],
                                    q.y[k], q.cy[k], q.by[k], q.ay[k]};
             font_nodes_put(e, &c, m, pieces, job->side, &range);
