@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LETTERS = 94, PAGE = 5000, SIZES = 40, EXIT_WRONG = 2, TURNS = 101, WORK_MAX = 24 };
+enum { LETTERS = 94, PAGE = 5000, SIZES = 40, EXIT_WRONG = 2, TURNS = 61, WORK_MAX = 24 };
 
 struct place {
     int letter;
@@ -234,6 +234,17 @@ static bool way_work(void *context)
     return true;
 }
 
+/* Once, not counted: what the contender before has left in the caches is gone. */
+static bool way_ready(void *context)
+{
+    const struct work *w = context;
+    int rounds = w->f->rounds;
+    w->f->rounds = 1;
+    bool ok = way_work(context);
+    w->f->rounds = rounds;
+    return ok;
+}
+
 static bool many_work(void *context)
 {
     struct fonts *f = context;
@@ -294,7 +305,7 @@ static bool case_run(struct fonts *f, const char *of_case, double size_px,
     int count = 0;
     if (!case_prepare(f, size_px))
         return false;
-    f->rounds = f->page ? 1 : 2;
+    f->rounds = f->page ? 1 : size_px < 40 ? 8 : 3;
     for (int i = 0; i < WAYS; i++) {
         if (f->page && ways[i].no_page)
             continue;
@@ -304,7 +315,11 @@ static bool case_run(struct fonts *f, const char *of_case, double size_px,
             continue;
         works[count] = (struct work){f, &ways[i]};
         contenders[count] = (struct bench_contender){
-            .what = ways[i].what, .work = way_work, .context = &works[count]};
+
+            .what = ways[i].what,
+            .ready = f->page ? NULL : way_ready,
+            .work = way_work,
+            .context = &works[count]};
         count++;
     }
     contenders[count++] =

@@ -136,6 +136,21 @@ static void random_outlines_are_drawn_or_refused(void **state)
     assert_true(ink > OUTLINES / 4);
 }
 
+/* What libFuzzer has found: a long curve of few nodes and many pieces; a line that is level but for rounding. */
+static void hard_outlines_are_drawn(void **state)
+{
+    (void)state;
+    static const uint8_t long_curve[] = {
+        0xb7, 0x01, 0x9b, 0xb5, 0x24, 0xff, 0x00, 0xd2, 0x00, 0x7f, 0x4a, 0xfb, 0x4a, 0xfb,
+        0x23, 0x2b, 0x00, 0x41, 0x00, 0xaa, 0x00, 0x00, 0x23, 0x2b, 0x00, 0x41, 0x00, 0xaa,
+        0x00, 0x00, 0x00, 0x1a, 0x00, 0xfe, 0x00, 0xfe, 0x64, 0x4a, 0x4a, 0x48, 0x4a};
+    static const uint8_t level_line[] = {0x2b, 0xff, 0xff, 0x24, 0xff, 0x24, 0xff,
+                                         0x2b, 0x00, 0x7f, 0x2b, 0x00, 0xa5, 0x01,
+                                         0x00, 0xea, 0x00, 0x00, 0x0f, 0xf9, 0x00};
+    assert_int_equal(fuzz_outline(long_curve, sizeof long_curve), 1);
+    assert_int_equal(fuzz_outline(level_line, sizeof level_line), 1);
+}
+
 static void random_text_is_set(void **state)
 {
     (void)state;
@@ -190,6 +205,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(damaged_fonts_are_drawn_or_refused),
         cmocka_unit_test(random_outlines_are_drawn_or_refused),
+        cmocka_unit_test(hard_outlines_are_drawn),
         cmocka_unit_test(random_text_is_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
