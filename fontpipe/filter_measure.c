@@ -123,7 +123,8 @@ static void steps_measure(struct font_filter *f, struct trial *t)
             trial_steps(t, f, (int)ceil(fmax(t->dx, t->dy) / f->step_px), t->sum);
             worst = fmax(worst, trial_error(t));
         }
-        if (worst <= 3 * FONT_PIECE_TOLERANCE)
+        /* Round filters leave something out already. */
+        if (worst <= (f->round ? 1 : 3) * FONT_PIECE_TOLERANCE)
             return;
     }
 }
