@@ -15,5 +15,6 @@ int bench_rank_main(int argc, char **argv);
 int bench_life_main(int argc, char **argv);
 int bench_heat_main(int argc, char **argv);
 int bench_paris_main(int argc, char **argv);
+int bench_fonts_main(int argc, char **argv);
 
 #endif

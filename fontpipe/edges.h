@@ -1,0 +1,77 @@
+/* edges.h - an outline taken apart for a size: what the gray level is made of, and what is worth keeping.
+ *
+ *     struct font_map map = font_map_size(12.25, outline.units_per_em);
+ *     struct font_edges edges = {0};
+ *     if (font_edges_build(&edges, &outline, &map, filter) != FONT_OK)
+ *         die(font_error());
+ *     font_gray_draw(&gray, &edges, filter, x_px, y_px);   // at any place between pixels, any number of times
+ *     font_edges_finish(&edges);
+ *
+ * Edges are in pixels, y downwards, relative to the glyph's origin: a size, a rotation, a distortion are in them, the
+ * place is not. Curves are points on the curve itself with weights (Gauss's nodes), as many as keep what
+ * they are wrong by below a twentieth of a 255th each; horizontal lines are their two ends; vertical ones are nothing
+ * at all. See docs/fonts.md.
+ *
+ * Threads. Building writes the edges alone; drawing reads them. */
+#ifndef LUTETIA_FONT_EDGES_H
+#define LUTETIA_FONT_EDGES_H
+
+#include "filter.h"
+#include "outline.h"
+
+/* How an outline's plane becomes the picture's. */
+enum font_map_kind { FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR };
+struct font_map {
+    enum font_map_kind kind;
+    /* Affine: x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5].
+     * Projective: both over m[6] x + m[7] y + m[8].
+     * Bilinear: x' = m[0] + m[1] x + m[2] y + m[3] x y, y' = m[4] + m[5] x + m[6] y + m[7] x y. */
+    double m[9];
+};
+
+/* Upright at a size: an em is that many pixels, y turned downwards. */
+struct font_map font_map_size(double size_px, double units_per_em);
+/* First the one, then the other, an affine one: affine * map. */
+struct font_map font_map_then(struct font_map map, struct font_map affine);
+/* Counterclockwise as one sees it; and a slant to the right by x for each y upwards. */
+struct font_map font_map_rotation(double degrees);
+struct font_map font_map_shear(double x_per_y);
+/* The rectangle (x0, y0)..(x1, y1), y downwards, onto four corners: of (x0, y0), (x1, y0), (x1, y1), (x0, y1).
+ * Errors: BAD_ARGUMENT if the corners have no such map (three on a line, or a side turned over). */
+enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
+                                  double y1, const struct font_point corners[4],
+                                  struct font_map *out);
+/* `second` of any kind after an affine `first`. */
+enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
+                                  struct font_map *out);
+/* False if the point has no picture. jacobian: xx, xy, yx, yy. */
+bool font_map_point(const struct font_map *map, struct font_point from, struct font_point *to,
+                    double jacobian[4]);
+
+/* All zeros is no edges. */
+struct font_edges {
+    float *node_x, *node_y, *node_weight;
+    float *line_x0, *line_x1, *line_y;
+    int nodes_count, lines_count;
+    float x0, y0, x1, y1; /* around nodes and lines, if there are any */
+    double advance_px;    /* of an affine map along the x-axis, else that many font units */
+    void *memory;
+    int nodes_capacity, lines_capacity;
+};
+
+void font_edges_finish(struct font_edges *e);
+
+/* Replaces what the edges hold. The outline must be prepared. filter: whose smoothness says how finely.
+ * Errors: BAD_ARGUMENT (numbers that are not finite, a map that folds the glyph over or sends it beyond the horizon),
+ * TOO_LARGE (past FONT_SIDE_MAX pixels, or too many edges), NO_MEMORY; the edges are then empty. */
+enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
+                                  const struct font_map *map, const struct font_filter *filter);
+
+/* Edges of a shape that is given as rectangles' sides: adds the horizontal line y from x0 to x1, with ink below if
+ * x1 > x0. Errors: NO_MEMORY, TOO_LARGE. */
+enum font_status font_edges_line_add(struct font_edges *e, double x0, double x1, double y);
+
+/* Pixels that a picture's side may have, and how far from the origin it may be. */
+enum { FONT_SIDE_MAX = 32768, FONT_EDGES_MAX = 40000000 };
+
+#endif

@@ -1,0 +1,447 @@
+/* face.c - see face.h. Files are read whole: FreeType and HarfBuzz look at the same bytes. */
+#include "face.h"
+#include "internal.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <fontconfig/fontconfig.h>
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_FONT_FORMATS_H
+#include FT_MULTIPLE_MASTERS_H
+#include FT_OUTLINE_H
+
+enum { FILE_BYTES_MAX = 1 << 29, AXES_MAX = 64 };
+
+struct font_face {
+    FT_Library library;
+    FT_Face ft;
+    FT_MM_Var *axes;
+    FT_Fixed values[AXES_MAX];
+    int axes_count;
+    unsigned char *bytes;
+    size_t bytes_count;
+    char *path;
+    char glyph_name[128];
+    uint64_t version;
+};
+
+static _Atomic uint64_t versions;
+
+static enum font_status face_fail(const struct font_face *face, const char *what,
+                                  FT_Error error)
+{
+    const char *reason = FT_Error_String(error);
+    char number[32];
+    if (!reason) {
+        snprintf(number, sizeof number, "FreeType error %d", error);
+        reason = number;
+    }
+    return font_fail(FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory ? FONT_NO_MEMORY
+                                                                  : FONT_BAD_FILE,
+                     "%s: %s: %s", face->path, what, reason);
+}
+
+static enum font_status axes_read(struct font_face *face)
+{
+    if (!FT_HAS_MULTIPLE_MASTERS(face->ft) || FT_Get_MM_Var(face->ft, &face->axes))
+        return FONT_OK; /* no axes, or none that can be read: the font as it is */
+    face->axes_count = face->axes->num_axis > AXES_MAX ? AXES_MAX : (int)face->axes->num_axis;
+    for (int i = 0; i < face->axes_count; i++)
+        face->values[i] = face->axes->axis[i].def;
+    return FONT_OK;
+}
+
+/* Takes path and bytes. */
+static enum font_status face_begin(char *path, unsigned char *bytes, size_t count, int index,
+                                   struct font_face **out)
+{
+    struct font_face *face = calloc(1, sizeof *face);
+    *out = NULL;
+    if (!face || !path || !bytes) {
+        free(face);
+        free(path);
+        free(bytes);
+        return font_fail(FONT_NO_MEMORY, "no memory for a font");
+    }
+    face->path = path;
+    face->bytes = bytes;
+    face->bytes_count = count;
+    face->version = ++versions;
+    enum font_status status = FONT_OK;
+    FT_Error error = FT_Init_FreeType(&face->library);
+    if (!error && index >= 0)
+        error = FT_New_Memory_Face(face->library, bytes, (FT_Long)count, index, &face->ft);
+    if (index < 0 || FT_ERROR_BASE(error) == FT_Err_Invalid_Argument) {
+        status = font_fail(FONT_BAD_ARGUMENT, "%s has no face %d", path, index);
+    } else if (error) {
+        status = face_fail(face, "not a font that can be read", error);
+    } else if (!FT_IS_SCALABLE(face->ft) || face->ft->units_per_EM == 0) {
+        status = font_fail(FONT_BAD_FILE, "%s has no outlines, only bitmaps", path);
+    } else {
+        status = axes_read(face);
+    }
+    if (status != FONT_OK)
+        font_face_close(face);
+    else
+        *out = face;
+    return status;
+}
+
+enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
+                                       struct font_face **out)
+{
+    *out = NULL;
+    if (!bytes || count == 0 || count > FILE_BYTES_MAX)
+        return font_fail(FONT_BAD_FILE, "a font of %zu bytes cannot be", count);
+    unsigned char *copy = malloc(count);
+    if (copy)
+        memcpy(copy, bytes, count);
+    return face_begin(strdup("font in memory"), copy, count, index, out);
+}
+
+/* ---- finding ---- */
+
+/* A file called so, or a family that fontconfig has: the path, or NULL. */
+static char *by_fontconfig(const char *name, int *index)
+{
+    char *path = NULL;
+    FcPattern *pattern = NULL, *match = NULL;
+    FcFontSet *all = NULL;
+    FcObjectSet *objects = NULL;
+    FcResult result;
+    if (!FcInit())
+        return NULL;
+    /* By the file's name, so that a file is always found by it. Of several the first in order. */
+    objects = FcObjectSetBuild(FC_FILE, (char *)NULL);
+    pattern = FcPatternCreate();
+    all = objects && pattern ? FcFontList(NULL, pattern, objects) : NULL;
+    size_t length = strlen(name);
+    for (int i = 0; all && i < all->nfont; i++) {
+        FcChar8 *file;
+        if (FcPatternGetString(all->fonts[i], FC_FILE, 0, &file) != FcResultMatch)
+            continue;
+        const char *base = strrchr((char *)file, '/');
+        base = base ? base + 1 : (char *)file;
+        if (strncasecmp(base, name, length) != 0 || (base[length] && base[length] != '.'))
+            continue;
+        if (!path || strcmp((char *)file, path) < 0) {
+            free(path);
+            path = strdup((char *)file);
+        }
+    }
+    if (pattern)
+        FcPatternDestroy(pattern);
+    pattern = NULL;
+    if (!path && (pattern = FcNameParse((const FcChar8 *)name))) {
+        FcChar8 *wanted, *got, *file;
+        FcConfigSubstitute(NULL, pattern, FcMatchPattern);
+        FcDefaultSubstitute(pattern);
+        FcPattern *asked = FcNameParse((const FcChar8 *)name);
+        match = FcFontMatch(NULL, pattern, &result);
+        /* fontconfig always has an answer: it must be of the family asked for. */
+        bool same = false;
+        for (int i = 0; match && asked &&
+                        FcPatternGetString(asked, FC_FAMILY, 0, &wanted) == FcResultMatch &&
+                        FcPatternGetString(match, FC_FAMILY, i, &got) == FcResultMatch;
+             i++)
+            same = same || FcStrCmpIgnoreCase(wanted, got) == 0;
+        if (same && FcPatternGetString(match, FC_FILE, 0, &file) == FcResultMatch) {
+            path = strdup((char *)file);
+            int found = 0;
+            if (*index == 0 && FcPatternGetInteger(match, FC_INDEX, 0, &found) == FcResultMatch)
+                *index = found & 0xffff;
+        }
+        if (asked)
+            FcPatternDestroy(asked);
+    }
+    if (match)
+        FcPatternDestroy(match);
+    if (pattern)
+        FcPatternDestroy(pattern);
+    if (all)
+        FcFontSetDestroy(all);
+    if (objects)
+        FcObjectSetDestroy(objects);
+    return path;
+}
+
+static enum font_status file_read(const char *path, unsigned char **bytes, size_t *count)
+{
+    struct stat about;
+    FILE *file = fopen(path, "rb");
+    *bytes = NULL;
+    if (!file || fstat(fileno(file), &about) != 0) {
+        int reason = errno;
+        if (file)
+            fclose(file);
+        return font_fail(FONT_BAD_FILE, "%s: %s", path, strerror(reason));
+    }
+    enum font_status status = FONT_OK;
+    if (!S_ISREG(about.st_mode) || about.st_size <= 0 || about.st_size > FILE_BYTES_MAX) {
+        status = font_fail(FONT_BAD_FILE, "%s is no font file", path);
+    } else {
+        *count = (size_t)about.st_size;
+        *bytes = malloc(*count);
+        if (!*bytes)
+            status = font_fail(FONT_NO_MEMORY, "no memory for %s", path);
+        else if (fread(*bytes, 1, *count, file) != *count)
+            status = font_fail(FONT_BAD_FILE, "%s cannot be read whole", path);
+    }
+    if (status != FONT_OK) {
+        free(*bytes);
+        *bytes = NULL;
+    }
+    fclose(file);
+    return status;
+}
+
+enum font_status font_face_open(const char *name, int index, struct font_face **out)
+{
+    struct stat about;
+    *out = NULL;
+    if (!name || !*name)
+        return font_fail(FONT_BAD_ARGUMENT, "a font needs a name");
+    char *path;
+    if (strchr(name, '/') || (stat(name, &about) == 0 && S_ISREG(about.st_mode)))
+        path = strdup(name);
+    else
+        path = by_fontconfig(name, &index);
+    if (!path)
+        return font_fail(FONT_BAD_FILE,
+                         "there is no font '%.80s'; give a file, or a name that fc-list shows",
+                         name);
+    unsigned char *bytes;
+    size_t count = 0;
+    enum font_status status = file_read(path, &bytes, &count);
+    if (status != FONT_OK) {
+        free(path);
+        return status;
+    }
+    return face_begin(path, bytes, count, index, out);
+}
+
+void font_face_close(struct font_face *face)
+{
+    if (!face)
+        return;
+    if (face->axes)
+        FT_Done_MM_Var(face->library, face->axes);
+    if (face->ft)
+        FT_Done_Face(face->ft);
+    if (face->library)
+        FT_Done_FreeType(face->library);
+    free(face->bytes);
+    free(face->path);
+    free(face);
+}
+
+/* ---- what there is ---- */
+
+void font_face_describe(const struct font_face *face, struct font_face_info *out)
+{
+    FT_Face ft = face->ft;
+    const char *format = FT_Get_Font_Format(ft);
+    *out = (struct font_face_info){
+        .family = ft->family_name ? ft->family_name : "",
+        .style = ft->style_name ? ft->style_name : "",
+        .format = format ? format : "",
+        .path = face->path,
+        .glyphs_count = (int)ft->num_glyphs,
+        .faces_count = (int)ft->num_faces,
+        .index = (int)(ft->face_index & 0xffff),
+        .axes_count = face->axes_count,
+        .units_per_em = ft->units_per_EM,
+        .ascender = ft->ascender,
+        .descender = ft->descender,
+        .line_height = ft->height,
+        .underline_y = ft->underline_position,
+        .underline_height = ft->underline_thickness,
+    };
+    /* Damaged files say anything; a line is then an em and a bit. */
+    if (!(out->line_height > 0))
+        out->line_height = 1.2 * out->units_per_em;
+    if (!(out->ascender > out->descender)) {
+        out->ascender = 0.8 * out->units_per_em;
+        out->descender = -0.2 * out->units_per_em;
+    }
+}
+
+uint32_t font_face_glyph(const struct font_face *face, uint32_t character)
+{
+    return FT_Get_Char_Index(face->ft, character);
+}
+
+const char *font_face_glyph_name(struct font_face *face, uint32_t glyph)
+{
+    face->glyph_name[0] = '\0';
+    if (FT_HAS_GLYPH_NAMES(face->ft))
+        FT_Get_Glyph_Name(face->ft, glyph, face->glyph_name, sizeof face->glyph_name);
+    return face->glyph_name;
+}
+
+/* ---- outlines ---- */
+
+struct take {
+    struct font_outline *outline;
+    enum font_status status;
+};
+
+static int take_move(const FT_Vector *to, void *context)
+{
+    struct take *t = context;
+    t->status = font_outline_move(t->outline, (double)to->x, (double)to->y);
+    return t->status != FONT_OK;
+}
+
+static int take_line(const FT_Vector *to, void *context)
+{
+    struct take *t = context;
+    t->status = font_outline_line(t->outline, (double)to->x, (double)to->y);
+    return t->status != FONT_OK;
+}
+
+static int take_quad(const FT_Vector *c, const FT_Vector *to, void *context)
+{
+    struct take *t = context;
+    t->status =
+        font_outline_quad(t->outline, (double)c->x, (double)c->y, (double)to->x, (double)to->y);
+    return t->status != FONT_OK;
+}
+
+static int take_cubic(const FT_Vector *c0, const FT_Vector *c1, const FT_Vector *to,
+                      void *context)
+{
+    struct take *t = context;
+    t->status = font_outline_cubic(t->outline, (double)c0->x, (double)c0->y, (double)c1->x,
+                                   (double)c1->y, (double)to->x, (double)to->y);
+    return t->status != FONT_OK;
+}
+
+/* Loads the glyph into FreeType's slot, in the font's units. */
+static enum font_status glyph_load(struct font_face *face, uint32_t glyph)
+{
+    if (glyph >= (uint32_t)face->ft->num_glyphs)
+        return font_fail(FONT_NO_GLYPH, "%s has no glyph %u", face->path, (unsigned)glyph);
+    FT_Error error = FT_Load_Glyph(face->ft, glyph,
+                                   FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP |
+                                       FT_LOAD_IGNORE_TRANSFORM);
+    if (error)
+        return face_fail(face, "a glyph cannot be read", error);
+    return FONT_OK;
+}
+
+enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
+                                       struct font_outline *out)
+{
+    static const FT_Outline_Funcs funcs = {take_move, take_line, take_quad, take_cubic, 0, 0};
+    *out = (struct font_outline){0};
+    enum font_status status = glyph_load(face, glyph);
+    if (status != FONT_OK)
+        return status;
+    FT_GlyphSlot slot = face->ft->glyph;
+    if (slot->format != FT_GLYPH_FORMAT_OUTLINE)
+        return font_fail(FONT_NO_GLYPH, "%s: glyph %u has no outline", face->path,
+                         (unsigned)glyph);
+    struct take take = {out, FONT_OK};
+    FT_Error error = FT_Outline_Decompose(&slot->outline, &funcs, &take);
+    if (take.status == FONT_OK && error)
+        take.status = face_fail(face, "a glyph's outline is damaged", error);
+    if (take.status == FONT_OK)
+        take.status = font_outline_close(out);
+    out->units_per_em = face->ft->units_per_EM;
+    out->advance = (double)slot->advance.x;
+    if (take.status != FONT_OK)
+        font_outline_finish(out);
+    return take.status;
+}
+
+enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
+                                   struct font_outline *out)
+{
+    enum font_status status = font_face_outline_raw(face, glyph, out);
+    if (status == FONT_OK)
+        status = font_outline_prepare(
+            out, face->ft->glyph->outline.flags & FT_OUTLINE_EVEN_ODD_FILL ? FONT_EVEN_ODD
+                                                                           : FONT_NONZERO);
+    if (status != FONT_OK)
+        font_outline_finish(out);
+    return status;
+}
+
+enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance)
+{
+    *advance = 0;
+    enum font_status status = glyph_load(face, glyph);
+    if (status == FONT_OK)
+        *advance = (double)face->ft->glyph->advance.x;
+    return status;
+}
+
+double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right)
+{
+    FT_Vector kerning = {0, 0};
+    if (!FT_HAS_KERNING(face->ft) ||
+        FT_Get_Kerning(face->ft, left, right, FT_KERNING_UNSCALED, &kerning))
+        return 0;
+    return (double)kerning.x;
+}
+
+/* ---- axes ---- */
+
+enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out)
+{
+    if (axis < 0 || axis >= face->axes_count)
+        return font_fail(FONT_BAD_ARGUMENT, "%s has no axis %d", face->path, axis);
+    const FT_Var_Axis *from = &face->axes->axis[axis];
+    *out = (struct font_axis){.name = from->name ? from->name : "",
+                              .least = (double)from->minimum / 65536,
+                              .most = (double)from->maximum / 65536,
+                              .usual = (double)from->def / 65536,
+                              .value = (double)face->values[axis] / 65536};
+    for (int i = 0; i < 4; i++) {
+        char c = (char)(from->tag >> (24 - 8 * i) & 0x7f);
+        out->tag[i] = c >= ' ' && c < 0x7f ? c : '?';
+    }
+    return FONT_OK;
+}
+
+enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value)
+{
+    struct font_axis axis;
+    int i = 0;
+    for (; i < face->axes_count; i++)
+        if (font_face_axis(face, i, &axis) == FONT_OK && strcmp(axis.tag, tag) == 0)
+            break;
+    if (i == face->axes_count)
+        return font_fail(FONT_BAD_ARGUMENT, "%s has no axis '%.20s'", face->path, tag);
+    if (!isfinite(value))
+        return font_fail(FONT_BAD_ARGUMENT, "axis %s cannot be %g", tag, value);
+    FT_Fixed before = face->values[i];
+    double within = fmax(axis.least, fmin(axis.most, value));
+    face->values[i] = (FT_Fixed)lrint(fmax(-32768, fmin(32767, within)) * 65536);
+    FT_Error error =
+        FT_Set_Var_Design_Coordinates(face->ft, (FT_UInt)face->axes_count, face->values);
+    if (error) {
+        face->values[i] = before;
+        return face_fail(face, "its axes cannot be set", error);
+    }
+    face->version = ++versions;
+    return FONT_OK;
+}
+
+const void *font_face_bytes(const struct font_face *face, size_t *count)
+{
+    *count = face->bytes_count;
+    return face->bytes;
+}
+
+uint64_t font_face_version(const struct font_face *face)
+{
+    return face->version;
+}

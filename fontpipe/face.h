@@ -1,0 +1,71 @@
+/* face.h - fonts: TrueType, CFF, Type 1, collections, variable fonts. FreeType reads the files and gives outlines in
+ * the font's units; it draws nothing.
+ *
+ *     struct font_face *face;
+ *     if (font_face_open("EBGaramond12-Regular", 0, &face) != FONT_OK)
+ *         die(font_error());
+ *     struct font_outline outline;
+ *     font_face_outline(face, font_face_glyph(face, 'A'), &outline);
+ *     font_outline_finish(&outline);
+ *     font_face_close(face);
+ *
+ * Threads. A face belongs to one thread at a time; faces are independent of each other. */
+#ifndef LUTETIA_FONT_FACE_H
+#define LUTETIA_FONT_FACE_H
+
+#include "outline.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct font_face;
+
+/* A path, or a font file's name without folder and ending, looked for where the system keeps fonts, or a family as
+ * fontconfig knows it ("DejaVu Sans:bold"). index: of the face in a collection, 0 otherwise.
+ * Errors: BAD_FILE, NO_MEMORY, BAD_ARGUMENT for an index the file has not. */
+enum font_status font_face_open(const char *name, int index, struct font_face **out);
+/* The same from memory, which is copied. */
+enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
+                                       struct font_face **out);
+void font_face_close(struct font_face *face); /* NULL is fine */
+
+struct font_face_info {
+    const char *family, *style, *format, *path; /* owned by the face; "" if unknown */
+    int glyphs_count, faces_count, index, axes_count;
+    double units_per_em, ascender, descender, line_height; /* descender is negative */
+    double underline_y, underline_height;
+};
+void font_face_describe(const struct font_face *face, struct font_face_info *out);
+
+/* The glyph for a character; 0 if the font has none. */
+uint32_t font_face_glyph(const struct font_face *face, uint32_t character);
+/* Its name, or "" where the font keeps none. Owned by the face, until the next call. */
+const char *font_face_glyph_name(struct font_face *face, uint32_t glyph);
+
+/* The outline with advance and units_per_em, prepared. Owns: the caller finishes *out, which is empty on failure.
+ * Errors: NO_GLYPH for an index the font has not or that is a bitmap, BAD_FILE for a damaged one. */
+enum font_status font_face_outline(struct font_face *face, uint32_t glyph,
+                                   struct font_outline *out);
+/* The same before it is prepared: for emboldening. */
+enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
+                                       struct font_outline *out);
+enum font_status font_face_advance(struct font_face *face, uint32_t glyph, double *advance);
+/* What the font's own pair table adds between two glyphs (Type 1 and old TrueType); 0 without one. */
+double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right);
+
+/* A variable font's axes: "wght" from least to most, what it is set to. */
+struct font_axis {
+    char tag[5];
+    const char *name; /* owned by the face */
+    double least, most, usual, value;
+};
+enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out);
+/* Sets one axis; beyond its ends the end is taken. Errors: BAD_ARGUMENT for a tag that the font has not. */
+enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value);
+
+/* The font's file in memory, for shaping. Owned by the face. */
+const void *font_face_bytes(const struct font_face *face, size_t *count);
+/* Differs between any two settings of axes of any two faces open. */
+uint64_t font_face_version(const struct font_face *face);
+
+#endif

@@ -1,0 +1,89 @@
+/* filter_internal.h - a filter's tables, as the kernels read them.
+ *
+ * A point at x adds h(X - x) to the pixel whose centre is X. With a = x - first - radius + 1/2 (see gray.c), i = floor(a)
+ * and p = a - i, the pixels i .. i + taps - 1 are reached, and the k-th from there by
+ * k + 1 - p - radius. Rows are the same, one more of them: what a row adds to the one above it,
+ * H(k + 1 - p - radius) - H(k - p - radius).
+ *
+ * Each table has FONT_PHASES rows for p = 0, 1/32, ..; a row is the values there and, behind them, the differences to
+ * the next. Taps are surrounded by what belongs beyond them, so that 16 values at any offset
+ * are one load:
+ *
+ *     x: 16 zeros, taps, zeros up to 32          h: 16 zeros, taps, then the total up to 48
+ *     y: rows, zeros up to 16
+ */
+#ifndef LUTETIA_FONT_FILTER_INTERNAL_H
+#define LUTETIA_FONT_FILTER_INTERNAL_H
+
+#include "filter.h"
+
+enum {
+    FONT_PHASES = 32,
+    FONT_X_ROW = 32, /* floats; twice that with the differences */
+    FONT_H_ROW = 48,
+    FONT_Y_ROW = 16,
+    FONT_TERMS_MAX = 8,
+    FONT_TERM_FLOATS = FONT_PHASES * 2 * (FONT_X_ROW + FONT_H_ROW + FONT_Y_ROW),
+    FONT_NODES_MAX = 8,
+    FONT_LENGTHS = 20, /* a quarter of a pixel, times the fourth root of 2 each */
+    FONT_SLANTS = 6
+};
+
+/* One product: the profile as its integral at evenly spaced knots, and the density there. */
+struct font_filter_term {
+    double weight; /* 1 or -1 */
+    double *integral, *density;
+};
+
+struct font_filter {
+    char name[64];
+    struct font_filter_def def;
+    double *samples;
+    double radius, scale; /* scale: what f is multiplied with for an integral of 1 */
+    int taps;             /* in x; taps + 1 in y */
+    int terms_count, knots;
+    struct font_filter_term terms[FONT_TERMS_MAX];
+    float *tables; /* for each term x, h, y; aligned to 64 bytes */
+    bool round;
+    /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
+     * font_slants[s] of |dx|. */
+    float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
+    bool use_nodes;
+    double step_px;
+    struct font_filter_info info;
+};
+
+static inline const float *font_filter_x(const struct font_filter *f, int term)
+{
+    return f->tables + term * FONT_TERM_FLOATS;
+}
+
+static inline const float *font_filter_h(const struct font_filter *f, int term)
+{
+    return font_filter_x(f, term) + FONT_PHASES * 2 * FONT_X_ROW;
+}
+
+static inline const float *font_filter_y(const struct font_filter *f, int term)
+{
+    return font_filter_h(f, term) + FONT_PHASES * 2 * FONT_H_ROW;
+}
+
+/* A term's density and integral at v, in double precision. */
+double font_term_density(const struct font_filter *f, int term, double v);
+double font_term_integral(const struct font_filter *f, int term, double v);
+
+/* filter_measure.c */
+extern const double font_slants[FONT_SLANTS];
+void font_filter_measure(struct font_filter *f);
+
+/* filter_round.c: fills the terms of a round filter. */
+enum font_status font_filter_decompose(struct font_filter *f);
+
+/* Gauss-Legendre on 0..1: m nodes and their weights, m = 1..FONT_NODES_MAX. */
+extern const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX];
+extern const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX];
+
+/* What an edge may be wrong by for each of its pieces: a twentieth of a 255th. */
+#define FONT_PIECE_TOLERANCE 2e-4
+
+#endif

@@ -1,0 +1,250 @@
+/* filter_measure.c - what a filter does, and how finely edges must be taken apart for it.
+ *
+ * An edge of ink is integrated at Gauss's nodes where the filter is smooth. How long a piece of edge m nodes are
+ * enough for is found by trying: pieces of several lengths and slants, against very fine steps that are exact along
+ * x. Filters with corners in their profile (the box) need steps everywhere, as fine as the same trial says. */
+#include "filter_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REFERENCE_PER_PX = 48, GRID_PER_PX = 4, GRID_MAX = 80, REFERENCE_MAX = 288 };
+
+const double font_slants[FONT_SLANTS] = {0.2, 0.5, 1,
+                                         2,   5,   30}; /* the last: steeper ones too */
+
+/* The trial edge runs from the origin. Sums of what it adds to a pixel at (x, y) of a grid, per unit of dx. */
+struct trial {
+    double x[GRID_MAX], y[GRID_MAX];
+    int x_count, y_count;
+    double dx, dy;
+    double exact[GRID_MAX][GRID_MAX], sum[GRID_MAX][GRID_MAX];
+};
+
+static int grid_fill(double *grid, double length, double radius)
+{
+    int count = 0;
+    for (double at = -radius; at <= length + radius && count < GRID_MAX;
+         at += 1.0 / GRID_PER_PX)
+        grid[count++] = at + 0.03; /* beside the profile's own corners */
+    return count;
+}
+
+/* Adds weight[i] * column(x_i) * H(Y - y_i). Steps add the difference of integrals from x_i - half to x_i + half,
+ * nodes the density. */
+static void trial_add(struct trial *t, const struct font_filter *f, int term, double x,
+                      double y, double half, double weight, double (*sum)[GRID_MAX])
+{
+    double column[GRID_MAX];
+    for (int i = 0; i < t->x_count; i++)
+        column[i] = half > 0 ? font_term_integral(f, term, t->x[i] - x + half) -
+                                   font_term_integral(f, term, t->x[i] - x - half)
+                             : weight * font_term_density(f, term, t->x[i] - x);
+    for (int j = 0; j < t->y_count; j++) {
+        double row = f->terms[term].weight * font_term_integral(f, term, t->y[j] - y);
+        if (row != 0)
+            for (int i = 0; i < t->x_count; i++)
+                sum[j][i] += row * column[i];
+    }
+}
+
+static void trial_steps(struct trial *t, const struct font_filter *f, int count,
+                        double (*sum)[GRID_MAX])
+{
+    memset(sum, 0, sizeof t->exact);
+    for (int term = 0; term < f->terms_count; term++)
+        for (int k = 0; k < count; k++)
+            trial_add(t, f, term, t->dx * (k + 0.5) / count, t->dy * (k + 0.5) / count,
+                      t->dx / count / 2, 1, sum);
+}
+
+static void trial_nodes(struct trial *t, const struct font_filter *f, int count,
+                        double (*sum)[GRID_MAX])
+{
+    memset(sum, 0, sizeof t->exact);
+    for (int term = 0; term < f->terms_count; term++)
+        for (int k = 0; k < count; k++)
+            trial_add(t, f, term, t->dx * font_gauss_at[count][k],
+                      t->dy * font_gauss_at[count][k], 0, t->dx * font_gauss_weight[count][k],
+                      sum);
+}
+
+static double trial_error(const struct trial *t)
+{
+    double worst = 0;
+    for (int j = 0; j < t->y_count; j++)
+        for (int i = 0; i < t->x_count; i++)
+            worst = fmax(worst, fabs(t->sum[j][i] - t->exact[j][i]));
+    return worst;
+}
+
+static void trial_begin(struct trial *t, const struct font_filter *f, double length,
+                        double slant)
+{
+    t->dx = length / hypot(1, slant);
+    t->dy = t->dx * slant;
+    t->x_count = grid_fill(t->x, t->dx, f->radius);
+    t->y_count = grid_fill(t->y, t->dy, f->radius);
+    int steps = (int)ceil(length * REFERENCE_PER_PX);
+    trial_steps(t, f,
+                steps < 16              ? 16
+                : steps > REFERENCE_MAX ? REFERENCE_MAX
+                                        : steps,
+                t->exact);
+}
+
+static void nodes_measure(struct font_filter *f, struct trial *t)
+{
+    for (int l = 0; l < FONT_LENGTHS; l++)
+        for (int s = 0; s < FONT_SLANTS; s++) {
+            trial_begin(t, f, 0.25 * pow(2, 0.25 * l), font_slants[s]);
+            float *error = f->node_error[s][l] - 1;
+            for (int m = 1; m <= FONT_NODES_MAX; m++) {
+                trial_nodes(t, f, m, t->sum);
+                error[m] = (float)(trial_error(t) / t->dx);
+                if (m > 1 && error[m] * t->dx < FONT_PIECE_TOLERANCE / 8) {
+                    while (++m <= FONT_NODES_MAX) /* more are as good */
+                        error[m] = error[m - 1];
+                }
+            }
+            if (l == 8 && s == 0 && error[4] * t->dx > 2 * FONT_PIECE_TOLERANCE)
+                return; /* a pixel's length needs more than four: steps */
+        }
+    f->use_nodes = true;
+}
+
+static void steps_measure(struct font_filter *f, struct trial *t)
+{
+    for (f->step_px = 0.5; f->step_px > 1.0 / 20; f->step_px /= 2) {
+        double worst = 0;
+        for (int s = 0; s < FONT_SLANTS; s++) {
+            trial_begin(t, f, 3, font_slants[s]);
+            trial_steps(t, f, (int)ceil(fmax(t->dx, t->dy) / f->step_px), t->sum);
+            worst = fmax(worst, trial_error(t));
+        }
+        /* Round filters leave something out already. */
+        if (worst <= (f->round ? 1 : 3) * FONT_PIECE_TOLERANCE)
+            return;
+    }
+}
+
+/* Of a wave of so many cycles a pixel along an axis. */
+static double response(const struct font_filter *f, double cycles)
+{
+    enum { N = 512 };
+    double sum = 0, d = 2 * f->radius / N;
+    for (int t = 0; t < f->terms_count; t++)
+        for (int i = 0; i < N; i++) {
+            double v = -f->radius + (i + 0.5) * d;
+            sum += f->terms[t].weight * f->terms[t].integral[f->knots] *
+                   font_term_density(f, t, v) * cos(2 * M_PI * cycles * v) * d;
+        }
+    return sum;
+}
+
+static double line_density(const struct font_filter *f, double v)
+{
+    double sum = 0;
+    for (int t = 0; t < f->terms_count; t++)
+        sum += f->terms[t].weight * f->terms[t].integral[f->knots] * font_term_density(f, t, v);
+    return sum;
+}
+
+void font_filter_measure(struct font_filter *f)
+{
+    enum { N = 1024 };
+    struct font_filter_info *info = &f->info;
+    info->radius_px = f->radius;
+    info->terms = f->terms_count;
+    info->taps = f->taps;
+    info->peak = font_filter_at(f, 0, 0);
+    double centre = line_density(f, 0), half = 0;
+    for (int i = 0; i < N; i++)
+        half += line_density(f, -f->radius + (i + 0.5) * 2 * f->radius / N) > 0.5 * centre;
+    info->half_width_px = half * 2 * f->radius / N;
+    for (int p = 0; p < 64; p++) {
+        double sum = 0;
+        for (int k = 0; k < f->taps; k++)
+            sum += line_density(f, k + 1 - (p + 0.5) / 64 - f->radius);
+        info->ripple = fmax(info->ripple, fabs(sum - 1));
+    }
+    for (int i = 0; i <= N; i++) {
+        double edge = font_filter_edge(f, -f->radius + i * 2 * f->radius / N);
+        info->undershoot = fmax(info->undershoot, fmax(-edge, edge - 1));
+    }
+    info->response_nyquist = response(f, 0.5);
+    info->response_pixel = response(f, 1);
+
+    struct trial *t = calloc(1, sizeof *t);
+    f->step_px = 1.0 / 16;
+    if (t) { /* without memory for the trial: the finest steps */
+        nodes_measure(f, t);
+        if (!f->use_nodes)
+            steps_measure(f, t);
+    }
+    free(t);
+    info->nodes = f->use_nodes;
+    info->step_px = f->use_nodes ? 0 : f->step_px;
+}
+
+/* ---- choosing ---- */
+
+/* The brightness of a display's spot at a distance along one axis, and how far it reaches. */
+static double spot(enum font_display display, double v)
+{
+    switch (display) {
+    case FONT_DISPLAY_LCD:
+        return v >= -0.5 && v < 0.5 ? 1 : 0; /* a square pixel */
+    case FONT_DISPLAY_CRT:
+        return exp(-0.5 * v * v / (0.45 * 0.45)) / (0.45 * sqrt(2 * M_PI)); /* a beam */
+    case FONT_DISPLAY_PRINT:
+        break;
+    }
+    return fabs(v) <= 0.6 ? 1 / 1.2 : 0; /* a dot that runs a little */
+}
+
+/* How bright a line of this width, whose centre is at x, is at its brightest, through filter and spot; and its weight. */
+static double line_shown(const struct font_filter *f, double width, double x,
+                         enum font_display display)
+{
+    double best = 0;
+    for (int s = -8; s <= 8; s++) {
+        double at = x + s / 16.0, sum = 0;
+        for (int i = (int)floor(at) - 6; i <= (int)ceil(at) + 6; i++)
+            sum += (font_filter_edge(f, i + 0.5 - x + width / 2) -
+                    font_filter_edge(f, i + 0.5 - x - width / 2)) *
+                   spot(display, at - i - 0.5);
+        best = fmax(best, sum);
+    }
+    return best;
+}
+
+const char *font_filter_choose(double detail_px, enum font_display display)
+{
+    const char *best = "gaussian-fast";
+    double least = 1e9;
+    if (!(detail_px > 0.01))
+        detail_px = 0.01;
+    for (const char *const *name = font_filter_names(); *name; name++) {
+        struct font_filter *f;
+        if (font_filter_create_named(*name, &f) != FONT_OK)
+            continue;
+        double mean = 0, square = 0;
+        for (int p = 0; p < 8; p++) {
+            double shown = line_shown(f, detail_px, p / 8.0, display) / fmin(1, detail_px);
+            mean += shown / 8;
+            square += shown * shown / 8;
+        }
+        double lost = 1 - fmin(mean, 1), uneven = sqrt(fmax(0, square - mean * mean));
+        /* What rings beside the line is as bad as what it loses. */
+        double cost =
+            lost * lost + 9 * uneven * uneven + 4 * f->info.undershoot * f->info.undershoot;
+        if (cost < least) {
+            least = cost;
+            best = *name;
+        }
+        font_filter_destroy(f);
+    }
+    return best;
+}

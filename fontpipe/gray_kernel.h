@@ -1,0 +1,324 @@
+/* gray_kernel.h - edges to gray, included by gray_plain.c, gray_avx2.c and gray_avx512.c with
+ *     LANES    floats in a vector: 4, 8 or 16
+ *     KERNEL   the function's name
+ *
+ * Sums are kept as differences between a row and the one above it, so that a bit of edge touches only the rows within
+ * the filter's reach and all the ink below it costs nothing:
+ *
+ *                taps ->                 a node adds an outer product:
+ *          . . . x x x x . . . .         taps of its column, times its weight,
+ *     rows . . . x x x x . . . .         times rows: taps + 1 of them
+ *      |   . . . x x x x . . . .
+ *      v   . . . x x x x . . . .         a horizontal line the same with wider taps
+ *          . . . x x x x . . . .
+ *
+ * At the end one pass down the columns adds the rows up.
+ *
+ * Two nodes beside each other add to overlapping columns. A processor hands what was just stored to the next load without
+ * waiting only if the load is of the same bytes; so sums are touched in whole blocks alone. Up to five taps, wherever
+ * they begin, lie in one of the blocks of 8 columns that begin at multiples of 4:
+ *
+ *     even   |0       |8       |16      |         a row of sums is two rows of blocks,
+ *     odd    |   4    |   12   |   20   |         each block aligned, added up at the end
+ *
+ * The tables are padded, so that a block's values are one load whatever column the taps begin at. More taps take 16
+ * columns from a multiple of 8, as two blocks of the even row. */
+#include "gray_internal.h"
+
+#include <string.h>
+#if defined(__AVX2__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+enum { ROW = 16, HALF_LANES = LANES > 8 ? 8 : LANES };
+
+typedef float vector __attribute__((vector_size(LANES * 4)));
+typedef float vector_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
+typedef float half_vector __attribute__((vector_size(HALF_LANES * 4)));
+typedef float half_loose __attribute__((vector_size(HALF_LANES * 4), aligned(4), may_alias));
+
+#define INLINE static inline __attribute__((always_inline))
+
+enum { PARTS = ROW / LANES, HALF_PARTS = ROW / HALF_LANES };
+
+INLINE vector load(const float *at)
+{
+    return *(const vector_loose *)at;
+}
+
+INLINE half_vector half_load(const float *at)
+{
+    return *(const half_loose *)at;
+}
+
+/* Weights are written and read again one by one: a processor broadcasts from memory for nothing. */
+#define IN_MEMORY() __asm__ volatile("" ::: "memory")
+
+#define SHORT(taps) ((taps) <= 5)            /* they lie in one block */
+#define WEIGHTS(taps) ((taps) < 8 ? 8 : ROW) /* floats for taps + 1 */
+
+/* What rows get: the taps down, times the weight. */
+INLINE void rows_weigh(float *out, const float *y, float t, float weight, int taps)
+{
+    for (int k = 0; k < WEIGHTS(taps); k += HALF_LANES)
+        *(half_loose *)(out + k) =
+            (half_load(y + k) + half_load(y + FONT_Y_ROW + k) * t) * weight;
+}
+
+/* The row that y reaches first, and its phase. */
+INLINE void row_weigh(float *out, const float *table, float a, int *row, int taps)
+{
+    int i = (int)a;
+    float at = (a - (float)i) * FONT_PHASES;
+    int phase = (int)at;
+    *row = i;
+    rows_weigh(out, table + phase * 2 * FONT_Y_ROW, at - (float)phase, 1, taps);
+}
+
+INLINE bool row_in_band(const struct font_gray_job *job, int row)
+{
+    return row > -FONT_MARGIN_ROWS && row < job->rows;
+}
+
+/* ---- nodes, a batch at a time ---- */
+
+enum { BATCH = 64 };
+
+typedef int ints __attribute__((vector_size(LANES * 4)));
+typedef int ints_loose __attribute__((vector_size(LANES * 4), aligned(4), may_alias));
+
+/* For each node: where its column's and its rows' values begin in the tables, how far it is to the next phase, and
+ * where its sums are. */
+struct batch {
+    int column[BATCH], rows[BATCH], row[BATCH], sums[BATCH];
+    float column_t[BATCH], rows_t[BATCH];
+    float weights[BATCH * ROW] __attribute__((aligned(64)));
+};
+
+INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const float *ys,
+                       int first, int count, int stride, int taps)
+{
+    int odd = job->odd;
+    for (int k = 0; k < count; k += LANES) { /* the arrays are longer than the count */
+        vector ax = load(job->node_x + first + k) + job->ax;
+        vector ay = load(job->node_y + first + k) + job->ay;
+        ints ix = __builtin_convertvector(ax, ints), iy = __builtin_convertvector(ay, ints);
+        vector px = (ax - __builtin_convertvector(ix, vector)) * FONT_PHASES;
+        vector py = (ay - __builtin_convertvector(iy, vector)) * FONT_PHASES;
+        ints qx = __builtin_convertvector(px, ints), qy = __builtin_convertvector(py, ints);
+        ints row = iy - job->row;
+        ints within = SHORT(taps) ? ix & 3 : ix & 7, block = ix - within;
+        if (SHORT(taps)) /* odd blocks have a row of their own, 4 columns to the right */
+            block += (block >> 2 & 1) * (odd + 4);
+        *(ints_loose *)(b->column + k) = qx * (2 * FONT_X_ROW) + 16 - within;
+        *(ints_loose *)(b->rows + k) = qy * (2 * FONT_Y_ROW);
+        *(ints_loose *)(b->row + k) = row;
+        *(ints_loose *)(b->sums + k) = (row + FONT_MARGIN_ROWS) * stride + block;
+        *(vector_loose *)(b->column_t + k) = px - __builtin_convertvector(qx, vector);
+        *(vector_loose *)(b->rows_t + k) = py - __builtin_convertvector(qy, vector);
+    }
+    const float *weight = job->node_weight + first;
+    for (int k = 0; k < count; k++)
+        rows_weigh(b->weights + k * WEIGHTS(taps), ys + b->rows[k], b->rows_t[k], weight[k],
+                   taps);
+    IN_MEMORY();
+}
+
+INLINE void block_add(float *sums, int stride, const half_vector *columns, int parts,
+                      const float *weights, int rows)
+{
+    for (int r = 0; r < rows; r++)
+        for (int p = 0; p < parts; p++)
+            *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
+}
+
+INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
+                     const float *xs, float *sums, int stride, int taps)
+{
+    if (job->banded && !row_in_band(job, b->row[k]))
+        return;
+    const int parts = (SHORT(taps) ? 8 : ROW) / HALF_LANES;
+    const float *x = xs + b->column[k];
+    float t = b->column_t[k];
+    half_vector columns[HALF_PARTS];
+    for (int p = 0; p < parts; p++)
+        columns[p] =
+            half_load(x + p * HALF_LANES) + half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
+    block_add(sums + b->sums[k], stride, columns, parts, b->weights + k * WEIGHTS(taps),
+              taps + 1);
+}
+
+/* Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
+ * through from three places in turns. */
+INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps)
+{
+    const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
+    float *sums = job->sums;
+    struct batch b;
+    for (int first = 0; first < job->nodes_count; first += BATCH) {
+        int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
+        int third = count / 3;
+        batch_fill(&b, job, ys, first, count, stride, taps);
+        for (int k = 0; k < third; k++) {
+            node_add(job, &b, k, xs, sums, stride, taps);
+            node_add(job, &b, k + third, xs, sums, stride, taps);
+            node_add(job, &b, k + 2 * third, xs, sums, stride, taps);
+        }
+        for (int k = 3 * third; k < count; k++)
+            node_add(job, &b, k, xs, sums, stride, taps);
+    }
+}
+
+/* ---- lines ---- */
+
+/* 16 columns, from `offset` columns left of a line's end: what is right of it. */
+INLINE const float *line_end(const float *table, float a, int first, float *t)
+{
+    int i = (int)a;
+    float at = (a - (float)i) * FONT_PHASES;
+    int phase = (int)at;
+    *t = at - (float)phase;
+    int offset = i - first;
+    offset = offset < -16 ? -16 : offset > 16 ? 16 : offset;
+    return table + phase * 2 * FONT_H_ROW + 16 - offset;
+}
+
+INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int taps)
+{
+    const float *hs = font_filter_h(job->filter, term), *ys = font_filter_y(job->filter, term);
+    float weights[ROW] __attribute__((aligned(64)));
+    for (int n = 0; n < job->lines_count; n++) {
+        float a0 = job->line_x0[n] + job->ax, a1 = job->line_x1[n] + job->ax;
+        int row;
+        row_weigh(weights, ys, job->line_y[n] + job->ay, &row, taps);
+        row -= job->row;
+        if (job->banded && !row_in_band(job, row))
+            continue;
+        IN_MEMORY();
+        int first = (int)(a0 < a1 ? a0 : a1) & ~7, last = (int)(a0 < a1 ? a1 : a0) + taps;
+        float *sums = job->sums + (long)(FONT_MARGIN_ROWS + row) * stride;
+        for (; first <= last; first += ROW) {
+            float t0, t1;
+            const float *h0 = line_end(hs, a0, first, &t0), *h1 = line_end(hs, a1, first, &t1);
+            half_vector columns[HALF_PARTS];
+            for (int p = 0; p < HALF_PARTS; p++) {
+                int at = p * HALF_LANES;
+                columns[p] = (half_load(h0 + at) + half_load(h0 + FONT_H_ROW + at) * t0) -
+                             (half_load(h1 + at) + half_load(h1 + FONT_H_ROW + at) * t1);
+            }
+            block_add(sums + first, stride, columns, HALF_PARTS, weights, taps + 1);
+        }
+    }
+}
+
+/* ---- rows added up, and rounded ---- */
+
+INLINE void pixels_store(uint8_t *out, const vector *sum)
+{
+#if LANES == 16
+    __m512 scaled =
+        _mm512_add_ps(_mm512_mul_ps((__m512)sum[0], _mm512_set1_ps(255)), _mm512_set1_ps(0.5f));
+    __m512i whole = _mm512_cvttps_epi32(_mm512_max_ps(scaled, _mm512_setzero_ps()));
+    _mm_storeu_si128((__m128i_u *)out, _mm512_cvtusepi32_epi8(whole));
+#elif LANES == 8
+    __m256i whole[2];
+    for (int p = 0; p < 2; p++)
+        whole[p] = _mm256_cvttps_epi32(_mm256_add_ps(
+            _mm256_mul_ps((__m256)sum[p], _mm256_set1_ps(255)), _mm256_set1_ps(0.5f)));
+    __m256i words = _mm256_packs_epi32(whole[0], whole[1]); /* 0-3 8-11 4-7 12-15 */
+    words = _mm256_permute4x64_epi64(words, 0xd8);
+    __m128i bytes =
+        _mm_packus_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1));
+    _mm_storeu_si128((__m128i_u *)out, bytes);
+#elif defined(__SSE2__)
+    __m128i whole[4];
+    for (int p = 0; p < 4; p++)
+        whole[p] = _mm_cvttps_epi32(
+            _mm_add_ps(_mm_mul_ps((__m128)sum[p], _mm_set1_ps(255)), _mm_set1_ps(0.5f)));
+    _mm_storeu_si128((__m128i_u *)out, _mm_packus_epi16(_mm_packs_epi32(whole[0], whole[1]),
+                                                        _mm_packs_epi32(whole[2], whole[3])));
+#else
+    for (int p = 0; p < PARTS; p++)
+        for (int l = 0; l < LANES; l++) {
+            float scaled = sum[p][l] * 255 + 0.5f;
+            out[p * LANES + l] = (uint8_t)(scaled < 0 ? 0 : scaled > 255 ? 255 : scaled);
+        }
+#endif
+}
+
+INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bool exact)
+{
+    int rows = job->rows, width = job->width;
+    long pitch = job->pitch;
+    for (int column = 0; column < width; column += ROW) {
+        vector sum[PARTS];
+        const float *sums = job->sums + (long)FONT_MARGIN_ROWS * stride + column;
+        uint8_t *out = job->out + column;
+        float *values = exact ? job->exact + column : NULL;
+        for (int p = 0; p < PARTS; p++)
+            sum[p] = load(job->carry + column + p * LANES);
+        for (int r = 0; r < rows; r++, sums += stride, out += pitch) {
+            for (int p = 0; p < PARTS; p++)
+                sum[p] += load(sums + p * LANES);
+            for (int p = 0; odd && p < PARTS; p++)
+                sum[p] += load(sums + odd + 4 + p * LANES);
+            pixels_store(out, sum);
+            for (int p = 0; exact && p < PARTS; p++)
+                *(vector_loose *)(values + r * pitch + p * LANES) = sum[p];
+        }
+        for (int p = 0; p < PARTS; p++)
+            *(vector_loose *)(job->carry + column + p * LANES) = sum[p];
+    }
+}
+
+/* ---- by the number of taps: loops of a known length ---- */
+
+INLINE void edges_add(const struct font_gray_job *job, int stride, int taps)
+{
+    for (int term = 0; term < job->filter->terms_count; term++) {
+        nodes_add(job, term, stride, taps);
+        lines_add(job, term, stride, taps);
+    }
+}
+
+INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
+{
+    if (job->stride == FONT_NARROW_STRIDE)
+        edges_add(job, FONT_NARROW_STRIDE, taps);
+    else
+        edges_add(job, job->stride, taps);
+}
+
+void KERNEL(const struct font_gray_job *job)
+{
+    switch (job->filter->taps) {
+    case 1:
+        edges_add_taps(job, 1);
+        break;
+    case 2:
+        edges_add_taps(job, 2);
+        break;
+    case 3:
+        edges_add_taps(job, 3);
+        break;
+    case 4:
+        edges_add_taps(job, 4);
+        break;
+    case 5:
+        edges_add_taps(job, 5);
+        break;
+    case 6:
+        edges_add(job, job->stride, 6);
+        break;
+    default:
+        edges_add(job, job->stride, job->filter->taps);
+    }
+    if (job->exact)
+        rows_add_up(job, job->stride, job->odd, true);
+    else if (job->odd)
+        rows_add_up(job, job->stride, job->odd, false);
+    else
+        rows_add_up(job, job->stride, 0, false);
+}

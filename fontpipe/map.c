@@ -1,0 +1,182 @@
+/* map.c - maps from an outline's plane to the picture's: see edges.h. */
+#include "edges.h"
+#include "internal.h"
+
+#include <math.h>
+
+struct font_map font_map_size(double size_px, double units_per_em)
+{
+    double scale = size_px / units_per_em;
+    return (struct font_map){FONT_AFFINE, {scale, 0, 0, 0, -scale, 0}};
+}
+
+struct font_map font_map_rotation(double degrees)
+{
+    double c = cos(degrees * M_PI / 180), s = sin(degrees * M_PI / 180);
+    return (struct font_map){FONT_AFFINE, {c, s, 0, -s, c, 0}}; /* y is downwards */
+}
+
+struct font_map font_map_shear(double x_per_y)
+{
+    return (struct font_map){FONT_AFFINE, {1, -x_per_y, 0, 0, 1, 0}};
+}
+
+struct font_map font_map_then(struct font_map map, struct font_map affine)
+{
+    const double *a = affine.m, *m = map.m;
+    struct font_map out = map;
+    double *r = out.m;
+    switch (map.kind) {
+    case FONT_AFFINE:
+        for (int i = 0; i < 3; i++) {
+            r[i] = a[0] * m[i] + a[1] * m[3 + i] + (i == 2 ? a[2] : 0);
+            r[3 + i] = a[3] * m[i] + a[4] * m[3 + i] + (i == 2 ? a[5] : 0);
+        }
+        break;
+    case FONT_PROJECTIVE:
+        for (int i = 0; i < 3; i++) {
+            r[i] = a[0] * m[i] + a[1] * m[3 + i] + a[2] * m[6 + i];
+            r[3 + i] = a[3] * m[i] + a[4] * m[3 + i] + a[5] * m[6 + i];
+        }
+        break;
+    case FONT_BILINEAR:
+        for (int i = 0; i < 4; i++) {
+            r[i] = a[0] * m[i] + a[1] * m[4 + i] + (i == 0 ? a[2] : 0);
+            r[4 + i] = a[3] * m[i] + a[4] * m[4 + i] + (i == 0 ? a[5] : 0);
+        }
+        break;
+    }
+    return out;
+}
+
+/* Twice the signed area of the triangle. */
+static double triangle(struct font_point a, struct font_point b, struct font_point c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+}
+
+/* The unit square onto four corners. Source: Heckbert, Fundamentals of texture mapping, 1989, section 2.2.3. */
+static struct font_map square_to(enum font_map_kind kind, const struct font_point q[4])
+{
+    struct font_map map = {.kind = kind};
+    double sx = q[0].x - q[1].x + q[2].x - q[3].x, sy = q[0].y - q[1].y + q[2].y - q[3].y;
+    if (kind == FONT_BILINEAR) {
+        double m[8] = {q[0].x, q[1].x - q[0].x, q[3].x - q[0].x, sx,
+                       q[0].y, q[1].y - q[0].y, q[3].y - q[0].y, sy};
+        for (int i = 0; i < 8; i++)
+            map.m[i] = m[i];
+        return map;
+    }
+    double dx1 = q[1].x - q[2].x, dx2 = q[3].x - q[2].x;
+    double dy1 = q[1].y - q[2].y, dy2 = q[3].y - q[2].y;
+    double det = dx1 * dy2 - dx2 * dy1;
+    double g = (sx * dy2 - sy * dx2) / det, h = (dx1 * sy - dy1 * sx) / det;
+    double m[9] = {q[1].x - q[0].x + g * q[1].x,
+                   q[3].x - q[0].x + h * q[3].x,
+                   q[0].x,
+                   q[1].y - q[0].y + g * q[1].y,
+                   q[3].y - q[0].y + h * q[3].y,
+                   q[0].y,
+                   g,
+                   h,
+                   1};
+    for (int i = 0; i < 9; i++)
+        map.m[i] = m[i];
+    return map;
+}
+
+enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
+                                  struct font_map *out)
+{
+    struct font_map before = *first, after = *second; /* *out may be either */
+    const double *a = before.m, *m = after.m;
+    if (before.kind != FONT_AFFINE)
+        return font_fail(FONT_BAD_ARGUMENT, "a distortion comes last, after affine maps");
+    *out = after;
+    double *r = out->m;
+    switch (after.kind) {
+    case FONT_AFFINE:
+    case FONT_PROJECTIVE:
+        for (int row = 0; row < (after.kind == FONT_AFFINE ? 2 : 3); row++) {
+            const double *s = m + 3 * row;
+            r[3 * row] = s[0] * a[0] + s[1] * a[3];
+            r[3 * row + 1] = s[0] * a[1] + s[1] * a[4];
+            r[3 * row + 2] = s[0] * a[2] + s[1] * a[5] + s[2];
+        }
+        return FONT_OK;
+    case FONT_BILINEAR:
+        break;
+    }
+    /* x y becomes a square form of which only the mixed term may stay. */
+    if (fabs(a[0] * a[3]) > 1e-12 * fabs(a[0] * a[4]) ||
+        fabs(a[1] * a[4]) > 1e-12 * fabs(a[0] * a[4]))
+        return font_fail(
+            FONT_BAD_ARGUMENT,
+            "before a bilinear distortion type can be sized and moved, not turned");
+    for (int row = 0; row < 2; row++) {
+        const double *s = m + 4 * row;
+        r[4 * row] = s[0] + s[1] * a[2] + s[2] * a[5] + s[3] * a[2] * a[5];
+        r[4 * row + 1] = s[1] * a[0] + s[3] * a[0] * a[5];
+        r[4 * row + 2] = s[2] * a[4] + s[3] * a[2] * a[4];
+        r[4 * row + 3] = s[3] * a[0] * a[4];
+    }
+    return FONT_OK;
+}
+
+enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
+                                  double y1, const struct font_point q[4], struct font_map *out)
+{
+    double least = 1e300, most = -1e300;
+    for (int i = 0; i < 4; i++) {
+        double area = triangle(q[i], q[(i + 1) % 4], q[(i + 2) % 4]);
+        least = fmin(least, area);
+        most = fmax(most, area);
+        if (!(fabs(q[i].x) <= 1e6 && fabs(q[i].y) <= 1e6))
+            return font_fail(FONT_BAD_ARGUMENT, "a corner cannot be (%g, %g)", q[i].x, q[i].y);
+    }
+    if (!(x1 > x0 && y1 > y0) || kind == FONT_AFFINE)
+        return font_fail(FONT_BAD_ARGUMENT, "corners are given to a rectangle");
+    if (!(least > 1e-9) && !(most < -1e-9))
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "the four corners must go around a shape without a dent");
+    struct font_map unit = {
+        FONT_AFFINE, {1 / (x1 - x0), 0, -x0 / (x1 - x0), 0, 1 / (y1 - y0), -y0 / (y1 - y0)}};
+    struct font_map square = square_to(kind, q);
+    return font_map_compose(&unit, &square, out);
+}
+
+bool font_map_point(const struct font_map *map, struct font_point from, struct font_point *to,
+                    double jacobian[4])
+{
+    const double *m = map->m;
+    double x = from.x, y = from.y, w;
+    switch (map->kind) {
+    case FONT_AFFINE:
+        *to = (struct font_point){m[0] * x + m[1] * y + m[2], m[3] * x + m[4] * y + m[5]};
+        jacobian[0] = m[0];
+        jacobian[1] = m[1];
+        jacobian[2] = m[3];
+        jacobian[3] = m[4];
+        return true;
+    case FONT_PROJECTIVE:
+        w = m[6] * x + m[7] * y + m[8];
+        if (!(w > 1e-9))
+            return false;
+        *to = (struct font_point){(m[0] * x + m[1] * y + m[2]) / w,
+                                  (m[3] * x + m[4] * y + m[5]) / w};
+        jacobian[0] = (m[0] - to->x * m[6]) / w;
+        jacobian[1] = (m[1] - to->x * m[7]) / w;
+        jacobian[2] = (m[3] - to->y * m[6]) / w;
+        jacobian[3] = (m[4] - to->y * m[7]) / w;
+        return true;
+    case FONT_BILINEAR:
+        *to = (struct font_point){m[0] + m[1] * x + m[2] * y + m[3] * x * y,
+                                  m[4] + m[5] * x + m[6] * y + m[7] * x * y};
+        jacobian[0] = m[1] + m[3] * y;
+        jacobian[1] = m[2] + m[3] * x;
+        jacobian[2] = m[5] + m[7] * y;
+        jacobian[3] = m[6] + m[7] * x;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,256 @@
+/* master.c - see master.h. A prepared outline covers nothing twice, so a row is found by turning bits over: each edge
+ * that crosses the row's middle turns all pixels right of it, and two turns are none. */
+#include "master.h"
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORDS_MAX = 1 << 26 };
+
+void font_master_finish(struct font_master *m)
+{
+    free(m->bits);
+    *m = (struct font_master){0};
+}
+
+/* Turns the first pixel right of each crossing of a row's middle. */
+static void line_turn(struct font_master *m, struct font_point a, struct font_point b)
+{
+    if (a.y > b.y) {
+        struct font_point swap = a;
+        a = b;
+        b = swap;
+    }
+    int first = (int)fmax(0, ceil(a.y - 0.5)), end = (int)fmin(m->height_px, ceil(b.y - 0.5));
+    for (int y = first; y < end; y++) {
+        double x = a.x + (b.x - a.x) * ((y + 0.5 - a.y) / (b.y - a.y));
+        int at = (int)fmax(0, ceil(x - 0.5));
+        if (at < m->width_px)
+            m->bits[(size_t)y * (size_t)m->row_words + (size_t)(at / 64)] ^= 1ull << (at % 64);
+    }
+}
+
+/* Each bit becomes the parity of those up to it. */
+static void row_fill(uint64_t *row, int words)
+{
+    uint64_t carry = 0;
+    for (int i = 0; i < words; i++) {
+        uint64_t w = row[i];
+        for (int shift = 1; shift < 64; shift *= 2)
+            w ^= w << shift;
+        row[i] = w ^ carry;
+        carry = row[i] >> 63 ? ~0ull : 0;
+    }
+}
+
+enum font_status font_master_make(struct font_master *m, const struct font_outline *o,
+                                  int em_px)
+{
+    font_master_finish(m);
+    if (em_px < 1 || em_px > FONT_MASTER_EM_MAX || !o->prepared || !(o->units_per_em > 0))
+        return font_fail(FONT_BAD_ARGUMENT, "a master's em must be 1..%d pixels (got %d)",
+                         FONT_MASTER_EM_MAX, em_px);
+    double scale = em_px / o->units_per_em;
+    m->em_px = em_px;
+    m->advance_px = o->advance * scale;
+    if (!o->segments_count)
+        return FONT_OK;
+    struct font_box box = o->box;
+    double x0 = floor(box.x0 * scale), y0 = floor(-box.y1 * scale);
+    double width = ceil(box.x1 * scale) - x0, height = ceil(-box.y0 * scale) - y0;
+    if (!(fabs(x0) < 1e6 && fabs(y0) < 1e6 && width * height / 64 < WORDS_MAX)) {
+        font_master_finish(m);
+        return font_fail(FONT_TOO_LARGE, "a master of %.0fx%.0f pixels is too large", width,
+                         height);
+    }
+    m->left_px = (int)x0;
+    m->top_px = (int)y0;
+    m->width_px = (int)fmax(1, width);
+    m->height_px = (int)fmax(1, height);
+    m->row_words = (m->width_px + 63) / 64;
+    m->bits = calloc((size_t)m->row_words * (size_t)m->height_px, sizeof *m->bits);
+    if (!m->bits) {
+        font_master_finish(m);
+        return font_fail(FONT_NO_MEMORY, "no memory for a master");
+    }
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        double length = 0;
+        for (int k = 0; k < s->degree; k++)
+            length += hypot(s->p[k + 1].x - s->p[k].x, s->p[k + 1].y - s->p[k].y) * scale;
+        /* A piece of length l leaves a curve by some l^2 over its length: a small part of a pixel. */
+        int n = s->degree == 1 ? 1 : 2 + (int)ceil(2 * sqrt(length));
+        struct font_point a = {s->p[0].x * scale - x0, -s->p[0].y * scale - y0};
+        for (int k = 1; k <= n; k++) {
+            struct font_point p =
+                k == n ? s->p[s->degree] : font_segment_at(s, (double)k / n, NULL);
+            struct font_point b = {p.x * scale - x0, -p.y * scale - y0};
+            line_turn(m, a, b);
+            a = b;
+        }
+    }
+    for (int y = 0; y < m->height_px; y++)
+        row_fill(m->bits + (size_t)y * (size_t)m->row_words, m->row_words);
+    /* Beyond the width nothing is black. */
+    if (m->width_px % 64)
+        for (int y = 0; y < m->height_px; y++)
+            m->bits[(size_t)(y + 1) * (size_t)m->row_words - 1] &=
+                (1ull << (m->width_px % 64)) - 1;
+    return FONT_OK;
+}
+
+bool font_master_at(const struct font_master *m, int x, int y)
+{
+    x -= m->left_px;
+    y -= m->top_px;
+    if (x < 0 || y < 0 || x >= m->width_px || y >= m->height_px)
+        return false;
+    return m->bits[(size_t)y * (size_t)m->row_words + (size_t)(x / 64)] >> (x % 64) & 1;
+}
+
+void font_master_fill(struct font_master *m, int x, int y, int width, int height, bool black)
+{
+    long x0 = (long)x - m->left_px, y0 = (long)y - m->top_px, x1 = x0 + width, y1 = y0 + height;
+    x0 = x0 < 0 ? 0 : x0;
+    y0 = y0 < 0 ? 0 : y0;
+    x1 = x1 > m->width_px ? m->width_px : x1;
+    y1 = y1 > m->height_px ? m->height_px : y1;
+    for (long r = y0; r < y1; r++)
+        for (long c = x0; c < x1; c++) {
+            uint64_t *word = &m->bits[(size_t)r * (size_t)m->row_words + (size_t)(c / 64)];
+            uint64_t bit = 1ull << (c % 64);
+            *word = black ? *word | bit : *word & ~bit;
+        }
+}
+
+long font_master_ink(const struct font_master *m)
+{
+    long ink = 0;
+    for (size_t i = 0; i < (size_t)m->row_words * (size_t)m->height_px; i++)
+        ink += __builtin_popcountll(m->bits[i]);
+    return ink;
+}
+
+/* ---- rectangles ---- */
+
+void font_rectangles_finish(struct font_rectangles *r)
+{
+    free(r->items);
+    *r = (struct font_rectangles){0};
+}
+
+/* The next run of a row that begins at *at or later: false if there is none. */
+static bool run_next(const uint64_t *row, int words, int *at, int *begin, int *end)
+{
+    int i = *at / 64;
+    if (i >= words)
+        return false;
+    uint64_t w = row[i] & ~0ull << (*at % 64);
+    while (!w) {
+        if (++i == words)
+            return false;
+        w = row[i];
+    }
+    *begin = 64 * i + __builtin_ctzll(w);
+    w = ~row[i] & ~0ull << (*begin % 64);
+    while (!w) {
+        if (++i == words) {
+            *end = *at = 64 * words;
+            return true;
+        }
+        w = ~row[i];
+    }
+    *end = *at = 64 * i + __builtin_ctzll(w);
+    return true;
+}
+
+enum font_status font_rectangles_make(struct font_rectangles *r, const struct font_master *m)
+{
+    r->count = 0;
+    r->em_px = m->em_px;
+    r->advance_px = m->advance_px;
+    /* Those that still grow, from left to right: indices into items, of the row above and of this one. */
+    size_t most = (size_t)m->width_px / 2 + 2;
+    int *open = calloc(2 * most, sizeof *open), *next = open ? open + most : NULL;
+    if (!open)
+        return font_fail(FONT_NO_MEMORY, "no memory for rectangles");
+    int open_count = 0;
+    for (int y = 0; y < m->height_px; y++) {
+        const uint64_t *row = m->bits + (size_t)y * (size_t)m->row_words;
+        int next_count = 0, at = 0, x0, x1, k = 0, top = m->top_px + y;
+        while (run_next(row, m->row_words, &at, &x0, &x1)) {
+            x0 += m->left_px;
+            x1 += m->left_px;
+            while (k < open_count && r->items[open[k]].x0 < x0)
+                k++;
+            if (k < open_count && r->items[open[k]].x0 == x0 && r->items[open[k]].x1 == x1) {
+                r->items[open[k]].y1 = top + 1;
+                next[next_count++] = open[k];
+                continue;
+            }
+            if (!font_array_reserve((void **)&r->items, &r->capacity, r->count + 1,
+                                    sizeof *r->items)) {
+                free(open < next ? open : next);
+                return font_fail(FONT_NO_MEMORY, "no memory for rectangles");
+            }
+            r->items[r->count] = (struct font_rectangle){x0, top, x1, top + 1};
+            next[next_count++] = r->count++;
+        }
+        int *swap = open;
+        open = next;
+        next = swap;
+        open_count = next_count;
+    }
+    free(open < next ? open : next);
+    return FONT_OK;
+}
+
+int font_rectangles_merge(struct font_rectangles *r, int slack)
+{
+    int before = r->count;
+    /* As they were made they are in the order of their tops: what follows directly lies among the next ones. */
+    for (int i = 0; i < r->count; i++)
+        for (int k = i + 1; k < r->count && r->items[k].y0 <= r->items[i].y1; k++) {
+            struct font_rectangle *a = &r->items[i], *b = &r->items[k];
+            if (b->y0 != a->y1 || abs(a->x0 - b->x0) > slack || abs(a->x1 - b->x1) > slack)
+                continue;
+            int ha = a->y1 - a->y0, hb = b->y1 - b->y0, h = ha + hb;
+            a->x0 = (int)lrint(((double)a->x0 * ha + (double)b->x0 * hb) / h);
+            a->x1 = (int)lrint(((double)a->x1 * ha + (double)b->x1 * hb) / h);
+            a->y1 = b->y1;
+            memmove(b, b + 1, (size_t)(r->count - k - 1) * sizeof *b);
+            r->count--;
+            k = i; /* it has grown: those after it may follow now */
+        }
+    return before - r->count;
+}
+
+enum font_status font_rectangles_edges(const struct font_rectangles *r, double size_px,
+                                       struct font_edges *e)
+{
+    e->nodes_count = e->lines_count = 0;
+    e->x0 = e->y0 = 1;
+    e->x1 = e->y1 = -1;
+    if (!(size_px > 0 && size_px <= FONT_SIDE_MAX) || (r->count && r->em_px < 1))
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "a size must be above 0 and at most %d pixels (got %g)", FONT_SIDE_MAX,
+                         size_px);
+    double scale = r->count ? size_px / r->em_px : 0;
+    e->advance_px = r->advance_px * scale;
+    for (int i = 0; i < r->count; i++) {
+        const struct font_rectangle *q = &r->items[i];
+        double x0 = q->x0 * scale, x1 = q->x1 * scale, y0 = q->y0 * scale, y1 = q->y1 * scale;
+        if (!(fabs(x0) <= FONT_SIDE_MAX && fabs(x1) <= FONT_SIDE_MAX &&
+              fabs(y0) <= FONT_SIDE_MAX && fabs(y1) <= FONT_SIDE_MAX))
+            return font_fail(FONT_TOO_LARGE, "a glyph would reach more than %d pixels",
+                             FONT_SIDE_MAX);
+        enum font_status status = font_edges_line_add(e, x0, x1, y0);
+        if (status == FONT_OK)
+            status = font_edges_line_add(e, x1, x0, y1);
+        if (status != FONT_OK)
+            return status;
+    }
+    return FONT_OK;
+}

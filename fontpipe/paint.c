@@ -1,0 +1,439 @@
+/* paint.c - see paint.h.
+ *
+ * What is kept: a glyph's edges by (face, axes, glyph, map), and with `places` its gray pictures by that and the place
+ * between pixels. Both are entries of one table with one budget; what was not used for longest goes first. */
+#include "paint.h"
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BUCKETS = 4096, TO_LIGHT = 256, TO_NUMBER = 4096 };
+
+/* Compared whole: no padding, all of it set. */
+struct key {
+    uint64_t version;
+    double map[9];
+    uint32_t glyph;
+    int32_t kind;
+    int32_t place_x, place_y; /* of a picture; -1 for edges */
+};
+
+struct entry {
+    struct key key;
+    struct font_edges edges; /* or: */
+    struct font_gray gray;
+    size_t bytes;
+    struct entry *next;          /* of the bucket */
+    struct entry *newer, *older; /* in order of use */
+};
+
+struct font_painter {
+    struct font_painter_def def;
+    struct font_filter *filter;
+    struct entry *buckets[BUCKETS];
+    struct entry *newest, *oldest;
+    struct font_painter_stats stats;
+    struct font_gray scratch[3];
+    float to_light[TO_LIGHT];
+    uint8_t to_number[TO_NUMBER + 1];
+};
+
+/* ---- light ---- */
+
+double font_light(double number, double gamma)
+{
+    if (gamma > 0)
+        return pow(number, gamma);
+    return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4);
+}
+
+double font_number(double light, double gamma)
+{
+    if (gamma > 0)
+        return pow(light, 1 / gamma);
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+}
+
+/* ---- a painter ---- */
+
+struct font_painter_def font_painter_def_default(void)
+{
+    return (struct font_painter_def){.filter = "gaussian-fast", .budget_bytes = 16u << 20};
+}
+
+enum font_status font_painter_create(const struct font_painter_def *def,
+                                     struct font_painter **out)
+{
+    *out = NULL;
+    for (int i = 0; i < 3; i++)
+        if (!(def->ink[i] >= 0 && def->ink[i] <= 1))
+            return font_fail(FONT_BAD_ARGUMENT, "ink must be 0..1 (got %g)", def->ink[i]);
+    if (!(def->gamma == 0 || (def->gamma >= 0.2 && def->gamma <= 5)))
+        return font_fail(FONT_BAD_ARGUMENT, "gamma must be 0 or 0.2..5 (got %g)", def->gamma);
+    if (!(def->darken_px >= 0 && def->darken_px <= 2))
+        return font_fail(FONT_BAD_ARGUMENT, "stems can be darkened by 0..2 pixels (got %g)",
+                         def->darken_px);
+    if (def->places < 0 || def->places > 256)
+        return font_fail(FONT_BAD_ARGUMENT, "a pixel has 0..256 places (got %d)", def->places);
+    struct font_painter *p = calloc(1, sizeof *p);
+    if (!p)
+        return font_fail(FONT_NO_MEMORY, "no memory to paint type");
+    p->def = *def;
+    enum font_status status =
+        font_filter_create_named(def->filter ? def->filter : "gaussian-fast", &p->filter);
+    if (status != FONT_OK) {
+        free(p);
+        return status;
+    }
+    for (int i = 0; i < TO_LIGHT; i++)
+        p->to_light[i] = (float)font_light(i / 255.0, def->gamma);
+    for (int i = 0; i <= TO_NUMBER; i++) {
+        /* The table is by the root of light: dark numbers are as close as light ones. */
+        double root = (double)i / TO_NUMBER;
+        p->to_number[i] = (uint8_t)lrint(255 * font_number(root * root, def->gamma));
+    }
+    *out = p;
+    return FONT_OK;
+}
+
+static void entry_unlink(struct font_painter *p, struct entry *e)
+{
+    if (e->newer)
+        e->newer->older = e->older;
+    else
+        p->newest = e->older;
+    if (e->older)
+        e->older->newer = e->newer;
+    else
+        p->oldest = e->newer;
+    e->newer = e->older = NULL;
+}
+
+static void entry_use(struct font_painter *p, struct entry *e)
+{
+    e->older = p->newest;
+    e->newer = NULL;
+    if (p->newest)
+        p->newest->newer = e;
+    p->newest = e;
+    if (!p->oldest)
+        p->oldest = e;
+}
+
+static uint32_t key_hash(const struct key *key)
+{
+    const unsigned char *bytes = (const unsigned char *)key;
+    uint32_t hash = 2166136261u;
+    for (size_t i = 0; i < sizeof *key; i++)
+        hash = (hash ^ bytes[i]) * 16777619u;
+    return (hash ^ hash >> 15) % BUCKETS;
+}
+
+static void entry_free(struct font_painter *p, struct entry *e)
+{
+    struct entry **at = &p->buckets[key_hash(&e->key)];
+    while (*at != e)
+        at = &(*at)->next;
+    *at = e->next;
+    entry_unlink(p, e);
+    p->stats.kept_bytes -= e->bytes;
+    p->stats.kept_count--;
+    font_edges_finish(&e->edges);
+    font_gray_finish(&e->gray);
+    free(e);
+}
+
+void font_painter_destroy(struct font_painter *p)
+{
+    if (!p)
+        return;
+    while (p->oldest)
+        entry_free(p, p->oldest);
+    for (int i = 0; i < 3; i++)
+        font_gray_finish(&p->scratch[i]);
+    font_filter_destroy(p->filter);
+    free(p);
+}
+
+const struct font_filter *font_painter_filter(const struct font_painter *p)
+{
+    return p->filter;
+}
+
+void font_painter_stats_get(const struct font_painter *p, struct font_painter_stats *out)
+{
+    *out = p->stats;
+}
+
+static struct entry *entry_find(struct font_painter *p, const struct key *key)
+{
+    for (struct entry *e = p->buckets[key_hash(key)]; e; e = e->next)
+        if (memcmp(&e->key, key, sizeof *key) == 0) {
+            entry_unlink(p, e);
+            entry_use(p, e);
+            return e;
+        }
+    return NULL;
+}
+
+/* A new entry, of no bytes yet. */
+static struct entry *entry_make(struct font_painter *p, const struct key *key)
+{
+    struct entry *e = calloc(1, sizeof *e);
+    if (!e)
+        return NULL;
+    e->key = *key;
+    struct entry **bucket = &p->buckets[key_hash(key)];
+    e->next = *bucket;
+    *bucket = e;
+    entry_use(p, e);
+    p->stats.kept_count++;
+    return e;
+}
+
+/* Counts the entry's bytes and drops others while there are too many; the newest always stays. */
+static void entry_weigh(struct font_painter *p, struct entry *e, size_t bytes)
+{
+    p->stats.kept_bytes += bytes - e->bytes;
+    e->bytes = bytes;
+    while (p->stats.kept_bytes > p->def.budget_bytes && p->oldest != p->newest) {
+        entry_free(p, p->oldest);
+        p->stats.evicted++;
+    }
+}
+
+/* ---- glyphs ---- */
+
+/* How much wider stems get, in pixels. */
+static double darkening(const struct font_painter *p, double size_px)
+{
+    double share = (36 - size_px) / 24;
+    return p->def.darken_px * fmin(1, fmax(0, share));
+}
+
+static enum font_status edges_make(struct font_painter *p, struct font_face *face,
+                                   uint32_t glyph, const struct font_map *map, double size_px,
+                                   struct font_edges *edges)
+{
+    struct font_outline outline;
+    double darken = darkening(p, size_px);
+    enum font_status status;
+    if (darken > 0) {
+        status = font_face_outline_raw(face, glyph, &outline);
+        double units = darken * outline.units_per_em / size_px;
+        if (status == FONT_OK)
+            status = font_outline_embolden(&outline, units, units / 2); /* stems most */
+        if (status == FONT_OK)
+            status = font_outline_prepare(&outline, FONT_NONZERO);
+    } else {
+        status = font_face_outline(face, glyph, &outline);
+    }
+    if (status == FONT_OK)
+        status = font_edges_build(edges, &outline, map, p->filter);
+    font_outline_finish(&outline);
+    return status;
+}
+
+/* A glyph's edges, kept or made. */
+static enum font_status edges_get(struct font_painter *p, struct font_face *face,
+                                  uint32_t glyph, const struct font_map *map, double size_px,
+                                  struct key *key, struct font_edges **out)
+{
+    memset(key, 0, sizeof *key);
+    key->version = font_face_version(face);
+    key->glyph = glyph;
+    key->kind = (int32_t)map->kind;
+    memcpy(key->map, map->m, sizeof key->map);
+    key->place_x = key->place_y = -1;
+    struct entry *e = entry_find(p, key);
+    if (e) {
+        p->stats.edges_hits++;
+        *out = &e->edges;
+        return FONT_OK;
+    }
+    e = entry_make(p, key);
+    if (!e)
+        return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
+    enum font_status status = edges_make(p, face, glyph, map, size_px, &e->edges);
+    if (status != FONT_OK) {
+        entry_free(p, e);
+        return status;
+    }
+    entry_weigh(p, e,
+                sizeof *e + 12 * (size_t)(e->edges.nodes_capacity + e->edges.lines_capacity));
+    *out = &e->edges;
+    return FONT_OK;
+}
+
+/* The glyph's map: its own units to pixels at its place in the text, then the text's map. What is left over as a
+ * translation is the place; distortions have it in the map. */
+static enum font_status placed_map(const struct font_layout *layout,
+                                   const struct font_placed *g, const struct font_map *map,
+                                   double x_px, double y_px, struct font_map *out, double *x,
+                                   double *y)
+{
+    struct font_face_info info;
+    font_face_describe(g->face, &info);
+    struct font_map own = font_map_size(layout->size_px, info.units_per_em);
+    if (!map || map->kind == FONT_AFFINE) {
+        struct font_point at = {g->x_px, g->y_px};
+        double jacobian[4];
+        *out = own;
+        if (map) {
+            struct font_map linear = *map;
+            linear.m[2] = linear.m[5] = 0;
+            *out = font_map_then(own, linear);
+            font_map_point(map, at, &at, jacobian);
+        }
+        *x = x_px + at.x;
+        *y = y_px + at.y;
+        return FONT_OK;
+    }
+    own.m[2] = g->x_px;
+    own.m[5] = g->y_px;
+    *x = x_px;
+    *y = y_px;
+    return font_map_compose(&own, map, out);
+}
+
+/* ---- blending ---- */
+
+/* The light of a colour, over the light that there is. */
+static inline uint8_t mixed(const struct font_painter *p, uint8_t below, float ink, float cover)
+{
+    float light = p->to_light[below];
+    light += (ink - light) * cover;
+    return p->to_number[(int)(sqrtf(light) * TO_NUMBER + 0.5f)];
+}
+
+static void gray_blend(const struct font_painter *p, const struct font_gray *gray, int x, int y,
+                       int channel, const float ink[3], struct font_picture *to)
+{
+    if (!gray->pixels)
+        return;
+    int left = x + gray->left_px, top = y + gray->top_px;
+    int c0 = left < 0 ? -left : 0, r0 = top < 0 ? -top : 0;
+    int c1 = to->width_px - left < gray->width_px ? to->width_px - left : gray->width_px;
+    int r1 = to->height_px - top < gray->height_px ? to->height_px - top : gray->height_px;
+    for (int r = r0; r < r1; r++) {
+        const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
+        uint8_t *row = to->rgb + (size_t)(top + r) * (size_t)to->pitch + 3 * (ptrdiff_t)left;
+        for (int c = c0; c < c1; c++) {
+            if (!from[c])
+                continue;
+            float cover = (float)from[c] * (1 / 255.0f);
+            for (int i = channel < 0 ? 0 : channel; i <= (channel < 0 ? 2 : channel); i++)
+                row[3 * c + i] = mixed(p, row[3 * c + i], ink[i], cover);
+        }
+    }
+}
+
+/* A picture at a place, drawn or kept. *whole_x, *whole_y: the pixel that it counts from. */
+static enum font_status gray_get(struct font_painter *p, const struct font_edges *edges,
+                                 struct key key, double x, double y, struct font_gray *scratch,
+                                 const struct font_gray **out, int *whole_x, int *whole_y)
+{
+    *whole_x = (int)floor(x);
+    *whole_y = (int)floor(y);
+    double fx = x - *whole_x, fy = y - *whole_y;
+    *out = scratch;
+    if (!p->def.places) {
+        p->stats.drawn++;
+        return font_gray_draw(scratch, edges, p->filter, fx, fy);
+    }
+    key.place_x = (int32_t)floor(fx * p->def.places + 0.5);
+    key.place_y = (int32_t)floor(fy * p->def.places + 0.5);
+    struct entry *e = entry_find(p, &key);
+    if (e) {
+        p->stats.kept_hits++;
+        *out = &e->gray;
+        return FONT_OK;
+    }
+    /* Drawn before the entry is made, which may drop the edges. */
+    struct font_gray gray = {0};
+    enum font_status status =
+        font_gray_draw(&gray, edges, p->filter, (double)key.place_x / p->def.places,
+                       (double)key.place_y / p->def.places);
+    p->stats.drawn++;
+    e = status == FONT_OK ? entry_make(p, &key) : NULL;
+    if (!e) {
+        font_gray_finish(&gray);
+        return status != FONT_OK ? status : font_fail(FONT_NO_MEMORY, "no memory for a glyph");
+    }
+    free(gray.work);
+    gray.work = NULL;
+    gray.work_bytes = 0;
+    e->gray = gray;
+    entry_weigh(p, e, sizeof *e + gray.memory_bytes);
+    *out = &e->gray;
+    return FONT_OK;
+}
+
+enum font_status font_painter_layout(struct font_painter *p, const struct font_layout *layout,
+                                     const struct font_map *map, double x_px, double y_px,
+                                     struct font_picture *picture)
+{
+    float ink[3];
+    for (int i = 0; i < 3; i++)
+        ink[i] = (float)font_light(p->def.ink[i], p->def.gamma);
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
+        const struct font_placed *g = &layout->glyphs[i];
+        struct font_map whole;
+        struct font_edges *edges;
+        struct key key;
+        double x, y;
+        status = placed_map(layout, g, map, x_px, y_px, &whole, &x, &y);
+        if (status == FONT_OK && !(fabs(x) < 1e6 && fabs(y) < 1e6))
+            status = font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be at (%g, %g)", x, y);
+        for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
+            const struct font_gray *gray;
+            int whole_x, whole_y;
+            double shift =
+                p->def.stripes ? (1 - c) / 3.0 : 0; /* red is left: the glyph is right of it */
+            status = edges_get(p, g->face, g->glyph, &whole, layout->size_px, &key, &edges);
+            if (status == FONT_OK)
+                status = gray_get(p, edges, key, x + shift, y, &p->scratch[c], &gray, &whole_x,
+                                  &whole_y);
+            if (status == FONT_OK)
+                gray_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, picture);
+        }
+    }
+    return status;
+}
+
+enum font_status font_painter_measure(struct font_painter *p, const struct font_layout *layout,
+                                      const struct font_map *map, double x_px, double y_px,
+                                      struct font_box *box)
+{
+    *box = (struct font_box){1, 1, -1, -1};
+    enum font_status status = FONT_OK;
+    bool first = true;
+    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
+        const struct font_placed *g = &layout->glyphs[i];
+        struct font_map whole;
+        struct font_edges *edges;
+        struct font_gray place;
+        struct key key;
+        double x, y;
+        status = placed_map(layout, g, map, x_px, y_px, &whole, &x, &y);
+        if (status == FONT_OK)
+            status = edges_get(p, g->face, g->glyph, &whole, layout->size_px, &key, &edges);
+        if (status != FONT_OK)
+            break;
+        double fx = x - floor(x), fy = y - floor(y);
+        status = font_gray_place(&place, edges, p->filter, fx, fy);
+        if (status != FONT_OK || !place.width_px)
+            continue;
+        double x0 = floor(x) + place.left_px, y0 = floor(y) + place.top_px;
+        double x1 = x0 + place.width_px, y1 = y0 + place.height_px;
+        box->x0 = first ? x0 : fmin(box->x0, x0);
+        box->y0 = first ? y0 : fmin(box->y0, y0);
+        box->x1 = first ? x1 : fmax(box->x1, x1);
+        box->y1 = first ? y1 : fmax(box->y1, y1);
+        first = false;
+    }
+    return status;
+}

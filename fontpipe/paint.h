@@ -1,0 +1,73 @@
+/* paint.h - glyphs onto pictures: blending in linear light, RGB stripes, stem darkening, and the glyphs kept.
+ *
+ *     struct font_painter *painter;
+ *     struct font_painter_def def = font_painter_def_default();
+ *     font_painter_create(&def, &painter);
+ *     struct font_picture page = {640, 120, 640 * 3, pixels};
+ *     font_painter_layout(painter, &layout, &map, 20, 80, &page);
+ *     font_painter_destroy(painter);
+ *
+ * Blending. A pixel that the ink covers by a half shows half the light of paper and half that of ink; sRGB numbers are
+ * not light, so both are turned into light, mixed, and turned back. (What is mixed as it stands makes dark text too
+ * heavy and light text too thin.) With `gamma` 1 numbers are mixed as they stand.
+ *
+ * Stripes. On a display whose pixels are three upright stripes each colour is drawn where its stripe is: a third of a
+ * pixel to the left and to the right.
+ *
+ * Stem darkening. Small type on screens looks thin; stems get wider by up to `darken_px` at small sizes: all of it up
+ * to 12 px, none from 36 px on.
+ *
+ * Threads. A painter belongs to one thread at a time. */
+#ifndef LUTETIA_FONT_PAINT_H
+#define LUTETIA_FONT_PAINT_H
+
+#include "gray.h"
+#include "text.h"
+
+struct font_picture {
+    int width_px, height_px, pitch; /* pitch: bytes from row to row */
+    uint8_t *rgb;
+};
+
+struct font_painter_def {
+    const char *filter; /* "gaussian-fast" */
+    double ink[3];      /* sRGB, 0..1 */
+    double gamma;       /* 0: sRGB's own curve; else a power; 1: none */
+    double darken_px;   /* 0..2 */
+    bool stripes;       /* RGB */
+    int places; /* a pixel is divided into so many for keeping glyphs; 0: glyphs are drawn where they are */
+    size_t budget_bytes; /* of what is kept */
+};
+struct font_painter_def font_painter_def_default(void);
+
+struct font_painter;
+enum font_status font_painter_create(const struct font_painter_def *def,
+                                     struct font_painter **out);
+void font_painter_destroy(struct font_painter *painter); /* NULL is fine */
+const struct font_filter *font_painter_filter(const struct font_painter *painter);
+
+/* Draws the layout with its origin at (x, y), through `map`, which takes pixels to pixels (NULL: as it is); a glyph is
+ * distorted as a whole text would be. Errors: those of outlines and edges; what was drawn before stays. */
+enum font_status font_painter_layout(struct font_painter *painter,
+                                     const struct font_layout *layout,
+                                     const struct font_map *map, double x_px, double y_px,
+                                     struct font_picture *picture);
+
+/* The box around all the ink of a layout drawn so, with the filter's reach: in pixels. Empty: x1 < x0. */
+enum font_status font_painter_measure(struct font_painter *painter,
+                                      const struct font_layout *layout,
+                                      const struct font_map *map, double x_px, double y_px,
+                                      struct font_box *box);
+
+struct font_painter_stats {
+    long drawn, kept_hits, edges_hits, evicted;
+    size_t kept_bytes;
+    int kept_count;
+};
+void font_painter_stats_get(const struct font_painter *painter, struct font_painter_stats *out);
+
+/* Light from sRGB numbers 0..1 and back, or a power. */
+double font_light(double number, double gamma);
+double font_number(double light, double gamma);
+
+#endif

@@ -1,0 +1,25 @@
+/* status.h - what can go wrong in the font pipeline.
+ *
+ *     if (font_face_open("DejaVuSans.ttf", 0, &face) != FONT_OK)
+ *         die(font_error());
+ *
+ * Threads. font_error() belongs to the thread that failed. */
+#ifndef LUTETIA_FONT_STATUS_H
+#define LUTETIA_FONT_STATUS_H
+
+enum font_status {
+    FONT_OK = 0,
+    FONT_BAD_ARGUMENT, /* a size, number or name that cannot be */
+    FONT_BAD_FILE,     /* not a font, or a damaged one */
+    FONT_NO_GLYPH,     /* the font has no such glyph, or no outline for it */
+    FONT_TOO_LARGE,    /* a picture or an outline beyond the library's limits */
+    FONT_NO_MEMORY,
+    FONT_NO_DEVICE,    /* no OpenCL device that fits the choice */
+    FONT_DEVICE_FAILED /* the device's reason is in font_error() */
+};
+
+/* Detail of this thread's last failure, one line; "" if there was none.
+ * Owns: the library; valid until this thread's next failure. */
+const char *font_error(void);
+
+#endif

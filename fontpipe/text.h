@@ -1,0 +1,73 @@
+/* text.h - text as glyphs in places: HarfBuzz shapes it, FriBidi orders what runs to the left, fontconfig finds fonts
+ * for what the first has not.
+ *
+ *     struct font_shaper *shaper;
+ *     font_shaper_create(face, &shaper);
+ *     struct font_layout layout;
+ *     if (font_shaper_layout(shaper, "Paris", 5, 12.25, NULL, &layout) != FONT_OK)
+ *         die(font_error());
+ *     for (int i = 0; i < layout.glyphs_count; i++)
+ *         draw(layout.glyphs[i].face, layout.glyphs[i].glyph, layout.glyphs[i].x_px, layout.glyphs[i].y_px);
+ *     font_layout_finish(&layout);
+ *     font_shaper_destroy(shaper);
+ *
+ * Text is UTF-8. What is not is replaced, each damaged sequence by U+FFFD, and counted. Lines end at newlines. Places
+ * are fractions of pixels; nothing is rounded.
+ *
+ * Threads. A shaper and its faces belong to one thread at a time. */
+#ifndef LUTETIA_FONT_TEXT_H
+#define LUTETIA_FONT_TEXT_H
+
+#include "face.h"
+
+struct font_shaper;
+
+/* face: borrowed, must outlive the shaper; the first choice for every character. */
+enum font_status font_shaper_create(struct font_face *face, struct font_shaper **out);
+void font_shaper_destroy(struct font_shaper *shaper); /* NULL is fine */
+
+struct font_text_options {
+    const char
+        *features; /* HarfBuzz's, by commas: "-liga,ss01,kern=0"; NULL: the font's usual ones */
+    const char *language; /* "fr"; NULL: the locale's */
+    double letter_spacing_px;
+    double line_height; /* of the size; 0: the font's */
+    bool no_fallback;   /* only the first face */
+    int right_to_left; /* 1 the paragraph runs to the left, -1 to the right, 0 as its first letter */
+};
+
+struct font_placed {
+    struct font_face *face; /* owned by the shaper or its creator */
+    uint32_t glyph;
+    double x_px,
+        y_px; /* of the origin, from the first line's left end of the baseline; y downwards */
+    int cluster; /* byte of the text that it comes from */
+    int line;
+};
+
+enum { FONT_MISSING_MAX = 16 };
+
+struct font_layout {
+    struct font_placed *glyphs;
+    int glyphs_count, glyphs_capacity, lines_count;
+    double width_px, ascent_px,
+        descent_px; /* of the longest line; descent: below the last baseline */
+    double line_height_px;
+    double size_px;
+    int missing_count;                  /* characters for which there is no glyph anywhere */
+    uint32_t missing[FONT_MISSING_MAX]; /* the first of them, each once */
+    int damaged_count;                  /* sequences that were not UTF-8 */
+    int fallback_count;                 /* characters set in another face */
+};
+
+/* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read), TOO_LARGE past a million
+ * characters, NO_MEMORY; *out is then empty. options: NULL for the usual. */
+enum font_status font_shaper_layout(struct font_shaper *shaper, const char *text, size_t bytes,
+                                    double size_px, const struct font_text_options *options,
+                                    struct font_layout *out);
+void font_layout_finish(struct font_layout *layout);
+
+/* The next character of UTF-8; *text moves on. false: it was damaged, and U+FFFD is what stands for it. text < end. */
+bool font_utf8_next(const char **text, const char *end, uint32_t *character);
+
+#endif

@@ -1,0 +1,121 @@
+/* type_common.c - see type_common.h. */
+#include "type_common.h"
+#include "lutetia.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pixels_max = 4e8;
+
+int fail_font(const char *verb)
+{
+    return fail(verb, "%s", font_error());
+}
+
+int type_image_create(const char *verb, double width, double height,
+                      struct display_image *image)
+{
+    width = fmax(1, width);
+    height = fmax(1, height);
+    if (!(width <= DISPLAY_SIDE_MAX && height <= DISPLAY_SIDE_MAX &&
+          width * height <= pixels_max))
+        return fail(verb,
+                    "the picture would be %.0fx%.0f pixels; %d a side and %.0f million in all "
+                    "are the most",
+                    width, height, DISPLAY_SIDE_MAX, pixels_max * 1e-6);
+    *image =
+        (struct display_image){.width_px = (int)width, .height_px = (int)height, .channels = 3};
+    if (display_image_create(image) != DISPLAY_OK)
+        return fail(verb, "%s", display_error());
+    memset(image->pixels, 255, 3 * (size_t)image->width_px * (size_t)image->height_px);
+    return EXIT_SUCCESS;
+}
+
+struct font_picture type_picture(const struct display_image *image)
+{
+    return (struct font_picture){image->width_px, image->height_px, 3 * image->width_px,
+                                 image->pixels};
+}
+
+int type_image_write(const char *verb, const char *path, const struct display_image *image)
+{
+    if (display_png_write(path, image) != DISPLAY_OK)
+        return fail(verb, "%s", display_error());
+    return EXIT_SUCCESS;
+}
+
+int type_face_open(const char *verb, const char *name, int index, const char *axes,
+                   struct font_face **out)
+{
+    if (font_face_open(name, index, out) != FONT_OK)
+        return fail_font(verb);
+    while (axes && *axes) {
+        char tag[5] = "", *end;
+        size_t length = strcspn(axes, "=,");
+        if (length >= 1 && length <= 4)
+            memcpy(tag, axes, length);
+        double value = axes[length] == '=' ? strtod(axes + length + 1, &end) : NAN;
+        if (!tag[0] || !isfinite(value) || end == axes + length + 1 || (*end && *end != ','))
+            return fail_usage(verb, "--axes must be like wght=700,wdth=80 (got '%.60s')", axes);
+        if (font_face_axis_set(*out, tag, value) != FONT_OK)
+            return fail_font(verb);
+        axes = *end ? end + 1 : end;
+    }
+    return EXIT_SUCCESS;
+}
+
+/* ---- labels ---- */
+
+struct type_labels {
+    struct font_face *face;
+    struct font_shaper *shaper;
+    struct font_painter *painter;
+    double size_px;
+};
+
+struct type_labels *type_labels_create(double size_px)
+{
+    struct type_labels *l = calloc(1, sizeof *l);
+    struct font_painter_def def = font_painter_def_default();
+    if (!l)
+        return NULL;
+    l->size_px = size_px;
+    def.places = 4;
+    if (font_face_open("DejaVuSans", 0, &l->face) != FONT_OK ||
+        font_shaper_create(l->face, &l->shaper) != FONT_OK ||
+        font_painter_create(&def, &l->painter) != FONT_OK) {
+        type_labels_destroy(l);
+        return NULL;
+    }
+    return l;
+}
+
+void type_labels_destroy(struct type_labels *l)
+{
+    if (!l)
+        return;
+    font_painter_destroy(l->painter);
+    font_shaper_destroy(l->shaper);
+    font_face_close(l->face);
+    free(l);
+}
+
+void type_label(struct type_labels *l, struct display_image *image, double x, double y,
+                const char *format, ...)
+{
+    if (!l)
+        return;
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    struct font_layout layout;
+    struct font_picture picture = type_picture(image);
+    if (font_shaper_layout(l->shaper, text, strlen(text), l->size_px, NULL, &layout) == FONT_OK)
+        font_painter_layout(l->painter, &layout, NULL, x, y, &picture);
+    font_layout_finish(&layout);
+}

@@ -1,0 +1,35 @@
+/* type_common.h - what `lutetia type` and `lutetia font` share. */
+#ifndef LUTETIA_TYPE_COMMON_H
+#define LUTETIA_TYPE_COMMON_H
+
+#include <display.h>
+#include <paint.h>
+
+#include <stdbool.h>
+
+/* Says font_error(). */
+int fail_font(const char *verb);
+
+/* A white picture. EXIT_SUCCESS, or says why not. */
+int type_image_create(const char *verb, double width, double height,
+                      struct display_image *image);
+struct font_picture type_picture(const struct display_image *image);
+int type_image_write(const char *verb, const char *path, const struct display_image *image);
+
+/* Opens a font and sets axes, "wght=700,wdth=80". */
+int type_face_open(const char *verb, const char *name, int index, const char *axes,
+                   struct font_face **out);
+
+/* A line of small type, for labels: black, its baseline's left end at (x, y). Nothing where there is no font for it. */
+struct type_labels;
+struct type_labels *type_labels_create(double size_px);
+void type_labels_destroy(struct type_labels *labels);
+void type_label(struct type_labels *labels, struct display_image *image, double x, double y,
+                const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* type_compare.c: the text in gray by us, by the definition and by FreeType, enlarged, with what they differ by. */
+int type_compare(const char *verb, const char *path, const struct font_layout *layout,
+                 const struct font_map *map, const char *filter, double x_px, double y_px,
+                 int zoom);
+
+#endif

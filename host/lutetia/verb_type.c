@@ -1,0 +1,261 @@
+/* verb_type.c - `lutetia type`: text as a picture, at any size, place, angle and distortion. */
+#include "lutetia.h"
+#include "options.h"
+#include "type_common.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct type {
+    const char *text, *font, *axes, *filter, *features, *language, *warp, *display, *out_path;
+    double size_px, rotate, shear, place[2], ink[3], gamma, darken_px, spacing_px, leading;
+    double margin_px;
+    struct option_list corners;
+    int face, zoom;
+    bool stripes, to_left, no_fallback, compare, statistics;
+};
+
+static int type_options(struct type *t, int argc, char **argv, bool *help)
+{
+    const double far = FONT_SIDE_MAX;
+    const struct option_row rows[] = {
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &t->out_path, 0, 0, 0},
+        {"font", 0, OPTION_TEXT, "F", "a font file, its name, or a family (DejaVuSans)",
+         &t->font, 0, 0, 0},
+        {"face", 0, OPTION_INTEGER, "N", "of a collection (0)", &t->face, 0, 65535, 0},
+        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700,wdth=80", &t->axes,
+         0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "of the em; any fraction (48)", &t->size_px, 0.1,
+         10000, 0},
+        {"filter", 0, OPTION_TEXT, "F", "its name, or auto for the display (gaussian-fast)",
+         &t->filter, 0, 0, 0},
+        {"display", 0, OPTION_TEXT, "D", "that auto chooses for: lcd, crt or print (lcd)",
+         &t->display, 0, 0, 0},
+        {"place", 0, OPTION_NUMBERS, "X,Y", "moves the text by parts of a pixel (0,0)",
+         t->place, -1000, 1000, 2},
+        {"rotate", 0, OPTION_NUMBER, "DEG", "counterclockwise (0)", &t->rotate, -3600, 3600, 0},
+        {"shear", 0, OPTION_NUMBER, "S", "to the right for each pixel up (0)", &t->shear, -10,
+         10, 0},
+        {"corners", 0, OPTION_LIST, "X,Y,..", "of the distorted text: eight numbers, pixels,",
+         &t->corners, -far, far, 8},
+        {"warp", 0, OPTION_TEXT, "KIND", "projective or bilinear, with --corners (projective)",
+         &t->warp, 0, 0, 0},
+        {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", t->ink, 0, 1, 3},
+        {"gamma", 0, OPTION_NUMBER, "G", "light is mixed by this power; 1: not at all (sRGB's)",
+         &t->gamma, 0.2, 5, 0},
+        {"darken", 0, OPTION_NUMBER, "PX", "widens the stems of small type (0)", &t->darken_px,
+         0, 2, 0},
+        {"stripes", 0, OPTION_FLAG, NULL, "for a display with RGB stripes", &t->stripes, 0, 0,
+         0},
+        {"features", 0, OPTION_TEXT, "F,..", "OpenType features: -liga,ss01,kern=0",
+         &t->features, 0, 0, 0},
+        {"language", 0, OPTION_TEXT, "L", "of the text: fr", &t->language, 0, 0, 0},
+        {"right-to-left", 0, OPTION_FLAG, NULL, "lines run to the left", &t->to_left, 0, 0, 0},
+        {"spacing", 0, OPTION_NUMBER, "PX", "added between letters (0)", &t->spacing_px, -1000,
+         1000, 0},
+        {"leading", 0, OPTION_NUMBER, "L", "from line to line, of the size (the font's)",
+         &t->leading, 0.1, 10, 0},
+        {"margin", 0, OPTION_NUMBER, "PX", "around the text (8)", &t->margin_px, 0, 4096, 0},
+        {"no-fallback", 0, OPTION_FLAG, NULL, "no other font for what this one has not",
+         &t->no_fallback, 0, 0, 0},
+        {"compare", 0, OPTION_FLAG, NULL, "beside FreeType and the exact gray, enlarged",
+         &t->compare, 0, 0, 0},
+        {"zoom", 0, OPTION_INTEGER, "N", "how much --compare enlarges (8)", &t->zoom, 1, 64, 0},
+        {"statistics", 0, OPTION_FLAG, NULL, "says what was drawn and kept", &t->statistics, 0,
+         0, 0},
+        {0}};
+    struct option_words words;
+    if (!options_parse("type", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    *help = words.help;
+    if (words.help) {
+        puts("usage: lutetia type \"Text\" [options]\n");
+        options_help(rows);
+        puts("\nFilters: box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, "
+             "each "
+             "with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
+             "round:radius,s0,s1,.. from the centre outwards.\n--corners: where the text's "
+             "upper "
+             "left, upper right, lower right and lower left corners go.");
+        return EXIT_SUCCESS;
+    }
+    if (words.count != 1)
+        return fail_usage("type",
+                          words.count ? "there is one text; put it in quotes (then came "
+                                        "'%.60s')"
+                                      : "give a text%s",
+                          words.count ? words.words[1] : "");
+    t->text = words.words[0];
+    if (t->corners.count > 1)
+        return fail_usage("type", "--corners can be given once");
+    if (t->warp && strcmp(t->warp, "projective") != 0 && strcmp(t->warp, "bilinear") != 0)
+        return fail_usage("type", "--warp must be projective or bilinear (got '%.60s')",
+                          t->warp);
+    if (strcmp(t->display, "lcd") != 0 && strcmp(t->display, "crt") != 0 &&
+        strcmp(t->display, "print") != 0)
+        return fail_usage("type", "--display must be lcd, crt or print (got '%.60s')",
+                          t->display);
+    return EXIT_SUCCESS;
+}
+
+/* The thinnest upright of the face in pixels, from the width of its l or I, measured on the outline. */
+static double detail_px(struct font_face *face, double size_px)
+{
+    static const uint32_t letters[] = {'l', 'I', 'i', 'o'};
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
+        struct font_outline outline;
+        uint32_t glyph = font_face_glyph(face, letters[i]);
+        if (!glyph || font_face_outline_raw(face, glyph, &outline) != FONT_OK)
+            continue;
+        struct font_box box = font_outline_box(&outline);
+        double area = 0, height = box.y1 - box.y0, units = outline.units_per_em;
+        for (int k = 0; k < outline.segments_count; k++)
+            for (int n = 0; n < outline.segments[k].degree; n++)
+                area += 0.5 * (outline.segments[k].p[n].x * outline.segments[k].p[n + 1].y -
+                               outline.segments[k].p[n + 1].x * outline.segments[k].p[n].y);
+        font_outline_finish(&outline);
+        if (height > 0 && units > 0)
+            return fabs(area) / height * size_px / units;
+    }
+    return size_px / 12;
+}
+
+/* Where the text goes: sheared, rotated, and onto its corners. */
+static int type_map(const struct type *t, const struct font_layout *layout,
+                    struct font_map *map)
+{
+    *map = font_map_then(font_map_shear(t->shear), font_map_rotation(t->rotate));
+    if (!t->corners.count)
+        return EXIT_SUCCESS;
+    struct font_point corners[4];
+    for (int i = 0; i < 4; i++)
+        corners[i] =
+            (struct font_point){t->corners.numbers[0][2 * i], t->corners.numbers[0][2 * i + 1]};
+    enum font_map_kind kind =
+        t->warp && strcmp(t->warp, "bilinear") == 0 ? FONT_BILINEAR : FONT_PROJECTIVE;
+    struct font_map warp;
+    double bottom = (layout->lines_count - 1) * layout->line_height_px + layout->descent_px;
+    if (font_map_corners(kind, 0, -layout->ascent_px, layout->width_px, bottom, corners,
+                         &warp) != FONT_OK ||
+        font_map_compose(map, &warp, map) != FONT_OK)
+        return fail_font("type");
+    return EXIT_SUCCESS;
+}
+
+static void type_report(const struct type *t, const struct font_layout *layout)
+{
+    if (layout->damaged_count)
+        fprintf(stderr,
+                "lutetia type: the text is not UTF-8 in %d places; U+FFFD stands there\n",
+                layout->damaged_count);
+    if (!layout->missing_count)
+        return;
+    fprintf(stderr, "lutetia type: no font has a glyph for");
+    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
+        fprintf(stderr, " U+%04X", (unsigned)layout->missing[i]);
+    fprintf(stderr, "%s; %s's sign for that is set instead\n",
+            layout->missing_count > FONT_MISSING_MAX ? " and more" : "", t->font);
+}
+
+static int type_draw(const struct type *t, struct font_painter *painter,
+                     const struct font_layout *layout, const struct font_map *map)
+{
+    struct font_box box;
+    struct display_image image = {0};
+    if (font_painter_measure(painter, layout, map, 0, 0, &box) != FONT_OK)
+        return fail_font("type");
+    if (t->corners.count) /* the corners say where in the picture */
+        box.x0 = box.y0 = 0;
+    else if (box.x1 < box.x0)
+        box = (struct font_box){0, -layout->ascent_px, layout->width_px, layout->descent_px};
+    double x = ceil(t->margin_px - box.x0), y = ceil(t->margin_px - box.y0);
+    if (t->corners.count)
+        x = y = 0;
+    int status = type_image_create("type", ceil(x + box.x1 + t->margin_px + 1),
+                                   ceil(y + box.y1 + t->margin_px + 1), &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS && font_painter_layout(painter, layout, map, x + t->place[0],
+                                                      y + t->place[1], &picture) != FONT_OK)
+        status = fail_font("type");
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("type", t->out_path, &image);
+    display_image_destroy(&image);
+    return status;
+}
+
+static int type_run(struct type *t, struct font_face *face)
+{
+    struct font_painter_def def = font_painter_def_default();
+    struct font_text_options options = {.features = t->features,
+                                        .language = t->language,
+                                        .letter_spacing_px = t->spacing_px,
+                                        .line_height = t->leading,
+                                        .no_fallback = t->no_fallback,
+                                        .right_to_left = t->to_left ? 1 : 0};
+    struct font_shaper *shaper = NULL;
+    struct font_painter *painter = NULL;
+    struct font_layout layout = {0};
+    struct font_map map;
+    if (strcmp(t->filter, "auto") == 0) {
+        enum font_display display = strcmp(t->display, "crt") == 0     ? FONT_DISPLAY_CRT
+                                    : strcmp(t->display, "print") == 0 ? FONT_DISPLAY_PRINT
+                                                                       : FONT_DISPLAY_LCD;
+        t->filter = font_filter_choose(detail_px(face, t->size_px), display);
+        printf("filter: %s\n", t->filter);
+    }
+    def.filter = t->filter;
+    memcpy(def.ink, t->ink, sizeof def.ink);
+    def.gamma = t->gamma;
+    def.darken_px = t->darken_px;
+    def.stripes = t->stripes;
+    int status = EXIT_SUCCESS;
+    if (font_painter_create(&def, &painter) != FONT_OK ||
+        font_shaper_create(face, &shaper) != FONT_OK ||
+        font_shaper_layout(shaper, t->text, strlen(t->text), t->size_px, &options, &layout) !=
+            FONT_OK)
+        status = fail_font("type");
+    if (status == EXIT_SUCCESS) {
+        type_report(t, &layout);
+        status = type_map(t, &layout, &map);
+    }
+    if (status == EXIT_SUCCESS)
+        status = t->compare ? type_compare("type", t->out_path, &layout, &map, t->filter,
+                                           t->place[0], t->place[1], t->zoom)
+                            : type_draw(t, painter, &layout, &map);
+    if (status == EXIT_SUCCESS && t->statistics) {
+        struct font_painter_stats stats;
+        font_painter_stats_get(painter, &stats);
+        printf("%d glyphs, %d lines, %.2f pixels wide; %d in another font; edges kept of %d "
+               "glyphs, used again %ld times\n",
+               layout.glyphs_count, layout.lines_count, layout.width_px, layout.fallback_count,
+               stats.kept_count, stats.edges_hits);
+    }
+    font_layout_finish(&layout);
+    font_painter_destroy(painter);
+    font_shaper_destroy(shaper);
+    return status;
+}
+
+int verb_type(int argc, char **argv)
+{
+    static struct type t; /* the list of corners is large */
+    bool help = false;
+    t = (struct type){.font = "DejaVuSans",
+                      .filter = "gaussian-fast",
+                      .display = "lcd",
+                      .out_path = "out.png",
+                      .size_px = 48,
+                      .margin_px = 8,
+                      .zoom = 8};
+    int status = type_options(&t, argc, argv, &help);
+    if (status != EXIT_SUCCESS || help)
+        return status;
+    struct font_face *face = NULL;
+    status = type_face_open("type", t.font, t.face, t.axes, &face);
+    if (status == EXIT_SUCCESS)
+        status = type_run(&t, face);
+    font_face_close(face);
+    return status;
+}

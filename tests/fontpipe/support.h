@@ -1,0 +1,52 @@
+/* support.h - what the pipeline's tests share. Include after cmocka's headers. */
+#ifndef LUTETIA_TESTS_FONTPIPE_SUPPORT_H
+#define LUTETIA_TESTS_FONTPIPE_SUPPORT_H
+
+#include <face.h>
+#include <filter.h>
+
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <stdio.h>
+
+/* Fails the test with font_error(). */
+#define assert_font(call)                                                                      \
+    do {                                                                                       \
+        if ((call) != FONT_OK)                                                                 \
+            fail_msg("%s: %s", #call, font_error());                                           \
+    } while (0)
+
+static inline struct font_face *face_open(const char *name)
+{
+    struct font_face *face;
+    assert_font(font_face_open(name, 0, &face));
+    return face;
+}
+
+static inline struct font_filter *filter_make(const char *name)
+{
+    struct font_filter *filter;
+    assert_font(font_filter_create_named(name, &filter));
+    return filter;
+}
+
+static inline uint32_t random_next(uint32_t *state)
+{
+    *state ^= *state << 13;
+    *state ^= *state >> 17;
+    *state ^= *state << 5;
+    return *state;
+}
+
+static inline double random_unit(uint32_t *state)
+{
+    return (random_next(state) >> 8) / 16777216.0;
+}
+
+#endif

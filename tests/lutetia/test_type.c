@@ -1,0 +1,178 @@
+/* test_type.c - `lutetia type` and `lutetia font`: pictures, and one clear line about what is wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../display/scratch.h"
+#include "child.h"
+
+#include <display.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *lutetia;
+
+/* What it says is one line where it fails or reports something, none otherwise. */
+static void run(struct child *child, int status, const char *says)
+{
+    child->arguments[0] = lutetia;
+    child_run(child);
+    int lines = 0;
+    for (const char *c = child->errors; *c; c++)
+        lines += *c == '\n';
+    if (child->status != status || !strstr(child->errors, says) || lines != (*says != 0))
+        fail_msg("exit %d for %d, and it said: %s", child->status, status, child->errors);
+}
+
+/* Ink of a picture: 0 is white. */
+static double ink_of(const char *path, int *width, int *height)
+{
+    struct display_image image;
+    double ink = 0;
+    if (display_png_read_gray(path, &image) != DISPLAY_OK)
+        fail_msg("%s", display_error());
+    for (int i = 0; i < image.width_px * image.height_px; i++)
+        ink += 255 - image.pixels[i];
+    *width = image.width_px;
+    *height = image.height_px;
+    display_image_destroy(&image);
+    return ink / 255;
+}
+
+static void type_is_set(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("type.png");
+    struct child plain = {.arguments = {"", "type", "Paris", "--size", "24.5", "-o", path}};
+    int width, height;
+    run(&plain, 0, "");
+    double upright = ink_of(path, &width, &height);
+    assert_true(upright > 100 && width > 60 && width < 100 && height > 30 && height < 60);
+    struct child turned = {.arguments = {"", "type", "Paris", "--size", "24.5", "--rotate",
+                                         "90", "--gamma", "1", "-o", path}};
+    run(&turned, 0, "");
+    double rotated = ink_of(path, &width, &height);
+    assert_true(height > width);
+    struct child level = {
+        .arguments = {"", "type", "Paris", "--size", "24.5", "--gamma", "1", "-o", path}};
+    run(&level, 0, "");
+    assert_true(fabs(ink_of(path, &width, &height) / rotated - 1) <
+                0.005); /* turned, not changed */
+    static char arabic[] = "\xd8\xb3\xd9\x84\xd8\xa7\xd9\x85";
+    struct child others = {.arguments = {"", "type", arabic, "--corners",
+                                         "0,0,200,20,190,90,10,80", "--warp", "bilinear",
+                                         "--stripes", "--darken", "0.3", "--filter", "auto",
+                                         "--statistics", "-o", path}};
+    run(&others, 0, "");
+    assert_non_null(strstr(others.output, "filter: "));
+    assert_true(ink_of(path, &width, &height) > 100);
+    unlink(path);
+}
+
+static void comparisons_are_shown(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("compare.png");
+    struct child child = {
+        .arguments = {"", "type", "Ag", "--size", "12.25", "--compare", "-o", path}};
+    int width, height;
+    run(&child, 0, "");
+    double ours, freetype;
+    const char *line = strstr(child.output, "lutetia - exact: at most ");
+    assert_non_null(line);
+    ours = atof(line + strlen("lutetia - exact: at most "));
+    line = strstr(child.output, "FreeType - exact box: at most ");
+    assert_non_null(line);
+    freetype = atof(line + strlen("FreeType - exact box: at most "));
+    assert_true(ours <= 1 && freetype > 3);
+    assert_true(ink_of(path, &width, &height) > 100 && width > 400);
+    unlink(path);
+}
+
+static void fonts_and_filters_are_shown(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("font.png");
+    int width, height;
+    struct child specimen = {.arguments = {"", "font", "EBGaramond12-Italic", "-o", path}};
+    run(&specimen, 0, "");
+    assert_non_null(strstr(specimen.output, "EB Garamond"));
+    assert_true(ink_of(path, &width, &height) > 5000 && width == 1100);
+    struct child levels = {
+        .arguments = {"", "font", "DejaVuSans", "--glyph", "U+0042", "-o", path}};
+    run(&levels, 0, "");
+    assert_non_null(strstr(levels.output, "rectangles: "));
+    assert_true(ink_of(path, &width, &height) > 5000);
+    struct child filter = {
+        .arguments = {"", "font", "--show-filter", "--filter", "cone:1.5", "-o", path}};
+    run(&filter, 0, "");
+    assert_non_null(strstr(filter.output, "cone:1.5: radius 1.5 pixels"));
+    assert_true(ink_of(path, &width, &height) > 1000);
+    unlink(path);
+}
+
+static void wrong_lines_are_said(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments[6];
+        int status;
+        const char *says;
+    } cases[] = {
+        {{"type"}, 2, "give a text"},
+        {{"type", "a", "b"}, 2, "put it in quotes"},
+        {{"type", "a", "--size", "0"}, 2, "--size must be"},
+        {{"type", "a", "--size", "-12"}, 2, "--size must be"},
+        {{"type", "a", "--size", "nan"}, 2, "--size must be"},
+        {{"type", "a", "--font", "nobody's"}, 1, "there is no font"},
+        {{"type", "a", "--font", "/dev/null"}, 1, "no font file"},
+        {{"type", "a", "--face", "9"}, 1, "has no face 9"},
+        {{"type", "a", "--axes", "wght"}, 2, "--axes must be like"},
+        {{"type", "a", "--axes", "wght=700"}, 1, "has no axis"},
+        {{"type", "a", "--filter", "soft"}, 1, "there is no filter"},
+        {{"type", "a", "--warp", "round"}, 2, "--warp must be"},
+        {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
+        {{"type", "a", "--features", "="}, 1, "there is no feature"},
+        {{"type", "a", "-o", "/nowhere/a.png"}, 1, "/nowhere"},
+        {{"font"}, 2, "give a font file"},
+        {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "--glyph must be one character"},
+        {{"font", "DejaVuSans", "--glyph", "U+F0000"}, 1, "no glyph for U+F0000"},
+        {{"font", "DejaVuSans", "--glyph", " "}, 1, "has no ink"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static struct child child;
+        memset(&child, 0, sizeof child);
+        memcpy(child.arguments + 1, cases[i].arguments, sizeof cases[i].arguments);
+        run(&child, cases[i].status, cases[i].says);
+    }
+    /* What can be set is set, and said. */
+    const char *path = scratch_path("said.png");
+    struct child damaged = {.arguments = {"", "type", "a\xff\xc3(", "-o", path}};
+    run(&damaged, 0, "not UTF-8 in 2 places");
+    struct child missing = {.arguments = {"", "type", "\xf3\xb0\x80\x80", "-o", path}};
+    run(&missing, 0, "no font has a glyph for U+F0000");
+    unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(type_is_set),
+        cmocka_unit_test(comparisons_are_shown),
+        cmocka_unit_test(fonts_and_filters_are_shown),
+        cmocka_unit_test(wrong_lines_are_said),
+    };
+    lutetia = getenv("LUTETIA");
+    if (!lutetia) {
+        fputs("set LUTETIA to the command\n", stderr);
+        return 1;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
