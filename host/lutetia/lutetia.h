@@ -19,6 +19,7 @@ int verb_info(int argc, char **argv);
 int verb_bench(int argc, char **argv);
 int verb_cc(int argc, char **argv);
 int verb_leds(int argc, char **argv);
+int verb_run(int argc, char **argv);
 
 /* ---- failures ---- */
 

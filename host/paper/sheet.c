@@ -332,7 +332,7 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *p, enum paper_layer
 }
 
 /* Sum of whole numbers, in doubles: exact up to 2^53 grains. */
-static double field_total(struct paper_sheet *p, CM_field_id_t field, CM_field_id_t wide)
+static double field_total(CM_field_id_t field, CM_field_id_t wide)
 {
     CM_f_move_2L(wide, field, 52, 11, SHEET_F);
     return CM_global_f_add_1L(wide, 52, 11);
@@ -351,12 +351,12 @@ enum paper_status paper_sheet_total(struct paper_sheet *p, int substance, double
         CM_f_u_float_2_2L(wide, p->dried, SHEET_DRIED_BITS, 52, 11);
         *total = CM_global_f_add_1L(wide, 52, 11);
     } else if (substance == 0) {
-        *total = field_total(p, p->page.water, wide);
+        *total = field_total(p->page.water, wide);
         if (sheet_has(p, PAPER_PART_SURFACE))
-            *total += field_total(p, p->surface_water, wide);
+            *total += field_total(p->surface_water, wide);
     } else {
         for (int j = sheet_pigment_fields(p, substance - 1, fields) - 1; j >= 0; j--)
-            *total += field_total(p, fields[j], wide);
+            *total += field_total(fields[j], wide);
     }
     *total /= p->unit;
     CM_deallocate_heap_field(wide);

@@ -114,7 +114,7 @@ static void lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, do
     f_times(lost, share, part);
     f_mul(lost, lost, q);
     if (p->unit != 1)
-        f_whole(lost);
+        f_whole_of(lost, q);
     f_sub(q, q, lost);
 }
 

@@ -110,9 +110,19 @@ static inline void f_least(CM_field_id_t d, CM_field_id_t a, double n)
     CM_f_max_constant_3_1L(d, a, n, SHEET_F);
 }
 
+/* Rounds to a whole number: adding 3 * 2^22 leaves no place for a fraction. To the nearest up to 2^22, to an even one near
+ * it up to 2^24; nothing is rounded away from that. */
 static inline void f_whole(CM_field_id_t d)
 {
-    CM_f_f_truncate_1_1L(d, SHEET_F);
+    CM_f_add_constant_2_1L(d, 12582912.0, SHEET_F);
+    CM_f_subtract_constant_2_1L(d, 12582912.0, SHEET_F);
+}
+
+/* d becomes whole and is at most q, which is whole. */
+static inline void f_whole_of(CM_field_id_t d, CM_field_id_t q)
+{
+    f_whole(d);
+    f_min(d, d, q);
 }
 
 static inline void f_copy(CM_field_id_t d, CM_field_id_t a)

@@ -19,8 +19,9 @@
  *
  *       q(x) += F(x-1) - F(x)
  *
- * |out| and |in| are at most 1/8 (of infused water 1/4), so no fiber gives more than it has; amounts are whole numbers below
- * 2^24, so the sums are exact.  That amounts stay there is seen to by `room`: it is 1 where a fiber is loaded with up to half of
+ * |out| and |in| are at most 1/8, so no fiber gives more than it has, though grains are rounded: of less than 4 nothing leaves,
+ * of q at most 4 (q/8 + 1/2). Amounts are whole numbers up to 2^24, so sums are exact. That amounts stay there is seen to by
+ * `room`: it is 1 where a fiber is loaded with up to half of
  * SHEET_LOAD_MAX and falls to 0 at that; four neighbours bring at most 4 * 1/8 * SHEET_LOAD_MAX * room.
  * A mirrored sheet gives mirrored bits, for every expression below is symmetric in a face's two sides.
  *
@@ -32,8 +33,9 @@
 
 enum { TENSION_REACH = 10 };
 #define SURFACE_SHARE 0.125
-#define WATER_SHARE 0.25
-#define PIGMENT_SHARE 0.125
+#define INFUSED_SHARE 0.125
+#define CAPACITY_SHARE 0.25 /* of what a fiber can still take, at one face */
+#define AROUND_LEAST 1e-6
 /* A face's absorbency is at least this where it is open at all. */
 #define OPEN_SCALE 1e6
 
@@ -119,7 +121,7 @@ static void absorb(struct paper_sheet *p)
     f_sub(part, part, p->page.water);
     f_min(taken, taken, part);
     f_least(taken, taken, 0.0);
-    f_whole(taken);
+    f_whole_of(taken, p->surface_water);
     f_least(part, p->surface_water, 1.0);
     f_div(part, taken, part);
     f_sub(p->surface_water, p->surface_water, taken);
@@ -134,7 +136,7 @@ static void absorb(struct paper_sheet *p)
         if (!sheet_has(p, PAPER_PART_FIXING))
             f_max(moved, moved, dry);
         f_mul(moved, moved, p->surface[i]);
-        f_whole(moved);
+        f_whole_of(moved, p->surface[i]);
         f_sub(p->surface[i], p->surface[i], moved);
         f_add(p->infused[i], p->infused[i], moved);
     }
@@ -166,13 +168,13 @@ static void settle(struct paper_sheet *p)
         f_most(up, up, 1.0);
         f_least(up, up, 0.0);
         f_mul(up, up, p->fixed[i]);
-        f_whole(up);
+        f_whole_of(up, p->fixed[i]);
 
         f_mul(seeped, rate, p->infused[i]);
         if (surface) { /* with water above, settling from the fibers waits */
             f_max(part, rate, dry);
             f_mul(down, part, p->surface[i]);
-            f_whole(down);
+            f_whole_of(down, p->surface[i]);
             f_sub(p->surface[i], p->surface[i], down);
             f_add(p->fixed[i], p->fixed[i], down);
             f_mul(part, up, wet);
@@ -180,7 +182,7 @@ static void settle(struct paper_sheet *p)
             f_sub(p->fixed[i], p->fixed[i], part);
         }
         f_mul(seeped, seeped, damp);
-        f_whole(seeped);
+        f_whole_of(seeped, p->infused[i]);
         f_mul(up, up, damp);
         f_sub(up, up, seeped);
         f_add(p->infused[i], p->infused[i], up);
@@ -202,7 +204,7 @@ static void dry_up(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t loss)
 {
     CM_field_id_t count = p->t[8];
     f_min(loss, loss, q);
-    f_whole(loss);
+    f_whole_of(loss, q);
     f_sub(q, q, loss);
     CM_u_f_truncate_2_2L(count, loss, SHEET_DRIED_BITS, SHEET_F);
     CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
@@ -230,6 +232,9 @@ static void evaporate(struct paper_sheet *p)
         f_times(around, around, 1 - relax);
         f_times(other, wet, relax);
         f_add(p->wet_around, around, other);
+        f_plus(p->wet_around, p->wet_around,
+               -AROUND_LEAST); /* no endless tail of tiny numbers */
+        f_least(p->wet_around, p->wet_around, 0.0);
         f_from(loss, 1.0, p->wet_around);
         f_least(loss, loss, 0.0);
         f_mul(loss, loss, wet);
@@ -424,7 +429,7 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
     CM_field_id_t water = p->page.water;
     f_times(left, p->capacity, p->unit);
     f_sub(left, left, water);
-    f_times(left, left, WATER_SHARE);
+    f_times(left, left, CAPACITY_SHARE);
     f_least(left, left, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
         double seep = p->air.seep[axis == PAPER_AXIS_X ? 0 : 1];
@@ -438,11 +443,11 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         f_mul(flow[axis], flow[axis], p->face[axis]);
         f_next(moved, left, axis);
         f_min(flow[axis], flow[axis], moved);
-        f_times(moved, water, WATER_SHARE);
+        f_times(moved, water, INFUSED_SHARE);
         f_min(flow[axis], flow[axis], moved);
         f_times(moved, left, -1.0);
         f_max(flow[axis], flow[axis], moved);
-        f_times(moved, other, -WATER_SHARE);
+        f_times(moved, other, -INFUSED_SHARE);
         f_max(flow[axis], flow[axis], moved);
         f_whole(flow[axis]);
 
@@ -460,8 +465,8 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         f_div(in[axis], in[axis], fromward);
         f_times(in[axis], in[axis], p->air.carry);
         f_sub(in[axis], in[axis], moved);
-        f_most(out[axis], out[axis], PIGMENT_SHARE);
-        f_least(in[axis], in[axis], -PIGMENT_SHARE);
+        f_most(out[axis], out[axis], INFUSED_SHARE);
+        f_least(in[axis], in[axis], -INFUSED_SHARE);
         f_next(other, room, axis);
         f_mul(out[axis], out[axis], other);
         f_mul(in[axis], in[axis], room);

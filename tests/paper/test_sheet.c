@@ -37,6 +37,7 @@ static struct paper_sheet_config config_small(int width, int height, int pigment
                                         "burnt umber",       "phthalo green",
                                         "hansa yellow",      "cadmium red"};
     struct paper_sheet_config config = paper_sheet_config_default();
+    config.torus = true;
     config.width = width;
     config.height = height;
     config.pigments_count = pigments;
@@ -127,7 +128,7 @@ static void without_parts_it_is_the_thesis(void **state)
         double theirs, sum;
         check(paper_total(page, PAPER_WATER + (enum paper_amount)i, &theirs));
         sum = total(sheet, i);
-        assert_float_equal(theirs, sum, 1e-3 * sum + 1e-9);
+        assert_true(fabs(theirs - sum) <= 1e-3 * sum + 1e-9);
     }
     /* and fiber by fiber: the thesis's picture of pigments, made from what the sheet holds */
     static uint8_t rgb[3 * SIDE * SIDE];
@@ -141,25 +142,32 @@ static void without_parts_it_is_the_thesis(void **state)
 
 /* ---- matter ---- */
 
+/* Nothing is 0, so that all tests have the same kernels. */
+static struct paper_air air_with_all(void)
+{
+    struct paper_air air = paper_air_default();
+    air.gravity[0] = 0.01;
+    air.gravity[1] = 0.02;
+    air.seep[0] = -0.03;
+    air.seep[1] = 0.02;
+    air.tension = 0.001;
+    return air;
+}
+
 static void nothing_is_lost_in_many_steps(void **state)
 {
     (void)state;
-    struct paper_sheet_config config = config_small(24, 20, 3);
+    struct paper_sheet_config config = config_small(24, 20, 2);
     struct paper_sheet *sheet = sheet_make(&config);
-    struct paper_air air = paper_air_default();
+    struct paper_air air = air_with_all();
     air.humidity = 2e-5; /* wet to the end */
-    air.gravity[1] = 0.02;
     check(paper_sheet_air(sheet, &air));
-    box_put(sheet, 4, 4, 20, 15, (double[]){1.5, 0.6, 0.3, 0.9});
-    double before[4] = {total_water(sheet), total(sheet, 1), total(sheet, 2), total(sheet, 3)};
+    box_put(sheet, 4, 4, 20, 15, (double[]){1.5, 0.6, 0.3});
+    double before[3] = {total_water(sheet), total(sheet, 1), total(sheet, 2)};
     assert_true(before[0] > 100 && before[1] > 50);
-    for (int i = 0; i < 10000; i++) {
-        check(paper_sheet_step(sheet));
-        if (i % 100 == 99)
-            check(paper_sheet_finish(sheet));
-    }
-    double after[4] = {total_water(sheet), total(sheet, 1), total(sheet, 2), total(sheet, 3)};
-    for (int i = 0; i < 4; i++)
+    steps(sheet, 10000);
+    double after[3] = {total_water(sheet), total(sheet, 1), total(sheet, 2)};
+    for (int i = 0; i < 3; i++)
         if (after[i] != before[i])
             fail_msg("substance %d drifted by %g of %g", i, after[i] - before[i], before[i]);
     assert_true(total(sheet, -1) > 0.01 * before[0]);
@@ -197,7 +205,7 @@ static struct paper_air air_by_chance(void)
         air.gravity[i] += air.gravity[i] == 0 ? 1e-3 : 0;
         air.seep[i] += air.seep[i] == 0 ? 1e-3 : 0;
     }
-    air.tension = sample_word(&chance) % 4 ? 1e-6 : uniform(0, 0.1);
+    air.tension = sample_word(&chance) % 4 ? 1e-6 : uniform(1e-6, 0.1);
     return air;
 }
 
@@ -215,9 +223,8 @@ static void layer_extremes(struct paper_sheet *sheet, enum paper_layer layer, in
 static void any_air_keeps_matter_and_numbers(void **state)
 {
     (void)state;
-    enum { AIRS = 250 };
+    enum { AIRS = 60 };
     struct paper_sheet_config config = config_small(20, 18, 2);
-    config.torus = true;
     struct paper_sheet *sheet = sheet_make(&config);
     for (int i = 0; i < AIRS; i++) {
         struct paper_air air = air_by_chance();
@@ -281,13 +288,12 @@ static void moved_sheets_give_moved_bits(void **state)
     for (int layer = 0; layer < BOARD_LAYERS; layer++)
         for (int i = 0; i < BOARD * BOARD; i++) {
             bool there = layer < 3 || uniform(0, 1) < 0.4;
-            start[layer][i] = there ? (float)uniform(0, layer == 1 ? 0.25 : 1) : 0;
+            start[layer][i] = there ? (float)uniform(0, layer == 1 ? 0.25 : 1) : 0.0f;
         }
     for (enum motion motion = AS_IT_IS; motion < MOTIONS; motion++) {
-        struct paper_sheet_config config = config_small(BOARD, BOARD, 1);
-        config.torus = true;
+        struct paper_sheet_config config = config_small(BOARD, BOARD, 2);
         struct paper_sheet *sheet = sheet_make(&config);
-        struct paper_air air = paper_air_default();
+        struct paper_air air = air_with_all();
         air.tension = 0.01;
         air.gravity[0] = motion == MIRRORED_X ? -0.3 : motion == TRANSPOSED ? 0.1 : 0.3;
         air.gravity[1] = motion == MIRRORED_Y ? -0.1 : motion == TRANSPOSED ? 0.3 : 0.1;
