@@ -17,17 +17,28 @@ struct run *run_of(lua_State *L)
     return run;
 }
 
-void run_check(lua_State *L)
+/* level: 0 for the script itself, 1 for a function that it called. */
+static void stop_if_due(lua_State *L, int level)
 {
     const struct run *run = run_of(L);
+    char text[96];
     if (interrupted())
-        luaL_error(L, "interrupted");
-    if (run->deadline_s > 0 && clock_s() > run->deadline_s) {
-        char text[64];
-        snprintf(text, sizeof text, "%g", run->timeout_s);
-        luaL_error(L, "stopped after %s seconds; --timeout says how long a script may take",
-                   text);
-    }
+        snprintf(text, sizeof text, "interrupted");
+    else if (run->deadline_s > 0 && clock_s() > run->deadline_s)
+        snprintf(text, sizeof text,
+                 "stopped after %g seconds; --timeout says how long a script may take",
+                 run->timeout_s);
+    else
+        return;
+    luaL_where(L, level);
+    lua_pushstring(L, text);
+    lua_concat(L, 2);
+    lua_error(L);
+}
+
+void run_check(lua_State *L)
+{
+    stop_if_due(L, 1);
 }
 
 void run_memory_take(lua_State *L, double bytes, const char *what)
