@@ -42,17 +42,17 @@ enum { TENSION_REACH = 10 };
 struct paper_air paper_air_default(void)
 {
     return (struct paper_air){
-        .spread = 0.5,
-        .relief = 0.2,
-        .film = 0.1,
-        .pinning = 0.6,
+        .spread = 1,
+        .relief = 0.05,
+        .film = 0.02,
+        .pinning = 0.8,
         .damp = 0.05,
-        .absorption = 0.05,
+        .absorption = 0.02,
         .carry = 0.3,
-        .humidity = 0.0008,
-        .edge = 20,
-        .edge_width = 5,
-        .settling = 1,
+        .humidity = 0.0004,
+        .edge = 15,
+        .edge_width = 8,
+        .settling = 0.1,
         .thesis = paper_weather_default(),
     };
 }
@@ -337,6 +337,12 @@ static void displacement_make(struct paper_sheet *p, const struct surface_terms 
     f_next(other, terms->level, axis);
     f_sub(d, terms->level, other);
     f_times(d, d, p->air.spread);
+    /* Levels even out as by diffusion with a coefficient of spread * water: kept below 1/8, or they would swing. */
+    f_next(other, terms->water, axis);
+    f_add(other, other, terms->water);
+    f_times(other, other, 4 * p->air.spread);
+    f_plus(other, other, 1.0);
+    f_div(d, d, other);
     if (p->air.tension > 0) {
         pull_make(p, out, terms->water, axis, true);
         pull_make(p, in, terms->water, axis, false);
