@@ -9,8 +9,8 @@
  * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept from 0, where 1 - E^2
  * would lose its digits; that changes R and T by less than 2e-5.
  *
- * The machine computes 16 bits of each channel, in linear light for Kubelka-Munk; the front end takes them to display
- * values by a table. */
+ * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps); the front
+ * end takes them to display values by a table. */
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -132,16 +132,18 @@ static void table_make(uint16_t *table, bool linear)
 {
     for (int i = 0; i < SHADES; i++) {
         double value = (double)i / (SHADES - 1);
-        table[i] =
-            (uint16_t)lround((linear ? paper_light_display(value) : value) * (SHADES - 1));
+        table[i] = (uint16_t)lround((linear ? paper_light_display(value * value) : value) *
+                                    (SHADES - 1));
     }
 }
 
 /* The field's 0..1 as 16 bits of the picture. */
-static void shade_store(struct paper_sheet *p, int channel, CM_field_id_t value)
+static void shade_store(struct paper_sheet *p, int channel, CM_field_id_t value, bool linear)
 {
     f_least(value, value, 0.0);
     f_most(value, value, 1.0);
+    if (linear)
+        CM_f_sqrt_1_1L(value, SHEET_F);
     f_times(value, value, SHADES - 1);
     CM_u_f_round_2_2L(p->shown[channel], value, 16, SHEET_F);
 }
@@ -184,7 +186,8 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
                           p->page.height);
     }
     bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
-    table_make(table, colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK);
+    bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
+    table_make(table, linear);
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]};
@@ -204,7 +207,7 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
         f_plus(color[0], color[0], -view->low / (view->high - view->low));
     }
     for (int i = 0; i < (colored ? 3 : 1); i++)
-        shade_store(p, i, color[i]);
+        shade_store(p, i, color[i], linear);
     enum paper_status status = shades_read(p, colored ? 3 : 1, table, one, rgb);
     free(one);
     free(table);
