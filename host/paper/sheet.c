@@ -136,6 +136,34 @@ static void fields_make(struct paper_sheet *p)
     CM_my_news_coordinate_1L(p->page.y_coord, PAPER_AXIS_Y, (unsigned)p->page.y_bits);
 }
 
+/* Fills with zeros what changes from step to step. The machine knows that a field is 0 until it is written, and makes
+ * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
+static enum paper_status amounts_clear(struct paper_sheet *p)
+{
+    CM_field_id_t fields[4 + 3 * PAPER_PIGMENTS_MAX];
+    int count = 0, offset[2] = {0, 0}, start[2] = {0, 0},
+        axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
+    int size[2] = {p->page.height, p->page.width};
+    fields[count++] = p->page.water;
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        fields[count++] = p->surface_water;
+    if (sheet_has(p, PAPER_PART_EDGE))
+        fields[count++] = p->wet_around;
+    for (int i = 0; i < p->config.pigments_count; i++)
+        count += sheet_pigment_fields(p, i, fields + count);
+    float *zeros = calloc((size_t)size[0] * (size_t)size[1], sizeof *zeros);
+    if (!zeros)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", size[1], size[0]);
+    for (int i = 0; i < count; i++)
+        CM_f_write_to_news_array_1L(zeros, offset, start, size, axes, fields[i], SHEET_F, 2,
+                                    size, CM_float_single);
+    if (p->config.parts)
+        CM_u_write_to_news_array_1L(zeros, offset, start, size, axes, p->dried,
+                                    SHEET_DRIED_BITS, 2, size, CM_32_bit);
+    free(zeros);
+    return PAPER_OK;
+}
+
 enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
                                      struct paper_sheet **out)
 {
@@ -168,7 +196,9 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     paper_enter(&p->page);
     fields_make(p);
     sheet_stock_make(p);
-    status = paper_leave(&p->page);
+    status = amounts_clear(p);
+    if (status == PAPER_OK)
+        status = paper_leave(&p->page);
     if (status == PAPER_OK)
         status = paper_sheet_finish(p);
     if (status != PAPER_OK) {
