@@ -53,6 +53,10 @@ void display_image_destroy(struct display_image *image);
  * under that name stands as it was, and nothing is left beside it. */
 enum display_status display_png_write(const char *path, const struct display_image *image);
 
+/* The same with 16 bits for each channel. Shape: height_px * width_px * channels numbers, as in a display_image. */
+enum display_status display_png_write_16(const char *path, int width_px, int height_px,
+                                         int channels, const uint16_t *pixels);
+
 /* Reads any PNG as 8-bit gray: colours by their luminance, transparency over white, 16 bits rounded to 8.
  * Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros.
  * Owns: the caller destroys *image. */

@@ -50,9 +50,15 @@ static void sink_warning(png_structp png, png_const_charp message)
     (void)message; /* a file that could be written is fine */
 }
 
+/* What is written: pixels of one or two bytes, those in this machine's order. */
+struct png_source {
+    int width_px, height_px, channels, bytes;
+    const uint8_t *pixels;
+};
+
 /* Everything between signature and IEND; false with sink's error or message set. No local is changed after
  * setjmp, so none needs to be volatile. */
-static int png_encode(struct png_sink *sink, const struct display_image *image)
+static int png_encode(struct png_sink *sink, const struct png_source *image)
 {
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, sink, sink_error, sink_warning);
@@ -67,12 +73,15 @@ static int png_encode(struct png_sink *sink, const struct display_image *image)
         return 0;
     }
     png_set_write_fn(png, sink, sink_write, sink_flush);
-    png_set_IHDR(png, info, (png_uint_32)image->width_px, (png_uint_32)image->height_px, 8,
+    png_set_IHDR(png, info, (png_uint_32)image->width_px, (png_uint_32)image->height_px,
+                 8 * image->bytes,
                  image->channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
-    size_t row_bytes = (size_t)image->width_px * (size_t)image->channels;
+    if (image->bytes == 2 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
+        png_set_swap(png);
+    size_t row_bytes = (size_t)image->width_px * (size_t)image->channels * (size_t)image->bytes;
     for (int y = 0; y < image->height_px; y++)
         png_write_row(png, image->pixels + (size_t)y * row_bytes);
     png_write_end(png, info);
@@ -134,9 +143,9 @@ static const char *advice(int error)
     }
 }
 
-enum display_status display_png_write(const char *path, const struct display_image *image)
+static enum display_status source_write(const char *path, const struct png_source *image)
 {
-    if (!path || !image || !image->pixels || image->width_px < 1 || image->height_px < 1 ||
+    if (!path || !image->pixels || image->width_px < 1 || image->height_px < 1 ||
         (image->channels != 1 && image->channels != 3))
         return display_fail(DISPLAY_BAD_ARGUMENT, "%s: there is no image to write",
                             path ? path : "(no file name)");
@@ -170,4 +179,26 @@ enum display_status display_png_write(const char *path, const struct display_ima
     if (!encoded)
         return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", path, sink.message);
     return DISPLAY_OK;
+}
+
+enum display_status display_png_write(const char *path, const struct display_image *image)
+{
+    struct png_source source = {.bytes = 1};
+    if (image) {
+        source.width_px = image->width_px;
+        source.height_px = image->height_px;
+        source.channels = image->channels;
+        source.pixels = image->pixels;
+    }
+    return source_write(path, &source);
+}
+
+enum display_status display_png_write_16(const char *path, int width_px, int height_px,
+                                         int channels, const uint16_t *pixels)
+{
+    return source_write(path, &(struct png_source){.width_px = width_px,
+                                                   .height_px = height_px,
+                                                   .channels = channels,
+                                                   .bytes = 2,
+                                                   .pixels = (const uint8_t *)pixels});
 }

@@ -33,7 +33,7 @@ struct paper_weather paper_weather_default(void)
     };
 }
 
-static enum paper_status weather_check(const struct paper_weather *w)
+enum paper_status paper_weather_check(const struct paper_weather *w)
 {
     const double least = 1 / PAPER_GRAVITY_MAX;
     if (!(w->gravity_x >= least && w->gravity_x <= PAPER_GRAVITY_MAX && w->gravity_y >= least &&
@@ -87,34 +87,40 @@ static void gradient_flow(struct paper *p, CM_field_id_t substance, unsigned axi
 }
 
 static void disperse_along(struct paper *p, unsigned axis, double gravity,
-                           const double molecular_weight[3])
+                           const CM_field_id_t *pigments, const double *weights, int count)
 {
     paper_context_rectangle(p, RIM, RIM, p->width - RIM, p->height - RIM);
     gradient_take(p, p->water, axis);
     gravity_pull(p, gravity);
     gradient_flow(p, p->water, axis);
-    for (int i = 0; i < 3; i++) {
-        gradient_take(p, p->pigment[i], axis);
+    for (int i = 0; i < count; i++) {
+        gradient_take(p, pigments[i], axis);
         CM_f_multiply_2_1L(p->inward, p->water, PAPER_S, PAPER_E);
-        CM_f_multiply_constant_2_1L(p->inward, molecular_weight[i], PAPER_S, PAPER_E);
+        CM_f_multiply_constant_2_1L(p->inward, weights[i], PAPER_S, PAPER_E);
         gravity_pull(p, gravity);
-        gradient_flow(p, p->pigment[i], axis);
+        gradient_flow(p, pigments[i], axis);
     }
     paper_context_restore(p);
 }
 
-enum paper_status paper_disperse(struct paper *p, const struct paper_weather *weather)
+void paper_cycle(struct paper *p, const struct paper_weather *weather,
+                 const CM_field_id_t *pigments, const double *weights, int count)
 {
-    enum paper_status status = weather_check(weather);
-    if (status != PAPER_OK)
-        return status;
-    paper_enter(p);
-    CM_set_context();
-    disperse_along(p, PAPER_AXIS_X, weather->gravity_x, weather->molecular_weight);
-    disperse_along(p, PAPER_AXIS_Y, weather->gravity_y, weather->molecular_weight);
+    disperse_along(p, PAPER_AXIS_X, weather->gravity_x, pigments, weights, count);
+    disperse_along(p, PAPER_AXIS_Y, weather->gravity_y, pigments, weights, count);
     if (weather->humidity > 0) {
         CM_f_subtract_constant_2_1L(p->water, weather->humidity, PAPER_S, PAPER_E);
         CM_f_max_constant_2_1L(p->water, 0.0, PAPER_S, PAPER_E);
     }
+}
+
+enum paper_status paper_disperse(struct paper *p, const struct paper_weather *weather)
+{
+    enum paper_status status = paper_weather_check(weather);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(p);
+    CM_set_context();
+    paper_cycle(p, weather, p->pigment, weather->molecular_weight, 3);
     return paper_leave(p);
 }

@@ -53,6 +53,11 @@ enum paper_status paper_leave(struct paper *p);
 void paper_context_rectangle(struct paper *p, int x1, int y1, int x2, int y2);
 void paper_context_restore(struct paper *p);
 
+enum paper_status paper_weather_check(const struct paper_weather *weather);
+/* One cycle on any number of pigments, with a molecular weight for each; every processor is active before and after. */
+void paper_cycle(struct paper *p, const struct paper_weather *weather,
+                 const CM_field_id_t *pigments, const double *weights, int count);
+
 /* Fills absorbency and fiber_color as the configuration says. */
 void paper_fibers_make(struct paper *p, const struct paper_config *config);
 

@@ -1,0 +1,25 @@
+-- papers.lua - one word in every paper: the same ink, water and time on five stocks.
+--
+--     lutetia run examples/scripts/papers.lua [scale=0.5] [steps=500] [word=Lutetia]
+-- The stocks are strips of one poster: each strip is made alone and copied into the poster's layers.
+local scale = param("scale", 1)
+local steps = param("steps", 500)
+local word = param("word", "Lutetia")
+local stocks = {"glass", "hot press", "cold press", "rough", "blotting"}
+local w, h = math.floor(700 * scale), math.floor(190 * scale)
+
+for i, stock in ipairs(stocks) do
+  local p = paper{
+    width = w, height = h, stock = stock, seed = 30 + i, grain = math.max(1, (stock == "rough" and 9 or 5) * scale),
+    pigments = {"burnt umber", "french ultramarine", "quinacridone rose"},
+  }
+  p:air{humidity = 0.0006, absorption = 0.05, settling = 0.15, gravity = {0, stock == "glass" and 0.1 or 0}}
+  -- a damp band across, and the word half in it
+  p:put(rect(w * 0.36, 24 * scale, w * 0.30, h - 48 * scale):soften(14 * scale), {water = 0.55})
+  p:put(text(word, {size = 150 * scale, x = w / 2, y = h * 0.72, align = "center"}),
+    {water = 0.7, ["burnt umber"] = 0.35, ["french ultramarine"] = 0.55, ["quinacridone rose"] = 0.2})
+  p:step(steps)
+  p:dry()
+  p:frame(string.format("papers-%d-%s.png", i, stock:gsub(" ", "-")))
+  p:close()
+end

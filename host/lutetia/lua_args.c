@@ -1,0 +1,161 @@
+/* lua_args.c - what scripts say, checked: every error names the value that was wrong and what it must be. */
+#include "lua_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A short description of the value at index, for messages. */
+static const char *described(lua_State *L, int index, char out[64])
+{
+    switch (lua_type(L, index)) {
+    case LUA_TNUMBER:
+        if (lua_isinteger(L, index))
+            snprintf(out, 64, "%lld", (long long)lua_tointeger(L, index));
+        else
+            snprintf(out, 64, "%.6g", lua_tonumber(L, index));
+        break;
+    case LUA_TSTRING:
+        snprintf(out, 64, "'%.40s'", lua_tostring(L, index));
+        break;
+    case LUA_TBOOLEAN:
+        snprintf(out, 64, "%s", lua_toboolean(L, index) ? "true" : "false");
+        break;
+    default:
+        snprintf(out, 64, "a %s", luaL_typename(L, index));
+    }
+    return out;
+}
+
+/* The number on the top within bounds; it is popped. */
+static double number_pop(lua_State *L, const char *what, const char *name, double low,
+                         double high)
+{
+    char shown[64];
+    double value = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : NAN;
+    if (!(value >= low && value <= high)) {
+        char range[64];
+        snprintf(range, sizeof range, "%g..%g", low, high);
+        luaL_error(L, "%s%s%s must be %s (got %s)", what, *name ? " " : "", name, range,
+                   described(L, -1, shown));
+    }
+    lua_pop(L, 1);
+    return value;
+}
+
+double arg_number(lua_State *L, int index, const char *what, const char *name, double fallback,
+                  double low, double high)
+{
+    if (lua_getfield(L, index, name) == LUA_TNIL) {
+        lua_pop(L, 1);
+        return fallback;
+    }
+    return number_pop(L, what, name, low, high);
+}
+
+int arg_integer(lua_State *L, int index, const char *what, const char *name, int fallback,
+                double low, double high)
+{
+    char shown[64];
+    if (lua_getfield(L, index, name) == LUA_TNIL) {
+        lua_pop(L, 1);
+        return fallback;
+    }
+    lua_Number value = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : NAN;
+    if (!(value >= low && value <= high) || floor(value) != value)
+        luaL_error(L, "%s %s must be %d..%d (got %s)", what, name, (int)low, (int)high,
+                   described(L, -1, shown));
+    lua_pop(L, 1);
+    return (int)value;
+}
+
+bool arg_boolean(lua_State *L, int index, const char *what, const char *name, bool fallback)
+{
+    char shown[64];
+    int type = lua_getfield(L, index, name);
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        luaL_error(L, "%s %s must be true or false (got %s)", what, name,
+                   described(L, -1, shown));
+    bool value = type == LUA_TNIL ? fallback : lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return value;
+}
+
+const char *arg_text(lua_State *L, int index, const char *what, const char *name)
+{
+    char shown[64];
+    int type = lua_getfield(L, index, name);
+    if (type != LUA_TNIL && type != LUA_TSTRING)
+        luaL_error(L, "%s %s must be a text (got %s)", what, name, described(L, -1, shown));
+    const char *value = type == LUA_TNIL ? NULL : lua_tostring(L, -1);
+    lua_pop(L, 1); /* the table holds it */
+    return value;
+}
+
+bool arg_numbers(lua_State *L, int index, const char *what, const char *name, double *out,
+                 int count, double low, double high)
+{
+    char shown[64];
+    int type = lua_getfield(L, index, name);
+    if (type == LUA_TNIL) {
+        lua_pop(L, 1);
+        return false;
+    }
+    if (type == LUA_TNUMBER) {
+        double value = number_pop(L, what, name, low, high);
+        for (int i = 0; i < count; i++)
+            out[i] = value;
+        return true;
+    }
+    if (type != LUA_TTABLE || (int)lua_rawlen(L, -1) != count)
+        luaL_error(L, "%s %s must be %d numbers in braces (got %s)", what, name, count,
+                   described(L, -1, shown));
+    for (int i = 0; i < count; i++) {
+        lua_rawgeti(L, -1, i + 1);
+        out[i] = number_pop(L, what, name, low, high);
+    }
+    lua_pop(L, 1);
+    return true;
+}
+
+bool arg_color(lua_State *L, int index, const char *what, const char *name, double out[3])
+{
+    char shown[64];
+    if (lua_getfield(L, index, name) != LUA_TSTRING) {
+        lua_pop(L, 1);
+        return arg_numbers(L, index, what, name, out, 3, 0, 1);
+    }
+    unsigned red, green, blue;
+    char end;
+    const char *text = lua_tostring(L, -1);
+    if (strlen(text) != 7 || sscanf(text, "#%2x%2x%2x%c", &red, &green, &blue, &end) != 3)
+        luaL_error(L, "%s %s must be a colour, \"#rrggbb\" or {r, g, b} (got %s)", what, name,
+                   described(L, -1, shown));
+    out[0] = red / 255.0;
+    out[1] = green / 255.0;
+    out[2] = blue / 255.0;
+    lua_pop(L, 1);
+    return true;
+}
+
+void arg_keys(lua_State *L, int index, const char *what, const char *const *names)
+{
+    index = lua_absindex(L, index);
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        char shown[64];
+        bool known = false;
+        if (lua_type(L, -2) == LUA_TSTRING)
+            for (int i = 0; names[i] && !known; i++)
+                known = strcmp(lua_tostring(L, -2), names[i]) == 0;
+        if (!known)
+            luaL_error(L, "%s has no %s", what, described(L, -2, shown));
+        lua_pop(L, 1);
+    }
+}
+
+double arg_at(lua_State *L, int index, const char *what, double low, double high)
+{
+    lua_pushvalue(L, index);
+    return number_pop(L, what, "", low, high);
+}

@@ -1,0 +1,645 @@
+/* lua_paper.c - sheets in scripts: paper{...} and its methods. */
+#include "lua_run.h"
+#include "lutetia.h"
+
+#include <display.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char paper_type[] = "lutetia paper";
+
+struct run_paper {
+    struct run *run;
+    struct paper_sheet *sheet;
+    double bytes;
+    int steps;
+};
+
+static void check(lua_State *L, enum paper_status status)
+{
+    if (status != PAPER_OK) {
+        run_check(L); /* what fails after Ctrl-C fails because of it */
+        luaL_error(L, "%s", paper_error());
+    }
+}
+
+static struct run_paper *paper_at(lua_State *L)
+{
+    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    if (!paper->sheet)
+        luaL_error(L, "this paper is closed");
+    return paper;
+}
+
+static const struct paper_sheet_config *config_of(const struct run_paper *paper)
+{
+    return paper_sheet_get_config(paper->sheet);
+}
+
+/* ---- making ---- */
+
+/* Fills a pigment from the text or table on the top; pops it. */
+static void pigment_read(lua_State *L, struct paper_pigment *pigment)
+{
+    static const char *const keys[] = {"name",     "like",        "weight", "density",
+                                       "staining", "granulation", "K",      "S",
+                                       "white",    "black",       "takes",  NULL};
+    if (lua_type(L, -1) == LUA_TSTRING) {
+        const struct paper_pigment *known = paper_pigment_find(lua_tostring(L, -1));
+        if (!known)
+            luaL_error(L, "there is no pigment '%s'", lua_tostring(L, -1));
+        *pigment = *known;
+        lua_pop(L, 1);
+        return;
+    }
+    if (lua_type(L, -1) != LUA_TTABLE)
+        luaL_error(L, "a pigment must be a name or a table (got a %s)", luaL_typename(L, -1));
+    int t = lua_gettop(L);
+    arg_keys(L, t, "pigment", keys);
+    const char *like = arg_text(L, t, "pigment", "like"),
+               *name = arg_text(L, t, "pigment", "name");
+    const struct paper_pigment *known = paper_pigment_find(like ? like : "cyan");
+    if (!known)
+        luaL_error(L, "there is no pigment '%s'", like);
+    *pigment = *known;
+    if (name && (strlen(name) == 0 || strlen(name) >= PAPER_NAME_MAX))
+        luaL_error(L, "a pigment's name must have 1..%d characters", PAPER_NAME_MAX - 1);
+    if (name)
+        snprintf(pigment->name, sizeof pigment->name, "%s", name);
+    arg_numbers(L, t, "pigment", "weight", pigment->weight, 2, 0, 1);
+    pigment->density = arg_number(L, t, "pigment", "density", pigment->density, 0, 1);
+    pigment->staining = arg_number(L, t, "pigment", "staining", pigment->staining, 0.5, 100);
+    pigment->granulation =
+        arg_number(L, t, "pigment", "granulation", pigment->granulation, 0, 1);
+    double white[3], black[3];
+    bool has_white = arg_color(L, t, "pigment", "white", white);
+    bool has_black = arg_color(L, t, "pigment", "black", black);
+    if (has_white != has_black)
+        luaL_error(L, "a pigment needs both colours, white and black: how it looks over them");
+    if (has_white) {
+        for (int i = 0; i < 3; i++) {
+            white[i] = paper_light_linear(white[i]);
+            black[i] = paper_light_linear(black[i]);
+        }
+        check(L, paper_pigment_colors(pigment, white, black));
+    }
+    arg_numbers(L, t, "pigment", "K", pigment->k, 3, 0, 100);
+    arg_numbers(L, t, "pigment", "S", pigment->s, 3, 0, 100);
+    arg_numbers(L, t, "pigment", "takes", pigment->takes, 3, -1, 1);
+    lua_pop(L, 1);
+}
+
+static void pigments_read(lua_State *L, struct paper_sheet_config *config)
+{
+    int type = lua_getfield(L, 1, "pigments");
+    if (type == LUA_TNIL) {
+        lua_pop(L, 1);
+        return;
+    }
+    if (type != LUA_TTABLE || lua_rawlen(L, -1) > PAPER_PIGMENTS_MAX)
+        luaL_error(L, "paper pigments must be a list of up to %d", PAPER_PIGMENTS_MAX);
+    config->pigments_count = (int)lua_rawlen(L, -1);
+    for (int i = 0; i < config->pigments_count; i++) {
+        lua_rawgeti(L, -1, i + 1);
+        pigment_read(L, &config->pigments[i]);
+        for (int j = 0; j < i; j++)
+            if (strcmp(config->pigments[i].name, config->pigments[j].name) == 0)
+                luaL_error(L, "two pigments are called '%s'; give them names",
+                           config->pigments[i].name);
+    }
+    lua_pop(L, 1);
+}
+
+/* The row of a NULL-ended list that the text is, or an error that lists them. */
+static int choice(lua_State *L, const char *what, const char *text, const char *const *names)
+{
+    luaL_Buffer list;
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], text) == 0)
+            return i;
+    luaL_buffinit(L, &list);
+    for (int i = 0; names[i]; i++) {
+        luaL_addstring(&list, i ? ", " : "");
+        luaL_addstring(&list, names[i]);
+    }
+    luaL_pushresult(&list);
+    return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
+}
+
+static const char *const parts_names[] = {"infused", "surface", "fixing", "edge", NULL};
+
+static void parts_read(lua_State *L, struct paper_sheet_config *config)
+{
+    static const char *const models[] = {"full", "thesis", NULL};
+    int type = lua_getfield(L, 1, "model");
+    if (type == LUA_TTABLE) {
+        config->parts = PAPER_PART_INFUSED;
+        int count = (int)lua_rawlen(L, -1);
+        for (int i = 1; i <= count; i++) {
+            lua_rawgeti(L, -1, i);
+            config->parts |= 1u << choice(L, "a part of paper's model", luaL_checkstring(L, -1),
+                                          parts_names);
+            lua_pop(L, 1);
+        }
+    } else if (type == LUA_TSTRING) {
+        bool thesis = choice(L, "paper model", lua_tostring(L, -1), models) == 1;
+        config->parts = thesis ? 0 : PAPER_PARTS_ALL;
+        if (thesis)
+            config->rule = PAPER_RULE_SUBTRACT;
+    } else if (type != LUA_TNIL) {
+        luaL_error(L, "paper model must be \"full\", \"thesis\" or a list of parts");
+    }
+    lua_pop(L, 1);
+}
+
+static void stock_read(lua_State *L, struct paper_stock *stock)
+{
+    const char *name = arg_text(L, 1, "paper", "stock");
+    if (name) {
+        const struct paper_stock *known = paper_stock_find(name);
+        if (!known)
+            luaL_error(L, "there is no paper stock '%s'", name);
+        *stock = *known;
+    }
+    arg_color(L, 1, "paper", "color", stock->color);
+    double length[2] = {stock->fiber_length[0], stock->fiber_length[1]};
+    stock->color_variation =
+        arg_number(L, 1, "paper", "color_variation", stock->color_variation, 0, 1);
+    stock->absorbency =
+        arg_number(L, 1, "paper", "absorbency", stock->absorbency, 0, PAPER_ABSORBENCY_MAX);
+    stock->absorbency_variation =
+        arg_number(L, 1, "paper", "absorbency_variation", stock->absorbency_variation, 0, 1);
+    arg_numbers(L, 1, "paper", "absorbency_along", stock->absorbency_along, 2, 0, 1);
+    arg_numbers(L, 1, "paper", "capacity", stock->capacity, 2, 0.01, 1);
+    stock->roughness = arg_number(L, 1, "paper", "roughness", stock->roughness, 0, 1);
+    stock->grain_px = arg_number(L, 1, "paper", "grain", stock->grain_px, 1, 64);
+    arg_numbers(L, 1, "paper", "fibers", length, 2, 1, 64);
+    stock->fiber_length[0] = (int)length[0];
+    stock->fiber_length[1] = (int)length[1];
+}
+
+static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
+
+static int make_paper(lua_State *L)
+{
+    static const char *const keys[] = {"width",
+                                       "height",
+                                       "torus",
+                                       "model",
+                                       "rule",
+                                       "stock",
+                                       "seed",
+                                       "pigments",
+                                       "color",
+                                       "color_variation",
+                                       "absorbency",
+                                       "absorbency_variation",
+                                       "absorbency_along",
+                                       "capacity",
+                                       "roughness",
+                                       "grain",
+                                       "fibers",
+                                       NULL};
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_settop(L, 1);
+    arg_keys(L, 1, "paper", keys);
+    struct run *run = run_of(L);
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = arg_integer(L, 1, "paper", "width", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
+    config.height = arg_integer(L, 1, "paper", "height", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
+    config.torus = arg_boolean(L, 1, "paper", "torus", false);
+    config.seed = (uint64_t)arg_integer(L, 1, "paper", "seed", (int)(run->seed & 0x7fffffff), 0,
+                                        2147483647);
+    parts_read(L, &config);
+    const char *rule = arg_text(L, 1, "paper", "rule");
+    if (rule)
+        config.rule = (enum paper_rule)choice(L, "paper rule", rule, rules);
+    stock_read(L, &config.stock);
+    pigments_read(L, &config);
+
+    struct run_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
+    memset(paper, 0, sizeof *paper);
+    paper->run = run;
+    luaL_setmetatable(L, paper_type);
+    /* each field, what replaces it, and what lies between steps */
+    double fields = 20 + 5.0 * config.pigments_count;
+    double bytes = 2 * 4 * fields * config.width * config.height;
+    run_memory_take(L, bytes, "a paper");
+    paper->bytes = bytes;
+    enum paper_status status = paper_sheet_create(&config, &paper->sheet);
+    check(L, status);
+    return 1;
+}
+
+static int paper_close(lua_State *L)
+{
+    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    paper_sheet_destroy(paper->sheet);
+    paper->sheet = NULL;
+    run_memory_give(paper->run, paper->bytes);
+    paper->bytes = 0;
+    return 0;
+}
+
+/* ---- putting and taking ---- */
+
+static int pigment_number(lua_State *L, const struct run_paper *paper, const char *name)
+{
+    const struct paper_sheet_config *config = config_of(paper);
+    for (int i = 0; i < config->pigments_count; i++)
+        if (strcmp(config->pigments[i].name, name) == 0)
+            return i;
+    return luaL_error(L, "this paper has no pigment '%s'", name);
+}
+
+/* {water = 0.5, ["phthalo green"] = 0.2}; its values in the order of the sheet's substances. */
+static void amounts_read(lua_State *L, int index, const struct run_paper *paper,
+                         double amount[1 + PAPER_PIGMENTS_MAX])
+{
+    luaL_checktype(L, index, LUA_TTABLE);
+    memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        if (lua_type(L, -2) != LUA_TSTRING)
+            luaL_error(L, "amounts are written name = number, ink[\"phthalo green\"] = 0.5");
+        const char *name = lua_tostring(L, -2);
+        int i = strcmp(name, "water") == 0 ? 0 : 1 + pigment_number(L, paper, name);
+        lua_pushvalue(L, -1);
+        amount[i] = arg_at(L, -1, name, -4, 4);
+        lua_pop(L, 2);
+    }
+}
+
+/* The mask at index as a screen; a missing one is everywhere (*everywhere). False: it covers nothing. */
+static bool screen_read(lua_State *L, int index, const struct run_paper *paper,
+                        struct paper_screen *screen, int *x, int *y)
+{
+    const struct paper_sheet_config *config = config_of(paper);
+    return mask_screen(L, index, config->width, config->height, screen, x, y);
+}
+
+static int paper_put(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    struct paper_screen screen;
+    int x, y;
+    lua_settop(L, 3);
+    amounts_read(L, 3, paper, amount);
+    if (screen_read(L, 2, paper, &screen, &x, &y))
+        check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+    run_check(L);
+    return 0;
+}
+
+static int paper_wash(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    lua_settop(L, 2);
+    amounts_read(L, 2, paper, amount);
+    check(L, paper_sheet_put(paper->sheet, NULL, 0, 0, amount));
+    run_check(L);
+    return 0;
+}
+
+static int paper_blot(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    struct paper_screen screen;
+    int x, y;
+    double part = lua_isnoneornil(L, 3) ? 1 : arg_at(L, 3, "blot's part", 0, 1);
+    double lift = lua_isnoneornil(L, 4) ? 0 : arg_at(L, 4, "blot's lift", 0, 1);
+    if (screen_read(L, 2, paper, &screen, &x, &y))
+        check(L, paper_sheet_blot(paper->sheet, &screen, x, y, part, lift));
+    run_check(L);
+    return 0;
+}
+
+static int resist_set(lua_State *L, bool on)
+{
+    struct run_paper *paper = paper_at(L);
+    struct paper_screen screen;
+    int x, y;
+    if (screen_read(L, 2, paper, &screen, &x, &y))
+        check(L, paper_sheet_resist(paper->sheet, &screen, x, y, on));
+    run_check(L);
+    return 0;
+}
+
+static int paper_resist(lua_State *L)
+{
+    return resist_set(L, true);
+}
+
+static int paper_unresist(lua_State *L)
+{
+    return resist_set(L, false);
+}
+
+static int paper_dry(lua_State *L)
+{
+    check(L, paper_sheet_dry(paper_at(L)->sheet));
+    return 0;
+}
+
+static int paper_seal(lua_State *L)
+{
+    check(L, paper_sheet_seal(paper_at(L)->sheet));
+    return 0;
+}
+
+/* ---- layers ---- */
+
+static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
+                                          [PAPER_LAYER_ABSORBENCY] = "absorbency",
+                                          [PAPER_LAYER_CAPACITY] = "capacity",
+                                          [PAPER_LAYER_RESIST] = "resist",
+                                          [PAPER_LAYER_RED] = "red",
+                                          [PAPER_LAYER_GREEN] = "green",
+                                          [PAPER_LAYER_BLUE] = "blue",
+                                          [PAPER_LAYER_SURFACE_WATER] = "surface water",
+                                          [PAPER_LAYER_INFUSED_WATER] = "infused water",
+                                          [PAPER_LAYER_DRIED_WATER] = "dried water",
+                                          [PAPER_LAYER_SURFACE_PIGMENT] = "surface pigment",
+                                          [PAPER_LAYER_INFUSED_PIGMENT] = "infused pigment",
+                                          [PAPER_LAYER_FIXED_PIGMENT] = "fixed pigment",
+                                          [PAPER_LAYERS_COUNT] = NULL};
+
+/* The layer and pigment named by the arguments at index and pigment_index. */
+static enum paper_layer layer_read(lua_State *L, const struct run_paper *paper, int index,
+                                   int pigment_index, int *pigment)
+{
+    enum paper_layer layer =
+        (enum paper_layer)choice(L, "a layer", luaL_checkstring(L, index), layer_names);
+    *pigment = 0;
+    if (layer >= PAPER_LAYER_SURFACE_PIGMENT)
+        *pigment = pigment_number(L, paper, luaL_checkstring(L, pigment_index));
+    return layer;
+}
+
+/* A buffer of a number for each fiber that the state frees. */
+static float *values_new(lua_State *L, const struct paper_sheet_config *config)
+{
+    return lua_newuserdatauv(L, (size_t)config->width * (size_t)config->height * sizeof(float),
+                             0);
+}
+
+/* paper:layer(name, value [, pigment]): value is a number, a mask, or a function of x and y. */
+static int paper_layer(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    const struct paper_sheet_config *config = config_of(paper);
+    int pigment, x = 0, y = 0;
+    enum paper_layer layer = layer_read(L, paper, 2, 4, &pigment);
+    size_t width = (size_t)config->width, count = width * (size_t)config->height;
+    float *values = values_new(L, config);
+    memset(values, 0, count * sizeof *values);
+    if (lua_type(L, 3) == LUA_TNUMBER) {
+        double value = arg_at(L, 3, "a layer's value", -1e6, 1e6);
+        for (size_t i = 0; i < count; i++)
+            values[i] = (float)value;
+    } else if (lua_type(L, 3) == LUA_TFUNCTION) {
+        for (size_t i = 0; i < count; i++) {
+            lua_pushvalue(L, 3);
+            lua_pushinteger(L, (lua_Integer)(i % width));
+            lua_pushinteger(L, (lua_Integer)(i / width));
+            lua_call(L, 2, 1);
+            values[i] = (float)arg_at(L, -1, "a layer's value", -1e6, 1e6);
+            lua_pop(L, 1);
+        }
+    } else {
+        struct paper_screen screen;
+        if (screen_read(L, 3, paper, &screen, &x, &y))
+            for (int row = 0; row < screen.height_px; row++)
+                for (int column = 0; column < screen.width_px; column++) {
+                    int at_x = x + column, at_y = y + row;
+                    if (at_x >= 0 && at_y >= 0 && at_x < config->width && at_y < config->height)
+                        values[(size_t)at_y * width + (size_t)at_x] =
+                            screen
+                                .gray[(size_t)row * (size_t)screen.width_px + (size_t)column] /
+                            255.0f;
+                }
+    }
+    check(L, paper_sheet_layer_write(paper->sheet, layer, pigment, values));
+    run_check(L);
+    return 0;
+}
+
+/* paper:mask(name, low, high [, pigment]): a layer as a mask, 0 at low and 1 at high. */
+static int paper_mask(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    const struct paper_sheet_config *config = config_of(paper);
+    int pigment;
+    enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
+    double low = lua_isnoneornil(L, 3) ? 0 : arg_at(L, 3, "a mask's black", -1e6, 1e6);
+    double high = lua_isnoneornil(L, 4) ? 1 : arg_at(L, 4, "a mask's white", -1e6, 1e6);
+    if (low == high)
+        luaL_error(L, "a mask's black and white must differ");
+    float *values = values_new(L, config);
+    check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
+    size_t count = (size_t)config->width * (size_t)config->height;
+    uint8_t *gray = lua_newuserdatauv(L, count, 0);
+    for (size_t i = 0; i < count; i++)
+        gray[i] =
+            (uint8_t)lround(255 * fmin(1, fmax(0, ((double)values[i] - low) / (high - low))));
+    mask_push(L, gray, config->width, config->height, 0, 0);
+    return 1;
+}
+
+/* paper:at(name, x, y [, pigment]) */
+static int paper_at_fiber(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    const struct paper_sheet_config *config = config_of(paper);
+    int pigment;
+    enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
+    double x = floor(arg_at(L, 3, "x", 0, config->width - 1));
+    double y = floor(arg_at(L, 4, "y", 0, config->height - 1));
+    float *values = values_new(L, config);
+    check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
+    lua_pushnumber(L, (double)values[(size_t)y * (size_t)config->width + (size_t)x]);
+    return 1;
+}
+
+static int paper_total_of(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    const char *name = luaL_checkstring(L, 2);
+    int substance = strcmp(name, "water") == 0   ? 0
+                    : strcmp(name, "dried") == 0 ? -1
+                                                 : 1 + pigment_number(L, paper, name);
+    double total;
+    check(L, paper_sheet_total(paper->sheet, substance, &total));
+    lua_pushnumber(L, total);
+    return 1;
+}
+
+/* ---- time ---- */
+
+static int paper_air(lua_State *L)
+{
+    static const char *const keys[] = {"gravity",    "seep",     "spread",   "tension",
+                                       "relief",     "film",     "pinning",  "damp",
+                                       "absorption", "carry",    "humidity", "edge",
+                                       "edge_width", "settling", NULL};
+    struct run_paper *paper = paper_at(L);
+    luaL_checktype(L, 2, LUA_TTABLE);
+    arg_keys(L, 2, "air", keys);
+    struct paper_air air = *paper_sheet_get_air(paper->sheet);
+    const struct {
+        const char *name;
+        double *value, high;
+    } rows[] = {{"spread", &air.spread, 1},          {"tension", &air.tension, 0.1},
+                {"relief", &air.relief, 1},          {"film", &air.film, 1},
+                {"pinning", &air.pinning, 2},        {"damp", &air.damp, 1},
+                {"absorption", &air.absorption, 4},  {"carry", &air.carry, 1},
+                {"humidity", &air.humidity, 1},      {"edge", &air.edge, 200},
+                {"edge_width", &air.edge_width, 32}, {"settling", &air.settling, 10}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        *rows[i].value = arg_number(L, 2, "air", rows[i].name, *rows[i].value, 0, rows[i].high);
+    bool thesis = config_of(paper)->parts == 0;
+    if (thesis) { /* its gravity is a factor, 1 for none */
+        double gravity[2] = {air.thesis.gravity_x, air.thesis.gravity_y};
+        arg_numbers(L, 2, "air", "gravity", gravity, 2, 0.5, PAPER_GRAVITY_MAX);
+        air.thesis.gravity_x = gravity[0];
+        air.thesis.gravity_y = gravity[1];
+        air.thesis.humidity = air.humidity;
+    } else {
+        arg_numbers(L, 2, "air", "gravity", air.gravity, 2, -1, 1);
+        arg_numbers(L, 2, "air", "seep", air.seep, 2, -1, 1);
+    }
+    check(L, paper_sheet_air(paper->sheet, &air));
+    return 0;
+}
+
+static int paper_step(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "step's count", 0, 1e6);
+    struct progress progress = progress_begin(paper->run->script, count);
+    if (paper->run->quiet)
+        progress.shown = false;
+    enum paper_status status = PAPER_OK;
+    for (int i = 0; i < count && status == PAPER_OK; i++) {
+        status = paper_sheet_step(paper->sheet);
+        if (status == PAPER_OK)
+            status = paper_sheet_finish(paper->sheet);
+        paper->steps++;
+        progress_show(&progress, i + 1);
+        if (interrupted() || (paper->run->deadline_s > 0 && clock_s() > paper->run->deadline_s))
+            break;
+    }
+    progress_end(&progress);
+    run_check(L);
+    check(L, status);
+    return 0;
+}
+
+/* ---- looking ---- */
+
+static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
+
+/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=}]) */
+static int paper_frame(lua_State *L)
+{
+    static const char *const keys[] = {"show", "layer", "pigment", "low", "high", "bits", NULL};
+    struct run_paper *paper = paper_at(L);
+    const struct paper_sheet_config *config = config_of(paper);
+    const char *name = luaL_checkstring(L, 2);
+    lua_settop(L, 3);
+    if (lua_isnil(L, 3)) {
+        lua_newtable(L);
+        lua_replace(L, 3);
+    }
+    luaL_checktype(L, 3, LUA_TTABLE);
+    arg_keys(L, 3, "frame", keys);
+    struct paper_sheet_view view = {.high = 1};
+    const char *show = arg_text(L, 3, "frame", "show"),
+               *layer = arg_text(L, 3, "frame", "layer");
+    if (layer) {
+        view.show = PAPER_SHOW_LAYER;
+        lua_getfield(L, 3, "layer");
+        lua_getfield(L, 3, "pigment");
+        view.layer = layer_read(L, paper, 4, 5, &view.pigment);
+        lua_settop(L, 3);
+    }
+    if (show)
+        view.show = (enum paper_show)choice(L, "frame show", show, shows);
+    view.low = arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
+    view.high = arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
+    int bits = arg_integer(L, 3, "frame", "bits", 8, 8, 16);
+    if (bits != 8 && bits != 16)
+        luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);
+    size_t length = strlen(name);
+    if (length < 5 || strcmp(name + length - 4, ".png") != 0)
+        luaL_error(L, "frame's file must end in .png (got '%s')", name);
+    const char *path = run_path(L, paper->run->out_folder, name, "frame");
+
+    size_t count = 3 * (size_t)config->width * (size_t)config->height;
+    uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
+    check(L, paper_sheet_view(paper->sheet, &view, rgb));
+    run_check(L);
+    enum display_status status;
+    if (bits == 16) {
+        status = display_png_write_16(path, config->width, config->height, 3, rgb);
+    } else {
+        uint8_t *bytes = lua_newuserdatauv(L, count, 0);
+        for (size_t i = 0; i < count; i++)
+            bytes[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
+        status = display_png_write(path, &(struct display_image){.width_px = config->width,
+                                                                 .height_px = config->height,
+                                                                 .channels = 3,
+                                                                 .pixels = bytes});
+    }
+    if (status != DISPLAY_OK)
+        luaL_error(L, "%s", display_error());
+    paper->run->pictures++;
+    return 0;
+}
+
+/* Fields that can be read; else methods. */
+static int paper_index(lua_State *L)
+{
+    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    const char *key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+    if (paper->sheet && strcmp(key, "width") == 0)
+        lua_pushinteger(L, config_of(paper)->width);
+    else if (paper->sheet && strcmp(key, "height") == 0)
+        lua_pushinteger(L, config_of(paper)->height);
+    else if (strcmp(key, "steps") == 0)
+        lua_pushinteger(L, paper->steps);
+    else {
+        lua_pushvalue(L, 2);
+        lua_rawget(L, lua_upvalueindex(1));
+        if (lua_isnil(L, -1))
+            luaL_error(L, "paper has no '%s'", key);
+    }
+    return 1;
+}
+
+void lua_paper_open(lua_State *L)
+{
+    static const luaL_Reg methods[] = {{"put", paper_put},           {"wash", paper_wash},
+                                       {"blot", paper_blot},         {"resist", paper_resist},
+                                       {"unresist", paper_unresist}, {"dry", paper_dry},
+                                       {"seal", paper_seal},         {"layer", paper_layer},
+                                       {"mask", paper_mask},         {"at", paper_at_fiber},
+                                       {"total", paper_total_of},    {"air", paper_air},
+                                       {"step", paper_step},         {"frame", paper_frame},
+                                       {"close", paper_close},       {NULL, NULL}};
+    luaL_newmetatable(L, paper_type);
+    luaL_newlib(L, methods);
+    lua_pushcclosure(L, paper_index, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, paper_close);
+    lua_setfield(L, -2, "__gc");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_pop(L, 1);
+    lua_register(L, "paper", make_paper);
+}

@@ -1,0 +1,84 @@
+/* lua_run.h - `lutetia run`: what the files of the script library share.
+ *
+ * A script is one Lua state. Its sheets and masks are userdata that free themselves; all memory is counted, and
+ * whatever takes long looks at the clock and at Ctrl-C. */
+#ifndef LUTETIA_LUA_RUN_H
+#define LUTETIA_LUA_RUN_H
+
+#include <paper.h>
+#include <sheet.h>
+
+#include <lauxlib.h>
+#include <lua.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { RUN_WORDS_MAX = 64 };
+
+struct run {
+    const char *script;     /* as it was named */
+    const char *in_folder;  /* pictures to read */
+    const char *out_folder; /* pictures to write */
+    bool trusted;           /* no sandbox */
+    bool quiet;
+    double deadline_s; /* by clock_s(); 0: none */
+    double timeout_s;
+    size_t memory_bytes, memory_most_bytes;
+    bool memory_short; /* Lua was refused some */
+    uint64_t seed;
+    const char *words[RUN_WORDS_MAX]; /* key=value */
+    bool asked[RUN_WORDS_MAX];
+    int words_count;
+    int pictures;
+};
+
+/* The run of a state. */
+struct run *run_of(lua_State *L);
+
+/* Raises an error when time is up or Ctrl-C was pressed. */
+void run_check(lua_State *L);
+/* Counts memory that is not Lua's; raises an error, having counted nothing, where there is not enough. */
+void run_memory_take(lua_State *L, double bytes, const char *what);
+void run_memory_give(struct run *run, double bytes);
+
+/* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
+const char *run_path(lua_State *L, const char *folder, const char *name, const char *what);
+
+/* ---- arguments ---- */
+
+/* Field `name` of the table at index, a finite number within low..high; missing is fallback. `what` says whose. */
+double arg_number(lua_State *L, int index, const char *what, const char *name, double fallback,
+                  double low, double high);
+int arg_integer(lua_State *L, int index, const char *what, const char *name, int fallback,
+                double low, double high);
+bool arg_boolean(lua_State *L, int index, const char *what, const char *name, bool fallback);
+/* NULL if missing; it is the table's. */
+const char *arg_text(lua_State *L, int index, const char *what, const char *name);
+/* Up to count numbers {a, b, c}, or one for all; false if missing. */
+bool arg_numbers(lua_State *L, int index, const char *what, const char *name, double *out,
+                 int count, double low, double high);
+/* "#rrggbb" or {r, g, b} in 0..1; false if missing. */
+bool arg_color(lua_State *L, int index, const char *what, const char *name, double out[3]);
+/* Every key must be among the names (NULL-terminated). */
+void arg_keys(lua_State *L, int index, const char *what, const char *const *names);
+/* The number at an argument's index within bounds. */
+double arg_at(lua_State *L, int index, const char *what, double low, double high);
+
+/* ---- masks ---- */
+
+struct run_mask;
+/* The mask at an argument, as a screen within width x height; empty: false. The screen is the state's: it is kept on the stack. */
+bool mask_screen(lua_State *L, int index, int width, int height, struct paper_screen *screen,
+                 int *x, int *y);
+/* Pushes a mask of gray values; takes them over by copying. */
+void mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
+
+void lua_mask_open(lua_State *L);
+void lua_paper_open(lua_State *L);
+
+/* Takes away what reaches out of the script, seeds math.random, and makes pairs() go in order. */
+void lua_sandbox_open(lua_State *L);
+
+#endif

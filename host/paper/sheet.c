@@ -1,0 +1,394 @@
+/* sheet.c - a sheet's life: its fields, its layers in and out, its totals. */
+#include "sheet_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool within(double x, double low, double high)
+{
+    return x >= low && x <= high; /* false for NaN */
+}
+
+struct paper_sheet_config paper_sheet_config_default(void)
+{
+    struct paper_sheet_config config = {.width = 512,
+                                        .height = 512,
+                                        .parts = PAPER_PARTS_ALL,
+                                        .rule = PAPER_RULE_KUBELKA_MUNK,
+                                        .stock = *paper_stock_number(0),
+                                        .seed = 1990};
+    return config;
+}
+
+/* ---- checking ---- */
+
+struct bound {
+    const char *name;
+    double value, low, high;
+};
+
+static enum paper_status bounds_check(const char *what, const char *name,
+                                      const struct bound *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!within(rows[i].value, rows[i].low, rows[i].high))
+            return paper_fail(PAPER_BAD_ARGUMENT, "%s%s%.*s's %s must be %g..%g (got %g)", what,
+                              *name ? " " : "", PAPER_NAME_MAX, name, rows[i].name, rows[i].low,
+                              rows[i].high, rows[i].value);
+    return PAPER_OK;
+}
+
+static enum paper_status pigment_check(const struct paper_pigment *g)
+{
+    const struct bound rows[] = {
+        {"weight along x", g->weight[0], 0, 1}, {"weight along y", g->weight[1], 0, 1},
+        {"density", g->density, 0, 1},          {"staining", g->staining, 0.5, 100},
+        {"granulation", g->granulation, 0, 1},  {"red absorption", g->k[0], 0, 100},
+        {"green absorption", g->k[1], 0, 100},  {"blue absorption", g->k[2], 0, 100},
+        {"red scattering", g->s[0], 0, 100},    {"green scattering", g->s[1], 0, 100},
+        {"blue scattering", g->s[2], 0, 100},   {"part of red", g->takes[0], -1, 1},
+        {"part of green", g->takes[1], -1, 1},  {"part of blue", g->takes[2], -1, 1}};
+    return bounds_check("pigment", g->name, rows, sizeof rows / sizeof *rows);
+}
+
+static enum paper_status stock_check(const struct paper_stock *s)
+{
+    const struct bound rows[] = {{"red", s->color[0], 0, 1},
+                                 {"green", s->color[1], 0, 1},
+                                 {"blue", s->color[2], 0, 1},
+                                 {"color_variation", s->color_variation, 0, 1},
+                                 {"absorbency", s->absorbency, 0, PAPER_ABSORBENCY_MAX},
+                                 {"absorbency_variation", s->absorbency_variation, 0, 1},
+                                 {"absorbency_along x", s->absorbency_along[0], 0, 1},
+                                 {"absorbency_along y", s->absorbency_along[1], 0, 1},
+                                 {"least capacity", s->capacity[0], 0.01, 1},
+                                 {"most capacity", s->capacity[1], 0.01, 1},
+                                 {"roughness", s->roughness, 0, 1},
+                                 {"grain", s->grain_px, 1, 64},
+                                 {"fiber length along x", s->fiber_length[0], 1, 64},
+                                 {"fiber length along y", s->fiber_length[1], 1, 64}};
+    return bounds_check("paper", s->name, rows, sizeof rows / sizeof *rows);
+}
+
+static enum paper_status config_check(const struct paper_sheet_config *c)
+{
+    if (c->width < PAPER_SIDE_MIN || c->width > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper width must be %d..%d (got %d)",
+                          PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->width);
+    if (c->height < PAPER_SIDE_MIN || c->height > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper height must be %d..%d (got %d)",
+                          PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->height);
+    if (c->parts > PAPER_PARTS_ALL)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper has no parts 0x%x", c->parts);
+    if (c->pigments_count < 0 || c->pigments_count > PAPER_PIGMENTS_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper takes 0..%d pigments (got %d)",
+                          PAPER_PIGMENTS_MAX, c->pigments_count);
+    if (c->rule > PAPER_RULE_LUMINOUS)
+        return paper_fail(PAPER_BAD_ARGUMENT, "there is no rule %d", (int)c->rule);
+    enum paper_status status = stock_check(&c->stock);
+    for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
+        status = pigment_check(&c->pigments[i]);
+    return status;
+}
+
+/* ---- life ---- */
+
+static int coordinate_bits(int length)
+{
+    int bits = 1;
+    while (bits < 31 && (1 << bits) < length)
+        bits++;
+    return bits;
+}
+
+static CM_field_id_t field_make(unsigned bits)
+{
+    return CM_allocate_heap_field(bits);
+}
+
+static void fields_make(struct paper_sheet *p)
+{
+    CM_field_id_t *const floats[] = {
+        &p->page.absorbency, &p->page.water,   &p->page.inflow,   &p->page.inward,
+        &p->page.outward,    &p->page.scratch, &p->height,        &p->capacity,
+        &p->resist,          &p->face[0],      &p->face[1],       &p->substrate[0],
+        &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around};
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
+        *floats[i] = field_make(PAPER_FLOAT_BITS);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        p->surface[i] = field_make(PAPER_FLOAT_BITS);
+        p->infused[i] = field_make(PAPER_FLOAT_BITS);
+        p->fixed[i] = field_make(PAPER_FLOAT_BITS);
+    }
+    for (int i = 0; i < SHEET_TEMPORARIES; i++)
+        p->t[i] = field_make(PAPER_FLOAT_BITS);
+    for (int i = 0; i < 3; i++)
+        p->shown[i] = field_make(16);
+    p->dried = field_make(SHEET_DRIED_BITS);
+    p->mask = field_make(8);
+    p->page.context = field_make(1);
+    p->page.inner_context = field_make(1);
+    p->page.x_coord = field_make((unsigned)p->page.x_bits);
+    p->page.y_coord = field_make((unsigned)p->page.y_bits);
+    CM_set_context();
+    CM_my_news_coordinate_1L(p->page.x_coord, PAPER_AXIS_X, (unsigned)p->page.x_bits);
+    CM_my_news_coordinate_1L(p->page.y_coord, PAPER_AXIS_Y, (unsigned)p->page.y_bits);
+}
+
+/* Fills with zeros what changes from step to step. The machine knows that a field is 0 until it is written, and makes
+ * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
+static enum paper_status amounts_clear(struct paper_sheet *p)
+{
+    CM_field_id_t fields[4 + 3 * PAPER_PIGMENTS_MAX];
+    int count = 0, offset[2] = {0, 0}, start[2] = {0, 0},
+        axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
+    int size[2] = {p->page.height, p->page.width};
+    fields[count++] = p->page.water;
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        fields[count++] = p->surface_water;
+    if (sheet_has(p, PAPER_PART_EDGE))
+        fields[count++] = p->wet_around;
+    for (int i = 0; i < p->config.pigments_count; i++)
+        count += sheet_pigment_fields(p, i, fields + count);
+    float *zeros = calloc((size_t)size[0] * (size_t)size[1], sizeof *zeros);
+    if (!zeros)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", size[1], size[0]);
+    for (int i = 0; i < count; i++)
+        CM_f_write_to_news_array_1L(zeros, offset, start, size, axes, fields[i], SHEET_F, 2,
+                                    size, CM_float_single);
+    if (p->config.parts)
+        CM_u_write_to_news_array_1L(zeros, offset, start, size, axes, p->dried,
+                                    SHEET_DRIED_BITS, 2, size, CM_32_bit);
+    free(zeros);
+    return PAPER_OK;
+}
+
+enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
+                                     struct paper_sheet **out)
+{
+    *out = NULL;
+    enum paper_status status = config_check(config);
+    if (status != PAPER_OK)
+        return status;
+    struct paper_sheet *p = calloc(1, sizeof *p);
+    if (!p)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
+    p->config = *config;
+    if (sheet_has(p, PAPER_PART_EDGE))
+        p->config.parts |= PAPER_PART_SURFACE;
+    if (p->config.parts)
+        p->config.parts |= PAPER_PART_INFUSED;
+    p->unit = p->config.parts ? PAPER_GRAINS : 1;
+    p->air = paper_air_default();
+    p->page.width = config->width;
+    p->page.height = config->height;
+    p->page.x_bits = coordinate_bits(config->width);
+    p->page.y_bits = coordinate_bits(config->height);
+    status = paper_attach();
+    if (status != PAPER_OK) {
+        free(p);
+        return status;
+    }
+    int dimensions[2] = {config->height, config->width};
+    p->page.geometry = CM_create_geometry(dimensions, 2);
+    p->page.vp_set = CM_allocate_vp_set(p->page.geometry);
+    paper_enter(&p->page);
+    fields_make(p);
+    sheet_stock_make(p);
+    status = amounts_clear(p);
+    if (status == PAPER_OK)
+        status = paper_leave(&p->page);
+    if (status == PAPER_OK)
+        status = paper_sheet_finish(p);
+    if (status != PAPER_OK) {
+        paper_sheet_destroy(p);
+        return status;
+    }
+    *out = p;
+    return PAPER_OK;
+}
+
+void paper_sheet_destroy(struct paper_sheet *p)
+{
+    if (!p)
+        return;
+    CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
+    CM_deallocate_geometry(p->page.geometry);
+    free(p);
+}
+
+const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet *p)
+{
+    return &p->config;
+}
+
+enum paper_status paper_sheet_finish(struct paper_sheet *p)
+{
+    return paper_finish(&p->page);
+}
+
+/* ---- layers ---- */
+
+int sheet_pigment_fields(const struct paper_sheet *p, int i, CM_field_id_t fields[3])
+{
+    int count = 0;
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        fields[count++] = p->surface[i];
+    fields[count++] = p->infused[i];
+    if (sheet_has(p, PAPER_PART_FIXING))
+        fields[count++] = p->fixed[i];
+    return count;
+}
+
+static const struct {
+    size_t member; /* of the field's id in struct paper_sheet */
+    bool each;     /* one for each pigment */
+    bool amount;   /* in grains */
+    double low, high;
+} layers[PAPER_LAYERS_COUNT] = {
+#define LAYER(name, member, each, amount, low, high)                                           \
+    [PAPER_LAYER_##name] = {offsetof(struct paper_sheet, member), each, amount, low, high}
+    LAYER(HEIGHT, height, false, false, 0, 1),
+    LAYER(ABSORBENCY, page.absorbency, false, false, 0, PAPER_ABSORBENCY_MAX),
+    LAYER(CAPACITY, capacity, false, false, 0.01, 1),
+    LAYER(RESIST, resist, false, false, 0, 1),
+    LAYER(RED, substrate[0], false, false, 0, 1),
+    LAYER(GREEN, substrate[1], false, false, 0, 1),
+    LAYER(BLUE, substrate[2], false, false, 0, 1),
+    LAYER(SURFACE_WATER, surface_water, false, true, 0, 4),
+    LAYER(INFUSED_WATER, page.water, false, true, 0, 4),
+    LAYER(DRIED_WATER, dried, false, true, 0, 0),
+    LAYER(SURFACE_PIGMENT, surface, true, true, 0, 4),
+    LAYER(INFUSED_PIGMENT, infused, true, true, 0, 4),
+    LAYER(FIXED_PIGMENT, fixed, true, true, 0, 4),
+#undef LAYER
+};
+
+CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
+                                int pigment)
+{
+    CM_field_id_t field;
+    if ((unsigned)layer >= PAPER_LAYERS_COUNT ||
+        (layers[layer].each && (pigment < 0 || pigment >= p->config.pigments_count)))
+        return 0;
+    size_t at =
+        layers[layer].member + (layers[layer].each ? (size_t)pigment : 0) * sizeof field;
+    memcpy(&field, (const char *)p + at, sizeof field);
+    return field;
+}
+
+static enum paper_status layer_check(const struct paper_sheet *p, enum paper_layer layer,
+                                     int pigment, CM_field_id_t *field)
+{
+    *field = sheet_layer_field(p, layer, pigment);
+    if (*field)
+        return PAPER_OK;
+    return paper_fail(PAPER_BAD_ARGUMENT,
+                      "the sheet has no layer %d of pigment %d (it has %d pigments)",
+                      (int)layer, pigment, p->config.pigments_count);
+}
+
+static void news_size(const struct paper_sheet *p, int size[2])
+{
+    size[0] = p->page.height;
+    size[1] = p->page.width;
+}
+
+enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_layer layer,
+                                          int pigment, const float *values)
+{
+    CM_field_id_t field;
+    enum paper_status status = layer_check(p, layer, pigment, &field);
+    if (status != PAPER_OK)
+        return status;
+    if (layer == PAPER_LAYER_DRIED_WATER)
+        return paper_fail(PAPER_BAD_ARGUMENT, "what has dried is counted, not written");
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    double unit = layers[layer].amount ? p->unit : 1;
+    double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
+    float *cut = malloc(count * sizeof *cut);
+    if (!cut)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.width,
+                          p->page.height);
+    for (size_t i = 0; i < count && status == PAPER_OK; i++) {
+        if (isnan(values[i]))
+            status = paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
+                                i % (size_t)p->page.width, i / (size_t)p->page.width);
+        double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
+        cut[i] = (float)(unit > 1 ? floor(value) : value);
+    }
+    if (status == PAPER_OK) {
+        int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
+            size[2];
+        news_size(p, size);
+        paper_enter(&p->page);
+        CM_set_context();
+        CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
+                                    CM_float_single);
+        if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
+            sheet_faces_make(p);
+        if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
+            sheet_wet_around_make(p);
+        status = paper_leave(&p->page);
+    }
+    free(cut);
+    return status;
+}
+
+enum paper_status paper_sheet_layer_read(struct paper_sheet *p, enum paper_layer layer,
+                                         int pigment, float *values)
+{
+    CM_field_id_t field;
+    enum paper_status status = layer_check(p, layer, pigment, &field);
+    if (status != PAPER_OK)
+        return status;
+    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
+    news_size(p, size);
+    paper_enter(&p->page);
+    CM_set_context();
+    if (layer == PAPER_LAYER_DRIED_WATER) {
+        CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, SHEET_F);
+        field = p->t[0];
+    }
+    CM_f_read_from_news_array_1L(values, offset, start, size, axes, field, SHEET_F, 2, size,
+                                 CM_float_single);
+    status = paper_leave(&p->page);
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    if (layers[layer].amount && p->unit != 1)
+        for (size_t i = 0; i < count; i++)
+            values[i] *= (float)(1 / p->unit);
+    return status;
+}
+
+/* Sum of whole numbers, in doubles: exact up to 2^53 grains. */
+static double field_total(CM_field_id_t field, CM_field_id_t wide)
+{
+    CM_f_move_2L(wide, field, 52, 11, SHEET_F);
+    return CM_global_f_add_1L(wide, 52, 11);
+}
+
+enum paper_status paper_sheet_total(struct paper_sheet *p, int substance, double *total)
+{
+    if (substance < -1 || substance > p->config.pigments_count)
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
+                          p->config.pigments_count, substance);
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t wide = CM_allocate_heap_field(64), fields[3];
+    *total = 0;
+    if (substance < 0) {
+        CM_f_u_float_2_2L(wide, p->dried, SHEET_DRIED_BITS, 52, 11);
+        *total = CM_global_f_add_1L(wide, 52, 11);
+    } else if (substance == 0) {
+        *total = field_total(p->page.water, wide);
+        if (sheet_has(p, PAPER_PART_SURFACE))
+            *total += field_total(p->surface_water, wide);
+    } else {
+        for (int j = sheet_pigment_fields(p, substance - 1, fields) - 1; j >= 0; j--)
+            *total += field_total(fields[j], wide);
+    }
+    *total /= p->unit;
+    CM_deallocate_heap_field(wide);
+    return paper_leave(&p->page);
+}

@@ -1,0 +1,220 @@
+/* sheet.h - a sheet of paper with any number of pigments, on the surface and in the fibers.
+ *
+ *     struct paper_sheet_config config = paper_sheet_config_default();
+ *     config.stock = *paper_stock_find("cold press");
+ *     config.pigments[config.pigments_count++] = *paper_pigment_find("quinacridone rose");
+ *     struct paper_sheet *sheet;
+ *     if (paper_sheet_create(&config, &sheet) != PAPER_OK)
+ *         die(paper_error());
+ *     double put[1 + PAPER_PIGMENTS_MAX] = {0.8, 0.5};
+ *     paper_sheet_put(sheet, NULL, 0, 0, put);
+ *     for (int step = 0; step < 300; step++)
+ *         paper_sheet_step(sheet);
+ *     paper_sheet_view(sheet, &(struct paper_sheet_view){.view = PAPER_SHOW_COLOR}, rgb16);
+ *
+ * The model (docs/paper.md) joins those of Small (SPIE 1991) and of Curtis et al. (SIGGRAPH 1997), in parts that are
+ * switched on one by one.  Without any it is the thesis's cycle of paper.h, to the bit.  With parts matter
+ * comes in grains, PAPER_GRAINS to the unit: whole numbers in floats, so that what leaves a fiber arrives in the next
+ * exactly, and totals never drift.
+ *
+ * Errors and threads: as paper.h says. */
+#ifndef LUTETIA_PAPER_SHEET_H
+#define LUTETIA_PAPER_SHEET_H
+
+#include "paper.h"
+
+enum { PAPER_PIGMENTS_MAX = 16, PAPER_NAME_MAX = 48, PAPER_GRAINS = 1 << 20 };
+
+/* ---- pigments ---- */
+
+struct paper_pigment {
+    char name[PAPER_NAME_MAX];
+    double
+        weight[2]; /* how easily it moves with water in the fibers, along x and along y, 0..1 */
+    double density;     /* part that settles in a step, 0..1 */
+    double staining;    /* resistance to being lifted again, 0.5..100 */
+    double granulation; /* how far it settles in hollows, 0..1 */
+    double k[3],
+        s[3]; /* Kubelka-Munk absorption and scattering of a unit, red, green, blue, 0..100 */
+    double takes
+        [3]; /* rule of subtraction: what a unit takes from (or lends to) each channel, -1..1 */
+};
+
+/* The twelve of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name or by number from 0; NULL: none. */
+const struct paper_pigment *paper_pigment_find(const char *name);
+const struct paper_pigment *paper_pigment_number(int number);
+
+/* K and S of a layer of one unit that looks so over white and over black, in linear light.
+ * Errors: BAD_ARGUMENT unless 0 < over_black < over_white < 1 in each channel. Source: Curtis et al. 1997, 5.1. */
+enum paper_status paper_pigment_colors(struct paper_pigment *pigment,
+                                       const double over_white[3], const double over_black[3]);
+
+/* Linear light of a display value, and back; both 0..1 (IEC 61966-2-1). */
+double paper_light_linear(double display);
+double paper_light_display(double linear);
+
+/* ---- papers ---- */
+
+struct paper_stock {
+    char name[PAPER_NAME_MAX];
+    double color[3];        /* of dry fibers, display values, 0..1 */
+    double color_variation; /* 0..1 */
+    double
+        absorbency; /* mean part of a gradient that flows across a face, 0..PAPER_ABSORBENCY_MAX */
+    double absorbency_variation;
+    double absorbency_along[2]; /* factors along x and along y, 0..1 */
+    double capacity
+        [2]; /* water that a fiber holds where the paper is low and where it is high, 0.01..1 */
+    double roughness; /* deviation of heights about 1/2, 0..1 */
+    double grain_px;  /* size of its hills, 1..64 */
+    int fiber_length
+        [2]; /* along x and along y: over how many fibers neighbours are alike, 1..64 */
+};
+
+/* "cold press", "hot press", "rough", "blotting", "glass"; by name or by number from 0; NULL: none. */
+const struct paper_stock *paper_stock_find(const char *name);
+const struct paper_stock *paper_stock_number(int number);
+
+/* ---- the sheet ---- */
+
+enum {
+    PAPER_PART_INFUSED = 1, /* water and pigments in the fibers */
+    PAPER_PART_SURFACE = 2, /* and on them; implies INFUSED */
+    PAPER_PART_FIXING = 4,  /* pigments settle on the fibers and are lifted again */
+    PAPER_PART_EDGE = 8,    /* what is wet dries faster at its edge; implies SURFACE */
+    PAPER_PARTS_ALL = 15
+};
+
+enum paper_rule {
+    PAPER_RULE_KUBELKA_MUNK,
+    PAPER_RULE_SUBTRACT, /* the thesis's: the paper's colour minus what pigments take */
+    PAPER_RULE_LUMINOUS  /* pigments shine on dark paper: its colour plus what they lend */
+};
+
+struct paper_air {     /* what may change at any time */
+    double gravity[2]; /* pull on the surface along x and along y, -1..1 */
+    double seep[2];    /* the same in the fibers, -1..1 */
+    double spread;     /* how fast surface water levels out, 0..1 */
+    double
+        tension; /* how strongly it holds together, 0..0.1; its ten neighbours are looked at */
+    double relief;     /* how much of the paper's height the water feels, 0..1 */
+    double film;       /* thinner water flows slower, 0.001..1 */
+    double pinning;    /* water that it takes to enter dry fibers, 0..2; 0: flows anywhere */
+    double damp;       /* infused water from which fibers count as wet, 0..1 */
+    double absorption; /* surface water that sinks in, times absorbency, 0..4 */
+    double
+        carry; /* part of the pigment's movement in fibers that is with the flow, not along its own
+                                     gradient, 0..1 */
+    double humidity;   /* water that dries in a step, 0..1 */
+    double edge;       /* how many times faster the edge of a wet area dries, 0..200 */
+    double edge_width; /* fibers, 1..32 */
+    double settling;   /* factor on density and lifting, 0..10 */
+    struct paper_weather thesis; /* without parts */
+};
+struct paper_air paper_air_default(void);
+
+struct paper_sheet_config {
+    int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
+    bool torus;        /* water that leaves at an edge comes in at the other */
+    unsigned parts;    /* PAPER_PART_...; 0: the thesis's model */
+    enum paper_rule rule;
+    struct paper_stock stock;
+    uint64_t seed;
+    int pigments_count; /* 0..PAPER_PIGMENTS_MAX */
+    struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
+};
+struct paper_sheet_config paper_sheet_config_default(void);
+
+struct paper_sheet;
+
+/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the caller destroys *out. */
+enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
+                                     struct paper_sheet **out);
+void paper_sheet_destroy(struct paper_sheet *sheet); /* NULL is fine */
+const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet *sheet);
+
+/* What a sheet is made of, and what is in it. Those that have one for each pigment are numbered by it. */
+enum paper_layer {
+    PAPER_LAYER_HEIGHT,     /* 0..1 */
+    PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
+    PAPER_LAYER_CAPACITY,   /* 0.01..1 */
+    PAPER_LAYER_RESIST,     /* masking fluid: 1 where nothing comes */
+    PAPER_LAYER_RED, /* what the pigments lie on: linear light, 0..1, or by the other rules display values */
+    PAPER_LAYER_GREEN,
+    PAPER_LAYER_BLUE,
+    PAPER_LAYER_SURFACE_WATER, /* from here on 0..15, and 0..4 when written */
+    PAPER_LAYER_INFUSED_WATER,
+    PAPER_LAYER_DRIED_WATER,     /* what has evaporated */
+    PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
+    PAPER_LAYER_INFUSED_PIGMENT,
+    PAPER_LAYER_FIXED_PIGMENT,
+    PAPER_LAYERS_COUNT
+};
+
+/* Shape: height * width numbers, rows from the top. Writing cuts off to the range above (DRIED_WATER cannot be written).
+ * Errors: BAD_ARGUMENT (NaN, a pigment that is not there), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_sheet_layer_write(struct paper_sheet *sheet, enum paper_layer layer,
+                                          int pigment, const float *values);
+enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_layer layer,
+                                         int pigment, float *values);
+
+/* All water that the sheet holds (substance 0), of a pigment (1 + its number), or what has dried (-1), in units;
+ * exact with parts. Errors: NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, double *total);
+
+/* Adds amount[0] of water and amount[1 + i] of pigment i (each -4..4) through a screen whose upper left corner is at x,
+ * y, or everywhere (NULL), on the surface if there is one, else into the fibers. A fiber gets up to 4 (without parts 1) of
+ * water and of each pigment by this; nothing comes where there is resist. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_sheet_put(struct paper_sheet *sheet, const struct paper_screen *screen,
+                                  int x, int y, const double *amount);
+
+/* Takes a part (0..1) of the water and of what moves with it from surface and fibers, and `lift` (0..1) of what is
+ * fixed. Errors: as paper_sheet_put(). */
+enum paper_status paper_sheet_blot(struct paper_sheet *sheet, const struct paper_screen *screen,
+                                   int x, int y, double part, double lift);
+
+/* Paints masking fluid on (amount 1) or rubs it off (0). Errors: as paper_sheet_put(). */
+enum paper_status paper_sheet_resist(struct paper_sheet *sheet,
+                                     const struct paper_screen *screen, int x, int y, bool on);
+
+/* Dries everything at once; pigments stay where they are, fixed if there is fixing. */
+enum paper_status paper_sheet_dry(struct paper_sheet *sheet);
+/* Dries everything and seals the pigments under a varnish: they become part of the paper's colour. */
+enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
+
+/* One step of time. Nothing is computed before it is looked at; see paper_sheet_finish(). The air is checked when it is set.
+ * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_air *air);
+const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
+enum paper_status paper_sheet_step(struct paper_sheet *sheet);
+enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
+
+/* ---- looking ---- */
+
+enum paper_show {
+    PAPER_SHOW_COLOR, /* by the sheet's rule */
+    PAPER_SHOW_WATER, /* gray: the wetter the lighter, both layers */
+    PAPER_SHOW_WET,   /* colour, with light from the upper left on the water's surface */
+    PAPER_SHOW_LAYER  /* gray: black at `low`, white at `high` */
+};
+struct paper_sheet_view {
+    enum paper_show show;
+    enum paper_layer layer;
+    int pigment;
+    double low, high;
+};
+
+/* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top.
+ * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+enum paper_status paper_sheet_view(struct paper_sheet *sheet,
+                                   const struct paper_sheet_view *view, uint16_t *rgb);
+
+/* ---- shapes, as screens as small as they are, with soft edges a pixel wide ---- */
+
+/* Shape: points_count pairs of x, y. A polygon may cross itself (even-odd). *x, *y get the screen's corner. What lies
+ * outside 0, 0, width, height is cut off; nothing left is an empty screen (gray NULL).
+ * Errors: BAD_ARGUMENT, NO_MEMORY. Owns: the caller destroys *screen. */
+enum paper_status paper_polygon_screen(const double *points, int points_count, int width,
+                                       int height, struct paper_screen *screen, int *x, int *y);
+
+#endif

@@ -1,0 +1,219 @@
+/* sheet_apply.c - what is put on a sheet and taken from it: through screens, or everywhere. */
+#include "sheet_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more may flow in. */
+#define PUT_MOST 4.0
+
+static int clip(int64_t at, int length)
+{
+    return at < 0 ? 0 : at > length ? length : (int)at;
+}
+
+static enum paper_status screen_check(const struct paper_screen *screen)
+{
+    if (screen && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
+        return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
+    return PAPER_OK;
+}
+
+/* share = the screen's gray as 0..1, 0 where there is resist. */
+static enum paper_status share_make(struct paper_sheet *p, const struct paper_screen *screen,
+                                    int x, int y, CM_field_id_t share)
+{
+    if (!screen) {
+        f_set(share, 1.0);
+        return PAPER_OK;
+    }
+    int width = p->page.width, height = p->page.height;
+    uint8_t *gray = calloc((size_t)height, (size_t)width);
+    if (!gray)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", width, height);
+    int x1 = clip(x, width), x2 = clip((int64_t)x + screen->width_px, width);
+    int y1 = clip(y, height), y2 = clip((int64_t)y + screen->height_px, height);
+    for (int row = y1; row < y2 && x1 < x2; row++)
+        memcpy(gray + (size_t)row * (size_t)width + x1,
+               screen->gray + (size_t)(row - y) * (size_t)screen->width_px + (x1 - x),
+               (size_t)(x2 - x1));
+    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
+    int size[2] = {height, width};
+    CM_u_write_to_news_array_1L(gray, offset, start, size, axes, p->mask, 8, 2, size, CM_8_bit);
+    CM_f_u_float_2_2L(share, p->mask, 8, SHEET_F);
+    f_times(share, share, 1 / 255.0);
+    free(gray);
+    return PAPER_OK;
+}
+
+static void resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open)
+{
+    f_from(open, 1.0, p->resist);
+    f_least(open, open, 0.0);
+    f_mul(share, share, open);
+}
+
+void sheet_wet_around_make(struct paper_sheet *p)
+{
+    if (!sheet_has(p, PAPER_PART_EDGE))
+        return;
+    f_most(p->t[0], p->surface_water, 1.0);
+    f_max(p->wet_around, p->wet_around, p->t[0]);
+}
+
+enum paper_status paper_sheet_put(struct paper_sheet *p, const struct paper_screen *screen,
+                                  int x, int y, const double *amount)
+{
+    double most = p->unit == 1 ? 1 : PUT_MOST;
+    for (int i = 0; i <= p->config.pigments_count; i++)
+        if (!(fabs(amount[i]) <= PUT_MOST))
+            return paper_fail(PAPER_BAD_ARGUMENT, "the amount of %.*s must be %g..%g (got %g)",
+                              PAPER_NAME_MAX, i == 0 ? "water" : p->config.pigments[i - 1].name,
+                              -PUT_MOST, PUT_MOST, amount[i]);
+    enum paper_status status = screen_check(screen);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t share = p->t[1], part = p->t[2], left = p->t[3], fields[3];
+    status = share_make(p, screen, x, y, share);
+    if (status != PAPER_OK)
+        return status;
+    resist_heed(p, share, part);
+    bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    for (int i = 0; i <= p->config.pigments_count; i++) {
+        if (amount[i] == 0)
+            continue;
+        CM_field_id_t q = i == 0 ? (surface ? p->surface_water : p->page.water)
+                                 : (surface ? p->surface[i - 1] : p->infused[i - 1]);
+        f_times(part, share, amount[i] * p->unit);
+        if (p->unit != 1)
+            f_whole(part);
+        if (amount[i] > 0) {
+            int count = i == 0 ? 1 : sheet_pigment_fields(p, i - 1, fields);
+            f_from(left, most * p->unit, i == 0 ? q : fields[0]);
+            for (int j = 1; j < count; j++)
+                f_sub(left, left, fields[j]);
+            f_least(left, left, 0.0);
+            f_min(part, part, left);
+            f_add(q, q, part);
+        } else {
+            f_add(q, q, part);
+            f_least(q, q, 0.0);
+        }
+    }
+    sheet_wet_around_make(p);
+    return paper_leave(&p->page);
+}
+
+/* q loses whole grains of share * part. */
+static void lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
+                 CM_field_id_t lost)
+{
+    f_times(lost, share, part);
+    f_mul(lost, lost, q);
+    if (p->unit != 1)
+        f_whole_of(lost, q);
+    f_sub(q, q, lost);
+}
+
+enum paper_status paper_sheet_blot(struct paper_sheet *p, const struct paper_screen *screen,
+                                   int x, int y, double part, double lift)
+{
+    if (!(part >= 0 && part <= 1 && lift >= 0 && lift <= 1))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "blotting takes parts of 0..1 (got %g, and %g of what is fixed)",
+                          part, lift);
+    enum paper_status status = screen_check(screen);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t share = p->t[1], lost = p->t[2];
+    status = share_make(p, screen, x, y, share);
+    if (status != PAPER_OK)
+        return status;
+    resist_heed(p, share, lost);
+    lose(p, p->page.water, share, part, lost);
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        lose(p, p->surface_water, share, part, lost);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        lose(p, p->infused[i], share, part, lost);
+        if (sheet_has(p, PAPER_PART_SURFACE))
+            lose(p, p->surface[i], share, part, lost);
+        if (sheet_has(p, PAPER_PART_FIXING) && lift > 0)
+            lose(p, p->fixed[i], share, lift, lost);
+    }
+    return paper_leave(&p->page);
+}
+
+enum paper_status paper_sheet_resist(struct paper_sheet *p, const struct paper_screen *screen,
+                                     int x, int y, bool on)
+{
+    enum paper_status status = screen_check(screen);
+    if (status != PAPER_OK)
+        return status;
+    if (p->config.parts == 0)
+        return paper_fail(
+            PAPER_BAD_ARGUMENT,
+            "the thesis's paper takes no masking fluid; choose a paper with parts");
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t share = p->t[2];
+    status = share_make(p, screen, x, y, share);
+    if (status != PAPER_OK)
+        return status;
+    if (on) {
+        f_max(p->resist, p->resist, share);
+    } else {
+        f_from(share, 1.0, share);
+        f_min(p->resist, p->resist, share);
+    }
+    sheet_faces_make(p);
+    return paper_leave(&p->page);
+}
+
+enum paper_status paper_sheet_dry(struct paper_sheet *p)
+{
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t water[2] = {p->page.water, p->surface_water}, count = p->t[0];
+    for (int i = 0; i < (sheet_has(p, PAPER_PART_SURFACE) ? 2 : 1); i++) {
+        if (p->unit != 1) {
+            CM_u_f_truncate_2_2L(count, water[i], SHEET_DRIED_BITS, SHEET_F);
+            CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
+        }
+        f_set(water[i], 0.0);
+    }
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        CM_field_id_t at = sheet_has(p, PAPER_PART_FIXING) ? p->fixed[i] : p->infused[i];
+        if (sheet_has(p, PAPER_PART_SURFACE)) {
+            f_add(at, at, p->surface[i]);
+            f_set(p->surface[i], 0.0);
+        }
+        if (sheet_has(p, PAPER_PART_FIXING)) {
+            f_add(at, at, p->infused[i]);
+            f_set(p->infused[i], 0.0);
+        }
+    }
+    if (sheet_has(p, PAPER_PART_EDGE))
+        f_set(p->wet_around, 0.0);
+    return paper_leave(&p->page);
+}
+
+enum paper_status paper_sheet_seal(struct paper_sheet *p)
+{
+    enum paper_status status = paper_sheet_dry(p);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]}, fields[3];
+    sheet_color_make(p, color);
+    for (int i = 0; i < 3; i++)
+        f_copy(p->substrate[i], color[i]);
+    for (int i = 0; i < p->config.pigments_count; i++)
+        for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
+            f_set(fields[j], 0.0);
+    return paper_leave(&p->page);
+}

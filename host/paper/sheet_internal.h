@@ -1,0 +1,149 @@
+/* sheet_internal.h - the fields of a sheet with pigments, and short names of the Paris calls on its floats. */
+#ifndef LUTETIA_PAPER_SHEET_INTERNAL_H
+#define LUTETIA_PAPER_SHEET_INTERNAL_H
+
+#include "paper_page.h"
+#include "sheet.h"
+
+enum { SHEET_TEMPORARIES = 16, SHEET_DRIED_BITS = 31 };
+
+/* What a fiber holds at most: more does not flow in. */
+#define SHEET_LOAD_MAX 15.0
+
+struct paper_sheet {
+    struct paper_sheet_config config;
+    struct paper_air air;
+    double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
+    /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
+    struct paper page;
+    CM_field_id_t height, capacity, resist;
+    CM_field_id_t face
+        [2]; /* [axis]: part of a gradient that flows to the neighbour above; 0: none, closed */
+    CM_field_id_t substrate[3]; /* what the pigments lie on */
+    CM_field_id_t surface_water;
+    CM_field_id_t dried; /* grains, SHEET_DRIED_BITS */
+    CM_field_id_t wet_around;
+    CM_field_id_t surface[PAPER_PIGMENTS_MAX], infused[PAPER_PIGMENTS_MAX],
+        fixed[PAPER_PIGMENTS_MAX];
+    CM_field_id_t mask;     /* 8 bits */
+    CM_field_id_t shown[3]; /* 16 bits */
+    CM_field_id_t t[SHEET_TEMPORARIES];
+};
+
+static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
+{
+    return (p->config.parts & part) != 0;
+}
+
+/* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
+int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
+/* The field of a layer; 0 where there is none. */
+CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
+                                int pigment);
+
+/* Absorbency, capacity, height and colour from the seed. */
+void sheet_stock_make(struct paper_sheet *p);
+/* Faces from absorbency, resist and the edges; call it when these change. */
+void sheet_faces_make(struct paper_sheet *p);
+/* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
+void sheet_wet_around_make(struct paper_sheet *p);
+/* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */
+void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
+
+/* ---- Paris, for single floats ---- */
+
+#define SHEET_F PAPER_S, PAPER_E
+
+static inline void f_add(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_add_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_sub(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_subtract_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_mul(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_multiply_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_div(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_divide_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_min(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_min_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_max(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
+{
+    CM_f_max_3_1L(d, a, b, SHEET_F);
+}
+
+static inline void f_plus(CM_field_id_t d, CM_field_id_t a, double n)
+{
+    CM_f_add_constant_3_1L(d, a, n, SHEET_F);
+}
+
+static inline void f_times(CM_field_id_t d, CM_field_id_t a, double n)
+{
+    CM_f_multiply_constant_3_1L(d, a, n, SHEET_F);
+}
+
+/* d = n - a */
+static inline void f_from(CM_field_id_t d, double n, CM_field_id_t a)
+{
+    CM_f_subfrom_constant_3_1L(d, a, n, SHEET_F);
+}
+
+static inline void f_most(CM_field_id_t d, CM_field_id_t a, double n)
+{
+    CM_f_min_constant_3_1L(d, a, n, SHEET_F);
+}
+
+static inline void f_least(CM_field_id_t d, CM_field_id_t a, double n)
+{
+    CM_f_max_constant_3_1L(d, a, n, SHEET_F);
+}
+
+/* Rounds to a whole number: adding 3 * 2^22 leaves no place for a fraction. To the nearest up to 2^22, to an even one near
+ * it up to 2^24; nothing is rounded away from that. */
+static inline void f_whole(CM_field_id_t d)
+{
+    CM_f_add_constant_2_1L(d, 12582912.0, SHEET_F);
+    CM_f_subtract_constant_2_1L(d, 12582912.0, SHEET_F);
+}
+
+/* d becomes whole and is at most q, which is whole. */
+static inline void f_whole_of(CM_field_id_t d, CM_field_id_t q)
+{
+    f_whole(d);
+    f_min(d, d, q);
+}
+
+static inline void f_copy(CM_field_id_t d, CM_field_id_t a)
+{
+    CM_f_move_1L(d, a, SHEET_F);
+}
+
+static inline void f_set(CM_field_id_t d, double n)
+{
+    CM_f_move_constant_1L(d, n, SHEET_F);
+}
+
+/* d = the neighbour's whose coordinate is one greater (less) */
+static inline void f_next(CM_field_id_t d, CM_field_id_t a, unsigned axis)
+{
+    CM_get_from_news_1L(d, a, axis, CM_upward, PAPER_FLOAT_BITS);
+}
+
+static inline void f_previous(CM_field_id_t d, CM_field_id_t a, unsigned axis)
+{
+    CM_get_from_news_1L(d, a, axis, CM_downward, PAPER_FLOAT_BITS);
+}
+
+#endif

@@ -1,0 +1,418 @@
+/* test_looks.c - what a sheet looks like: colours against Kubelka-Munk by hand, and each of watercolour's effects, measured. */
+#include <paper.h>
+#include <sheet.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 96, FIBERS = SIDE * SIDE, MIDDLE = SIDE / 2 };
+
+static void check(enum paper_status status)
+{
+    if (status != PAPER_OK)
+        fail_msg("status %d: %s", (int)status, paper_error());
+}
+
+/* Always two pigments, so that all tests have the same kernels. */
+static struct paper_sheet *sheet_make(const char *first, const char *second)
+{
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = config.height = SIDE;
+    config.pigments_count = 2;
+    config.pigments[0] = *paper_pigment_find(first);
+    config.pigments[1] = *paper_pigment_find(second);
+    struct paper_sheet *sheet;
+    check(paper_sheet_create(&config, &sheet));
+    return sheet;
+}
+
+static void disc_put(struct paper_sheet *sheet, double radius, const double *amount)
+{
+    double corners[2 * 64];
+    for (int i = 0; i < 64; i++) {
+        corners[2 * i] = MIDDLE + radius * cos(i * 0.09817477042468103);
+        corners[2 * i + 1] = MIDDLE + radius * sin(i * 0.09817477042468103);
+    }
+    struct paper_screen screen;
+    int x, y;
+    check(paper_polygon_screen(corners, 64, SIDE, SIDE, &screen, &x, &y));
+    check(paper_sheet_put(sheet, &screen, x, y, amount));
+    paper_screen_destroy(&screen);
+}
+
+static void steps(struct paper_sheet *sheet, int count)
+{
+    for (int i = 0; i < count; i++) {
+        check(paper_sheet_step(sheet));
+        check(paper_sheet_finish(sheet));
+    }
+}
+
+/* A pigment's amount in all layers. */
+static void pigment_read(struct paper_sheet *sheet, int pigment, float *sum)
+{
+    static float layer[FIBERS];
+    memset(sum, 0, FIBERS * sizeof *sum);
+    for (int i = 0; i < 3; i++) {
+        check(paper_sheet_layer_read(sheet, PAPER_LAYER_SURFACE_PIGMENT + (enum paper_layer)i,
+                                     pigment, layer));
+        for (int j = 0; j < FIBERS; j++)
+            sum[j] += layer[j];
+    }
+}
+
+/* Mean over the ring of fibers whose centers are from..to off the middle. */
+static double ring_mean(const float *values, double from, double to)
+{
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        double r = hypot(i % SIDE + 0.5 - MIDDLE, i / SIDE + 0.5 - MIDDLE);
+        if (r >= from && r < to) {
+            sum += (double)values[i];
+            count++;
+        }
+    }
+    return sum / count;
+}
+
+/* ---- colours ---- */
+
+/* The textbook's formulas: a layer of thickness 1 over a reflecting ground. */
+static double layer_by_hand(double k, double s, double below)
+{
+    if (s < 1e-12)
+        return below * exp(-2 * k);
+    double a = 1 + k / s, b = sqrt(a * a - 1);
+    double c = a * sinh(b * s) + b * cosh(b * s);
+    double r = sinh(b * s) / c, t = b / c;
+    return r + t * t * below / (1 - r * below);
+}
+
+static void to_lab(const double linear[3], double lab[3])
+{
+    static const double m[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    static const double white[3] = {0.9505, 1, 1.0890};
+    double f[3];
+    for (int i = 0; i < 3; i++) {
+        double v = 0;
+        for (int j = 0; j < 3; j++)
+            v += m[i][j] * linear[j];
+        v /= white[i];
+        f[i] = v > 0.008856 ? cbrt(v) : 7.787 * v + 16.0 / 116;
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 500 * (f[0] - f[1]);
+    lab[2] = 200 * (f[1] - f[2]);
+}
+
+static double difference(const double a[3], const uint16_t *shown)
+{
+    double b[3], x[3], y[3];
+    for (int i = 0; i < 3; i++)
+        b[i] = paper_light_linear(shown[i] / 65535.0);
+    to_lab(a, x);
+    to_lab(b, y);
+    return sqrt((x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) +
+                (x[2] - y[2]) * (x[2] - y[2]));
+}
+
+static void glazes_are_kubelka_munk_by_hand(void **state)
+{
+    (void)state;
+    static float amounts[FIBERS];
+    static uint16_t rgb[3 * FIBERS], sealed[3 * FIBERS];
+    static double below[3][FIBERS];
+    double worst = 0;
+    for (int first = 0; paper_pigment_number(first); first += 2) {
+        const struct paper_pigment *one = paper_pigment_number(first);
+        const struct paper_pigment *two = paper_pigment_number(first + 1);
+        if (!two)
+            two = paper_pigment_number(0);
+        struct paper_sheet *sheet = sheet_make(one->name, two->name);
+        for (int i = 0; i < 3; i++) {
+            check(paper_sheet_layer_read(sheet, PAPER_LAYER_RED + (enum paper_layer)i, 0,
+                                         amounts));
+            for (int j = 0; j < FIBERS; j++)
+                below[i][j] = (double)amounts[j];
+        }
+        for (int glaze = 0; glaze < 2; glaze++) {
+            for (int pigment = 0; pigment < 2; pigment++) {
+                for (int i = 0; i < FIBERS; i++)
+                    amounts[i] = (float)((pigment == 0 ? i % SIDE : i / SIDE) * 2.0 / SIDE);
+                check(paper_sheet_layer_write(sheet, PAPER_LAYER_FIXED_PIGMENT, pigment,
+                                              amounts));
+            }
+            check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR},
+                                   rgb));
+            for (int i = 0; i < FIBERS; i++) {
+                double p = floor(i % SIDE * 2.0 / SIDE * PAPER_GRAINS) / PAPER_GRAINS;
+                double q = floor(i / SIDE * 2.0 / SIDE * PAPER_GRAINS) / PAPER_GRAINS, hand[3];
+                for (int j = 0; j < 3; j++)
+                    hand[j] = below[j][i] =
+                        layer_by_hand(p * one->k[j] + q * two->k[j],
+                                      p * one->s[j] + q * two->s[j], below[j][i]);
+                worst = fmax(worst, difference(hand, rgb + 3 * i));
+            }
+            check(paper_sheet_seal(sheet));
+            check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR},
+                                   sealed));
+            for (int i = 0; i < 3 * FIBERS; i++) /* by an empty layer: Q is kept from 0 */
+                if (abs(rgb[i] - sealed[i]) > 4)
+                    fail_msg("%s: sealing changed %d to %d", one->name, rgb[i], sealed[i]);
+        }
+        paper_sheet_destroy(sheet);
+    }
+    if (worst > 0.1)
+        fail_msg("colours are off by %g", worst);
+}
+
+static void pigments_from_colours_look_so(void **state)
+{
+    (void)state;
+    struct paper_pigment spot = *paper_pigment_number(0);
+    for (int i = 0; i < 1000; i++) {
+        double black[3], white[3];
+        for (int j = 0; j < 3; j++) {
+            black[j] = 0.01 + 0.6 * ((i * 7 + j * 3) % 100) / 100;
+            white[j] = black[j] + (0.97 - black[j]) * (1 + (i * 13 + j * 29) % 97) / 99;
+        }
+        enum paper_status status = paper_pigment_colors(&spot, white, black);
+        check(status);
+        for (int j = 0; j < 3; j++) {
+            double w = layer_by_hand(spot.k[j], spot.s[j], 1);
+            double b = layer_by_hand(spot.k[j], spot.s[j], 0);
+            assert_true(fabs(w - white[j]) < 1e-9 && fabs(b - black[j]) < 1e-9);
+        }
+    }
+    static const double bad[][2] = {{0, 0.5}, {0.5, 0.5}, {0.6, 0.5}, {0.5, 1}, {NAN, 0.5}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        double b[3] = {bad[i][0], 0.1, 0.1}, w[3] = {bad[i][1], 0.5, 0.5};
+        assert_int_equal(paper_pigment_colors(&spot, w, b), PAPER_BAD_ARGUMENT);
+    }
+}
+
+/* ---- effects ---- */
+
+static void edges_darken(void **state)
+{
+    (void)state;
+    static float values[FIBERS];
+    double contrast[2];
+    for (int with = 0; with < 2; with++) {
+        struct paper_sheet *sheet = sheet_make("french ultramarine", "cadmium red");
+        struct paper_air air = paper_air_default();
+        air.edge = with ? 15 : 0.001;
+        air.humidity = 0.0008;
+        check(paper_sheet_air(sheet, &air));
+        disc_put(sheet, 30, (double[]){0.7, 0.4, 0});
+        steps(sheet, 800);
+        check(paper_sheet_dry(sheet));
+        pigment_read(sheet, 0, values);
+        contrast[with] = ring_mean(values, 27, 30) / ring_mean(values, 0, 15);
+        paper_sheet_destroy(sheet);
+    }
+    if (!(contrast[1] > 1.3 && contrast[0] < 1.1))
+        fail_msg("edge to middle: %g, without %g", contrast[1], contrast[0]);
+}
+
+static void backruns_push_pigment_away(void **state)
+{
+    (void)state;
+    static float before[FIBERS], after[FIBERS];
+    struct paper_sheet *sheet = sheet_make("phthalo green", "cadmium red");
+    struct paper_air air = paper_air_default();
+    air.humidity = 0.0002;
+    check(paper_sheet_air(sheet, &air));
+    disc_put(sheet, 40, (double[]){0.25, 0.4, 0});
+    steps(sheet, 30);
+    pigment_read(sheet, 0, before);
+    disc_put(sheet, 8, (double[]){2, 0, 0}); /* clear water into the damp wash */
+    steps(sheet, 400);
+    pigment_read(sheet, 0, after);
+    double inside = ring_mean(after, 0, 6) / ring_mean(before, 0, 6);
+    double rim = ring_mean(after, 13, 18) / ring_mean(before, 13, 18);
+    if (!(inside < 0.9 && rim > 1.02))
+        fail_msg("inside %g, rim %g of what was there", inside, rim);
+    paper_sheet_destroy(sheet);
+}
+
+static double correlation(const float *a, const float *b)
+{
+    double sa = 0, sb = 0, aa = 0, bb = 0, ab = 0;
+    int count = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        if (hypot(i % SIDE - MIDDLE, i / SIDE - MIDDLE) > 22)
+            continue;
+        double x = (double)a[i], y = (double)b[i];
+        sa += x;
+        sb += y;
+        aa += x * x;
+        bb += y * y;
+        ab += x * y;
+        count++;
+    }
+    return (ab - sa * sb / count) / sqrt((aa - sa * sa / count) * (bb - sb * sb / count));
+}
+
+static void granulating_pigments_settle_in_hollows(void **state)
+{
+    (void)state;
+    static float height[FIBERS], coarse[FIBERS], fine[FIBERS];
+    struct paper_sheet *sheet = sheet_make("burnt umber", "hansa yellow");
+    disc_put(sheet, 35, (double[]){0.8, 0.4, 0.4});
+    steps(sheet, 60);
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_HEIGHT, 0, height));
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, 0, coarse));
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, 1, fine));
+    double deviation[2];
+    const float *layers[2] = {coarse, fine};
+    for (int i = 0; i < 2; i++) {
+        double mean = ring_mean(layers[i], 0, 22), sum = 0;
+        int count = 0;
+        for (int j = 0; j < FIBERS; j++)
+            if (hypot(j % SIDE - MIDDLE, j / SIDE - MIDDLE) <= 22) {
+                sum += ((double)layers[i][j] / mean - 1) * ((double)layers[i][j] / mean - 1);
+                count++;
+            }
+        deviation[i] = sqrt(sum / count);
+    }
+    if (!(correlation(height, coarse) < -0.7 && deviation[0] > 3 * deviation[1]))
+        fail_msg("correlation %g, deviations %g and %g", correlation(height, coarse),
+                 deviation[0], deviation[1]);
+    paper_sheet_destroy(sheet);
+}
+
+static void light_pigments_run_ahead(void **state)
+{
+    (void)state;
+    static float light[FIBERS], heavy[FIBERS], wet[FIBERS];
+    struct paper_sheet *sheet = sheet_make("cyan", "hooker's green");
+    struct paper_air air = paper_air_default();
+    air.settling = 0.001;
+    check(paper_sheet_air(sheet, &air));
+    for (int i = 0; i < FIBERS; i++)
+        wet[i] = 0.5f;
+    check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_WATER, 0, wet));
+    disc_put(sheet, 15, (double[]){0.3, 0.5, 0.5});
+    steps(sheet, 300);
+    pigment_read(sheet, 0, light);
+    pigment_read(sheet, 1, heavy);
+    double ahead = ring_mean(light, 17, 22) / ring_mean(light, 0, 12);
+    double behind = ring_mean(heavy, 17, 22) / ring_mean(heavy, 0, 12);
+    if (!(ahead > 2 * behind && ahead > 0.001))
+        fail_msg("beyond the edge: %g of the light one, %g of the heavy one", ahead, behind);
+    paper_sheet_destroy(sheet);
+}
+
+static void masking_fluid_keeps_clear(void **state)
+{
+    (void)state;
+    static float values[FIBERS];
+    static uint8_t on[20 * 20];
+    memset(on, 255, sizeof on);
+    struct paper_screen screen = {.width_px = 20, .height_px = 20, .gray = on};
+    struct paper_sheet *sheet = sheet_make("cyan", "cadmium red");
+    check(paper_sheet_resist(sheet, &screen, 38, 38, true));
+    disc_put(sheet, 35, (double[]){1, 1, 0});
+    steps(sheet, 100);
+    pigment_read(sheet, 0, values);
+    double inside = 0, outside = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        bool under = i % SIDE >= 38 && i % SIDE < 58 && i / SIDE >= 38 && i / SIDE < 58;
+        *(under ? &inside : &outside) += (double)values[i];
+    }
+    assert_true(inside == 0 && outside > 1000);
+    check(paper_sheet_resist(sheet, &screen, 38, 38, false));
+    steps(sheet, 100);
+    pigment_read(sheet, 0, values);
+    assert_true(values[38 * SIDE + 38] > 0); /* and what is wet comes in again */
+    paper_sheet_destroy(sheet);
+}
+
+/* ---- papers and shapes ---- */
+
+static void stocks_are_what_they_say(void **state)
+{
+    (void)state;
+    static float height[FIBERS], again[FIBERS];
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = config.height = SIDE;
+    for (int i = 0; paper_stock_number(i); i++) {
+        config.stock = *paper_stock_number(i);
+        config.stock.roughness *= 0.5; /* so that little is cut off */
+        struct paper_sheet *sheet;
+        for (int turn = 0; turn < 2; turn++) {
+            check(paper_sheet_create(&config, &sheet));
+            check(paper_sheet_layer_read(sheet, PAPER_LAYER_HEIGHT, 0, turn ? again : height));
+            paper_sheet_destroy(sheet);
+        }
+        assert_memory_equal(height, again, sizeof height);
+        double mean = 0, squares = 0;
+        for (int j = 0; j < FIBERS; j++)
+            mean += (double)height[j] / FIBERS;
+        for (int j = 0; j < FIBERS; j++)
+            squares += ((double)height[j] - mean) * ((double)height[j] - mean) / FIBERS;
+        double wanted = config.stock.roughness;
+        if (!(fabs(mean - 0.5) <= wanted / 2 + 1e-6 &&
+              fabs(sqrt(squares) - wanted) <= wanted / 4 + 1e-6))
+            fail_msg("%s: mean %g, deviation %g, not %g", config.stock.name, mean,
+                     sqrt(squares), wanted);
+    }
+}
+
+static void polygons_cover_their_area(void **state)
+{
+    (void)state;
+    static const struct {
+        double points[16];
+        int count;
+        double area;
+    } rows[] = {{{10, 10, 20, 10, 20, 20, 10, 20}, 4, 100},
+                {{10.25, 10.5, 20.75, 10.5, 20.75, 19, 10.25, 19}, 4, 10.5 * 8.5},
+                {{5, 5, 45, 5, 5, 45}, 3, 800},
+                {{-50, -50, 500, -50, 500, 500, -50, 500}, 4, 64.0 * 48},
+                {{0, 0, 20, 20, 20, 0, 0, 20}, 4, 200}, /* crosses itself */
+                {{100, 100, 120, 100, 120, 120}, 3, 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct paper_screen screen;
+        int x, y;
+        check(paper_polygon_screen(rows[i].points, rows[i].count, 64, 48, &screen, &x, &y));
+        double area = 0;
+        for (int j = 0; j < screen.width_px * screen.height_px; j++)
+            area += screen.gray[j] / 255.0;
+        if (!(fabs(area - rows[i].area) <= 0.02 * rows[i].area))
+            fail_msg("polygon %zu covers %g, not %g", i, area, rows[i].area);
+        paper_screen_destroy(&screen);
+    }
+    struct paper_screen screen;
+    int x, y;
+    assert_int_equal(
+        paper_polygon_screen((double[]){0, 0, NAN, 1, 2, 2}, 3, 9, 9, &screen, &x, &y),
+        PAPER_BAD_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(glazes_are_kubelka_munk_by_hand),
+        cmocka_unit_test(pigments_from_colours_look_so),
+        cmocka_unit_test(edges_darken),
+        cmocka_unit_test(backruns_push_pigment_away),
+        cmocka_unit_test(granulating_pigments_settle_in_hollows),
+        cmocka_unit_test(light_pigments_run_ahead),
+        cmocka_unit_test(masking_fluid_keeps_clear),
+        cmocka_unit_test(stocks_are_what_they_say),
+        cmocka_unit_test(polygons_cover_their_area),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
