@@ -125,10 +125,11 @@ bool arg_color(lua_State *L, int index, const char *what, const char *name, doub
         lua_pop(L, 1);
         return arg_numbers(L, index, what, name, out, 3, 0, 1);
     }
-    unsigned red, green, blue;
-    char end;
+    unsigned red = 0, green = 0, blue = 0;
     const char *text = lua_tostring(L, -1);
-    if (strlen(text) != 7 || sscanf(text, "#%2x%2x%2x%c", &red, &green, &blue, &end) != 3)
+    if (strlen(text) != 7 || text[0] != '#' ||
+        strspn(text + 1, "0123456789abcdefABCDEF") != 6 ||
+        sscanf(text, "#%2x%2x%2x", &red, &green, &blue) != 3)
         luaL_error(L, "%s %s must be a colour, \"#rrggbb\" or {r, g, b} (got %s)", what, name,
                    described(L, -1, shown));
     out[0] = red / 255.0;
