@@ -1,0 +1,225 @@
+/* Steps that repeat: they are performed without being recorded again, many at once where that is forced, and what
+ * they leave is what plain C leaves; whatever comes between them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "paris_internal.h"
+#include <cm/paris.h>
+
+#include "machine.h"
+
+enum { HIGH = 12, WIDE = 64, CELLS = HIGH * WIDE };
+
+struct sheet {
+    CM_field_id_t cell, flow, neighbour;
+    uint32_t wanted[CELLS];
+};
+
+static uint64_t foreseen(void)
+{
+    struct machine_stats now;
+    machine_stats_get(paris_machine(), &now);
+    return now.calls_foreseen;
+}
+
+static uint64_t kernels_run(void)
+{
+    struct machine_stats now;
+    machine_stats_get(paris_machine(), &now);
+    return now.kernels_run;
+}
+
+static void start(struct sheet *s)
+{
+    unsigned int dimensions[2] = {HIGH, WIDE};
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
+    s->cell = CM_allocate_heap_field(32);
+    s->flow = CM_allocate_heap_field(32);
+    s->neighbour = CM_allocate_heap_field(32);
+    for (uint32_t i = 0; i < CELLS; i++)
+        s->wanted[i] = i * 2654435761u >> 7;
+    assert_int_equal(
+        machine_field_upload(paris_machine(), s->cell, MACHINE_UINT(32), s->wanted), 0);
+}
+
+/* Each takes up what its upper neighbour has more than its left one, but every other column keeps still. */
+static void turn(struct sheet *s, uint32_t add)
+{
+    CM_get_from_news_1L(s->flow, s->cell, 0, CM_downward, 32);
+    CM_get_from_news_1L(s->neighbour, s->flow, 1, CM_downward, 32);
+    CM_u_subtract_2_1L(s->flow, s->neighbour, 32);
+    CM_u_add_2_1L(s->cell, s->flow, 32);
+    CM_my_news_coordinate_1L(s->neighbour, 1, 32);
+    CM_u_ne_zero_1L(s->neighbour, 1);
+    CM_store_context(s->flow);
+    CM_logand_context_with_test();
+    CM_u_add_constant_2_1L(s->cell, add, 32);
+    CM_load_context(s->flow);
+}
+
+static void turn_wanted(struct sheet *s, uint32_t add)
+{
+    static uint32_t old[CELLS];
+    memcpy(old, s->wanted, sizeof old);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            uint32_t here = old[(y + HIGH - 1) % HIGH * WIDE + x],
+                     left = old[(y + HIGH - 1) % HIGH * WIDE + (x + WIDE - 1) % WIDE];
+            s->wanted[y * WIDE + x] += here - left + (x % 2 ? add : 0);
+        }
+}
+
+static void expect(struct sheet *s)
+{
+    static uint32_t got[CELLS];
+    machine_begin(paris_machine());
+    assert_int_equal(machine_field_download(paris_machine(), s->cell, MACHINE_UINT(32), got),
+                     0);
+    assert_memory_equal(got, s->wanted, sizeof got);
+}
+
+enum { CALLS = 10, TURNS = 240 };
+
+static void a_loop_is_not_recorded_again(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    uint64_t before = foreseen();
+    for (int i = 0; i < TURNS; i++) {
+        turn(&s, 3);
+        turn_wanted(&s, 3);
+    }
+    expect(&s);
+    assert_true(foreseen() - before >= CALLS * TURNS / 2);
+}
+
+static void a_loop_that_is_looked_at_is_not_either(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    uint64_t before = foreseen();
+    for (int i = 0; i < 60; i++) {
+        turn(&s, 5);
+        turn_wanted(&s, 5);
+        expect(&s);
+    }
+    assert_true(foreseen() - before >= CALLS * 60 / 2);
+}
+
+/* Looked at now and then, left off in the middle of a turn, with another constant, another VP set, a field that
+ * comes and goes, and a call that fails. */
+static void what_comes_between_is_seen(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    CM_vp_set_id_t here = CM_current_vp_set;
+    unsigned int line[1] = {WIDE};
+    CM_vp_set_id_t other = CM_allocate_vp_set(CM_create_geometry(line, 1));
+    CM_field_id_t count = CM_allocate_heap_field_vp_set(16, other);
+    int counted = 0;
+    for (int i = 0; i < 400; i++) {
+        uint32_t add = i % 97 == 96 ? 11 : 3;
+        turn(&s, add);
+        turn_wanted(&s, add);
+        if (i % 31 == 30)
+            expect(&s);
+        if (i % 7 == 3) {
+            CM_set_vp_set(other);
+            CM_u_add_constant_2_1L(count, 1, 16);
+            CM_set_vp_set(here);
+            counted++;
+        }
+        if (i % 53 == 52) {
+            CM_get_from_news_1L(s.flow, s.cell, 0, CM_downward, 32); /* as a turn begins */
+            expect(&s);
+        }
+        if (i % 71 == 70) {
+            CM_field_id_t gone = CM_allocate_stack_field(32);
+            CM_u_move_1L(gone, s.cell, 32);
+            CM_deallocate_stack_through(gone);
+        }
+    }
+    expect(&s);
+    CM_set_vp_set(other);
+    assert_int_equal(CM_u_read_from_processor_1L(0, count, 16), counted);
+}
+
+/* A constant that is another one each time builds nothing. */
+static void a_constant_that_changes_builds_nothing(void **state)
+{
+    (void)state;
+    struct sheet s;
+    struct machine_stats before, after;
+    start(&s);
+    for (uint32_t i = 0; i < 60; i++) {
+        turn(&s, i);
+        turn_wanted(&s, i);
+        if (i == 30)
+            machine_stats_get(paris_machine(), &before);
+        expect(&s);
+    }
+    machine_stats_get(paris_machine(), &after);
+    assert_int_equal(after.kernels_built, before.kernels_built);
+}
+
+/* Three turns at a time in strips of 32 columns, of any number of turns. */
+static void many_turns_are_one_kernel(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    for (int i = 0; i < 60; i++) {
+        turn(&s, 7);
+        turn_wanted(&s, 7);
+    }
+    expect(&s);
+    uint64_t before = kernels_run();
+    for (int i = 0; i < 90; i++) {
+        turn(&s, 7);
+        turn_wanted(&s, 7);
+    }
+    expect(&s);
+    assert_true(kernels_run() - before <= 90 / 2);
+    for (int some = 1; some < 12; some++) {
+        for (int i = 0; i < some; i++) {
+            turn(&s, 7);
+            turn_wanted(&s, 7);
+        }
+        expect(&s);
+    }
+}
+
+static int forced(void **state)
+{
+    static const char *const names[][2] = {
+        {"LUTETIA_STRIPS", "1"},         {"LUTETIA_COLUMNS", "32"},
+        {"LUTETIA_TURNS", "3"},          {"LUTETIA_BOX_AFTER", "0"},
+        {"LUTETIA_OPTIMISE_AFTER", "0"}, {"LUTETIA_FLUSH_AFTER", "48"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        setenv(names[i][0], names[i][1], 1);
+    return paris_reset(NULL) ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_loop_is_not_recorded_again),
+        cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
+        cmocka_unit_test(what_comes_between_is_seen),
+        cmocka_unit_test(a_constant_that_changes_builds_nothing),
+        cmocka_unit_test_setup(many_turns_are_one_kernel, forced),
+        cmocka_unit_test(what_comes_between_is_seen),
+        cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
