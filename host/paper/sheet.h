@@ -36,8 +36,7 @@ struct paper_pigment {
     double granulation; /* how far it settles in hollows, 0..1 */
     double k[3],
         s[3]; /* Kubelka-Munk absorption and scattering of a unit, red, green, blue, 0..100 */
-    double takes
-        [3]; /* rule of subtraction: what a unit takes from (or lends to) each channel, -1..1 */
+    double takes[3]; /* rule of subtraction: what a unit takes from each channel, -1..1 */
 };
 
 /* The twelve of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name or by number from 0; NULL: none. */
@@ -88,7 +87,7 @@ enum {
 enum paper_rule {
     PAPER_RULE_KUBELKA_MUNK,
     PAPER_RULE_SUBTRACT, /* the thesis's: the paper's colour minus what pigments take */
-    PAPER_RULE_LUMINOUS  /* pigments shine on dark paper: its colour plus what they lend */
+    PAPER_RULE_LUMINOUS /* pigments shine on dark paper: its colour plus what they do not take */
 };
 
 struct paper_air {     /* what may change at any time */

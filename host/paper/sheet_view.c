@@ -20,21 +20,23 @@ enum { SHADES = 65536 };
 #define Q_LEAST 2e-3
 #define EXPONENT_LEAST (-40.0)
 
-/* d = sum over pigments of amount * share[pigment]; amounts of all layers. Uses t[6..7]. */
-static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int channel)
+/* d = sum over pigments of amount * share[pigment], or of amount * (1 - share); amounts of all layers. Uses t[6]. */
+static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int channel,
+                    bool inverted)
 {
     CM_field_id_t amount = p->t[6], fields[3];
     f_set(d, 0.0);
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *row =
             (const double *)(const void *)((const char *)&p->config.pigments[i] + member);
-        if (row[channel] == 0)
+        double share = inverted ? 1 - row[channel] : row[channel];
+        if (share == 0)
             continue;
         int count = sheet_pigment_fields(p, i, fields);
         f_copy(amount, fields[0]);
         for (int j = 1; j < count; j++)
             f_add(amount, amount, fields[j]);
-        f_times(amount, amount, row[channel] / p->unit);
+        f_times(amount, amount, share / p->unit);
         f_add(d, d, amount);
     }
 }
@@ -44,8 +46,8 @@ static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel)
 {
     CM_field_id_t k = p->t[0], s = p->t[1], q = p->t[2], e = p->t[3], r = p->t[4], t = p->t[5];
     CM_field_id_t bottom = p->t[6], part = p->t[7], below = p->substrate[channel];
-    mixture(p, k, offsetof(struct paper_pigment, k), channel);
-    mixture(p, s, offsetof(struct paper_pigment, s), channel);
+    mixture(p, k, offsetof(struct paper_pigment, k), channel, false);
+    mixture(p, s, offsetof(struct paper_pigment, s), channel, false);
     f_add(q, s, s);
     f_add(q, q, k);
     f_mul(q, q, k);
@@ -81,7 +83,8 @@ void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3])
         if (p->config.rule == PAPER_RULE_KUBELKA_MUNK) {
             kubelka_munk(p, dest[i], i);
         } else {
-            mixture(p, p->t[0], offsetof(struct paper_pigment, takes), i);
+            mixture(p, p->t[0], offsetof(struct paper_pigment, takes), i,
+                    p->config.rule == PAPER_RULE_LUMINOUS);
             if (p->config.rule == PAPER_RULE_SUBTRACT)
                 f_sub(dest[i], p->substrate[i], p->t[0]);
             else
@@ -101,6 +104,25 @@ static void water_make(struct paper_sheet *p, CM_field_id_t d)
     f_times(d, d, 1 / p->unit);
 }
 
+/* d = the neighbour's level; at the edge of a sheet that is no torus one's own. */
+static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t level,
+                         unsigned axis, bool next)
+{
+    if (next)
+        f_next(d, level, axis);
+    else
+        f_previous(d, level, axis);
+    if (p->config.torus)
+        return;
+    bool x = axis == PAPER_AXIS_X;
+    int last = (x ? p->page.width : p->page.height) - 1;
+    CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord, next ? (unsigned)last : 0,
+                        (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+    CM_logand_context_with_test();
+    f_copy(d, level);
+    CM_set_context();
+}
+
 /* Light on the water's surface: where it falls away to the upper left it shines, on the other side it is darker; wet
  * paper is a little darker too. Uses t[0..2]. */
 static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
@@ -110,9 +132,9 @@ static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
     f_most(level, level, 2.0);
     f_set(slope, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
-        f_next(other, level, axis);
+        level_beside(p, other, level, axis, true);
         f_add(slope, slope, other);
-        f_previous(other, level, axis);
+        level_beside(p, other, level, axis, false);
         f_sub(slope, slope, other);
     }
     f_times(slope, slope, 0.8);

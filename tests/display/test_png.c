@@ -131,9 +131,25 @@ static void empty_images_are_refused(void **state)
     assert_null(odd.pixels);
 }
 
+static void sixteen_bits_are_written_in_png_order(void **state)
+{
+    (void)state;
+    static const uint16_t pixels[6] = {0, 0x0100, 0x00ff, 0x8000, 0xfeff, 0xffff};
+    const char *path = scratch_path("sixteen.png");
+    assert_int_equal(display_png_write_16(path, 3, 2, 1, pixels), DISPLAY_OK);
+    struct display_image image;
+    assert_int_equal(display_png_read_gray(path, &image), DISPLAY_OK);
+    static const uint8_t rounded[6] = {0, 1, 1, 128, 254, 255};
+    for (int i = 0; i < 6; i++)
+        assert_int_equal(image.pixels[i], rounded[i]);
+    display_image_destroy(&image);
+    assert_int_equal(display_png_write_16(path, 3, 2, 1, NULL), DISPLAY_BAD_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sixteen_bits_are_written_in_png_order),
         cmocka_unit_test(gray_comes_back),
         cmocka_unit_test(color_reads_as_luminance),
         cmocka_unit_test(write_leaves_nothing_beside),
