@@ -138,6 +138,14 @@ static int choose(const struct candidate *all, int count, const char *choice)
 
 /* What generated code should look like there. Costs measured with PoCL on two cores with
  * AVX-512: see docs/engine.md. */
+/* As wide as is asked for, in whole vectors; so wide that a few rows of many arrays are in the caches. */
+static int strip_columns_of(const char *asked, int vector)
+{
+    enum { USUAL = 256, MOST = 1 << 16 };
+    long wanted = asked && *asked ? strtol(asked, NULL, 10) : USUAL;
+    return wanted < vector || wanted > MOST ? USUAL : (int)(wanted / vector * vector);
+}
+
 static struct device_shape shape_of(const struct device *d)
 {
     if (!d->is_cpu)
@@ -155,7 +163,7 @@ static struct device_shape shape_of(const struct device *d)
                                  .op_ns = 0.064 / vector,
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
-                                 .strip_columns = columns && *columns ? atoi(columns) : 256,
+                                 .strip_columns = strip_columns_of(columns, vector),
                                  .no_strips = strips && *strips == '0',
                                  .always_strips = strips && *strips == '1',
                                  .launch_ns = 3000};
