@@ -136,8 +136,6 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* What generated code should look like there. Costs measured with PoCL on two cores with
- * AVX-512: see docs/engine.md. */
 /* As wide as is asked for, in whole vectors; so wide that a few rows of many arrays are in the caches. */
 static int strip_columns_of(const char *asked, int vector)
 {
@@ -146,6 +144,8 @@ static int strip_columns_of(const char *asked, int vector)
     return wanted < vector || wanted > MOST ? USUAL : (int)(wanted / vector * vector);
 }
 
+/* What generated code should look like there. Costs measured with PoCL on two cores with
+ * AVX-512: see docs/engine.md. */
 static struct device_shape shape_of(const struct device *d)
 {
     if (!d->is_cpu)
