@@ -109,9 +109,10 @@ void machine_begin(struct machine *m)
 {
     graph_give_back(m);
     m->simplify_budget = 256;
-    if ((m->calls_noted | m->flush_due) && !replay_in_call(m)) {
+    if (!replay_in_call(m)) {
         replay_settle(m);
         run_flush_due(m);
+        m->turns_in_row = 0;
     }
 }
 

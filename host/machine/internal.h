@@ -232,6 +232,7 @@ struct machine {
     int inside;            /* calls that build, launch or wait: see machine_leave() */
     struct replay *replay; /* NULL: nothing is noted */
     int calls_noted;       /* and not performed yet */
+    int turns_in_row;      /* of loops that were foreseen, with nothing else in between */
     bool eager;
     struct watch *watch; /* NULL: nobody looks. See watch.h */
     struct vanished vanished;

@@ -624,7 +624,11 @@ static bool become_thorough(struct machine *m, const struct edge *e)
 {
     struct replay *p = m->replay;
     if (p->thorough || p->turns_most < 2 || m->flushes < p->not_before ||
-        e->runs != TURNS_SEEN || !e->alone || plan_turns(e->deed.plan) < 2)
+        e->runs < TURNS_SEEN || !e->alone)
+        return false;
+    int turns = plan_turns(e->deed.plan);
+    turns = turns < p->turns_most ? turns : p->turns_most;
+    if (turns < 2 || m->turns_in_row < 2 * turns) /* who looks more often gains nothing */
         return false;
     p->thorough = true;
     p->built_at = m->flushes;
@@ -638,7 +642,7 @@ static void stay_thorough(struct machine *m, bool turns)
     struct replay *p = m->replay;
     if (turns)
         p->built_at = m->flushes;
-    else if (p->thorough && m->flushes - p->built_at > 256) {
+    else if (p->thorough && m->flushes - p->built_at > 64) {
         p->thorough = false;
         forget(m);
     }
@@ -680,6 +684,7 @@ static bool turns_do(struct machine *m)
         if (!deed_do(m, &e->turns, e->to))
             return false;
         m->calls_noted -= turns * e->calls_count;
+        m->turns_in_row += turns;
         m->calls_foreseen += (uint64_t)turns * (uint64_t)e->calls_count;
         if (m->watch)
             watch_replayed(m, start, e->calls, e->calls_count, turns, e->alone);
@@ -694,6 +699,7 @@ static bool turns_do(struct machine *m)
             return false;
         m->calls_foreseen += (uint64_t)e->calls_count;
         m->calls_noted = left;
+        m->turns_in_row++;
         if (m->watch)
             watch_replayed(m, start, e->calls, e->calls_count, 1, e->alone);
         s->edge_last = (int)(e - s->edges);
