@@ -382,7 +382,7 @@ static bool could_be_strips(const struct plan_graph *g, const struct vpset *sets
                             const struct device_shape *shape)
 {
     uint16_t only = 0;
-    if (g->no_strips || shape->no_strips || shape->vector < 2)
+    if (shape->no_strips || shape->vector < 2)
         return false;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
@@ -447,7 +447,7 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     double best = descend(&s, barriers_everywhere(&s));
     bool could = could_be_strips(g, sets, shape);
     g->turns_most = could ? turns_most(g, shape) : 1;
-    if (could) {
+    if (could && !g->no_strips) {
         memcpy(barrier, s.barrier, count * sizeof *barrier);
         s.strips = true;
         double strips = descend(&s, barriers_everywhere(&s));

@@ -448,7 +448,8 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
                               enum quality quality)
 {
-    bool strips = quality != QUICK || m->device.shape.always_strips;
+    /* One turn is as fast without. */
+    bool strips = m->building || m->device.shape.always_strips;
     struct plan *p = plan_attempt(m, r, t, quality, &strips);
     if (p || !strips)
         return p;
