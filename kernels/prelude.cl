@@ -105,9 +105,32 @@ inline VU column(int x, int W)
 
 /* ---- memory ---- */
 
-#define LOAD_bit(p, i) CMP_U(CONVERT(int, GET(uchar, p, i)) != 0)
-#define LOAD_u8(p, i) CONVERT(uint, GET(uchar, p, i))
-#define LOAD_u16(p, i) CONVERT(uint, GET(ushort, p, i))
+/* How a kind is kept in memory, and how it comes from there and goes back. */
+#define TYPE_bit uchar
+#define TYPE_u8 uchar
+#define TYPE_u16 ushort
+#define TYPE_u32 uint
+#define TYPE_u64 ulong
+#define TYPE_f32 float
+#define TYPE_f64 double
+#define FROM_bit(v) CMP_U(CONVERT(int, v) != 0)
+#define FROM_u8(v) CONVERT(uint, v)
+#define FROM_u16(v) CONVERT(uint, v)
+#define FROM_u32(v) (v)
+#define FROM_u64(v) (v)
+#define FROM_f32(v) (v)
+#define FROM_f64(v) (v)
+#define TO_bit(v) CONVERT(uchar, (v)&1)
+#define TO_u8(v) CONVERT(uchar, v)
+#define TO_u16(v) CONVERT(ushort, v)
+#define TO_u32(v) (v)
+#define TO_u64(v) (v)
+#define TO_f32(v) (v)
+#define TO_f64(v) (v)
+
+#define LOAD_bit(p, i) FROM_bit(GET(uchar, p, i))
+#define LOAD_u8(p, i) FROM_u8(GET(uchar, p, i))
+#define LOAD_u16(p, i) FROM_u16(GET(ushort, p, i))
 #define LOAD_u32(p, i) GET(uint, p, i)
 #define LOAD_u64(p, i) GET(ulong, p, i)
 #define LOAD_f32(p, i) GET(float, p, i)
@@ -134,9 +157,9 @@ inline VU column(int x, int W)
 #define PASS_u16 OUT_u16
 #define PASS_u128 OUT_u128
 
-#define OUT_bit(p, i, v) PUT(uchar, p, i, CONVERT(uchar, (v)&1))
-#define OUT_u8(p, i, v) PUT(uchar, p, i, CONVERT(uchar, v))
-#define OUT_u16(p, i, v) PUT(ushort, p, i, CONVERT(ushort, v))
+#define OUT_bit(p, i, v) PUT(uchar, p, i, TO_bit(v))
+#define OUT_u8(p, i, v) PUT(uchar, p, i, TO_u8(v))
+#define OUT_u16(p, i, v) PUT(ushort, p, i, TO_u16(v))
 #define OUT_u32(p, i, v) PUT(uint, p, i, v)
 #define OUT_u64(p, i, v) PUT(ulong, p, i, v)
 #define OUT_f32(p, i, v) PUT(float, p, i, v)

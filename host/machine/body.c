@@ -104,6 +104,11 @@ static int row_moved(struct emitter *e, int from, int axis, int distance)
     return e->rows_count++;
 }
 
+int emit_row(struct emitter *e, int axis, int distance)
+{
+    return distance ? row_moved(e, 0, axis, distance) : 0;
+}
+
 static int input_of(struct emitter *e, int node)
 {
     if (!e->input_number[node]) {
@@ -316,6 +321,78 @@ static struct operand named(int name)
     return o;
 }
 
+/* ---- what other stages have in variables ---- */
+
+static bool in_variables(const struct emitter *e, const struct plan_node *n, int row)
+{
+    const struct together *t = e->together;
+    return t && !n->leaf && n->stage >= t->first &&
+           e->row_offsets[row].d[0] == t->down[n->stage];
+}
+
+static struct operand earlier_vector(struct emitter *e, int node, int back)
+{
+    struct together *t = e->together;
+    struct operand o;
+    int i = 0;
+    while (i < t->carried_count && t->carried[i].node != node)
+        i++;
+    if (i == t->carried_count) {
+        if (i == t->carried_capacity)
+            t->carried = more(e, t->carried, &t->carried_capacity, sizeof *t->carried);
+        if (e->failed)
+            return named(0);
+        t->carried[t->carried_count++] = (struct carried){.node = node};
+    }
+    t->carried[i].back = back > t->carried[i].back ? back : t->carried[i].back;
+    snprintf(o.text, sizeof o.text, "c%d_%d", i, back);
+    return o;
+}
+
+/* The node's vector number `at` from x, of the row that its stage has come to. */
+static struct operand vector_at(struct emitter *e, int node, int row, int at)
+{
+    const struct plan_node *n = &e->g->nodes[node];
+    int ahead = e->together->ahead[n->stage];
+    if (at < ahead)
+        return earlier_vector(e, node, ahead - at);
+    int name = variable_find(e, node, row, ahead * e->together->vector,
+                             n->maybe_nan && e->together->bits_matter[node]);
+    e->failed = e->failed || at > ahead || name < 0;
+    return named(name);
+}
+
+/* Lanes of two vectors side by side, from that one of the first on. */
+static void spell_between(char *out, size_t size, const char *type, int lanes, int from,
+                          const char *a, const char *b)
+{
+    static const char digits[] = "0123456789abcdef";
+    size_t at = (size_t)snprintf(out, size, "(%s)(", type);
+    for (int i = 0; i < lanes; i++) {
+        int lane = from + i;
+        at += (size_t)snprintf(out + at, size - at, "%s%s.s%c", i ? ", " : "",
+                               lane < lanes ? a : b, digits[lane % lanes]);
+    }
+    snprintf(out + at, size - at, ")");
+}
+
+/* true: the value is another's variable as it is, else an expression. */
+static bool emit_between(struct emitter *e, int node, int row, int dx, struct operand *whole,
+                         char *expression, size_t size)
+{
+    int lanes = e->together->vector, at = dx >= 0 ? dx / lanes : -((lanes - 1 - dx) / lanes);
+    struct operand a = vector_at(e, node, row, at);
+    if (at * lanes == dx) {
+        *whole = a;
+        return true;
+    }
+    struct operand b = vector_at(e, node, row, at + 1);
+    spell_between(expression, size, spell_container(e->g->nodes[node].type), lanes,
+                  dx - at * lanes, a.text, b.text);
+    e->cost++;
+    return false;
+}
+
 struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical)
 {
     const struct plan_node *n = &e->g->nodes[node];
@@ -334,8 +411,13 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     char expression[1200];
     const char *type = spell_container(n->type);
     e->wide = e->wide || type[1] == 'Q';
-    if (loads) {
+    if (loads && in_variables(e, n, row)) {
+        if (emit_between(e, node, row, dx, &result, expression, sizeof expression))
+            return result;
+    } else if (loads) {
         int p = pointer_of(e, node, row);
+        if (e->failed)
+            return named(0);
         struct pointer *seen = &e->seen_pointers[p];
         seen->low = dx < seen->low ? dx : seen->low;
         seen->high = dx > seen->high ? dx : seen->high;

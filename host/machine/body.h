@@ -31,6 +31,21 @@ struct pointer {
     int low, high; /* columns that are looked at, from where we are */
 };
 
+/* Several stages in one loop over a row's columns, where each finds what another has just computed. In the row
+ * that a stage has come to its values are in variables: the vector at hand, and earlier ones from the turns of
+ * the loop before, which are called c<number>_<how many before>. */
+struct together {
+    int first;        /* stage: what earlier ones store is loaded */
+    const int *down;  /* of a stage: the row it has come to, from ours */
+    const int *ahead; /* of a stage: how many vectors it is ahead of x */
+    int vector;
+    const bool *bits_matter; /* of a node: somebody may look at the bits of a NaN in it */
+    struct carried {
+        int node, back; /* so many earlier vectors of it are wanted */
+    } * carried;
+    int carried_count, carried_capacity;
+};
+
 struct emitter {
     const struct plan_graph *g;
     const struct vpset *set;
@@ -49,7 +64,8 @@ struct emitter {
     int inputs, constants_count, names;
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
-    bool bare; /* pointers are somebody else's: only which there are is noted */
+    bool bare;                 /* pointers are somebody else's: only which there are is noted */
+    struct together *together; /* NULL: a stage alone */
     int ops, loads, cost;
 };
 
@@ -64,6 +80,8 @@ struct operand {
 /* The node's value in that row and column; canonical: a NaN in it has the bits that are stored. */
 struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical);
 
+/* The row at that distance along an axis from ours, which is row 0. */
+int emit_row(struct emitter *e, int axis, int distance);
 int emit_argument(struct emitter *e, int kind, int node, int size);
 /* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
 void emit_axes(const struct emitter *e, struct text *t);

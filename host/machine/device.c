@@ -355,7 +355,7 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
             b->refs = 1;
             return b;
         }
-    size_t whole = bytes + SKEW_BYTES * SKEWS;
+    size_t whole = bytes + SKEW_BYTES * SKEWS + 2 * DEVICE_GUARD_BYTES;
     if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
         pool_empty(d);
         machine_fail(
@@ -377,11 +377,12 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
         parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
     }
     if (!error) {
-        cl_buffer_region region = {.origin = SKEW_BYTES * (skew++ % SKEWS), .size = bytes};
+        cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES + SKEW_BYTES * (skew++ % SKEWS),
+                                   .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
         if (error) { /* an alignment that the device does not like */
-            region.origin = 0;
+            region.origin = DEVICE_GUARD_BYTES;
             b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                        &region, &error);
         }

@@ -92,6 +92,10 @@ struct node_op_info {
 };
 extern const struct node_op_info node_ops[NODE_OP_COUNT];
 
+/* Before and after each buffer there is so much more memory, which nobody's numbers are in: kernels in strips load
+ * vectors of which some lanes are beyond a row's ends. A multiple of any device's alignment. */
+enum { DEVICE_GUARD_BYTES = 4096 };
+
 struct device_buffer {
     cl_mem mem;
     size_t bytes;

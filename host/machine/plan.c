@@ -100,9 +100,13 @@ static void expand(struct search *s, int index, int offset, int stage)
         return;
     if (plan_loads(n, stage)) {
         s->operations += 1;
-        if (s->strips && !n->leaf)
-            s->near_bytes += (double)type_bytes(n->type);
-        else if (s->loaded[index] != s->loads_stamp) {
+        if (s->strips && !n->leaf) { /* in another row, from a ring: else in variables */
+            bool first = s->loaded[index] != s->loads_stamp;
+            if (s->offsets[offset][0]) {
+                s->near_bytes += (first ? 2 : 1) * (double)type_bytes(n->type);
+                s->loaded[index] = s->loads_stamp;
+            }
+        } else if (s->loaded[index] != s->loads_stamp) {
             s->loaded[index] = s->loads_stamp;
             s->bytes += (double)type_bytes(n->type);
         }
@@ -218,9 +222,7 @@ static double cost(struct search *s)
                     double bytes = (double)type_bytes(g->nodes[k].type);
                     if (g->nodes[k].target || !s->strips)
                         s->bytes += bytes;
-                    if (!g->nodes[k].target && s->strips)
-                        s->near_bytes += bytes;
-                    s->operations += 1;
+                    s->operations += g->nodes[k].target || !s->strips;
                     expand(s, k, 0, stage);
                 }
             if (s->too_much || s->visits_count > EVALUATIONS_MAX)

@@ -334,9 +334,54 @@ static struct machine_value *residual(struct machine *m, struct machine_value *c
     return c;
 }
 
+static bool is_float_zero(const struct machine_value *v)
+{
+    return is_number(v) && v->type.kind == MACHINE_FLOAT &&
+           (v->imm.lo & (v->type.width == 32 ? 0x7fffffffu : INT64_MAX)) == 0;
+}
+
+/* From 1 on: 1, above 0 and up to 1: -1. Else, or infinite, or NaN: 0. */
+static int factor_class(const struct machine_value *v)
+{
+    uint64_t one = v->type.width == 32 ? 0x3f800000u : 0x3ff0000000000000u,
+             infinite = v->type.width == 32 ? 0x7f800000u : 0x7ff0000000000000u;
+    if (!is_number(v) || v->type.s || !v->imm.lo || v->imm.lo >= infinite)
+        return 0;
+    return v->imm.lo >= one ? 1 : -1;
+}
+
+/* Where t is above 0 it is multiplied by g, where below it is divided by g: for g of 1 or more that is the larger of
+ * both, for less the smaller, since rounding keeps the order; and both can be computed at the same time.
+ *
+ *     select(u < 0, u / g, u) with u = select(t > 0, t * g, t)
+ *
+ * Zeros of either sign come out as they are, and NaNs of an operation are stored as one and the same. */
+static struct machine_value *scaled_by_sign(struct machine *m, struct machine_value *c,
+                                            struct machine_value *a, struct machine_value *u)
+{
+    if (c->op != MACHINE_FLT || c->in[0] != u || !is_float_zero(c->in[1]) ||
+        a->op != MACHINE_FDIV || a->in[0] != u || u->op != NODE_SELECT)
+        return NULL;
+    struct machine_value *positive = u->in[0], *product = u->in[1], *t = u->in[2],
+                         *g = a->in[1];
+    int class = factor_class(g);
+    if (!class || positive->op != MACHINE_FGT || positive->in[0] != t ||
+        !is_float_zero(positive->in[1]) || product->op != MACHINE_FMUL || product->in[0] != t ||
+        product->in[1] != g || t->op < MACHINE_FADD || t->op > MACHINE_FDIV)
+        return NULL;
+    struct machine_value *quotient = build(m, MACHINE_FDIV, t->type, 0, t, g, NULL);
+    struct machine_value *chosen = quotient ? build(m, class > 0 ? MACHINE_FGT : MACHINE_FLT,
+                                                    bit_type, 0, product, quotient, NULL)
+                                            : NULL;
+    return chosen ? build(m, NODE_SELECT, t->type, 0, chosen, product, quotient) : NULL;
+}
+
 static struct machine_value *select_of(struct machine *m, struct machine_value *c,
                                        struct machine_value *a, struct machine_value *b)
 {
+    struct machine_value *scaled = scaled_by_sign(m, c, a, b);
+    if (scaled)
+        return scaled;
     for (;;) {
         if (a == b || is_one_bit(c))
             return a;

@@ -1,0 +1,55 @@
+/* strips.cl - rows in strips: what kernels by strips.c have besides the prelude.
+ *
+ * Vectors lie where x is a multiple of VECTOR. At the ends of a row some lanes of them may be beyond its halos: what
+ * is loaded there is never looked at (and is memory: see DEVICE_GUARD_BYTES), and nothing is stored there. */
+
+/* The last column that a store of a whole vector may end at; the halos' columns are in such vectors then. */
+#define WHOLE (W % VECTOR ? W - VECTOR : W)
+
+/* Lane by lane, with their copies in the halos. */
+#define EDGES(kind, type)                                                                      \
+    __attribute__((noinline)) void edge_store_##kind(__global type *q, int i,                  \
+                                                     JOIN(type, VECTOR) v, int W)              \
+    {                                                                                          \
+        type t[VECTOR];                                                                        \
+        *(JOIN(type, _anywhere) *)t = v;                                                       \
+        for (int l = 0; l < VECTOR && i + l < W; l++) {                                        \
+            q[i + l] = t[l];                                                                   \
+            if (i + l < HALO)                                                                  \
+                q[i + l + W] = t[l];                                                           \
+            if (i + l >= W - HALO)                                                             \
+                q[i + l - W] = t[l];                                                           \
+        }                                                                                      \
+    }
+#define STORE_AT_EDGE(kind, q, i, v)                                                           \
+    do {                                                                                       \
+        if ((i) + VECTOR <= WHOLE)                                                             \
+            STORE_INSIDE(kind, q, i, v);                                                       \
+        else                                                                                   \
+            edge_store_##kind(q, i, TO_##kind(v), W);                                          \
+    } while (0)
+
+/* In the middle of it. VECTOR == HALO: the first vector is the right halo, the last one the left. */
+#define STORE_INSIDE(kind, q, i, v)                                                            \
+    do {                                                                                       \
+        PASS_##kind(q, i, v);                                                                  \
+        if ((i) == 0)                                                                          \
+            OUT_##kind(q, W, v);                                                               \
+        if ((i) == W - VECTOR)                                                                 \
+            OUT_##kind(q, -VECTOR, v);                                                         \
+    } while (0)
+
+#ifdef __has_builtin
+#if __has_builtin(__builtin_prefetch)
+#define PREFETCH(p, writes) __builtin_prefetch((const void *)(uintptr_t)(p), writes, 2)
+#endif
+#endif
+#ifndef PREFETCH
+#define PREFETCH(p, writes)
+#endif
+
+inline int ring(int y, int rows)
+{
+    y %= rows;
+    return y < 0 ? y + rows : y;
+}
