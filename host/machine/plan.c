@@ -401,18 +401,23 @@ static bool could_be_strips(const struct plan_graph *g, const struct vpset *sets
  * in the halos. */
 static int turns_most(const struct plan_graph *g, const struct device_shape *shape)
 {
-    int *reach = calloc((size_t)g->count, sizeof *reach), most = 1;
+    int(*reach)[2] = calloc((size_t)g->count, sizeof *reach),
+    most = 1; /* to the left, to the right */
     INVARIANT(reach != NULL);
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
-            reach[i] = reach[n->in[k]] > reach[i] ? reach[n->in[k]] : reach[i];
-        if (n->op == NODE_SHIFT && !n->leaf && n->axis == 1)
-            reach[i] += abs(n->detail);
-        most = reach[i] > most ? reach[i] : most;
+            for (int side = 0; side < 2; side++) {
+                int far = reach[n->in[k]][side];
+                if (n->op == NODE_SHIFT && n->axis == 1)
+                    far += side ? n->detail : -n->detail;
+                reach[i][side] = far > reach[i][side] ? far : reach[i][side];
+            }
+        most = reach[i][0] > most ? reach[i][0] : most;
+        most = reach[i][1] > most ? reach[i][1] : most;
     }
     free(reach);
-    return (shape->halo - 1) / most;
+    return shape->halo / most;
 }
 
 /* A barrier at each shift of something that must be computed. */

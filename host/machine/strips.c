@@ -129,26 +129,35 @@ static bool text_same(const struct text *a, const struct text *b)
     return a->length == b->length && (!a->length || !memcmp(a->data, b->data, a->length));
 }
 
-/* Of turns that the stages are, but for the first and the last; all of them: there are none. */
-static int turn_stages(const struct strips *s)
+/* Where stages are turns of a loop: of how many stages, and which stage the first of those begins with that are all
+ * alike. The first and the last turns are not quite, since there is nothing before and after them. */
+struct turns {
+    int stages, begin; /* stages: 0: there are none */
+};
+
+static struct turns find_turns(const struct strips *s)
 {
-    for (int turn = 1; 2 * turn + 1 <= s->stages_count; turn++) {
-        bool same = true;
-        for (int k = turn + 1; k < s->stages_count - 1 && same; k++)
-            same = text_same(&s->stages[k].e.body, &s->stages[k - turn].e.body);
-        if (same)
-            return turn;
-    }
-    return s->stages_count;
+    struct turns best = {0, 0};
+    int best_length = s->stages_count / 3;
+    for (int turn = 1; 2 * turn < s->stages_count; turn++)
+        for (int k = turn, length = 0; k < s->stages_count; k++) {
+            bool same = text_same(&s->stages[k].e.body, &s->stages[k - turn].e.body);
+            length = same ? length + 1 : 0;
+            if (length > best_length && length >= turn) {
+                best_length = length;
+                best = (struct turns){turn, (k - length + 1) % turn};
+            }
+        }
+    return best;
 }
 
 static void make_passes(struct strips *s)
 {
-    int turn = turn_stages(s), cost = 0, begun = 0;
-    for (int k = 0; k < s->stages_count; k++) {
+    struct turns turns = find_turns(s);
+    for (int k = 0, cost = 0, begun = 0; k < s->stages_count; k++) {
+        bool turn = turns.stages && k % turns.stages == turns.begin;
         cost += s->stages[k].e.cost;
-        bool turns = k > turn && (k - 1) % turn == 0;
-        if (k == 0 || turns || (cost > PASS_COST && k > begun)) {
+        if (k == 0 || turn || (cost > PASS_COST && k > begun)) {
             s->passes[s->passes_count++].first = begun = k;
             cost = s->stages[k].e.cost;
         }
@@ -447,7 +456,8 @@ static void pass_text(struct strips *s, struct pass *pass)
              "    const int row_inside = 1%s;\n    for (int x = first - %d; x < last + %d; x "
              "+= VECTOR) {\n",
              boxes && e->row_tests.data ? e->row_tests.data : "", pass->before, pass->after);
-    if (!getenv("NOPF")) prefetch_text(s, pass, t);
+    if (!getenv("NOPF"))
+        prefetch_text(s, pass, t);
     if (boxes)
         text_put(t,
                  "        if (row_inside && x >= inside.x && x < inside.y) {\n"
