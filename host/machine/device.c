@@ -14,10 +14,17 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PROGRAMS_SIZE = 1024, SKEW_BYTES = 128, SKEWS = 61, POOL_BYTES_MAX = 1 << 30 };
+enum {
+    PROGRAMS_SIZE = 1024,
+    LARGE_PAGE_BYTES = 2 << 20,
+    SKEW_BYTES = 128,
+    SKEWS = 61,
+    POOL_BYTES_MAX = 1 << 30
+};
 
 struct program_entry {
     char *key; /* options, then text */
@@ -342,6 +349,37 @@ void device_close(struct machine *m)
 
 /* ---- buffers ---- */
 
+static void CL_CALLBACK memory_free(cl_mem memory, void *address)
+{
+    (void)memory;
+    free(address);
+}
+
+/* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own: large ones are in
+ * large pages where the system has them, or looking for pages takes as long as computing. */
+static cl_mem memory_get(const struct device *d, size_t bytes, cl_int *error)
+{
+    void *address;
+    if (!d->is_cpu || bytes < LARGE_PAGE_BYTES)
+        return clCreateBuffer(d->context, CL_MEM_READ_WRITE, bytes, NULL, error);
+    *error = CL_OUT_OF_HOST_MEMORY;
+    if (posix_memalign(&address, LARGE_PAGE_BYTES, bytes))
+        return NULL;
+#ifdef MADV_HUGEPAGE
+    madvise(address, bytes / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES, MADV_HUGEPAGE);
+#endif
+    cl_mem memory = clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes,
+                                   address, error);
+    if (!*error)
+        *error = clSetMemObjectDestructorCallback(memory, memory_free, address);
+    if (!*error)
+        return memory;
+    if (memory)
+        clReleaseMemObject(memory);
+    free(address);
+    return NULL;
+}
+
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
 {
     struct device *d = &m->device;
@@ -367,14 +405,13 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
     }
     struct device_buffer *b = calloc(1, sizeof *b);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    cl_mem parent =
-        b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
+    cl_mem parent = b ? memory_get(d, whole, &error) : NULL;
     if (error && d->pool_count) {
         m->inside++;
         clFinish(d->queue);
         m->inside--;
         pool_empty(d);
-        parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
+        parent = b ? memory_get(d, whole, &error) : NULL;
     }
     if (!error) {
         cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES + SKEW_BYTES * (skew++ % SKEWS),
