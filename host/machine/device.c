@@ -143,12 +143,12 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* As wide as is asked for, in whole vectors; so wide that a few rows of many arrays are in the caches. */
+/* As wide as is asked for, in whole vectors; 0: nobody asks. */
 static int strip_columns_of(const char *asked, int vector)
 {
-    enum { USUAL = 256, MOST = 1 << 16 };
-    long wanted = asked && *asked ? strtol(asked, NULL, 10) : USUAL;
-    return wanted < vector || wanted > MOST ? USUAL : (int)(wanted / vector * vector);
+    enum { MOST = 1 << 16 };
+    long wanted = asked && *asked ? strtol(asked, NULL, 10) : 0;
+    return wanted < vector || wanted > MOST ? 0 : (int)(wanted / vector * vector);
 }
 
 /* What generated code should look like there. Costs measured with PoCL on two cores with
@@ -170,6 +170,7 @@ static struct device_shape shape_of(const struct device *d)
                                  .op_ns = 0.064 / vector,
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
+                                 .near_bytes = 256 << 10,
                                  .strip_columns = strip_columns_of(columns, vector),
                                  .no_strips = strips && *strips == '0',
                                  .always_strips = strips && *strips == '1',

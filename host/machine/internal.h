@@ -191,7 +191,8 @@ struct device_shape {              /* what generated code should look like there
     double op_ns;                  /* cost model: one vector instruction, for an element */
     double byte_ns;                /* ... one byte to or from memory */
     double near_byte_ns;           /* ... to or from a cache */
-    int strip_columns;             /* a multiple of the vector */
+    int near_bytes;                /* of a cache, that rings may fill */
+    int strip_columns;             /* a multiple of the vector; 0: what fits near_bytes */
     bool no_strips, always_strips; /* see plan.c; for tests */
     double launch_ns;              /* ... a launch */
 };

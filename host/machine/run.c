@@ -448,8 +448,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
                               enum quality quality)
 {
-    /* One turn is as fast without. */
-    bool strips = m->building || m->device.shape.always_strips;
+    bool strips = quality == BOXED || m->device.shape.always_strips;
     struct plan *p = plan_attempt(m, r, t, quality, &strips);
     if (p || !strips)
         return p;

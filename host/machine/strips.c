@@ -433,11 +433,13 @@ static void pass_text(struct strips *s, struct pass *pass)
                 "D0, const int y,\n    const int top, const int bottom, const int first, "
                 "const int last, const int2 inside");
     for (int i = 0; i < e->pointers_count; i++)
-        text_put(t, ",\n    const __global %s *restrict p%d",
-                 memory_type(s->g->nodes[e->seen_pointers[i].node].type), i);
+        text_put(t, ",\n    const __global %s *%s p%d",
+                 memory_type(s->g->nodes[e->seen_pointers[i].node].type),
+                 s->g->nodes[e->seen_pointers[i].node].leaf ? "restrict" : "", i);
     for (int i = 0; i < pass->outputs_count; i++)
-        text_put(t, ",\n    __global %s *restrict q%d",
-                 memory_type(s->g->nodes[pass->outputs[i].node].type), i);
+        text_put(t, ",\n    __global %s *%s q%d",
+                 memory_type(s->g->nodes[pass->outputs[i].node].type),
+                 pass->outputs[i].array ? "restrict" : "", i);
     int number = 0;
     for (int i = 0; i < e->arguments_count; i++)
         if (e->arguments[i].kind == ARGUMENT_CONSTANT)
@@ -456,8 +458,7 @@ static void pass_text(struct strips *s, struct pass *pass)
              "    const int row_inside = 1%s;\n    for (int x = first - %d; x < last + %d; x "
              "+= VECTOR) {\n",
              boxes && e->row_tests.data ? e->row_tests.data : "", pass->before, pass->after);
-    if (!getenv("NOPF"))
-        prefetch_text(s, pass, t);
+    prefetch_text(s, pass, t);
     if (boxes)
         text_put(t,
                  "        if (row_inside && x >= inside.x && x < inside.y) {\n"
@@ -674,11 +675,23 @@ static void find_margin(struct strips *s)
     }
 }
 
-/* A row of a ring: as wide as a strip, of which the last takes what is left, too, and both margins. */
-static int near_columns(const struct strips *s, const struct device_shape *shape)
+/* As many columns as leave the rings near, but not so few that what strips compute twice counts; more than MOST gain
+ * nothing. */
+static int strip_columns(const struct strips *s, const struct device_shape *shape)
 {
-    int columns = 2 * shape->strip_columns;
-    columns = columns < s->set->width ? columns : s->set->width;
+    enum { LEAST = 128, MOST = 1024 };
+    if (shape->strip_columns)
+        return shape->strip_columns;
+    int columns = MOST;
+    while (columns > LEAST && columns * s->memory > shape->near_bytes)
+        columns /= 2;
+    return columns;
+}
+
+/* A row of a ring: as wide as a strip, of which the last takes what is left, too, and both margins. */
+static int near_columns(const struct strips *s, int columns)
+{
+    columns = 2 * columns < s->set->width ? 2 * columns : s->set->width;
     return (columns + 2 * s->margin + 15) / 16 * 16 + 16;
 }
 
@@ -701,12 +714,13 @@ static void describe(const struct strips *s, const struct device_shape *shape,
             bytes += (double)(s->set->pitch * s->set->rows) *
                      (double)type_bytes(s->g->nodes[s->arguments[i].node].type);
     out->vector = shape->vector;
-    out->strip_columns = shape->strip_columns;
-    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)near_columns(s, shape);
+    out->strip_columns = strip_columns(s, shape);
+    int near = near_columns(s, out->strip_columns);
+    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)near;
     snprintf(out->options, sizeof out->options,
              "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d -DCOLUMNS=%d -DNEAR=%d", out->vector,
-             s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0,
-             shape->strip_columns, near_columns(s, shape));
+             s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0, out->strip_columns,
+             near);
 }
 
 static void strips_finish(struct strips *s)
