@@ -266,13 +266,11 @@ static bool suits(const struct strips *s)
             const struct pointer *p = &stage->e.seen_pointers[i];
             if (stage->left - p->low > s->set->halo || stage->right + p->high > s->set->halo)
                 return false;
-            widen(&rows, abs(rows_down(s, &stage->e, p)));
+            widen(&rows, abs(rows_down(s, &stage->e, p)) - s->down[k]);
         }
     }
-    for (int k = 0; k < s->stages_count; k++)
-        widen(&rows, s->stages[k].delay + s->stages[k].above + s->stages[k].below);
     return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
-           s->set->dimensions[0] > 4 * rows + 4;
+           s->set->dimensions[0] > 2 * rows;
 }
 
 /* ---- a pass's functions ---- */
