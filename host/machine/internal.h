@@ -12,7 +12,9 @@
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
- *   replay.c    calls seen before: noted, and performed all at once   (uses run, graph)
+ *   replay.c    calls seen before: noted, and performed all at once   (uses run, states, loops)
+ *   states.c    ... what fields and flags held then                   (uses graph)
+ *   loops.c     ... which of them repeat, and how many turns at once  (uses run)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   watch.c     what happens when, for a trace and for explanations   (uses trace, explain)
  *   trace.c     a file of what happens when
@@ -293,6 +295,12 @@ struct machine {
 enum machine_status machine_fail(struct machine *m, enum machine_status status,
                                  const char *format, ...) __attribute__((format(printf, 3, 4)));
 double machine_clock_s(void);
+/* Memory for what is small beside the fields: it is not expected to run out, and when it does there is no
+ * state to return to. grown: twice as much room in an array; allocated: zeros. */
+void *machine_grown(void *old, int *capacity, size_t element);
+void *machine_allocated(size_t count, size_t element);
+/* A hash of so many words, the same on every machine. */
+uint64_t machine_words_hash(const uint32_t *words, size_t count);
 
 /* graph.c */
 bool graph_init(struct machine *m);

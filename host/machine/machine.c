@@ -30,6 +30,32 @@ double machine_clock_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+void *machine_grown(void *old, int *capacity, size_t element)
+{
+    int wanted = *capacity ? *capacity * 2 : 64;
+    void *new = realloc(old, (size_t)wanted * element);
+    INVARIANT(new != NULL);
+    *capacity = wanted;
+    return new;
+}
+
+void *machine_allocated(size_t count, size_t element)
+{
+    void *new = calloc(count ? count : 1, element);
+    INVARIANT(new != NULL);
+    return new;
+}
+
+uint64_t machine_words_hash(const uint32_t *words, size_t count)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++) {
+        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
 struct machine_config machine_config_default(void)
 {
     return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1};

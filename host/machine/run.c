@@ -517,11 +517,7 @@ const int *plan_stored(const struct plan *p, int *count)
 
 static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
 {
-    uint64_t h = 0xcbf29ce484222325u;
-    for (uint32_t i = 0; i < r->length; i++) {
-        h = (h ^ r->signature[i]) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 32;
-    }
+    uint64_t h = machine_words_hash(r->signature, r->length);
     if (!m->plans) {
         m->plans_size = 1024;
         m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
