@@ -1,6 +1,7 @@
 /* internal.h - what the files of the machine share.
  *
- *   fields.c    VP sets, fields, flags: which value is where          (uses simplify)
+ *   vpsets.c    VP sets: geometries and addresses                     (uses fields, slices, run)
+ *   fields.c    fields and flags: which value is where                (uses simplify)
  *   simplify.c  makes values; the rules that keep the graph small     (uses graph)
  *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
@@ -258,9 +259,11 @@ struct machine {
 
     int simplify_budget; /* nodes that simplify_under() may still look at in this instruction */
 
-    /* fields.c */
+    /* vpsets.c */
     struct vpset *sets; /* 1 .. sets_count - 1 */
     int sets_count, set_current;
+
+    /* fields.c */
     struct field **fields; /* ascending base */
     int fields_count, fields_capacity;
     int field_last; /* index of the last one found */
@@ -387,9 +390,15 @@ static inline bool op_is_integer(int op)
 struct machine_value *integer_value(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b);
 
-/* fields.c */
+/* vpsets.c */
 struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
+void vpsets_finish(struct machine *m);
+
+/* fields.c */
 void fields_finish(struct machine *m);
+void slot_set(struct machine *m, struct slot *slot, struct machine_value *v);
+/* There is no overflow to be worked out any more. */
+void flag_overflow_clear(struct machine *m, struct lazy_overflow *o);
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
 /* That very value is the content from the offset on. */
 bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v);

@@ -132,6 +132,7 @@ void machine_destroy(struct machine *m)
     watch_leave(m);
     replay_finish(m);
     fields_finish(m);
+    vpsets_finish(m);
     run_finish(m);
     graph_finish(m);
     watch_close(m);
