@@ -136,37 +136,31 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* As wide as is asked for, in whole vectors; so wide that a few rows of many arrays are in the caches. */
-static int strip_columns_of(const char *asked, int vector)
-{
-    enum { USUAL = 256, MOST = 1 << 16 };
-    long wanted = asked && *asked ? strtol(asked, NULL, 10) : USUAL;
-    return wanted < vector || wanted > MOST ? USUAL : (int)(wanted / vector * vector);
-}
+/* A strip is so wide that a few rows of many arrays are in the caches. */
+enum { STRIP_COLUMNS = 256 };
 
 /* What generated code should look like there. Costs measured with PoCL on two cores with
  * AVX-512: see docs/engine.md. */
-static struct device_shape shape_of(const struct device *d)
+static struct device_shape shape_of(const struct device *d, const struct settings *forced)
 {
     if (!d->is_cpu)
         return (struct device_shape){
             .vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
-    const char *forced = getenv("LUTETIA_VECTOR");
-    if (forced && *forced)
-        width = (cl_uint)strtoul(forced, NULL, 10);
+    if (forced->vector != SETTING_FREE)
+        width = (cl_uint)forced->vector;
     int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-    const char *strips = getenv("LUTETIA_STRIPS"), *columns = getenv("LUTETIA_COLUMNS");
-    return (struct device_shape){.vector = vector,
-                                 .halo = vector > 1 ? vector : 0,
-                                 .op_ns = 0.064 / vector,
-                                 .byte_ns = 0.022,
-                                 .near_byte_ns = 0.004,
-                                 .strip_columns = strip_columns_of(columns, vector),
-                                 .no_strips = strips && *strips == '0',
-                                 .always_strips = strips && *strips == '1',
-                                 .launch_ns = 3000};
+    return (struct device_shape){
+        .vector = vector,
+        .halo = vector > 1 ? vector : 0,
+        .op_ns = 0.064 / vector,
+        .byte_ns = 0.022,
+        .near_byte_ns = 0.004,
+        .strip_columns = forced->columns == SETTING_FREE ? STRIP_COLUMNS : (int)forced->columns,
+        .no_strips = forced->strips == 0,
+        .always_strips = forced->strips == 1,
+        .launch_ns = 3000};
 }
 
 enum machine_status device_open(struct machine *m, const char *choice)
@@ -215,7 +209,7 @@ enum machine_status device_open(struct machine *m, const char *choice)
     d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
                      ? "-cl-fp32-correctly-rounded-divide-sqrt"
                      : "";
-    d->shape = shape_of(d);
+    d->shape = shape_of(d, &m->settings);
     cl_int error;
     d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
     if (error)

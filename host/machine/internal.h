@@ -30,6 +30,7 @@
  *   call.h      starting a kernel that is not generated
  *   scalar.h    numbers on the front end
  *   device.c    OpenCL: devices, buffers, programs and their cache
+ *   settings.c  what can be forced by environment variables
  *   machine.c   creation, errors, configuration
  */
 #ifndef LUTETIA_MACHINE_INTERNAL_H
@@ -182,6 +183,22 @@ struct vpset {
     struct lazy_overflow overflow;
 };
 
+/* ---- what can be forced ---- */
+
+#define SETTING_FREE UINT64_MAX /* the device decides */
+enum { PENDING_MANY = 384 };    /* values waiting: enough for an evaluation */
+
+/* By environment variables: settings.c. */
+struct settings {
+    uint64_t eager, replay;
+    uint64_t flush_after; /* values waiting */
+    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
+    uint64_t optimise_after, box_after;
+    uint64_t turns; /* of a loop, evaluated at once */
+    uint64_t vector, strips, columns, scatter;
+    uint64_t processors;
+};
+
 /* ---- the device ---- */
 
 struct device_shape {              /* what generated code should look like there */
@@ -237,6 +254,7 @@ struct machine {
     int calls_noted;       /* and not performed yet */
     int turns_in_row;      /* of loops that were foreseen, with nothing else in between */
     bool eager;
+    struct settings settings;
     struct watch *watch; /* NULL: nobody looks. See watch.h */
     struct vanished vanished;
     char *dump_dir;
@@ -279,9 +297,6 @@ struct machine {
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
-    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
-    uint64_t optimise_after, box_after;
-    uint64_t flush_after;     /* values waiting */
     bool sliced;              /* there has been a slice: see slices.c */
     bool rolling;             /* in reshape_roll() */
     uint64_t roll_after;      /* values waiting before the next try */
@@ -304,6 +319,9 @@ void *machine_grown(void *old, int *capacity, size_t element);
 void *machine_allocated(size_t count, size_t element);
 /* A hash of so many words, the same on every machine. */
 uint64_t machine_words_hash(const uint32_t *words, size_t count);
+
+/* settings.c */
+enum machine_status settings_read(struct machine *m);
 
 /* graph.c */
 bool graph_init(struct machine *m);

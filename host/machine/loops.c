@@ -54,7 +54,7 @@ bool loop_turn_ends(const struct machine *m)
 {
     const struct replay *p = m->replay;
     return replay_in_loop(m) && p->since % p->history.period == 0 &&
-           m->nodes_pending >= m->flush_after / 8;
+           m->nodes_pending >= m->settings.flush_after / 8;
 }
 
 /* ---- many turns at once ---- */

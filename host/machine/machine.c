@@ -63,17 +63,9 @@ struct machine_config machine_config_default(void)
 
 static enum machine_status set_processors(struct machine *m, int wanted)
 {
-    const char *from_environment = getenv("LUTETIA_PROCESSORS");
     long count = wanted;
-    if (count == 0 && from_environment && *from_environment) {
-        char *end;
-        count = strtol(from_environment, &end, 10);
-        if (*end || count < 1)
-            return machine_fail(
-                m, MACHINE_BAD_ARGUMENT,
-                "LUTETIA_PROCESSORS must be a power of two from 1 to 2^30 (is \"%s\")",
-                from_environment);
-    }
+    if (count == 0 && m->settings.processors != SETTING_FREE)
+        count = (long)m->settings.processors;
     if (count == 0)
         count = 65536;
     if (count < 1 || count > (1L << 30) || (count & (count - 1)))
@@ -85,12 +77,6 @@ static enum machine_status set_processors(struct machine *m, int wanted)
     return MACHINE_OK;
 }
 
-static bool environment_says_yes(const char *name)
-{
-    const char *value = getenv(name);
-    return value && *value && strcmp(value, "0") != 0;
-}
-
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
 {
     struct machine *m = calloc(1, sizeof *m);
@@ -99,7 +85,10 @@ enum machine_status machine_create(const struct machine_config *config, struct m
         return MACHINE_NO_MEMORY;
     if (!graph_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
-    m->eager = config->eager < 0 ? environment_says_yes("LUTETIA_EAGER") : config->eager != 0;
+    enum machine_status status = settings_read(m);
+    if (status)
+        return status;
+    m->eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
         m->dump_dir = strdup(dump);
@@ -113,7 +102,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (!replay_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->random_seed = 1;
-    enum machine_status status = set_processors(m, config->processors_count);
+    status = set_processors(m, config->processors_count);
     if (status)
         return status;
     const char *device = config->device ? config->device : getenv("LUTETIA_DEVICE");

@@ -30,15 +30,14 @@
 
 bool replay_init(struct machine *m)
 {
-    const char *wish = getenv("LUTETIA_REPLAY");
-    if (m->eager || (wish && *wish == '0'))
+    if (m->eager || !m->settings.replay)
         return true;
     m->replay = calloc(1, sizeof *m->replay);
     if (!m->replay)
         return false;
     m->replay->active = m->replay->from = -1;
-    const char *turns = getenv("LUTETIA_TURNS");
-    m->replay->turns_most = turns && *turns ? atoi(turns) : TURNS_MOST;
+    m->replay->turns_most =
+        m->settings.turns == SETTING_FREE ? TURNS_MOST : (int)m->settings.turns;
     return true;
 }
 

@@ -24,14 +24,11 @@
 #include "kernels.h"
 
 enum {
-    PENDING_MANY = 384,
     PENDING_MOST = 4096,
     PENDING_LOOP = 16384,
     HEIGHT_DEFERRED = 96,
     HEIGHT_MOST = 1500,
-    RUN_COLUMNS = 4096,
-    OPTIMISE_AFTER = 4 << 20,
-    BOX_AFTER = 32 << 20
+    RUN_COLUMNS = 4096
 };
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
@@ -202,12 +199,6 @@ void run_init(struct machine *m)
     m->trace_power = 1;
     for (int i = 0; i < TRACE_LENGTH; i++)
         m->trace_power *= TRACE_FACTOR;
-    const char *after = getenv("LUTETIA_BOX_AFTER");
-    m->box_after = after && *after ? strtoull(after, NULL, 10) : BOX_AFTER;
-    after = getenv("LUTETIA_OPTIMISE_AFTER");
-    m->optimise_after = after && *after ? strtoull(after, NULL, 10) : OPTIMISE_AFTER;
-    after = getenv("LUTETIA_FLUSH_AFTER");
-    m->flush_after = after && *after ? strtoull(after, NULL, 10) : PENDING_MANY;
 }
 
 void run_finish(struct machine *m)
@@ -396,7 +387,7 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
             work =
                 m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
         }
-    if (p->quality == QUICK && work >= m->optimise_after / 4)
+    if (p->quality == QUICK && work >= m->settings.optimise_after / 4)
         p->quality = OPTIMISED;
     for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
         for (int set = 1; set < m->sets_count; set++) {
@@ -461,7 +452,9 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
 /* How well a plan that has run on so many processors is to be made. */
 static enum quality quality_after(const struct machine *m, uint64_t worked)
 {
-    return worked >= m->box_after ? BOXED : worked >= m->optimise_after ? OPTIMISED : QUICK;
+    return worked >= m->settings.box_after        ? BOXED
+           : worked >= m->settings.optimise_after ? OPTIMISED
+                                                  : QUICK;
 }
 
 /* Better kernels would be worth it by now. */
@@ -784,8 +777,9 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->nodes_pending < PENDING_MOST)
         return MACHINE_OK;
     bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
-                 m->nodes_pending >= m->flush_after / 8;
-    bool many = m->nodes_pending >= (m->flush_hash ? 5 * m->flush_after : m->flush_after);
+                 m->nodes_pending >= m->settings.flush_after / 8;
+    bool many = m->nodes_pending >=
+                (m->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->sliced && v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
@@ -797,7 +791,7 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
         m->roll_after = 0;
         if (partial && m->nodes_pending < PENDING_LOOP)
             m->roll_after = 2 * m->nodes_pending + PENDING_MANY;
-        if (m->roll_after || m->nodes_pending < m->flush_after / 8)
+        if (m->roll_after || m->nodes_pending < m->settings.flush_after / 8)
             return MACHINE_OK;
     }
     m->flush_place = m->trace_hash;

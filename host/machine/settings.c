@@ -1,0 +1,64 @@
+/* settings.c - what the engine decides by itself can be forced, by environment variables.
+ *
+ * A row of the table for each; docs/engine.md says what they are for. One that is not set, or empty, is as if
+ * it were not there; one that says nonsense makes no machine. */
+#include "internal.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct setting {
+    const char *variable;
+    size_t at;                   /* in struct settings */
+    uint64_t usual, least, most; /* usual: where nobody says anything */
+    uint64_t multiple;           /* of which it is one; 0: any number */
+    const char *may_be;
+} table[] = {
+#define SETTING(variable, name) "LUTETIA_" #variable, offsetof(struct settings, name)
+    {SETTING(EAGER, eager), 0, 0, 1, 0, "0 or 1"},
+    {SETTING(REPLAY, replay), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(FLUSH_AFTER, flush_after), PENDING_MANY, 1, 1 << 30, 0, "a number from 1 to 2^30"},
+    {SETTING(OPTIMISE_AFTER, optimise_after), 4 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(TURNS, turns), SETTING_FREE, 1, 64, 0, "a number from 1 to 64"},
+    {SETTING(VECTOR, vector), SETTING_FREE, 1, 16, 0, "1, 4, 8 or 16"},
+    {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(COLUMNS, columns), SETTING_FREE, 16, 1 << 16, 16,
+     "a multiple of 16 from 16 to 65536"},
+    {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
+     "a power of two from 1 to 2^30"},
+#undef SETTING
+};
+
+static bool parse(const struct setting *s, const char *text, uint64_t *out)
+{
+    char *end;
+    if (*text < '0' || *text > '9')
+        return false;
+    errno = 0;
+    *out = strtoull(text, &end, 10);
+    if (*end || errno || *out < s->least || *out > s->most)
+        return false;
+    if (s->at == offsetof(struct settings, processors))
+        return (*out & (*out - 1)) == 0;
+    if (s->at == offsetof(struct settings, vector))
+        return *out != 2 && (*out & (*out - 1)) == 0;
+    return s->multiple == 0 || *out % s->multiple == 0;
+}
+
+enum machine_status settings_read(struct machine *m)
+{
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const struct setting *s = &table[i];
+        const char *text = getenv(s->variable);
+        uint64_t value = s->usual;
+        if (text && *text && !parse(s, text, &value))
+            return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is \"%.40s\")",
+                                s->variable, s->may_be, text);
+        memcpy((char *)&m->settings + s->at, &value, sizeof value);
+    }
+    return MACHINE_OK;
+}
