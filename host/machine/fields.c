@@ -515,6 +515,17 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
     return v ? graph_borrow(m, v) : NULL;
 }
 
+static bool flag_suits(struct machine *m, const struct machine_value *value)
+{
+    if (!type_equal(value->type, MACHINE_BIT))
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
+    else if (value->set && value->set != m->set_current)
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    else
+        return true;
+    return false;
+}
+
 enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
                                        struct machine_value *value, enum machine_scope scope)
 {
@@ -522,10 +533,8 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s)
         return m->status;
-    if (!type_equal(value->type, MACHINE_BIT))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
-    if (value->set && value->set != m->set_current)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    if (!flag_suits(m, value))
+        return m->status;
     struct slot *slot = &s->flags[flag];
     slot_accessed(m, slot, true);
     if (flag == MACHINE_OVERFLOW) {
@@ -622,19 +631,8 @@ enum machine_status machine_overflow_record_value(struct machine *m,
     struct vpset *s = vpset_get(m, m->set_current);
     if (!s || !overflows)
         return m->status;
-    if (!type_equal(overflows->type, MACHINE_BIT))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
-    if (overflows->set && overflows->set != m->set_current)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
-    replay_settle(m);
-    replay_changes(m);
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    if (s->overflow.op && s->overflow.context != context)
-        flag_resolved(m, s, MACHINE_OVERFLOW);
-    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
-    graph_ref(overflows);
-    graph_ref(context);
-    overflow_forget(m, s);
-    s->overflow = (struct lazy_overflow){.op = NODE_SELECT, .a = overflows, .context = context};
+    if (!flag_suits(m, overflows))
+        return m->status;
+    overflow_remember(m, s, NODE_SELECT, overflows, NULL);
     return MACHINE_OK;
 }

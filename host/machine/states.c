@@ -60,6 +60,12 @@ static bool is_leaf(const struct machine_value *v)
     return v->op == NODE_BUFFER;
 }
 
+/* In imm, whatever they are: the signature must tell where a node ends. */
+static bool has_numbers(const struct machine_value *v)
+{
+    return v->op == NODE_CONSTANT || v->op == NODE_RANDOM || v->op == NODE_SLICE;
+}
+
 static void say(struct walk *w, uint32_t word)
 {
     if (w->length == w->signature_capacity)
@@ -103,7 +109,7 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
     say(w, (uint32_t)v->detail);
     for (int i = 0; i < inputs; i++)
         say(w, v->in[i]->local);
-    if (v->imm.lo | v->imm.hi) {
+    if (has_numbers(v)) {
         say(w, (uint32_t)v->imm.lo);
         say(w, (uint32_t)(v->imm.lo >> 32));
         say(w, (uint32_t)v->imm.hi);
