@@ -18,11 +18,9 @@ static void device_print(void *context, int index, const char *platform, const c
 
 static void cache_print(void)
 {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    if (cache && *cache)
-        printf("kernel cache: %s/lutetia\n", cache);
-    else if (home && *home)
-        printf("kernel cache: %s/.cache/lutetia\n", home);
+    char folder[512];
+    if (machine_cache_folder(folder, sizeof folder))
+        printf("kernel cache: %s\n", folder);
     else
         puts("kernel cache: in memory only (neither XDG_CACHE_HOME nor HOME is set)");
 }

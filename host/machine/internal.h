@@ -29,7 +29,9 @@
  *   reshape.h   what these three share, and how aliases work
  *   call.h      starting a kernel that is not generated
  *   scalar.h    numbers on the front end
- *   device.c    OpenCL: devices, buffers, programs and their cache
+ *   device.c    OpenCL: devices, buffers, programs
+ *   cache.c     programs and tunings on disk
+ *   tuning.c    how code is generated for a device, as `lutetia tune` found it
  *   settings.c  what can be forced by environment variables
  *   machine.c   creation, errors, configuration
  */
@@ -628,6 +630,15 @@ bool reshape_roll(struct machine *m, bool *partial);
 /* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
  * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);
+
+/* cache.c */
+#define CACHE_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
+uint64_t cache_hash(uint64_t h, const char *s);
+void cache_folder_make(char *folder); /* and those above it, where they are missing */
+/* A program's binary, by its key. Owns: the caller frees it; NULL: there is none. */
+unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
+void cache_program_write(const struct device *d, const char *key, cl_program program);
+bool cache_program_is_there(const struct device *d, const char *key);
 
 /* device.c */
 enum machine_status device_open(struct machine *m, const char *choice);

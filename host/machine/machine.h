@@ -154,6 +154,9 @@ enum machine_status machine_flush(struct machine *m);
 /* The same, and waits for the device. */
 enum machine_status machine_finish(struct machine *m);
 
+/* Where kernels and tunings are kept from run to run. False: nowhere, neither XDG_CACHE_HOME nor HOME is set. */
+bool machine_cache_folder(char *out, size_t size);
+
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
