@@ -63,5 +63,8 @@ int verb_info(int argc, char **argv)
         return fail("info", "%s", paris_error());
     printf("chosen: %s, %d physical processors\n", machine_device_name(paris_machine()),
            machine_processors_count(paris_machine()));
+    char tuned[800];
+    machine_tuning_describe(paris_machine(), tuned, sizeof tuned);
+    puts(tuned);
     return EXIT_SUCCESS;
 }

@@ -132,36 +132,64 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* A strip is so wide that a few rows of many arrays are in the caches. */
-enum { STRIP_COLUMNS = 256 };
-
-/* What generated code should look like there. Costs measured with PoCL on two cores with
- * AVX-512: see docs/engine.md. */
-static struct device_shape shape_of(const struct device *d, const struct settings *forced)
+/* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
+ * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. */
+static struct device_shape shape_usual(const struct device *d)
 {
     if (!d->is_cpu)
-        return (struct device_shape){
-            .vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
+        return (struct device_shape){.vector = 1,
+                                     .op_ns = 2e-4,
+                                     .byte_ns = 1e-3,
+                                     .launch_ns = 5000,
+                                     .run_columns = 1,
+                                     .strip_columns = 256,
+                                     .strips_each = 3,
+                                     .turns = 8,
+                                     .streams = true};
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
-    if (forced->vector != SETTING_FREE)
-        width = (cl_uint)forced->vector;
-    int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-    return (struct device_shape){
-        .vector = vector,
-        .halo = vector > 1 ? vector : 0,
-        .op_ns = 0.064 / vector,
-        .byte_ns = 0.022,
-        .near_byte_ns = 0.004,
-        .strip_columns = forced->columns == SETTING_FREE ? STRIP_COLUMNS : (int)forced->columns,
-        .no_strips = forced->strips == 0,
-        .always_strips = forced->strips == 1,
-        .launch_ns = 3000};
+    return (struct device_shape){.vector = width >= 16  ? 16
+                                           : width >= 8 ? 8
+                                           : width >= 4 ? 4
+                                                        : 1,
+                                 .byte_ns = 0.022,
+                                 .near_byte_ns = 0.004,
+                                 .launch_ns = 3000,
+                                 .run_columns = 4096,
+                                 .strip_columns = 256,
+                                 .strips_each = 3,
+                                 .turns = 8,
+                                 .streams = true};
 }
 
-enum machine_status device_open(struct machine *m, const char *choice)
+static int said(const struct settings *s, enum machine_knob knob, int usual)
+{
+    return s->knob[knob] == SETTING_FREE ? usual : (int)s->knob[knob];
+}
+
+static struct device_shape shape_of(const struct device *d, const struct settings *s)
+{
+    struct device_shape shape = shape_usual(d);
+    shape.run_columns = said(s, MACHINE_RUN, shape.run_columns);
+    shape.strip_columns = said(s, MACHINE_COLUMNS, shape.strip_columns);
+    shape.strips_each = said(s, MACHINE_STRIPS_EACH, shape.strips_each);
+    shape.turns = said(s, MACHINE_TURNS, shape.turns);
+    shape.streams = said(s, MACHINE_STREAMS, shape.streams) != 0;
+    shape.no_strips = s->strips == 0;
+    shape.always_strips = s->strips == 1;
+    if (d->is_cpu) {
+        shape.vector = said(s, MACHINE_VECTOR, shape.vector);
+        shape.halo = shape.vector > 1 ? shape.vector : 0;
+        shape.op_ns = 0.064 / shape.vector;
+    }
+    return shape;
+}
+
+enum machine_status device_open(struct machine *m, const struct machine_config *config)
 {
     struct device *d = &m->device;
+    const char *choice = config->device ? config->device : getenv("LUTETIA_DEVICE");
+    choice = choice && *choice ? choice : NULL;
     struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
     if (!all)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
@@ -205,6 +233,7 @@ enum machine_status device_open(struct machine *m, const char *choice)
     d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
                      ? "-cl-fp32-correctly-rounded-divide-sqrt"
                      : "";
+    tuning_apply(m, config);
     d->shape = shape_of(d, &m->settings);
     cl_int error;
     d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);

@@ -196,9 +196,11 @@ struct settings {
     uint64_t flush_after; /* values waiting */
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
-    uint64_t turns; /* of a loop, evaluated at once */
-    uint64_t vector, strips, columns, scatter;
+    uint64_t knob[MACHINE_KNOBS];
+    uint64_t strips, scatter;
     uint64_t processors;
+    uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
+    uint64_t verbose; /* says on the standard error what is wrong with it */
 };
 
 /* ---- the device ---- */
@@ -211,6 +213,10 @@ struct device_shape {              /* what generated code should look like there
     double near_byte_ns;           /* ... to or from a cache */
     int strip_columns;             /* a multiple of the vector */
     bool no_strips, always_strips; /* see plan.c; for tests */
+    int run_columns;               /* of a work-item: a multiple of the vector, but on a GPU */
+    int strips_each;               /* for each unit */
+    int turns;                     /* of a loop at once */
+    bool streams;                  /* large arrays are stored past the caches */
     double launch_ns;              /* ... a launch */
 };
 
@@ -324,6 +330,17 @@ uint64_t machine_words_hash(const uint32_t *words, size_t count);
 
 /* settings.c */
 enum machine_status settings_read(struct machine *m);
+bool settings_number(const char *text, uint64_t *out); /* false: the text is no number */
+const char *settings_knob_may_be(enum machine_knob knob);
+
+/* tuning.c */
+enum { TUNING_BYTES_MOST = 4096 };
+/* What a file of so many bytes says; bytes[length] is 0. False: why is in one line, with the line's number; out is
+ * what is usual. platform, name and driver: the device that it must be for. */
+bool tuning_parse(const char *bytes, size_t length, const struct device *d,
+                  struct machine_tuning *out, char *why, size_t why_size);
+/* The device is known: what nobody forces is what has been kept for it, or what config says. */
+void tuning_apply(struct machine *m, const struct machine_config *config);
 
 /* graph.c */
 bool graph_init(struct machine *m);
@@ -641,7 +658,7 @@ void cache_program_write(const struct device *d, const char *key, cl_program pro
 bool cache_program_is_there(const struct device *d, const char *key);
 
 /* device.c */
-enum machine_status device_open(struct machine *m, const char *choice);
+enum machine_status device_open(struct machine *m, const struct machine_config *config);
 void device_close(struct machine *m);
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */

@@ -68,7 +68,7 @@ static bool loop_is(const struct machine *m, const struct edge *e)
 static int turns_at_once(const struct machine *m, const struct plan *plan)
 {
     int turns = plan_turns(plan);
-    return turns < m->replay->turns_most ? turns : m->replay->turns_most;
+    return turns < m->device.shape.turns ? turns : m->device.shape.turns;
 }
 
 int loop_turns_noted(const struct machine *m, const struct edge *e)
@@ -85,7 +85,7 @@ int loop_turns_noted(const struct machine *m, const struct edge *e)
 static bool become_thorough(struct machine *m, const struct edge *e)
 {
     struct replay *p = m->replay;
-    if (p->thorough || p->turns_most < 2 || m->flushes < p->not_before ||
+    if (p->thorough || m->device.shape.turns < 2 || m->flushes < p->not_before ||
         e->runs < TURNS_SEEN || !e->alone)
         return false;
     int turns = turns_at_once(m, e->deed.plan);

@@ -105,8 +105,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     status = set_processors(m, config->processors_count);
     if (status)
         return status;
-    const char *device = config->device ? config->device : getenv("LUTETIA_DEVICE");
-    status = device_open(m, device && *device ? device : NULL);
+    status = device_open(m, config);
     if (!status && m->watch)
         watch_ready(m);
     return status;
@@ -162,6 +161,11 @@ int machine_processors_count(const struct machine *m)
 const char *machine_device_name(const struct machine *m)
 {
     return m->device.name;
+}
+
+const char *machine_device_driver(const struct machine *m)
+{
+    return m->device.driver;
 }
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)

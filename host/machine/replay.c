@@ -36,8 +36,6 @@ bool replay_init(struct machine *m)
     if (!m->replay)
         return false;
     m->replay->active = m->replay->from = -1;
-    m->replay->turns_most =
-        m->settings.turns == SETTING_FREE ? TURNS_MOST : (int)m->settings.turns;
     return true;
 }
 

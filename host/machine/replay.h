@@ -8,7 +8,7 @@
 
 #include "watch.h"
 
-enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64, TURNS_MOST = 8 };
+enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
 
 /* What an evaluation ran, and what became of the buffers. */
 struct deed {
@@ -79,8 +79,7 @@ struct replay {
     /* Of the active state: its calls, in a loop's case again and again, are noted; `at` is the next one. */
     struct edge *edge;
     int at;
-    int turns_most; /* evaluated at once */
-    bool thorough;  /* evaluations leave nothing to compute: all turns of a loop begin alike */
+    bool thorough; /* evaluations leave nothing to compute: all turns of a loop begin alike */
     int building_calls;  /* in the turns that are being performed */
     uint64_t not_before; /* evaluations: many turns are tried again then */
     uint64_t built_at;   /* evaluations when many turns ran last */

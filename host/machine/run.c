@@ -23,13 +23,7 @@
 
 #include "kernels.h"
 
-enum {
-    PENDING_MOST = 4096,
-    PENDING_LOOP = 16384,
-    HEIGHT_DEFERRED = 96,
-    HEIGHT_MOST = 1500,
-    RUN_COLUMNS = 4096
-};
+enum { PENDING_MOST = 4096, PENDING_LOOP = 16384, HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
 enum quality { QUICK, OPTIMISED, BOXED };
@@ -297,6 +291,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};
+    char *streams = m->device.shape.streams ? NULL : strstr(k.options, "-DSTREAMS=1");
+    if (streams)
+        streams[strlen("-DSTREAMS=")] = '0';
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
@@ -564,7 +561,8 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
 static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
                          size_t global[2], size_t *rows)
 {
-    size_t wanted = 3 * (size_t)m->device.units, least = 8 + 4 * (size_t)l->strip_margin;
+    size_t wanted = (size_t)m->device.shape.strips_each * (size_t)m->device.units,
+           least = 8 + 4 * (size_t)l->strip_margin;
     global[0] = (size_t)(s->width / l->strip_columns);
     global[0] = global[0] ? global[0] : 1;
     size_t down = (wanted + global[0] - 1) / global[0];
@@ -579,7 +577,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
 {
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
-    size_t run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
+    size_t run = (size_t)m->device.shape.run_columns;
+    run = run < (size_t)l->vector ? (size_t)l->vector : run;
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);
