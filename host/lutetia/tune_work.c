@@ -8,6 +8,7 @@
 struct tune_work {
     enum tune_kind kind;
     struct machine *machine;
+    int height;
     uint32_t a, b; /* fields of floats */
     bool failed;
 };
@@ -108,7 +109,15 @@ static void turn_again(const struct machine_call *call)
 
 /* ---- works ---- */
 
-/* Numbers between 0 and 1 without a pattern. */
+void tune_work_start(float *numbers, size_t count, uint32_t seed)
+{
+    uint32_t x = seed;
+    for (size_t i = 0; i < count; i++) {
+        x = x * 1664525u + 1013904223u;
+        numbers[i] = (float)(x >> 8) / 16777216.0f;
+    }
+}
+
 static bool field_fill(struct machine *m, uint32_t id, size_t count, uint32_t seed)
 {
     float *numbers = malloc(count * sizeof *numbers);
@@ -116,11 +125,7 @@ static bool field_fill(struct machine *m, uint32_t id, size_t count, uint32_t se
         snprintf(error, sizeof error, "not enough memory for %zu numbers", count);
         return false;
     }
-    uint32_t x = seed;
-    for (size_t i = 0; i < count; i++) {
-        x = x * 1664525u + 1013904223u;
-        numbers[i] = (float)(x >> 8) / 16777216.0f;
-    }
+    tune_work_start(numbers, count, seed);
     bool good = machine_field_upload(m, id, MACHINE_F32, numbers) == MACHINE_OK;
     free(numbers);
     if (!good)
@@ -128,13 +133,18 @@ static bool field_fill(struct machine *m, uint32_t id, size_t count, uint32_t se
     return good;
 }
 
-struct tune_work *tune_work_create(enum tune_kind kind, const struct machine_tuning *tuning)
+size_t tune_work_count(const struct tune_work *w)
+{
+    return (size_t)w->height * (size_t)kinds[w->kind].width;
+}
+
+struct tune_work *tune_work_create(enum tune_kind kind, int height,
+                                   const struct machine_tuning *tuning)
 {
     const struct kind *k = &kinds[kind];
     struct machine_config config = machine_config_default();
     struct tune_work *w = calloc(1, sizeof *w);
-    int dimensions[2] = {k->height, k->width};
-    size_t count = (size_t)k->height * (size_t)k->width;
+    int dimensions[2] = {height ? height : k->height, k->width};
     config.tuning = tuning;
     config.eager = 0;
     if (!w) {
@@ -142,6 +152,7 @@ struct tune_work *tune_work_create(enum tune_kind kind, const struct machine_tun
         return NULL;
     }
     w->kind = kind;
+    w->height = dimensions[0];
     if (machine_create(&config, &w->machine) != MACHINE_OK) {
         snprintf(error, sizeof error, "%s",
                  w->machine ? machine_error(w->machine) : "not enough memory");
@@ -158,7 +169,8 @@ struct tune_work *tune_work_create(enum tune_kind kind, const struct machine_tun
         tune_work_destroy(w);
         return NULL;
     }
-    if (!field_fill(m, w->a, count, 1) || !field_fill(m, w->b, count, 2)) {
+    if (!field_fill(m, w->a, tune_work_count(w), 1) ||
+        !field_fill(m, w->b, tune_work_count(w), 2)) {
         tune_work_destroy(w);
         return NULL;
     }
@@ -187,20 +199,13 @@ double tune_work_run(struct tune_work *w)
         snprintf(error, sizeof error, "%s", machine_error(w->machine));
         return -1;
     }
-    return 1e9 * (clock_s() - start) /
-           ((double)k->turns * (double)k->height * (double)k->width);
+    return 1e9 * (clock_s() - start) / ((double)k->turns * (double)tune_work_count(w));
 }
 
-uint64_t tune_work_hash(struct tune_work *w)
+bool tune_work_read(struct tune_work *w, float *out)
 {
-    enum { LOOKED_AT = 4096 };
-    uint64_t hash = 0;
-    for (uint64_t i = 0; i < LOOKED_AT; i += 97) {
-        struct machine_scalar x = {0, 0};
-        if (machine_field_read(w->machine, w->a, MACHINE_F32, i, &x) != MACHINE_OK)
-            return 0;
-        hash = (hash ^ x.lo) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 29;
-    }
-    return hash;
+    if (machine_field_download(w->machine, w->a, MACHINE_F32, out) == MACHINE_OK)
+        return true;
+    snprintf(error, sizeof error, "%s", machine_error(w->machine));
+    return false;
 }

@@ -81,7 +81,7 @@ static bool contest_open(struct contest *c, struct tune *t, const struct step *s
         tuning.of[s->knob] = values[i];
         if (s->knob < MACHINE_TURNS) /* those before have nothing to do with strips */
             tuning.of[MACHINE_TURNS] = 1;
-        c->works[i] = tune_work_create(kind, &tuning);
+        c->works[i] = tune_work_create(kind, 0, &tuning);
         if (!c->works[i])
             return false;
     }
@@ -109,12 +109,19 @@ static bool contest_run(struct contest *c, struct tune *t)
     return true;
 }
 
-static bool contest_agrees(const struct contest *c)
+/* All have come to the same bits. *read: whether they could be read. */
+static bool contest_agrees(const struct contest *c, bool *read)
 {
-    uint64_t wanted = tune_work_hash(c->works[0]);
-    bool agrees = wanted != 0;
-    for (int i = 1; i < c->count; i++)
-        agrees = agrees && tune_work_hash(c->works[i]) == wanted;
+    size_t count = tune_work_count(c->works[0]);
+    float *first = malloc(count * sizeof *first), *other = malloc(count * sizeof *other);
+    *read = first && other && tune_work_read(c->works[0], first);
+    bool agrees = *read;
+    for (int i = 1; i < c->count && agrees; i++) {
+        *read = tune_work_read(c->works[i], other);
+        agrees = *read && !memcmp(first, other, count * sizeof *first);
+    }
+    free(first);
+    free(other);
     return agrees;
 }
 
@@ -146,12 +153,13 @@ static int contest(struct tune *t, const struct step *s, enum tune_kind kind, co
 {
     struct contest c;
     bool good = contest_open(&c, t, s, kind, values, count) && contest_run(&c, t);
+    bool read = true, agrees = !good || contest_agrees(&c, &read);
     int status = EXIT_SUCCESS;
     if (interrupted())
         status = EXIT_INTERRUPTED;
-    else if (!good)
+    else if (!good || !read)
         status = fail("tune", "%s", tune_work_error());
-    else if (!contest_agrees(&c))
+    else if (!agrees)
         status = fail("tune",
                       "%s gives other results with other values of %s: this device or its "
                       "compiler is at fault; nothing is kept",
