@@ -357,6 +357,7 @@ int verb_tune(int argc, char **argv)
         return fail_usage("tune", "there is nothing to do with '%.60s'", words.words[0]);
     if (forced_check() != EXIT_SUCCESS)
         return EXIT_USAGE;
+    interrupt_catch();
     setenv("LUTETIA_BOX_AFTER", "0", 1); /* kernels as a long run gets them, from the start */
     struct machine_tuning usual = machine_tuning_usual();
     struct machine_config config = machine_config_default();
@@ -367,7 +368,6 @@ int verb_tune(int argc, char **argv)
         machine_destroy(m);
         return status;
     }
-    interrupt_catch();
     int status = interrupt_report("tune", tune(m, dry, json_path), "what was kept before is");
     machine_destroy(m);
     return status;

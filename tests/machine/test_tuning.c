@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Files are kept here, kernels where they usually are. */
+static char cache_before[400];
 static char folder[] = "/tmp/lutetia-tuning-XXXXXX";
 
 static struct machine *opened(const struct machine_tuning *tuning)
@@ -158,6 +160,10 @@ static void knobs_reach_the_kernels(void **state)
     char path[300], line[400] = "";
 
     (void)state;
+    if (*cache_before)
+        setenv("XDG_CACHE_HOME", cache_before, 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
     snprintf(path, sizeof path, "%s/dump", folder);
     config.dump_dir = path;
     config.tuning = &tuning;
@@ -201,7 +207,9 @@ static void knobs_reach_the_kernels(void **state)
 
 static int folder_make(void **state)
 {
+    const char *cache = getenv("XDG_CACHE_HOME");
     (void)state;
+    snprintf(cache_before, sizeof cache_before, "%s", cache ? cache : "");
     return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
 }
 
