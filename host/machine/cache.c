@@ -8,6 +8,7 @@
  * Each appears under its name only when it is complete. What cannot be read or written is done without. */
 #include "internal.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -39,6 +40,18 @@ void cache_folder_make(char *folder)
         *slash = '/';
     }
     mkdir(folder, 0700);
+}
+
+FILE *cache_temporary(const char *path, char *temporary, size_t size)
+{
+    int n = snprintf(temporary, size, "%s.XXXXXX", path);
+    int file = n > 0 && (size_t)n < size ? mkostemp(temporary, O_CLOEXEC) : -1;
+    FILE *f = file >= 0 ? fdopen(file, "wb") : NULL;
+    if (!f && file >= 0) {
+        close(file);
+        unlink(temporary);
+    }
+    return f;
 }
 
 static bool program_path(char *out, size_t size, const struct device *d, const char *key)
@@ -93,11 +106,10 @@ static void binary_write(const char *path, const char *key, cl_program program)
     if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) || !size)
         return;
     unsigned char *binary = malloc(size);
-    char temporary[600];
-    snprintf(temporary, sizeof temporary, "%.560s.%ld", path, (long)getpid());
+    char temporary[720];
     FILE *f =
         binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
-            ? fopen(temporary, "wb")
+            ? cache_temporary(path, temporary, sizeof temporary)
             : NULL;
     if (f) {
         uint64_t length[2] = {strlen(key), size};

@@ -364,7 +364,6 @@ void device_close(struct machine *m)
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
 {
     struct device *d = &m->device;
-    static unsigned skew;
     for (int i = d->pool_count - 1; i >= 0; i--)
         if (d->pool[i]->bytes == bytes) {
             struct device_buffer *b = d->pool[i];
@@ -396,7 +395,7 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
         parent = b ? clCreateBuffer(d->context, CL_MEM_READ_WRITE, whole, NULL, &error) : NULL;
     }
     if (!error) {
-        cl_buffer_region region = {.origin = SKEW_BYTES * (skew++ % SKEWS), .size = bytes};
+        cl_buffer_region region = {.origin = SKEW_BYTES * (d->skew++ % SKEWS), .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
         if (error) { /* an alignment that the device does not like */

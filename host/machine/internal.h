@@ -235,6 +235,7 @@ struct device {
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
+    unsigned skew;                  /* of the next buffer's beginning */
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_run;
     cl_kernel *unstarted; /* built, and not run yet */
@@ -652,6 +653,8 @@ bool reshape_forget_set(struct machine *m, int set);
 #define CACHE_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
 uint64_t cache_hash(uint64_t h, const char *s);
 void cache_folder_make(char *folder); /* and those above it, where they are missing */
+/* A new file beside path, to be renamed to it when it is complete; temporary: its name. NULL: errno. */
+FILE *cache_temporary(const char *path, char *temporary, size_t size);
 /* A program's binary, by its key. Owns: the caller frees it; NULL: there is none. */
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
 void cache_program_write(const struct device *d, const char *key, cl_program program);

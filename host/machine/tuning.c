@@ -243,8 +243,7 @@ enum machine_status machine_tuning_keep(struct machine *m, const struct machine_
             m, MACHINE_BAD_ARGUMENT,
             "there is no folder to keep a tuning in: set XDG_CACHE_HOME, or HOME, to one");
     cache_folder_make(folder);
-    snprintf(temporary, sizeof temporary, "%s.%ld", path, (long)getpid());
-    FILE *f = fopen(temporary, "wb");
+    FILE *f = cache_temporary(path, temporary, sizeof temporary);
     if (f && file_write(f, &m->device, tuning) && rename(temporary, path) == 0)
         return MACHINE_OK;
     int reason = errno;
