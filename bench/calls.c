@@ -15,7 +15,7 @@
 
 #include "bench.h"
 #include "harness.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paris_internal.h"
 
 enum { SIDE = 256, CALLS_TIMED = 10000, CALLS_GROWTH = 1000000, REPEAT_MIN = 10 };
@@ -161,12 +161,9 @@ int bench_calls_main(int argc, char **argv)
     struct bench_options options = {
         .name = "calls", .repeat_least = REPEAT_MIN, .repeat_count = 21};
     struct calls c;
-    char device[256];
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, false, argc, argv);
     if (status >= 0)
         return status;
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, "calls", bench_threads_count(), device);
     calls_init(&c, SIDE, SIDE);
     bool ok = cost_measure(&report, &c, options.repeat_count);
     if (ok)

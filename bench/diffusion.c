@@ -13,7 +13,7 @@
 
 #include "harness.h"
 #include "listing.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paris_internal.h"
 #include "peer.h"
 #include "peers.h"
@@ -61,12 +61,6 @@ struct runner {
     struct sheet *sheet;
 };
 
-static bool machine_said(enum machine_status status)
-{
-    return status == MACHINE_OK ||
-           bench_fail("the machine: %s", machine_error(paris_machine()));
-}
-
 /* which: steps between two looks at it. */
 static bool listing_steps(struct sheet *s, int which, int steps_count)
 {
@@ -74,9 +68,9 @@ static bool listing_steps(struct sheet *s, int which, int steps_count)
     for (int i = 1; ok && i <= steps_count; i++) {
         listing_step(&s->listing);
         if (i % which == 0 || i == steps_count)
-            ok = machine_said(machine_flush(paris_machine()));
+            ok = bench_machine_said(machine_flush(paris_machine()));
     }
-    return ok && machine_said(machine_finish(paris_machine()));
+    return ok && bench_machine_said(machine_finish(paris_machine()));
 }
 
 static bool hand_steps(struct sheet *s, int which, int steps_count)
@@ -150,10 +144,11 @@ static bool listing_start(struct sheet *s, bool eager)
     struct machine *m = paris_machine();
     const CM_field_id_t fields[DIFFUSION_FIELDS_COUNT] = {l->water, l->pigment[0],
                                                           l->pigment[1], l->pigment[2]};
-    bool ok =
-        machine_said(machine_field_upload(m, l->absorbency, MACHINE_F32, s->scene.absorbency));
+    bool ok = bench_machine_said(
+        machine_field_upload(m, l->absorbency, MACHINE_F32, s->scene.absorbency));
     for (int i = 0; ok && i < DIFFUSION_FIELDS_COUNT; i++)
-        ok = machine_said(machine_field_upload(m, fields[i], MACHINE_F32, s->scene.field[i]));
+        ok = bench_machine_said(
+            machine_field_upload(m, fields[i], MACHINE_F32, s->scene.field[i]));
     return ok;
 }
 
@@ -162,7 +157,7 @@ static bool listing_read(struct sheet *s, int which, int field, float *out)
     (void)which;
     CM_field_id_t id = field == DIFFUSION_WATER ? s->listing.water
                                                 : s->listing.pigment[field - DIFFUSION_PIGMENT];
-    return machine_said(machine_field_download(paris_machine(), id, MACHINE_F32, out));
+    return bench_machine_said(machine_field_download(paris_machine(), id, MACHINE_F32, out));
 }
 
 /* A script that is not installed leaves its rows out. */
@@ -447,9 +442,9 @@ static bool front_end_measure(struct bench_report *r)
     for (int i = 0; ok && i < FRONT_END_STEPS; i++) {
         double start = bench_thread_s();
         listing_step(&s.listing);
-        ok = machine_said(machine_flush(paris_machine()));
+        ok = bench_machine_said(machine_flush(paris_machine()));
         seconds[i] = bench_thread_s() - start;
-        ok = ok && machine_said(machine_finish(paris_machine()));
+        ok = ok && bench_machine_said(machine_finish(paris_machine()));
     }
     if (ok)
         bench_report_add(r, "front end", "listing", bench_sample_of(seconds, FRONT_END_STEPS),
@@ -468,14 +463,10 @@ int bench_diffusion_main(int argc, char **argv)
                                     .size_most = 8192,
                                     .repeat_least = 10,
                                     .repeat_count = 11};
-    char device[256];
 
-    setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, "diffusion", bench_threads_count(), device);
 
     bool ok = true;
     for (int i = 0; ok && i < options.sizes_count; i++)

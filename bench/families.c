@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paris_internal.h"
 #include <cm/paris.h>
 
@@ -63,18 +63,11 @@ struct fields {
     ROW(f_lt, test, 1, "f_lt", 8 + BIT,                                                        \
         (CM_f_lt_1L(x->f, x->f_other, S, E), CM_store_test(x->test)))
 
-static bool finished(void)
-{
-    return (machine_flush(paris_machine()) == MACHINE_OK &&
-            machine_finish(paris_machine()) == MACHINE_OK) ||
-           bench_fail("the machine: %s", machine_error(paris_machine()));
-}
-
 /* A look at the first processor: the machine computes what is looked at, all of it. */
 static bool observed(CM_field_id_t dest, unsigned int length)
 {
     CM_u_read_from_processor_1L(0, dest, length);
-    return finished();
+    return bench_machine_finished();
 }
 
 #define ROW(name, dest, length, what, bytes, call)                                             \
@@ -106,7 +99,7 @@ static bool sources_renew(void *context)
     double some = ++x->turn % 2 ? 0.125 : -0.125;
     CM_u_add_constant_2_1L(x->u, 1, WORD);
     CM_f_add_constant_2_1L(x->f, some, S, E);
-    return finished();
+    return bench_machine_finished();
 }
 
 static void fields_allocate(struct fields *x)
@@ -148,15 +141,12 @@ int bench_paris_main(int argc, char **argv)
     struct bench_options options = {.name = "paris", .repeat_least = 10, .repeat_count = 15};
     struct bench_contender contenders[FAMILIES_COUNT + 1];
     struct fields fields;
-    char device[256];
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, false, argc, argv);
     if (status >= 0)
         return status;
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, "paris", bench_threads_count(), device);
     fields_allocate(&fields);
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
-    bool ok = copy && finished();
+    bool ok = copy && bench_machine_finished();
     for (int i = 0; i < FAMILIES_COUNT; i++)
         contenders[i] = (struct bench_contender){.what = families[i].what,
                                                  .ready = sources_renew,

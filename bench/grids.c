@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paris_internal.h"
 
 enum {
@@ -48,12 +48,6 @@ struct turn {
     struct grid *grid;
     int steps_between; /* two looks at it */
 };
-
-static bool machine_said(enum machine_status status)
-{
-    return status == MACHINE_OK ||
-           bench_fail("the machine: %s", machine_error(paris_machine()));
-}
 
 /* ---- Life ---- */
 
@@ -143,9 +137,9 @@ static bool paris_steps(const struct turn *t, int steps_count)
     for (int i = 1; ok && i <= steps_count; i++) {
         t->kind->step(t->grid);
         if (i % t->steps_between == 0 || i == steps_count)
-            ok = machine_said(machine_flush(paris_machine()));
+            ok = bench_machine_said(machine_flush(paris_machine()));
     }
-    return ok && machine_said(machine_finish(paris_machine()));
+    return ok && bench_machine_said(machine_finish(paris_machine()));
 }
 
 static bool paris_ready(void *context)
@@ -199,7 +193,7 @@ static bool agree(const struct kind *k, struct grid *g, unsigned char *a, unsign
     k->openmp_steps(g->openmp, STEPS_AGREED);
     k->openmp_read(g, a);
     if (!paris_steps(&each, STEPS_AGREED) ||
-        !machine_said(machine_field_download(paris_machine(), k->field(g), k->type, b)) ||
+        !bench_machine_said(machine_field_download(paris_machine(), k->field(g), k->type, b)) ||
         differ("paris", g, k->cell_bytes, a, b))
         return false;
     if (!g->bits)
@@ -229,7 +223,8 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o,
     if (ok) {
         k->allocate(&g);
         ok = k->create(&g, a) &&
-             machine_said(machine_field_upload(paris_machine(), k->field(&g), k->type, a)) &&
+             bench_machine_said(
+                 machine_field_upload(paris_machine(), k->field(&g), k->type, a)) &&
              agree(k, &g, a, b);
     }
     struct turn each = {k, &g, 1}, sixteenth = {k, &g, STEPS_OBSERVED};
@@ -275,13 +270,9 @@ static int run(const struct kind *k, int argc, char **argv)
                                     .size_most = 16384,
                                     .repeat_least = 10,
                                     .repeat_count = 11};
-    char device[256];
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
-    setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, k->name, bench_threads_count(), device);
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     bool ok = copy != NULL;
     for (int i = 0; ok && i < options.sizes_count; i++)

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "harness.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paris_internal.h"
 #include "prefix.h"
 #include <cm/paris.h>
@@ -23,12 +23,6 @@ struct line {
     CM_field_id_t source, dest, float_source, float_dest, bits;
 };
 
-static bool finished(void)
-{
-    return machine_finish(paris_machine()) == MACHINE_OK ||
-           bench_fail("the machine: %s", machine_error(paris_machine()));
-}
-
 /* ---- the contenders ---- */
 
 static bool scan_work(void *context)
@@ -36,7 +30,7 @@ static bool scan_work(void *context)
     struct line *l = context;
     CM_scan_with_u_add_1L(l->dest, l->source, 0, 32, CM_upward, CM_inclusive, CM_none,
                           CM_no_field);
-    return finished();
+    return bench_machine_finished();
 }
 
 static bool segments_work(void *context)
@@ -44,7 +38,7 @@ static bool segments_work(void *context)
     struct line *l = context;
     CM_scan_with_u_add_1L(l->dest, l->source, 0, 32, CM_upward, CM_inclusive, CM_segment_bit,
                           l->bits);
-    return finished();
+    return bench_machine_finished();
 }
 
 static bool floats_work(void *context)
@@ -52,14 +46,14 @@ static bool floats_work(void *context)
     struct line *l = context;
     CM_scan_with_f_add_1L(l->float_dest, l->float_source, 0, 23, 8, CM_upward, CM_inclusive,
                           CM_none, CM_no_field);
-    return finished();
+    return bench_machine_finished();
 }
 
 static bool rank_work(void *context)
 {
     struct line *l = context;
     CM_u_rank_2L(l->dest, l->source, 0, 32, 32, CM_upward, CM_none, CM_no_field);
-    return finished();
+    return bench_machine_finished();
 }
 
 static bool plain_scan(void *context)
@@ -188,12 +182,9 @@ static int run(const char *name, const struct match *matches, int matches_count,
                                     .size_most = COUNT_MAX,
                                     .repeat_least = REPEAT_MIN,
                                     .repeat_count = 31};
-    char device[256];
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, false, argc, argv);
     if (status >= 0)
         return status;
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, name, bench_threads_count(), device);
     bool ok = true;
     for (int i = 0; ok && i < options.sizes_count; i++) {
         struct line line;

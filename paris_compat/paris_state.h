@@ -154,21 +154,18 @@ static inline void paris_performed(void)
     if (paris_the.machine)
         machine_call_performed(paris_the.machine);
 }
+/* A double and its bits. */
+union paris_both {
+    double number;
+    uint64_t word;
+};
 static inline uint64_t paris_word(double x)
 {
-    union {
-        double number;
-        uint64_t word;
-    } both = {.number = x};
-    return both.word;
+    return (union paris_both){.number = x}.word;
 }
 static inline double paris_double(uint64_t word)
 {
-    union {
-        uint64_t word;
-        double number;
-    } both = {.word = word};
-    return both.number;
+    return (union paris_both){.word = word}.number;
 }
 
 /* The integer that a constant operand is, of 128 bits. */

@@ -20,6 +20,7 @@ int verb_bench(int argc, char **argv);
 int verb_cc(int argc, char **argv);
 int verb_leds(int argc, char **argv);
 int verb_explain(int argc, char **argv);
+int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);

@@ -20,6 +20,7 @@ static const struct {
     {"explain", verb_explain, "prog [args...]",
      "run a C/Paris program and say what its machine did"},
     {"bench", verb_bench, "NAME [options]", "measure"},
+    {"tune", verb_tune, "", "measure what suits the device, and keep it"},
     {"info", verb_info, "", "versions, devices, folders, and what a fiber takes"},
 };
 

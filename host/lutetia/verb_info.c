@@ -18,11 +18,9 @@ static void device_print(void *context, int index, const char *platform, const c
 
 static void cache_print(void)
 {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    if (cache && *cache)
-        printf("kernel cache: %s/lutetia\n", cache);
-    else if (home && *home)
-        printf("kernel cache: %s/.cache/lutetia\n", home);
+    char folder[512];
+    if (machine_cache_folder(folder, sizeof folder))
+        printf("kernel cache: %s\n", folder);
     else
         puts("kernel cache: in memory only (neither XDG_CACHE_HOME nor HOME is set)");
 }
@@ -65,5 +63,8 @@ int verb_info(int argc, char **argv)
         return fail("info", "%s", paris_error());
     printf("chosen: %s, %d physical processors\n", machine_device_name(paris_machine()),
            machine_processors_count(paris_machine()));
+    char tuned[800];
+    machine_tuning_describe(paris_machine(), tuned, sizeof tuned);
+    puts(tuned);
     return EXIT_SUCCESS;
 }

@@ -6,17 +6,13 @@
  * times slower sweeps over large sheets), so each begins at another multiple of 128 bytes, as a
  * sub-buffer.
  *
- * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk
- * by a file in $XDG_CACHE_HOME/lutetia named by a hash of text, options, device and driver, and
- * compared as a whole. */
+ * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file
+ * of cache.c. */
 #include "watch.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum {
     PROGRAMS_SIZE = 1024,
@@ -143,43 +139,65 @@ static int choose(const struct candidate *all, int count, const char *choice)
     return -1;
 }
 
-/* As wide as is asked for, in whole vectors; 0: nobody asks. */
-static int strip_columns_of(const char *asked, int vector)
-{
-    enum { MOST = 1 << 16 };
-    long wanted = asked && *asked ? strtol(asked, NULL, 10) : 0;
-    return wanted < vector || wanted > MOST ? 0 : (int)(wanted / vector * vector);
-}
-
-/* What generated code should look like there. Costs measured with PoCL on two cores with
- * AVX-512: see docs/engine.md. */
-static struct device_shape shape_of(const struct device *d)
+/* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
+ * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. */
+static struct device_shape shape_usual(const struct device *d)
 {
     if (!d->is_cpu)
-        return (struct device_shape){
-            .vector = 1, .halo = 0, .op_ns = 2e-4, .byte_ns = 1e-3, .launch_ns = 5000};
+        return (struct device_shape){.vector = 1,
+                                     .op_ns = 2e-4,
+                                     .byte_ns = 1e-3,
+                                     .launch_ns = 5000,
+                                     .run_columns = 1,
+                                     .strip_columns = 256,
+                                     .strips_each = 3,
+                                     .turns = 8,
+                                     .streams = true};
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
-    const char *forced = getenv("LUTETIA_VECTOR");
-    if (forced && *forced)
-        width = (cl_uint)strtoul(forced, NULL, 10);
-    int vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-    const char *strips = getenv("LUTETIA_STRIPS"), *columns = getenv("LUTETIA_COLUMNS");
-    return (struct device_shape){.vector = vector,
-                                 .halo = vector > 1 ? vector : 0,
-                                 .op_ns = 0.064 / vector,
+    return (struct device_shape){.vector = width >= 16  ? 16
+                                           : width >= 8 ? 8
+                                           : width >= 4 ? 4
+                                                        : 1,
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
                                  .near_bytes = 256 << 10,
-                                 .strip_columns = strip_columns_of(columns, vector),
-                                 .no_strips = strips && *strips == '0',
-                                 .always_strips = strips && *strips == '1',
-                                 .launch_ns = 3000};
+                                 .launch_ns = 3000,
+                                 .run_columns = 4096,
+                                 .strip_columns = 1024,
+                                 .strips_each = 3,
+                                 .turns = 8,
+                                 .streams = true};
 }
 
-enum machine_status device_open(struct machine *m, const char *choice)
+static int said(const struct settings *s, enum machine_knob knob, int usual)
+{
+    return s->knob[knob] == SETTING_FREE ? usual : (int)s->knob[knob];
+}
+
+static struct device_shape shape_of(const struct device *d, const struct settings *s)
+{
+    struct device_shape shape = shape_usual(d);
+    shape.run_columns = said(s, MACHINE_RUN, shape.run_columns);
+    shape.strip_columns = said(s, MACHINE_COLUMNS, shape.strip_columns);
+    shape.strips_each = said(s, MACHINE_STRIPS_EACH, shape.strips_each);
+    shape.turns = said(s, MACHINE_TURNS, shape.turns);
+    shape.streams = said(s, MACHINE_STREAMS, shape.streams) != 0;
+    shape.no_strips = s->strips == 0;
+    shape.always_strips = s->strips == 1;
+    if (d->is_cpu) {
+        shape.vector = said(s, MACHINE_VECTOR, shape.vector);
+        shape.halo = shape.vector > 1 ? shape.vector : 0;
+        shape.op_ns = 0.064 / shape.vector;
+    }
+    return shape;
+}
+
+enum machine_status device_open(struct machine *m, const struct machine_config *config)
 {
     struct device *d = &m->device;
+    const char *choice = config->device ? config->device : getenv("LUTETIA_DEVICE");
+    choice = choice && *choice ? choice : NULL;
     struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
     if (!all)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
@@ -223,7 +241,8 @@ enum machine_status device_open(struct machine *m, const char *choice)
     d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
                      ? "-cl-fp32-correctly-rounded-divide-sqrt"
                      : "";
-    d->shape = shape_of(d);
+    tuning_apply(m, config);
+    d->shape = shape_of(d, &m->settings);
     cl_int error;
     d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
     if (error)
@@ -384,7 +403,6 @@ static cl_mem memory_get(const struct device *d, size_t bytes, cl_int *error)
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
 {
     struct device *d = &m->device;
-    static unsigned skew;
     for (int i = d->pool_count - 1; i >= 0; i--)
         if (d->pool[i]->bytes == bytes) {
             struct device_buffer *b = d->pool[i];
@@ -415,8 +433,8 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
         parent = b ? memory_get(d, whole, &error) : NULL;
     }
     if (!error) {
-        cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES + SKEW_BYTES * (skew++ % SKEWS),
-                                   .size = bytes};
+        cl_buffer_region region = {
+            .origin = DEVICE_GUARD_BYTES + SKEW_BYTES * (d->skew++ % SKEWS), .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
         if (error) { /* an alignment that the device does not like */
@@ -467,106 +485,13 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b)
 
 /* ---- programs ---- */
 
-static uint64_t hash_text(uint64_t h, const char *s)
-{
-    for (; *s; s++)
-        h = (h ^ (unsigned char)*s) * 0x100000001b3u;
-    return (h ^ 0xff) * 0x100000001b3u;
-}
-
-static bool cache_path(char *out, size_t size, const struct device *d, const char *key)
-{
-    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    char folder[512];
-    int n = -1;
-    if (base && *base == '/')
-        n = snprintf(folder, sizeof folder, "%s/lutetia", base);
-    else if (home && *home == '/')
-        n = snprintf(folder, sizeof folder, "%s/.cache/lutetia", home);
-    if (n < 0 || (size_t)n >= sizeof folder)
-        return false;
-    for (char *slash = folder + 1; (slash = strchr(slash, '/')); slash++) {
-        *slash = 0;
-        mkdir(folder, 0700);
-        *slash = '/';
-    }
-    mkdir(folder, 0700);
-    uint64_t a = hash_text(hash_text(hash_text(0xcbf29ce484222325u, key), d->name), d->driver);
-    uint64_t b =
-        hash_text(hash_text(hash_text(0x84222325cbf29ce4u, d->platform_name), key), d->driver);
-    n = snprintf(out, size, "%s/%016llx%016llx.bin", folder, (unsigned long long)a,
-                 (unsigned long long)b);
-    return n > 0 && (size_t)n < size;
-}
-
-/* File: length of the key, the key (driver and device in front), the binary. */
-static char *whole_key(const struct device *d, const char *key)
-{
-    size_t size = strlen(d->name) + strlen(d->driver) + strlen(key) + 3;
-    char *whole = malloc(size);
-    if (whole)
-        snprintf(whole, size, "%s\n%s\n%s", d->name, d->driver, key);
-    return whole;
-}
-
-static unsigned char *cache_read(const char *path, const char *key, size_t *size)
-{
-    FILE *f = fopen(path, "rb");
-    if (!f)
-        return NULL;
-    unsigned char *binary = NULL;
-    uint64_t length[2];
-    size_t key_length = strlen(key);
-    char *read_key = malloc(key_length + 1);
-    if (read_key && fread(length, sizeof length, 1, f) == 1 && length[0] == key_length &&
-        length[1] > 0 && length[1] < (64u << 20) &&
-        fread(read_key, 1, key_length, f) == key_length && !memcmp(read_key, key, key_length)) {
-        *size = (size_t)length[1];
-        binary = malloc(*size);
-        if (binary && fread(binary, 1, *size, f) != *size) {
-            free(binary);
-            binary = NULL;
-        }
-    }
-    free(read_key);
-    fclose(f);
-    return binary;
-}
-
-static void cache_write(const char *path, const char *key, cl_program program)
-{
-    size_t size = 0;
-    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) || !size)
-        return;
-    unsigned char *binary = malloc(size);
-    char temporary[600];
-    snprintf(temporary, sizeof temporary, "%.560s.%ld", path, (long)getpid());
-    FILE *f =
-        binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
-            ? fopen(temporary, "wb")
-            : NULL;
-    if (f) {
-        uint64_t length[2] = {strlen(key), size};
-        bool good = fwrite(length, sizeof length, 1, f) == 1 &&
-                    fwrite(key, 1, length[0], f) == length[0] &&
-                    fwrite(binary, 1, size, f) == size;
-        good = fclose(f) == 0 && good;
-        if (!good || rename(temporary, path))
-            unlink(temporary);
-    }
-    free(binary);
-}
-
 static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *key)
 {
     struct device *d = &m->device;
     double start = watch_clock(m);
-    char path[700];
-    char *whole = whole_key(d, key);
-    bool cached = whole && cache_path(path, sizeof path, d, key);
     size_t size = 0;
-    unsigned char *binary = cached ? cache_read(path, whole, &size) : NULL;
+    unsigned char *binary = cache_program_read(d, key, &size);
     cl_int error = CL_SUCCESS, status = CL_SUCCESS;
     cl_program program = NULL;
     if (binary) {
@@ -576,7 +501,6 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         free(binary);
         if (!error && !status &&
             clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
-            free(whole);
             if (m->watch)
                 watch_span(m, WATCH_BUILD_LOAD, start, "\"options\":\"%s\"", options);
             return program;
@@ -589,7 +513,6 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
     program = clCreateProgramWithSource(d->context, DEVICE_PARTS, sources, NULL, &error);
     if (error) {
         device_check(m, error, "a program cannot be made");
-        free(whole);
         return NULL;
     }
     error = clBuildProgram(program, 1, &d->id, options, NULL, NULL);
@@ -604,12 +527,9 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         if (getenv("LUTETIA_DUMP"))
             fprintf(stderr, "%s\n%s\n", options, parts[DEVICE_PARTS - 1]);
         clReleaseProgram(program);
-        free(whole);
         return NULL;
     }
-    if (cached)
-        cache_write(path, whole, program);
-    free(whole);
+    cache_program_write(d, key, program);
     if (m->watch)
         watch_span(m, WATCH_BUILD, start, "\"options\":\"%s\"", options);
     return program;
@@ -621,9 +541,9 @@ static char *program_key(const struct device *d, const char *const parts[DEVICE_
 {
     size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
     char *key = malloc(size);
-    uint64_t library = 0xcbf29ce484222325u;
+    uint64_t library = CACHE_HASH_BEGIN;
     for (int i = 0; i < DEVICE_PARTS - 1; i++)
-        library = hash_text(library, parts[i]);
+        library = cache_hash(library, parts[i]);
     if (key)
         snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
                  (unsigned long long)library, parts[DEVICE_PARTS - 1]);
@@ -632,7 +552,7 @@ static char *program_key(const struct device *d, const char *const parts[DEVICE_
 
 static struct program_entry *program_bucket(struct device *d, const char *key)
 {
-    return &d->programs[hash_text(0xcbf29ce484222325u, key) % PROGRAMS_SIZE];
+    return &d->programs[cache_hash(CACHE_HASH_BEGIN, key) % PROGRAMS_SIZE];
 }
 
 static cl_kernel program_find(struct device *d, const char *key)
@@ -685,11 +605,9 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name)
 {
-    char path[700];
     char *key = program_key(&m->device, parts, options, name);
     bool found =
-        key && (program_find(&m->device, key) ||
-                (cache_path(path, sizeof path, &m->device, key) && !access(path, R_OK)));
+        key && (program_find(&m->device, key) || cache_program_is_there(&m->device, key));
     free(key);
     return found;
 }

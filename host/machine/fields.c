@@ -1,4 +1,4 @@
-/* fields.c - VP sets, their flags, and fields: which value is where.
+/* fields.c - fields and flags: which value is where.
  *
  * A field is a row of bits in each processor. What is stored in it is kept as slots, each the
  * bits [offset, offset + bits) with one value; bits in no slot are 0. An access of just a
@@ -12,136 +12,20 @@
 
 #define ID_SPACE 0x7fff0000u
 
-/* ---- VP sets ---- */
+/* ---- fields ---- */
 
-struct vpset *vpset_get(struct machine *m, int vpset)
+/* The first field whose base is above id. */
+static int fields_above(const struct machine *m, uint32_t id)
 {
-    if (vpset > 0 && vpset < m->sets_count && m->sets[vpset].used)
-        return &m->sets[vpset];
-    machine_fail(m, MACHINE_BAD_ARGUMENT,
-                 vpset ? "there is no VP set %d" : "there is no current VP set (%d)", vpset);
-    return NULL;
-}
-
-static void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
-{
-    graph_ref(v);
-    replay_changes(m);
-    if (slot->value && m->watch)
-        watch_overwritten(m, slot->value, v);
-    if (slot->value)
-        graph_unref(m, slot->value);
-    slot->value = v;
-}
-
-static void overflow_clear(struct machine *m, struct lazy_overflow *o)
-{
-    if (!o->op)
-        return;
-    replay_changes(m);
-    graph_unref(m, o->a);
-    if (o->b)
-        graph_unref(m, o->b);
-    graph_unref(m, o->context);
-    o->op = 0;
-}
-
-/* Nobody has looked at it. */
-static void overflow_forget(struct machine *m, struct vpset *s)
-{
-    m->vanished.overflows += s->overflow.op != 0;
-    overflow_clear(m, &s->overflow);
-}
-
-static struct machine_value *zero(struct machine *m, int width)
-{
-    return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){0, 0});
-}
-
-int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
-{
-    return machine_vpset_create_ordered(m, dimensions, rank, MACHINE_NEWS_ORDER);
-}
-
-static void vpset_lay_out(const struct machine *m, struct vpset *s, const int *dimensions,
-                          int rank, enum machine_order order)
-{
-    s->order = order;
-    s->rank = rank;
-    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
-    s->count = 1;
-    for (int i = 0; i < rank; i++)
-        s->count *= (uint64_t)dimensions[i];
-    s->width = dimensions[rank - 1];
-    s->rows = s->count / (uint64_t)s->width;
-    s->ratio = (s->count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
-    const struct device_shape *shape = &m->device.shape;
-    s->halo = s->width >= shape->vector ? shape->halo : 0;
-    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
-    if (s->halo)
-        s->pitch = (s->pitch + 15) / 16 * 16;
-}
-
-int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
-                                 enum machine_order order)
-{
-    if (rank < 1 || rank > MACHINE_AXES_MAX) {
-        machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)",
-                     MACHINE_AXES_MAX, rank);
-        return 0;
+    int low = 0, high = m->fields_count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (m->fields[middle]->base <= id)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    uint64_t count = 1;
-    for (int i = 0; i < rank; i++) {
-        if (dimensions[i] < 1) {
-            machine_fail(m, MACHINE_BAD_ARGUMENT,
-                         "axis %d must have a length of 1 or more (got %d)", i, dimensions[i]);
-            return 0;
-        }
-        count *= (uint64_t)dimensions[i];
-        if (count > INT32_MAX) {
-            machine_fail(m, MACHINE_NO_MEMORY, "a VP set has at most 2^31 - 1 processors");
-            return 0;
-        }
-    }
-    replay_settle(m);
-    int id = 1;
-    while (id < m->sets_count && m->sets[id].used)
-        id++;
-    if (id > UINT16_MAX) {
-        machine_fail(m, MACHINE_NO_MEMORY, "there are too many VP sets");
-        return 0;
-    }
-    if (id >= m->sets_count) {
-        struct vpset *sets = realloc(m->sets, (size_t)(id + 1) * sizeof *sets);
-        if (!sets) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another VP set");
-            return 0;
-        }
-        m->sets = sets;
-        memset(&m->sets[id], 0, sizeof *m->sets);
-        if (id == 1)
-            memset(&m->sets[0], 0, sizeof *m->sets);
-        m->sets_count = id + 1;
-    }
-    struct vpset *s = &m->sets[id];
-    *s = (struct vpset){.generation = (uint16_t)(s->generation + 1)};
-    s->used = true;
-    vpset_lay_out(m, s, dimensions, rank, order);
-    for (int flag = 0; flag < 3; flag++) {
-        s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
-        struct machine_value *one = machine_constant(
-            m, MACHINE_BIT, (struct machine_scalar){flag == MACHINE_CONTEXT, 0});
-        slot_set(m, &s->flags[flag], one);
-    }
-    return id;
-}
-
-static void vpset_release(struct machine *m, struct vpset *s)
-{
-    overflow_clear(m, &s->overflow);
-    for (int flag = 0; flag < 3; flag++)
-        graph_unref(m, s->flags[flag].value);
-    s->used = false;
+    return low;
 }
 
 void field_unlink_alias(struct field *alias)
@@ -151,8 +35,6 @@ void field_unlink_alias(struct field *alias)
         link = &(*link)->next_alias;
     *link = alias->next_alias;
 }
-
-static int fields_above(const struct machine *m, uint32_t id);
 
 /* An alias leaves what it holds to its root; with a root its aliases go. */
 static void field_release(struct machine *m, int index)
@@ -177,25 +59,6 @@ static void field_release(struct machine *m, int index)
             (size_t)(m->fields_count - index) * sizeof *m->fields);
 }
 
-enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
-{
-    struct vpset *s = vpset_get(m, vpset);
-    if (!s)
-        return m->status;
-    machine_begin(m);
-    replay_forget(m);
-    for (int i = m->fields_count - 1; i >= 0; i--)
-        if (i < m->fields_count && m->fields[i]->vpset == vpset)
-            field_release(m, i);
-    machine_begin(m);
-    if (!reshape_forget_set(m, vpset))
-        return m->status;
-    vpset_release(m, s);
-    if (m->set_current == vpset)
-        m->set_current = 0;
-    return MACHINE_OK;
-}
-
 void fields_finish(struct machine *m)
 {
     for (int i = 0; i < m->fields_count; i++)
@@ -203,167 +66,6 @@ void fields_finish(struct machine *m)
     while (m->fields_count)
         field_release(m, m->fields_count - 1);
     free(m->fields);
-    for (int i = 1; i < m->sets_count; i++)
-        if (m->sets[i].used)
-            vpset_release(m, &m->sets[i]);
-    free(m->sets);
-}
-
-/* Every value of the set in memory, as numbers of the new layout. False: error set. */
-static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int vpset,
-                          const struct vpset *to, struct machine_value **out, int *out_count)
-{
-    for (int i = 0; i < count; i++) {
-        struct machine_value *v = slots[i].value;
-        if (v->op != NODE_CONSTANT && !(v = reshape_lay_out(m, v, vpset, to)))
-            return false;
-        out[(*out_count)++] = v;
-    }
-    return true;
-}
-
-/* All or nothing: the new values are made before any is put in its place. */
-enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
-                                          int rank, enum machine_order order)
-{
-    struct vpset *s = vpset_get(m, vpset);
-    uint64_t count = 1;
-    for (int i = 0; s && i < rank && rank <= MACHINE_AXES_MAX; i++)
-        count *= dimensions[i] > 0 ? (uint64_t)dimensions[i] : 0;
-    if (!s)
-        return m->status;
-    if (rank < 1 || rank > MACHINE_AXES_MAX || count != s->count)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT,
-                            "another geometry of a VP set has as many processors (%llu)",
-                            (unsigned long long)s->count);
-    machine_begin(m);
-    replay_forget(m);
-    flag_resolved(m, s, MACHINE_OVERFLOW);
-    size_t slots_count = 3;
-    for (int i = 0; i < m->fields_count; i++)
-        slots_count += m->fields[i]->vpset == vpset ? (size_t)m->fields[i]->slots_count : 0;
-    struct vpset to = *s;
-    vpset_lay_out(m, &to, dimensions, rank, order);
-    struct machine_value **fresh = calloc(slots_count, sizeof *fresh);
-    if (!fresh)
-        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");
-    int done = 0;
-    bool good = run_evaluate(m, NULL, 0, true) == MACHINE_OK && reshape_forget_set(m, vpset) &&
-                slots_lay_out(m, s->flags, 3, vpset, &to, fresh, &done);
-    for (int i = 0; i < m->fields_count && good; i++)
-        if (m->fields[i]->vpset == vpset)
-            good = slots_lay_out(m, m->fields[i]->slots, m->fields[i]->slots_count, vpset, &to,
-                                 fresh, &done);
-    done = 0;
-    for (int flag = 0; flag < 3 && good; flag++)
-        slot_set(m, &s->flags[flag], fresh[done++]);
-    for (int i = 0; i < m->fields_count && good; i++)
-        for (int k = 0; m->fields[i]->vpset == vpset && k < m->fields[i]->slots_count; k++)
-            slot_set(m, &m->fields[i]->slots[k], fresh[done++]);
-    if (good) {
-        for (int flag = 0; flag < 3; flag++)
-            to.flags[flag] = s->flags[flag];
-        to.generation++;
-        *s = to;
-    }
-    free(fresh);
-    machine_begin(m);
-    return good ? MACHINE_OK : m->status;
-}
-
-enum machine_status machine_vpset_select(struct machine *m, int vpset)
-{
-    if (!vpset_get(m, vpset))
-        return m->status;
-    m->set_current = vpset;
-    return MACHINE_OK;
-}
-
-int machine_vpset_current(const struct machine *m)
-{
-    return m->set_current;
-}
-
-static const struct vpset *peek(const struct machine *m, int vpset)
-{
-    return vpset > 0 && vpset < m->sets_count && m->sets[vpset].used ? &m->sets[vpset] : NULL;
-}
-
-int machine_vpset_rank(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s ? s->rank : 0;
-}
-
-int machine_vpset_length(const struct machine *m, int vpset, int axis)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s && axis >= 0 && axis < s->rank ? s->dimensions[axis] : 0;
-}
-
-uint64_t machine_vpset_count(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s ? s->count : 0;
-}
-
-uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s ? s->ratio : 0;
-}
-
-enum machine_order machine_vpset_order(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    return s ? s->order : MACHINE_NEWS_ORDER;
-}
-
-int machine_address_bits(const struct machine *m, int vpset)
-{
-    const struct vpset *s = peek(m, vpset);
-    uint64_t addresses = s ? (uint64_t)m->processors_count * s->ratio : 1;
-    int bits = 1;
-    while (bits < 63 && UINT64_C(1) << bits < addresses)
-        bits++;
-    return bits;
-}
-
-uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
-{
-    const struct vpset *s = peek(m, vpset);
-    uint64_t processors = (uint64_t)m->processors_count;
-    if (s && s->order == MACHINE_SEND_ORDER)
-        return index;
-    return s ? index % processors * s->ratio + index / processors : 0;
-}
-
-uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address)
-{
-    const struct vpset *s = peek(m, vpset);
-    if (!s)
-        return UINT64_MAX;
-    uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
-    uint64_t index = s->order == MACHINE_SEND_ORDER
-                         ? send_address
-                         : which * (uint64_t)m->processors_count + processor;
-    return processor < (uint64_t)m->processors_count && index < s->count ? index : UINT64_MAX;
-}
-
-/* ---- fields ---- */
-
-/* The first field whose base is above id. */
-static int fields_above(const struct machine *m, uint32_t id)
-{
-    int low = 0, high = m->fields_count;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (m->fields[middle]->base <= id)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 /* Where a new field of that many bits goes: on from the last one, and round once the space is
@@ -517,6 +219,22 @@ enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t
 }
 
 /* ---- slots ---- */
+
+void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
+{
+    graph_ref(v);
+    replay_changes(m);
+    if (slot->value && m->watch)
+        watch_overwritten(m, slot->value, v);
+    if (slot->value)
+        graph_unref(m, slot->value);
+    slot->value = v;
+}
+
+static struct machine_value *zero(struct machine *m, int width)
+{
+    return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){0, 0});
+}
 
 /* The first slot that ends beyond offset. */
 static int slot_at(const struct field *f, uint32_t offset)
@@ -748,6 +466,25 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
 
 /* ---- flags ---- */
 
+void flag_overflow_clear(struct machine *m, struct lazy_overflow *o)
+{
+    if (!o->op)
+        return;
+    replay_changes(m);
+    graph_unref(m, o->a);
+    if (o->b)
+        graph_unref(m, o->b);
+    graph_unref(m, o->context);
+    o->op = 0;
+}
+
+/* Nobody has looked at it. */
+static void overflow_forget(struct machine *m, struct vpset *s)
+{
+    m->vanished.overflows += s->overflow.op != 0;
+    flag_overflow_clear(m, &s->overflow);
+}
+
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag)
 {
     struct lazy_overflow *o = &s->overflow;
@@ -759,7 +496,7 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
             new ? machine_select(m, o->context, new, slot->value) : NULL;
         if (all)
             slot_set(m, slot, all);
-        overflow_clear(m, o);
+        flag_overflow_clear(m, o);
     }
     return s->flags[flag].value;
 }
@@ -778,6 +515,17 @@ struct machine_value *machine_flag_value(struct machine *m, enum machine_flag fl
     return v ? graph_borrow(m, v) : NULL;
 }
 
+static bool flag_suits(struct machine *m, const struct machine_value *value)
+{
+    if (!type_equal(value->type, MACHINE_BIT))
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
+    else if (value->set && value->set != m->set_current)
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    else
+        return true;
+    return false;
+}
+
 enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
                                        struct machine_value *value, enum machine_scope scope)
 {
@@ -785,10 +533,8 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
     struct vpset *s = vpset_get(m, m->set_current);
     if (!value || !s)
         return m->status;
-    if (!type_equal(value->type, MACHINE_BIT))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
-    if (value->set && value->set != m->set_current)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    if (!flag_suits(m, value))
+        return m->status;
     struct slot *slot = &s->flags[flag];
     slot_accessed(m, slot, true);
     if (flag == MACHINE_OVERFLOW) {
@@ -885,19 +631,8 @@ enum machine_status machine_overflow_record_value(struct machine *m,
     struct vpset *s = vpset_get(m, m->set_current);
     if (!s || !overflows)
         return m->status;
-    if (!type_equal(overflows->type, MACHINE_BIT))
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
-    if (overflows->set && overflows->set != m->set_current)
-        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
-    replay_settle(m);
-    replay_changes(m);
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    if (s->overflow.op && s->overflow.context != context)
-        flag_resolved(m, s, MACHINE_OVERFLOW);
-    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
-    graph_ref(overflows);
-    graph_ref(context);
-    overflow_forget(m, s);
-    s->overflow = (struct lazy_overflow){.op = NODE_SELECT, .a = overflows, .context = context};
+    if (!flag_suits(m, overflows))
+        return m->status;
+    overflow_remember(m, s, NODE_SELECT, overflows, NULL);
     return MACHINE_OK;
 }

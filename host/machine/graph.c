@@ -28,17 +28,6 @@ void graph_finish(struct machine *m)
     free(m->release_stack);
 }
 
-/* Memory for the graph itself is small beside the fields' and is not expected to run out: when
- * it does there is no state to return to. */
-static void *grown(void *old, int *capacity, size_t element)
-{
-    int wanted = *capacity ? *capacity * 2 : 64;
-    void *new = realloc(old, (size_t)wanted * element);
-    INVARIANT(new != NULL);
-    *capacity = wanted;
-    return new;
-}
-
 /* Nodes are used again at once. A fuzzing build gives each its own memory, so that ASan sees one that
  * is used after its release. */
 #ifdef LUTETIA_FUZZ
@@ -61,7 +50,7 @@ static struct machine_value *node_new(struct machine *m)
     if (!m->free_nodes) {
         if (m->node_blocks_count == m->node_blocks_capacity)
             m->node_blocks =
-                grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
+                machine_grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
         struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
         INVARIANT(block != NULL);
         m->node_blocks[m->node_blocks_count++] = block;
@@ -92,7 +81,7 @@ void graph_ref(struct machine_value *v)
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
 {
     if (m->borrowed_count == m->borrowed_capacity)
-        m->borrowed = grown(m->borrowed, &m->borrowed_capacity, sizeof *m->borrowed);
+        m->borrowed = machine_grown(m->borrowed, &m->borrowed_capacity, sizeof *m->borrowed);
     m->borrowed[m->borrowed_count++] = v;
     v->refs++;
     return v;
@@ -272,8 +261,8 @@ void graph_unref(struct machine *m, struct machine_value *v)
         for (int i = 0; i < 3; i++)
             if (v->in[i] && --v->in[i]->refs == 0) {
                 if (m->release_count == m->release_capacity)
-                    m->release_stack =
-                        grown(m->release_stack, &m->release_capacity, sizeof *m->release_stack);
+                    m->release_stack = machine_grown(m->release_stack, &m->release_capacity,
+                                                     sizeof *m->release_stack);
                 m->release_stack[m->release_count++] = v->in[i];
             }
         node_free(m, v);

@@ -1,6 +1,7 @@
 /* internal.h - what the files of the machine share.
  *
- *   fields.c    VP sets, fields, flags: which value is where          (uses simplify)
+ *   vpsets.c    VP sets: geometries and addresses                     (uses fields, slices, run)
+ *   fields.c    fields and flags: which value is where                (uses simplify)
  *   simplify.c  makes values; the rules that keep the graph small     (uses graph)
  *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
@@ -12,7 +13,9 @@
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
- *   replay.c    calls seen before: noted, and performed all at once   (uses run, graph)
+ *   replay.c    calls seen before: noted, and performed all at once   (uses run, states, loops)
+ *   states.c    ... what fields and flags held then                   (uses graph)
+ *   loops.c     ... which of them repeat, and how many turns at once  (uses run)
  *   observe.c   reading, writing, reducing                            (uses run)
  *   watch.c     what happens when, for a trace and for explanations   (uses trace, explain)
  *   trace.c     a file of what happens when
@@ -26,7 +29,10 @@
  *   reshape.h   what these three share, and how aliases work
  *   call.h      starting a kernel that is not generated
  *   scalar.h    numbers on the front end
- *   device.c    OpenCL: devices, buffers, programs and their cache
+ *   device.c    OpenCL: devices, buffers, programs
+ *   cache.c     programs and tunings on disk
+ *   tuning.c    how code is generated for a device, as `lutetia tune` found it
+ *   settings.c  what can be forced by environment variables
  *   machine.c   creation, errors, configuration
  */
 #ifndef LUTETIA_MACHINE_INTERNAL_H
@@ -183,6 +189,24 @@ struct vpset {
     struct lazy_overflow overflow;
 };
 
+/* ---- what can be forced ---- */
+
+#define SETTING_FREE UINT64_MAX /* the device decides */
+enum { PENDING_MANY = 384 };    /* values waiting: enough for an evaluation */
+
+/* By environment variables: settings.c. */
+struct settings {
+    uint64_t eager, replay;
+    uint64_t flush_after; /* values waiting */
+    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
+    uint64_t optimise_after, box_after;
+    uint64_t knob[MACHINE_KNOBS];
+    uint64_t strips, scatter;
+    uint64_t processors;
+    uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
+    uint64_t verbose; /* says on the standard error what is wrong with it */
+};
+
 /* ---- the device ---- */
 
 struct device_shape {              /* what generated code should look like there */
@@ -191,9 +215,13 @@ struct device_shape {              /* what generated code should look like there
     double op_ns;                  /* cost model: one vector instruction, for an element */
     double byte_ns;                /* ... one byte to or from memory */
     double near_byte_ns;           /* ... to or from a cache */
-    int near_bytes;                /* of a cache, that rings may fill */
-    int strip_columns;             /* a multiple of the vector; 0: what fits near_bytes */
+    int near_bytes;                /* of a cache, which rings should not fill */
+    int strip_columns;             /* the most, a multiple of the vector */
     bool no_strips, always_strips; /* see plan.c; for tests */
+    int run_columns;               /* of a work-item: a multiple of the vector, but on a GPU */
+    int strips_each;               /* for each unit */
+    int turns;                     /* of a loop at once */
+    bool streams;                  /* large arrays are stored past the caches */
     double launch_ns;              /* ... a launch */
 };
 
@@ -212,6 +240,7 @@ struct device {
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
+    unsigned skew;                  /* of the next buffer's beginning */
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_run;
     cl_kernel *unstarted; /* built, and not run yet */
@@ -239,6 +268,7 @@ struct machine {
     int calls_noted;       /* and not performed yet */
     int turns_in_row;      /* of loops that were foreseen, with nothing else in between */
     bool eager;
+    struct settings settings;
     struct watch *watch; /* NULL: nobody looks. See watch.h */
     struct vanished vanished;
     char *dump_dir;
@@ -261,9 +291,11 @@ struct machine {
 
     int simplify_budget; /* nodes that simplify_under() may still look at in this instruction */
 
-    /* fields.c */
+    /* vpsets.c */
     struct vpset *sets; /* 1 .. sets_count - 1 */
     int sets_count, set_current;
+
+    /* fields.c */
     struct field **fields; /* ascending base */
     int fields_count, fields_capacity;
     int field_last; /* index of the last one found */
@@ -279,9 +311,6 @@ struct machine {
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
-    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
-    uint64_t optimise_after, box_after;
-    uint64_t flush_after;     /* values waiting */
     bool sliced;              /* there has been a slice: see slices.c */
     bool rolling;             /* in reshape_roll() */
     uint64_t roll_after;      /* values waiting before the next try */
@@ -298,6 +327,26 @@ struct machine {
 enum machine_status machine_fail(struct machine *m, enum machine_status status,
                                  const char *format, ...) __attribute__((format(printf, 3, 4)));
 double machine_clock_s(void);
+/* Memory for what is small beside the fields: it is not expected to run out, and when it does there is no
+ * state to return to. grown: twice as much room in an array; allocated: zeros. */
+void *machine_grown(void *old, int *capacity, size_t element);
+void *machine_allocated(size_t count, size_t element);
+/* A hash of so many words, the same on every machine. */
+uint64_t machine_words_hash(const uint32_t *words, size_t count);
+
+/* settings.c */
+enum machine_status settings_read(struct machine *m);
+bool settings_number(const char *text, uint64_t *out); /* false: the text is no number */
+const char *settings_knob_may_be(enum machine_knob knob);
+
+/* tuning.c */
+enum { TUNING_BYTES_MOST = 4096 };
+/* What a file of so many bytes says; bytes[length] is 0. False: why is in one line, with the line's number; out is
+ * what is usual. platform, name and driver: the device that it must be for. */
+bool tuning_parse(const char *bytes, size_t length, const struct device *d,
+                  struct machine_tuning *out, char *why, size_t why_size);
+/* The device is known: what nobody forces is what has been kept for it, or what config says. */
+void tuning_apply(struct machine *m, const struct machine_config *config);
 
 /* graph.c */
 bool graph_init(struct machine *m);
@@ -384,9 +433,15 @@ static inline bool op_is_integer(int op)
 struct machine_value *integer_value(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b);
 
-/* fields.c */
+/* vpsets.c */
 struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
+void vpsets_finish(struct machine *m);
+
+/* fields.c */
 void fields_finish(struct machine *m);
+void slot_set(struct machine *m, struct slot *slot, struct machine_value *v);
+/* There is no overflow to be worked out any more. */
+void flag_overflow_clear(struct machine *m, struct lazy_overflow *o);
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
 /* That very value is the content from the offset on. */
 bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v);
@@ -599,8 +654,19 @@ bool reshape_roll(struct machine *m, bool *partial);
  * and a buffer. */
 bool reshape_forget_set(struct machine *m, int set);
 
+/* cache.c */
+#define CACHE_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
+uint64_t cache_hash(uint64_t h, const char *s);
+void cache_folder_make(char *folder); /* and those above it, where they are missing */
+/* A new file beside path, to be renamed to it when it is complete; temporary: its name. NULL: errno. */
+FILE *cache_temporary(const char *path, char *temporary, size_t size);
+/* A program's binary, by its key. Owns: the caller frees it; NULL: there is none. */
+unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
+void cache_program_write(const struct device *d, const char *key, cl_program program);
+bool cache_program_is_there(const struct device *d, const char *key);
+
 /* device.c */
-enum machine_status device_open(struct machine *m, const char *choice);
+enum machine_status device_open(struct machine *m, const struct machine_config *config);
 void device_close(struct machine *m);
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */

@@ -30,6 +30,32 @@ double machine_clock_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+void *machine_grown(void *old, int *capacity, size_t element)
+{
+    int wanted = *capacity ? *capacity * 2 : 64;
+    void *new = realloc(old, (size_t)wanted * element);
+    INVARIANT(new != NULL);
+    *capacity = wanted;
+    return new;
+}
+
+void *machine_allocated(size_t count, size_t element)
+{
+    void *new = calloc(count ? count : 1, element);
+    INVARIANT(new != NULL);
+    return new;
+}
+
+uint64_t machine_words_hash(const uint32_t *words, size_t count)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++) {
+        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
 struct machine_config machine_config_default(void)
 {
     return (struct machine_config){.device = NULL, .processors_count = 0, .eager = -1};
@@ -37,17 +63,9 @@ struct machine_config machine_config_default(void)
 
 static enum machine_status set_processors(struct machine *m, int wanted)
 {
-    const char *from_environment = getenv("LUTETIA_PROCESSORS");
     long count = wanted;
-    if (count == 0 && from_environment && *from_environment) {
-        char *end;
-        count = strtol(from_environment, &end, 10);
-        if (*end || count < 1)
-            return machine_fail(
-                m, MACHINE_BAD_ARGUMENT,
-                "LUTETIA_PROCESSORS must be a power of two from 1 to 2^30 (is \"%s\")",
-                from_environment);
-    }
+    if (count == 0 && m->settings.processors != SETTING_FREE)
+        count = (long)m->settings.processors;
     if (count == 0)
         count = 65536;
     if (count < 1 || count > (1L << 30) || (count & (count - 1)))
@@ -59,12 +77,6 @@ static enum machine_status set_processors(struct machine *m, int wanted)
     return MACHINE_OK;
 }
 
-static bool environment_says_yes(const char *name)
-{
-    const char *value = getenv(name);
-    return value && *value && strcmp(value, "0") != 0;
-}
-
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
 {
     struct machine *m = calloc(1, sizeof *m);
@@ -73,7 +85,10 @@ enum machine_status machine_create(const struct machine_config *config, struct m
         return MACHINE_NO_MEMORY;
     if (!graph_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
-    m->eager = config->eager < 0 ? environment_says_yes("LUTETIA_EAGER") : config->eager != 0;
+    enum machine_status status = settings_read(m);
+    if (status)
+        return status;
+    m->eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
         m->dump_dir = strdup(dump);
@@ -87,11 +102,10 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     if (!replay_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->random_seed = 1;
-    enum machine_status status = set_processors(m, config->processors_count);
+    status = set_processors(m, config->processors_count);
     if (status)
         return status;
-    const char *device = config->device ? config->device : getenv("LUTETIA_DEVICE");
-    status = device_open(m, device && *device ? device : NULL);
+    status = device_open(m, config);
     if (!status && m->watch)
         watch_ready(m);
     return status;
@@ -106,6 +120,7 @@ void machine_destroy(struct machine *m)
     watch_leave(m);
     replay_finish(m);
     fields_finish(m);
+    vpsets_finish(m);
     run_finish(m);
     graph_finish(m);
     watch_close(m);
@@ -146,6 +161,11 @@ int machine_processors_count(const struct machine *m)
 const char *machine_device_name(const struct machine *m)
 {
     return m->device.name;
+}
+
+const char *machine_device_driver(const struct machine *m)
+{
+    return m->device.driver;
 }
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)

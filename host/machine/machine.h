@@ -85,6 +85,25 @@ struct machine_scalar {
     uint64_t lo, hi;
 };
 
+/* ---- how code is generated for a device ---- */
+
+/* None of these changes a bit of a result. */
+enum machine_knob {
+    MACHINE_VECTOR,      /* lanes of 32 bits in a work-item: 1, 4, 8 or 16 */
+    MACHINE_RUN,         /* columns that a work-item goes along */
+    MACHINE_STREAMS,     /* 1: large arrays are stored past the caches; 0: through them */
+    MACHINE_TURNS,       /* of a loop that are evaluated at once, at most; 1: one by one */
+    MACHINE_COLUMNS,     /* of a strip, in which several turns go through the caches */
+    MACHINE_STRIPS_EACH, /* strips for each compute unit, about */
+    MACHINE_KNOBS
+};
+struct machine_tuning {
+    int of[MACHINE_KNOBS]; /* -1: what usually suits the kind of device */
+};
+const char *machine_knob_name(enum machine_knob knob); /* "vector" */
+bool machine_knob_allows(enum machine_knob knob, int value);
+struct machine_tuning machine_tuning_usual(void);
+
 /* ---- the machine ---- */
 
 struct machine_config {
@@ -98,6 +117,8 @@ struct machine_config {
     const char *trace; /* a file for what happens when; NULL: LUTETIA_TRACE, else none. One
                           that cannot be written is said once, on the standard error */
     int explain;       /* 1: takes note of what machine_explain() tells */
+    const struct machine_tuning
+        *tuning; /* NULL: what machine_tuning_keep() kept for the device */
 };
 struct machine_config machine_config_default(void);
 
@@ -154,8 +175,22 @@ enum machine_status machine_flush(struct machine *m);
 /* The same, and waits for the device. */
 enum machine_status machine_finish(struct machine *m);
 
+/* Where kernels and tunings are kept from run to run. False: nowhere, neither XDG_CACHE_HOME nor HOME is set. */
+bool machine_cache_folder(char *out, size_t size);
+
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
+
+/* How code is generated: what the environment forces (docs/engine.md), else config's or the kept tuning, else what is
+ * usual. None is -1. */
+struct machine_tuning machine_tuning_get(const struct machine *m);
+/* For all machines on that device from now on, whatever program makes them. The file appears when it is complete.
+ * Errors: MACHINE_BAD_ARGUMENT (the file, and why it cannot be written); what was kept stays. */
+enum machine_status machine_tuning_keep(struct machine *m, const struct machine_tuning *tuning);
+/* In one line, whether there is a kept tuning for the device, in which file, and whether it is of use: */
+enum machine_tuned { MACHINE_UNTUNED, MACHINE_TUNED, MACHINE_TUNED_BADLY };
+enum machine_tuned machine_tuning_describe(const struct machine *m, char *out, size_t size);
+const char *machine_device_driver(const struct machine *m); /* its version */
 
 struct machine_stats {
     uint64_t stores;         /* values stored into fields and flags */

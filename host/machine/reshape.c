@@ -115,6 +115,15 @@ static struct machine_value *number_of(struct machine *m, uint32_t width, bool o
     return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){bits, bits});
 }
 
+/* Room for a word of each element; NULL: error set. */
+static struct word *words_room(struct machine *m, const struct factor *f)
+{
+    struct word *words = malloc(f->k * sizeof *words);
+    if (!words)
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reshape a field");
+    return words;
+}
+
 /* The values of [at, at + width) of each element; y has room for k. */
 static struct machine_value *piece_of_each(struct machine *m, const struct factor *f,
                                            struct machine_value **y, uint32_t at,
@@ -133,11 +142,14 @@ static struct machine_value *piece_of_each(struct machine *m, const struct facto
             return NULL;
     if (!reshape_lift(m, y, f->k, f->fine->vpset, &v))
         return NULL;
-    struct word *words = v ? NULL : malloc(f->k * sizeof *words);
-    for (uint32_t i = 0; words && i < f->k; i++)
+    if (v)
+        return v;
+    struct word *words = words_room(m, f);
+    if (!words)
+        return NULL;
+    for (uint32_t i = 0; i < f->k; i++)
         words[i] = (struct word){y[i], 1};
-    if (words)
-        v = weave(m, words, f->k, f->coarse->vpset, f->fine->vpset, f->k, y[0]->type);
+    v = weave(m, words, f->k, f->coarse->vpset, f->fine->vpset, f->k, y[0]->type);
     free(words);
     return v;
 }
@@ -177,7 +189,7 @@ static uint32_t words_of(struct machine *m, const struct factor *f, struct word 
 
 static struct machine_value *words_of_elements(struct machine *m, const struct factor *f)
 {
-    struct word *words = malloc(f->k * sizeof *words);
+    struct word *words = words_room(m, f);
     uint32_t count = words ? words_of(m, f, words) : 0;
     bool zeros = true, ones = true;
     for (uint32_t i = 0; i < count; i++) {

@@ -172,9 +172,8 @@ static size_t shares(const struct machine *m, const struct vpset *to)
 
 static bool scatters(const struct machine *m)
 {
-    const char *forced = getenv("LUTETIA_SCATTER");
-    if (forced && *forced)
-        return *forced != '0';
+    if (m->settings.scatter != SETTING_FREE)
+        return m->settings.scatter;
     return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
 }
 

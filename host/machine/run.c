@@ -23,16 +23,7 @@
 
 #include "kernels.h"
 
-enum {
-    PENDING_MANY = 384,
-    PENDING_MOST = 4096,
-    PENDING_LOOP = 16384,
-    HEIGHT_DEFERRED = 96,
-    HEIGHT_MOST = 1500,
-    RUN_COLUMNS = 4096,
-    OPTIMISE_AFTER = 4 << 20,
-    BOX_AFTER = 32 << 20
-};
+enum { PENDING_MOST = 4096, PENDING_LOOP = 16384, HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
 enum quality { QUICK, OPTIMISED, BOXED };
@@ -202,12 +193,6 @@ void run_init(struct machine *m)
     m->trace_power = 1;
     for (int i = 0; i < TRACE_LENGTH; i++)
         m->trace_power *= TRACE_FACTOR;
-    const char *after = getenv("LUTETIA_BOX_AFTER");
-    m->box_after = after && *after ? strtoull(after, NULL, 10) : BOX_AFTER;
-    after = getenv("LUTETIA_OPTIMISE_AFTER");
-    m->optimise_after = after && *after ? strtoull(after, NULL, 10) : OPTIMISE_AFTER;
-    after = getenv("LUTETIA_FLUSH_AFTER");
-    m->flush_after = after && *after ? strtoull(after, NULL, 10) : PENDING_MANY;
 }
 
 void run_finish(struct machine *m)
@@ -306,6 +291,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};
+    char *streams = m->device.shape.streams ? NULL : strstr(k.options, "-DSTREAMS=1");
+    if (streams)
+        streams[strlen("-DSTREAMS=")] = '0';
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
@@ -396,7 +384,7 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
             work =
                 m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
         }
-    if (p->quality == QUICK && work >= m->optimise_after / 4)
+    if (p->quality == QUICK && work >= m->settings.optimise_after / 4)
         p->quality = OPTIMISED;
     for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
         for (int set = 1; set < m->sets_count; set++) {
@@ -460,7 +448,9 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
 /* How well a plan that has run on so many processors is to be made. */
 static enum quality quality_after(const struct machine *m, uint64_t worked)
 {
-    return worked >= m->box_after ? BOXED : worked >= m->optimise_after ? OPTIMISED : QUICK;
+    return worked >= m->settings.box_after        ? BOXED
+           : worked >= m->settings.optimise_after ? OPTIMISED
+                                                  : QUICK;
 }
 
 /* Better kernels would be worth it by now. */
@@ -516,11 +506,7 @@ const int *plan_stored(const struct plan *p, int *count)
 
 static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
 {
-    uint64_t h = 0xcbf29ce484222325u;
-    for (uint32_t i = 0; i < r->length; i++) {
-        h = (h ^ r->signature[i]) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 32;
-    }
+    uint64_t h = machine_words_hash(r->signature, r->length);
     if (!m->plans) {
         m->plans_size = 1024;
         m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
@@ -574,7 +560,8 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
 static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
                          size_t global[2], size_t *rows)
 {
-    size_t wanted = 3 * (size_t)m->device.units, least = 8 + 4 * (size_t)l->strip_margin;
+    size_t wanted = (size_t)m->device.shape.strips_each * (size_t)m->device.units,
+           least = 8 + 4 * (size_t)l->strip_margin;
     global[0] = (size_t)(s->width / l->strip_columns);
     global[0] = global[0] ? global[0] : 1;
     size_t down = (wanted + global[0] - 1) / global[0];
@@ -589,7 +576,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
 {
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
-    size_t run = l->vector == 1 && !m->device.is_cpu ? 1 : RUN_COLUMNS;
+    size_t run = (size_t)m->device.shape.run_columns;
+    run = run < (size_t)l->vector ? (size_t)l->vector : run;
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);
@@ -787,8 +775,9 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->nodes_pending < PENDING_MOST)
         return MACHINE_OK;
     bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
-                 m->nodes_pending >= m->flush_after / 8;
-    bool many = m->nodes_pending >= (m->flush_hash ? 5 * m->flush_after : m->flush_after);
+                 m->nodes_pending >= m->settings.flush_after / 8;
+    bool many = m->nodes_pending >=
+                (m->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->sliced && v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
@@ -800,7 +789,7 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
         m->roll_after = 0;
         if (partial && m->nodes_pending < PENDING_LOOP)
             m->roll_after = 2 * m->nodes_pending + PENDING_MANY;
-        if (m->roll_after || m->nodes_pending < m->flush_after / 8)
+        if (m->roll_after || m->nodes_pending < m->settings.flush_after / 8)
             return MACHINE_OK;
     }
     m->flush_place = m->trace_hash;

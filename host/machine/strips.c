@@ -673,16 +673,13 @@ static void find_margin(struct strips *s)
     }
 }
 
-/* As many columns as leave the rings near, but not so few that what strips compute twice counts; more than MOST gain
- * nothing. */
+/* As many columns as leave the rings near, but not so few that what strips compute twice counts. */
 static int strip_columns(const struct strips *s, const struct device_shape *shape)
 {
-    enum { LEAST = 128, MOST = 1024 };
-    if (shape->strip_columns)
-        return shape->strip_columns;
-    int columns = MOST;
+    enum { LEAST = 128 };
+    int columns = shape->strip_columns;
     while (columns > LEAST && columns * s->memory > shape->near_bytes)
-        columns /= 2;
+        columns = columns / 2 / s->vector * s->vector;
     return columns;
 }
 

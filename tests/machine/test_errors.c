@@ -52,6 +52,29 @@ static void device_that_is_not_there_is_refused(void **state)
     machine_destroy(NULL);
 }
 
+static void settings_that_are_nonsense_are_refused(void **state)
+{
+    static const char *const wrong[][2] = {
+        {"LUTETIA_TURNS", "0"},         {"LUTETIA_TURNS", "many"},
+        {"LUTETIA_VECTOR", "2"},        {"LUTETIA_VECTOR", "16x"},
+        {"LUTETIA_COLUMNS", "40"},      {"LUTETIA_COLUMNS", "-16"},
+        {"LUTETIA_STRIPS", "yes"},      {"LUTETIA_EAGER", "2"},
+        {"LUTETIA_FLUSH_AFTER", "1e3"}, {"LUTETIA_BOX_AFTER", "99999999999999999999"},
+        {"LUTETIA_PROCESSORS", "48"},   {"LUTETIA_SCATTER", " 1"}};
+    struct machine_config config = machine_config_default();
+
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct machine *m = NULL;
+        setenv(wrong[i][0], wrong[i][1], 1);
+        assert_int_equal(machine_create(&config, &m), MACHINE_BAD_ARGUMENT);
+        assert_non_null(strstr(machine_error(m), wrong[i][0]));
+        assert_non_null(strstr(machine_error(m), wrong[i][1]));
+        machine_destroy(m);
+        unsetenv(wrong[i][0]);
+    }
+}
+
 static void count_device(void *context, int index, const char *platform, const char *device,
                          const char *version, int compute_units, uint64_t memory_bytes)
 {
@@ -216,10 +239,11 @@ int main(void)
 {
 #define CASE(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
     const struct CMUnitTest tests[] = {
-        CASE(device_that_is_not_there_is_refused), CASE(devices_are_listed_in_order),
-        CASE(vpset_of_bad_shape_is_refused),       CASE(field_that_cannot_be_is_refused),
-        CASE(field_that_is_gone_is_refused),       CASE(access_beyond_the_field_is_refused),
-        CASE(operation_on_wrong_types_is_refused), CASE(values_of_two_sets_do_not_mix),
+        CASE(device_that_is_not_there_is_refused), CASE(settings_that_are_nonsense_are_refused),
+        CASE(devices_are_listed_in_order),         CASE(vpset_of_bad_shape_is_refused),
+        CASE(field_that_cannot_be_is_refused),     CASE(field_that_is_gone_is_refused),
+        CASE(access_beyond_the_field_is_refused),  CASE(operation_on_wrong_types_is_refused),
+        CASE(values_of_two_sets_do_not_mix),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

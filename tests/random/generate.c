@@ -15,6 +15,10 @@ static const struct geometry geometries[] = {
     {4, {3, 1, 2, 41}}, {2, {1, 2}}, {1, {97}},    {2, {9, 40}},   {3, {4, 2, 17}},
 };
 
+/* Wide enough for strips of vectors: no power of two, and one that is. */
+static const struct geometry sheets[] = {
+    {2, {9, 96}}, {2, {37, 64}}, {2, {5, 133}}, {2, {16, 128}}};
+
 /* What a field may be: room for floats beside odd lengths. */
 static const uint8_t sizes[] = {32, 32, 64, 33, 1, 8, 24, 96, 128, 5, 160, 17, 65, 70};
 static const uint8_t widths[] = {1, 2, 5, 8, 16, 24, 31, 32, 33, 48, 63, 64, 65, 96, 127, 128};
@@ -26,7 +30,8 @@ struct generator {
         int bits, set;
     } slots[PROGRAM_SLOTS];
     int set;
-    bool pure; /* no instruction that looks, writes from outside, or draws numbers */
+    bool sheet; /* fields of 32 bits and of one, in a sheet */
+    bool pure;  /* no instruction that looks, writes from outside, or draws numbers */
 };
 
 static uint32_t draw(struct generator *g, uint32_t below)
@@ -66,7 +71,7 @@ static void emit_allocate(struct generator *g)
         return;
     in.row = (uint16_t)(draw(g, 3) ? ROW_CM_allocate_heap_field : ROW_CM_allocate_stack_field);
     in.d.slot = (uint8_t)slot;
-    in.d.bits = sizes[draw(g, sizeof sizes)];
+    in.d.bits = g->sheet ? (draw(g, 4) ? 32 : 1) : sizes[draw(g, sizeof sizes)];
     g->slots[slot].bits = in.d.bits;
     g->slots[slot].set = g->set;
     emit(g, &in);
@@ -92,7 +97,7 @@ static void emit_fill(struct generator *g)
 {
     struct instruction in = {0};
     bool floats = draw(g, 2);
-    int bits = floats ? (draw(g, 3) ? 32 : 64) : widths[draw(g, 8)];
+    int bits = g->sheet ? 32 : floats ? (draw(g, 3) ? 32 : 64) : widths[draw(g, 8)];
 
     in.row = floats ? ROW_CM_f_write_to_news_array_1L : ROW_CM_u_write_to_news_array_1L;
     in.where = draw(g, 1u << 30);
@@ -196,7 +201,7 @@ static void emit_nest(struct generator *g, int depth)
 static void emit_news(struct generator *g)
 {
     struct instruction in = {0};
-    int bits = draw(g, 2) ? 32 : widths[draw(g, sizeof widths)];
+    int bits = g->sheet || draw(g, 2) ? 32 : widths[draw(g, sizeof widths)];
 
     in.row = (uint16_t)(draw(g, 3) ? ROW_CM_get_from_news_1L : ROW_CM_send_to_news_1L);
     in.axis = (uint8_t)draw(g, PROGRAM_AXES);
@@ -218,22 +223,22 @@ static void emit_observe(struct generator *g)
 static void emit_loop(struct generator *g, int turns)
 {
     int first = g->p->count;
-    uint32_t look_every = draw(g, 3) ? 1 + draw(g, 5) : 1000;
+    uint32_t look_every = g->sheet ? 30 : draw(g, 3) ? 1 + draw(g, 5) : 1000;
     struct instruction look = {.row = ROW_CM_u_read_from_news_array_1L};
     bool can_look = draw_operand(g, 32, &look.a);
 
-    g->pure = draw(g, 8);
+    g->pure = g->sheet || draw(g, 8);
     for (uint32_t n = 2 + draw(g, 6); n > 0; n--)
         if (draw(g, 6) == 0)
             emit_nest(g, 1);
-        else if (draw(g, 3) == 0)
+        else if (draw(g, g->sheet ? 2 : 3) == 0)
             emit_news(g);
         else
             emit_row(g);
     g->pure = false;
     int count = g->p->count - first;
     for (int turn = 1; turn < turns; turn++) {
-        int odd = draw(g, 40) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
+        int odd = draw(g, g->sheet ? 200 : 40) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
         if (can_look && draw(g, 40) && (uint32_t)turn % look_every == 0)
             emit(g, &look);
         for (int k = 0; k < count; k++) {
@@ -256,15 +261,17 @@ static void emit_select(struct generator *g)
 }
 
 /* VP sets, and fields with something in them. */
-static struct generator begin(struct program *p, uint64_t seed)
+static struct generator begin(struct program *p, uint64_t seed, bool sheet)
 {
-    struct generator g = {.p = p, .state = seed * 0x2545f4914f6cdd1du + 12345};
+    struct generator g = {.p = p, .state = seed * 0x2545f4914f6cdd1du + 12345, .sheet = sheet};
     struct instruction in = {0};
 
     memset(p, 0, sizeof *p);
     p->seed = seed;
-    p->sets_count = draw(&g, 3) ? 1 : 1 + (int)draw(&g, PROGRAM_SETS);
-    for (int k = 0; k < p->sets_count; k++)
+    p->sets_count = sheet || draw(&g, 3) ? 1 : 1 + (int)draw(&g, PROGRAM_SETS);
+    if (sheet)
+        p->sets[0] = sheets[draw(&g, sizeof sheets / sizeof *sheets)];
+    for (int k = 0; k < p->sets_count && !sheet; k++)
         p->sets[k] = geometries[draw(&g, sizeof geometries / sizeof geometries[0])];
 
     for (int set = 0; set < p->sets_count; set++) {
@@ -273,7 +280,7 @@ static struct generator begin(struct program *p, uint64_t seed)
         g.set = set;
         if (p->sets_count > 1)
             emit(&g, &in);
-        for (int k = 0; k < 4; k++)
+        for (int k = 0; k < (sheet ? 6 : 4); k++)
             emit_allocate(&g);
         emit_fill(&g);
         emit_fill(&g);
@@ -281,11 +288,11 @@ static struct generator begin(struct program *p, uint64_t seed)
     return g;
 }
 
-void program_generate_loop(struct program *p, uint64_t seed)
+void program_generate_loop(struct program *p, uint64_t seed, bool sheet)
 {
-    struct generator g = begin(p, seed);
+    struct generator g = begin(p, seed, sheet);
 
-    for (int n = 0; n < 6; n++)
+    for (int n = 0; n < (sheet ? 2 : 6); n++)
         emit_row(&g);
     emit_loop(&g, 30 + (int)draw(&g, 40));
     emit_row(&g);
@@ -294,7 +301,7 @@ void program_generate_loop(struct program *p, uint64_t seed)
 
 void program_generate(struct program *p, uint64_t seed, int length)
 {
-    struct generator g = begin(p, seed);
+    struct generator g = begin(p, seed, false);
 
     if (length > PROGRAM_LENGTH_MAX)
         length = PROGRAM_LENGTH_MAX;

@@ -303,9 +303,27 @@ static void show_copies(struct trace *out, const struct copies *c)
     }
 }
 
+static int present = -1; /* the machine there is: eager or not; -1: none that may be used */
+
+void paris_force(const char *const *variables)
+{
+    static const char *const *before;
+    char name[64];
+
+    for (int i = 0; before && before[i]; i++) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(before[i], "="), before[i]);
+        unsetenv(name);
+    }
+    for (int i = 0; variables[i]; i++) {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(variables[i], "="), variables[i]);
+        setenv(name, strchr(variables[i], '=') + 1, 1);
+    }
+    before = variables;
+    present = -1;
+}
+
 void paris_run(const struct program *p, struct trace *out, bool eager)
 {
-    static int present = -1; /* the machine there is: eager or not */
     struct execution x = {.p = p, .out = out};
     struct copies left = {.count = 0};
 

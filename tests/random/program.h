@@ -166,8 +166,8 @@ struct program {
 uint64_t geometry_count(const struct geometry *g);
 
 void program_generate(struct program *p, uint64_t seed, int length);
-/* Mostly one long loop. */
-void program_generate_loop(struct program *p, uint64_t seed);
+/* Mostly one long loop; sheet: over fields of a sheet of two axes, so wide that it can be strips. */
+void program_generate_loop(struct program *p, uint64_t seed, bool sheet);
 /* Drops what cannot run; the executors need this done. */
 void program_normalise(struct program *p);
 /* A C program with CM_ calls. */
@@ -212,6 +212,9 @@ void paris_run(const struct program *p, struct trace *out, bool eager);
 
 /* By the machine at hand, since it was made. */
 uint64_t paris_kernels_built(void);
+/* From now on machines have these environment variables, NAME=value, NULL at the end, and not those of the call
+ * before. */
+void paris_force(const char *const *variables);
 /* Calls that were not recorded again: of a step seen before. */
 uint64_t paris_calls_foreseen(void);
 

@@ -1,9 +1,10 @@
 /* test_random.c - random Paris programs: fused, eager and the oracle agree bit for bit.
  *
  *     test_random [--programs N] [--seed S] [--length L] [--seconds T] [--mode fused|eager|both] [--print SEED]
- *                 [--sabotage 1..3] [--shrink-seconds T] [--loops]
+ *                 [--sabotage 1..3] [--shrink-seconds T] [--loops] [--sheets] [--shapes]
  *
- * Programs S, S+1, … of L instructions, until N are done or T seconds have gone. A failing program is shrunk and
+ * Programs S, S+1, … of L instructions, until N are done or T seconds have gone. With --shapes each of the device
+ * shapes below is forced, one after the other, for N programs or its share of the seconds. A failing program is shrunk and
  * printed as C; exit status 1. Most of the time goes into compiling kernels, which the disk cache remembers.
  */
 #include <getopt.h>
@@ -14,10 +15,35 @@
 
 #include "program.h"
 
+/* What the engine decides by itself is forced. Evaluations come early, so that loops are found. Many turns are one
+ * kernel only of plans whose kernels are as good as can be, which take long to compile: BEST. */
+#define OFTEN "LUTETIA_FLUSH_AFTER=48"
+#define BEST "LUTETIA_FLUSH_AFTER=48", "LUTETIA_BOX_AFTER=0"
+
+enum { VARIABLES_MOST = 8 };
+
+static const char *const shapes[][VARIABLES_MOST] = {
+    {"LUTETIA_VECTOR=1", OFTEN},
+    {"LUTETIA_VECTOR=4", OFTEN},
+    {"LUTETIA_VECTOR=8", OFTEN},
+    {"LUTETIA_VECTOR=16", OFTEN},
+    {"LUTETIA_VECTOR=4", "LUTETIA_STRIPS=1", "LUTETIA_COLUMNS=16", "LUTETIA_TURNS=1", OFTEN},
+    {"LUTETIA_VECTOR=8", "LUTETIA_STRIPS=1", "LUTETIA_COLUMNS=16", "LUTETIA_STRIPS_EACH=16",
+     OFTEN},
+    {"LUTETIA_VECTOR=16", "LUTETIA_STRIPS=1", "LUTETIA_COLUMNS=32", "LUTETIA_REPLAY=0", OFTEN},
+    {"LUTETIA_STRIPS=0", "LUTETIA_TURNS=1", "LUTETIA_RUN=16", OFTEN},
+    {"LUTETIA_VECTOR=4", "LUTETIA_TURNS=2", "LUTETIA_COLUMNS=16", BEST},
+    {"LUTETIA_VECTOR=8", "LUTETIA_TURNS=4", "LUTETIA_COLUMNS=16", BEST},
+    {"LUTETIA_VECTOR=16", "LUTETIA_TURNS=3", "LUTETIA_COLUMNS=48", BEST},
+    {"LUTETIA_VECTOR=16", "LUTETIA_STRIPS=1", "LUTETIA_TURNS=8", BEST},
+};
+
+enum { SHAPES_COUNT = sizeof shapes / sizeof *shapes };
+
 struct options {
     long programs, seed, length;
     double seconds, shrink_seconds;
-    bool fused, eager, loops;
+    bool fused, eager, loops, sheets, shapes;
     enum sabotage sabotage;
 };
 
@@ -113,8 +139,8 @@ static bool sabotage_shows(const struct program *p, enum sabotage sabotage)
 
 static void generate(const struct options *o, struct program *p, uint64_t seed)
 {
-    if (o->loops)
-        program_generate_loop(p, seed);
+    if (o->loops || o->sheets)
+        program_generate_loop(p, seed, o->sheets);
     else
         program_generate(p, seed, (int)o->length);
     program_normalise(p);
@@ -142,7 +168,7 @@ static void usage(void)
 {
     fputs("usage: test_random [--programs N] [--seed S] [--length L] [--seconds T]\n"
           "                   [--mode fused|eager|both] [--print SEED] [--sabotage 1..3]\n"
-          "                   [--shrink-seconds T] [--loops]\n",
+          "                   [--shrink-seconds T] [--loops] [--sheets] [--shapes]\n",
           stderr);
     exit(2);
 }
@@ -157,6 +183,38 @@ static long number(const char *text)
     return value;
 }
 
+/* How many of so many seconds' programs differ: 0 or 1, for the first one ends it. */
+static long many(const struct options *o, double seconds, long *done)
+{
+    double start = now_s();
+    long failed = 0;
+
+    for (*done = 0; *done < o->programs && failed == 0 && now_s() - start < seconds; ++*done)
+        failed += !one(o, (uint64_t)(o->seed + *done));
+    return failed;
+}
+
+static long in_shapes(const struct options *o, long *done)
+{
+    long failed = 0;
+
+    for (int i = 0; i < SHAPES_COUNT && !failed; i++) {
+        long of_shape;
+        double start = now_s();
+        paris_force(shapes[i]);
+        failed = many(o, o->seconds / SHAPES_COUNT, &of_shape);
+        *done += of_shape;
+        for (int k = 0; shapes[i][k]; k++)
+            printf("%s ", shapes[i][k] + strlen("LUTETIA_"));
+        printf("\n    %ld programs, %llu kernels built, %llu calls foreseen, %.1f s%s\n",
+               of_shape, (unsigned long long)paris_kernels_built(),
+               (unsigned long long)paris_calls_foreseen(), now_s() - start,
+               failed ? ": differs" : "");
+        fflush(stdout);
+    }
+    return failed;
+}
+
 int main(int argc, char **argv)
 {
     static const struct option names[] = {{"programs", required_argument, NULL, 'n'},
@@ -168,6 +226,8 @@ int main(int argc, char **argv)
                                           {"print", required_argument, NULL, 'p'},
                                           {"shrink-seconds", required_argument, NULL, 'k'},
                                           {"loops", no_argument, NULL, 'o'},
+                                          {"sheets", no_argument, NULL, 'w'},
+                                          {"shapes", no_argument, NULL, 'd'},
                                           {NULL, 0, NULL, 0}};
     struct options o = {.programs = 200,
                         .seed = 1,
@@ -191,6 +251,10 @@ int main(int argc, char **argv)
             o.seconds = (double)number(optarg);
         else if (c == 'o')
             o.loops = true;
+        else if (c == 'd')
+            o.shapes = true;
+        else if (c == 'w')
+            o.sheets = true;
         else if (c == 'k')
             o.shrink_seconds = (double)number(optarg);
         else if (c == 'm') {
@@ -208,10 +272,7 @@ int main(int argc, char **argv)
             usage();
         }
     }
-    while (done < o.programs && failed == 0 && now_s() - start < o.seconds) {
-        failed += !one(&o, (uint64_t)(o.seed + done));
-        done++;
-    }
+    failed = o.shapes ? in_shapes(&o, &done) : many(&o, o.seconds, &done);
     printf("%ld programs from seed %ld, %ld instructions each at most: %ld differ, %llu "
            "kernels built, %llu calls foreseen, %.1f s\n",
            done, o.seed, o.length, failed, (unsigned long long)paris_kernels_built(),

@@ -1,0 +1,32 @@
+/* of_machine.c - see of_machine.h. */
+#include "of_machine.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "paris_internal.h"
+
+int bench_machine_start(struct bench_report *r, struct bench_options *o, bool settled, int argc,
+                        char **argv)
+{
+    static char device[256];
+    int status = bench_options_parse(o, argc, argv);
+    if (status >= 0)
+        return status;
+    if (settled)
+        setenv("LUTETIA_BOX_AFTER", "0", 0);
+    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
+    bench_report_init(r, o->name, bench_threads_count(), device);
+    return -1;
+}
+
+bool bench_machine_said(enum machine_status status)
+{
+    return status == MACHINE_OK ||
+           bench_fail("the machine: %s", machine_error(paris_machine()));
+}
+
+bool bench_machine_finished(void)
+{
+    return bench_machine_said(machine_finish(paris_machine()));
+}

@@ -1,0 +1,152 @@
+/* loops.c - calls that repeat, and many turns of them at once.
+ *
+ * Until the calls of a loop are known as an edge they are performed one by one. Where the last few were met
+ * before, by hash, tells a period; a whole period more tells that it is one. From then on evaluations come
+ * after whole turns, always at the same call, so that they lead from a state to itself.
+ *
+ * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
+ * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
+ * (they leave nothing to compute) while such loops run. */
+#include "replay.h"
+
+/* A loop that has turned so often is tried with many turns at once; after one that was not worth it, so many
+ * evaluations later again. */
+enum { TURNS_SEEN = 6, TRY_AGAIN = 8192 };
+
+/* ---- found by the calls made ---- */
+
+/* A window's hash is a polynomial in it; what leaves the window has been multiplied WINDOW times. */
+#define WINDOW_FACTOR UINT64_C(0x9e3779b97f4a7c15)
+#define SQUARE(x) ((x) * (x))
+#define WINDOW_LEAVES SQUARE(SQUARE(SQUARE(WINDOW_FACTOR)))
+_Static_assert(WINDOW == 8, "WINDOW_LEAVES is the factor to that power");
+
+void loops_call(struct machine *m, const struct machine_call *call)
+{
+    struct history *h = &m->replay->history;
+    uint64_t hash = (uint64_t)(uintptr_t)call->again ^ (uint64_t)call->vpset << 48;
+    for (uint32_t i = 0; i < call->words_count; i++)
+        hash = (hash ^ hash >> 29 ^ call->words[i]) * 0xbf58476d1ce4e5b9u;
+    hash ^= hash >> 32;
+    uint32_t at = h->count++;
+    if (h->period && h->hashes[(at - h->period) % HISTORY] == hash)
+        h->match++;
+    else
+        h->period = h->match = 0;
+    uint64_t old = at >= WINDOW ? h->hashes[(at - WINDOW) % HISTORY] : 0;
+    h->window = h->window * WINDOW_FACTOR + hash - old * WINDOW_LEAVES;
+    h->hashes[at % HISTORY] = hash;
+    uint32_t slot = (uint32_t)(h->window >> 40) % WINDOWS;
+    if (!h->period && h->met[slot].window == h->window &&
+        at - h->met[slot].at < HISTORY - WINDOW)
+        h->period = at - h->met[slot].at;
+    h->met[slot].window = h->window;
+    h->met[slot].at = at;
+}
+
+bool replay_in_loop(const struct machine *m)
+{
+    const struct history *h = m->replay ? &m->replay->history : NULL;
+    return h && h->period && h->match >= h->period;
+}
+
+bool loop_turn_ends(const struct machine *m)
+{
+    const struct replay *p = m->replay;
+    return replay_in_loop(m) && p->since % p->history.period == 0 &&
+           m->nodes_pending >= m->settings.flush_after / 8;
+}
+
+/* ---- many turns at once ---- */
+
+static bool loop_is(const struct machine *m, const struct edge *e)
+{
+    return e->alone && e->to == m->replay->active;
+}
+
+/* How many turns of such a plan are evaluated at once. */
+static int turns_at_once(const struct machine *m, const struct plan *plan)
+{
+    int turns = plan_turns(plan);
+    return turns < m->device.shape.turns ? turns : m->device.shape.turns;
+}
+
+int loop_turns_noted(const struct machine *m, const struct edge *e)
+{
+    const struct replay *p = m->replay;
+    if (!loop_is(m, e) || !p->thorough || e->runs < TURNS_SEEN)
+        return 1;
+    int turns = turns_at_once(m, e->deed.plan);
+    return turns * e->calls_count <= CALLS_MOST ? turns : 1;
+}
+
+/* Loops that are worth it are to be evaluated many turns at a time. For that all turns must begin alike, and those
+ * that are known do not. */
+static bool become_thorough(struct machine *m, const struct edge *e)
+{
+    struct replay *p = m->replay;
+    if (p->thorough || m->device.shape.turns < 2 || m->flushes < p->not_before ||
+        e->runs < TURNS_SEEN || !e->alone)
+        return false;
+    int turns = turns_at_once(m, e->deed.plan);
+    if (turns < 2 || m->turns_in_row < 2 * turns) /* who looks more often gains nothing */
+        return false;
+    p->thorough = true;
+    p->built_at = m->flushes;
+    states_forget(m);
+    return true;
+}
+
+/* Where many turns have not run for long, temporaries are left alone again. */
+static void stay_thorough(struct machine *m)
+{
+    struct replay *p = m->replay;
+    if (!p->thorough || m->flushes - p->built_at <= 64)
+        return;
+    p->thorough = false;
+    states_forget(m);
+}
+
+void loops_turned(struct machine *m, const struct edge *e, bool many)
+{
+    if (many)
+        m->replay->built_at = m->flushes;
+    else if (!become_thorough(m, e))
+        stay_thorough(m);
+}
+
+void loop_build_turns(struct machine *m)
+{
+    struct replay *p = m->replay;
+    int active = p->active, at = (int)(p->edge - p->states[active].edges);
+    m->building = m->hold_flush = true;
+    p->building_calls = m->calls_noted;
+    replay_catch_up(m);
+    m->hold_flush = false;
+    m->flush_due = true;
+    run_flush_due(m);
+    m->building = false;
+    bool back = p->active == active && p->states[active].edges_count > at;
+    if (back && p->states[active].edges[at].turns.plan)
+        return;
+    p->thorough = false; /* in vain */
+    p->not_before = m->flushes + TRY_AGAIN;
+    states_forget(m);
+}
+
+bool replay_thorough(const struct machine *m)
+{
+    return m->replay && m->replay->thorough;
+}
+
+void replay_resolve(struct machine *m)
+{
+    struct replay *p = m->replay;
+    if (!replay_thorough(m))
+        return;
+    p->depth++; /* it belongs to the calls before */
+    for (int i = 1; i < m->sets_count; i++)
+        if (m->sets[i].used)
+            flag_resolved(m, &m->sets[i], MACHINE_OVERFLOW);
+    p->depth--;
+}

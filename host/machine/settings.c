@@ -1,0 +1,94 @@
+/* settings.c - what the engine decides by itself can be forced, by environment variables.
+ *
+ * A row of the table for each; docs/engine.md says what they are for. One that is not set, or empty, is as if
+ * it were not there; one that says nonsense makes no machine. */
+#include "internal.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct setting {
+    const char *variable;
+    size_t at;                   /* in struct settings */
+    uint64_t usual, least, most; /* usual: where nobody says anything */
+    uint64_t multiple;           /* of which it is one; 0: any number */
+    const char *may_be;
+} table[] = {
+#define SETTING(variable, name) "LUTETIA_" #variable, offsetof(struct settings, name)
+    {SETTING(EAGER, eager), 0, 0, 1, 0, "0 or 1"},
+    {SETTING(REPLAY, replay), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(FLUSH_AFTER, flush_after), PENDING_MANY, 1, 1 << 30, 0, "a number from 1 to 2^30"},
+    {SETTING(OPTIMISE_AFTER, optimise_after), 4 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
+     "a power of two from 1 to 2^30"},
+    {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},
+/* The knobs, which a file of tuning.c may say too: */
+#define KNOB(variable, which) SETTING(variable, knob[which]), SETTING_FREE
+    {KNOB(VECTOR, MACHINE_VECTOR), 1, 16, 0, "1, 4, 8 or 16"},
+    {KNOB(RUN, MACHINE_RUN), 1, 1 << 20, 0, "1, or a multiple of 16 up to 2^20"},
+    {KNOB(STREAMS, MACHINE_STREAMS), 0, 1, 0, "0 or 1"},
+    {KNOB(TURNS, MACHINE_TURNS), 1, 64, 0, "a number from 1 to 64"},
+    {KNOB(COLUMNS, MACHINE_COLUMNS), 16, 1 << 16, 16, "a multiple of 16 from 16 to 65536"},
+    {KNOB(STRIPS_EACH, MACHINE_STRIPS_EACH), 1, 64, 0, "a number from 1 to 64"},
+#undef KNOB
+#undef SETTING
+};
+
+bool settings_number(const char *text, uint64_t *out)
+{
+    char *end;
+    if (*text < '0' || *text > '9')
+        return false;
+    errno = 0;
+    *out = strtoull(text, &end, 10);
+    return !*end && !errno;
+}
+
+static bool suits(const struct setting *s, uint64_t value)
+{
+    if (value < s->least || value > s->most || (s->multiple && value % s->multiple))
+        return false;
+    if (s->at == offsetof(struct settings, processors))
+        return (value & (value - 1)) == 0;
+    if (s->at == offsetof(struct settings, knob[MACHINE_VECTOR]))
+        return value == 1 || value == 4 || value == 8 || value == 16;
+    if (s->at == offsetof(struct settings, knob[MACHINE_RUN]))
+        return value == 1 || value % 16 == 0;
+    return true;
+}
+
+enum machine_status settings_read(struct machine *m)
+{
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const struct setting *s = &table[i];
+        const char *text = getenv(s->variable);
+        uint64_t value = s->usual;
+        if (text && *text && (!settings_number(text, &value) || !suits(s, value)))
+            return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is \"%.40s\")",
+                                s->variable, s->may_be, text);
+        memcpy((char *)&m->settings + s->at, &value, sizeof value);
+    }
+    return MACHINE_OK;
+}
+
+/* The knobs are the last rows, in order. */
+static const struct setting *knob_row(enum machine_knob knob)
+{
+    return &table[sizeof table / sizeof *table - MACHINE_KNOBS + knob];
+}
+
+bool machine_knob_allows(enum machine_knob knob, int value)
+{
+    return value >= 0 && suits(knob_row(knob), (uint64_t)value);
+}
+
+const char *settings_knob_may_be(enum machine_knob knob)
+{
+    return knob_row(knob)->may_be;
+}

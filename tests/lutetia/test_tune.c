@@ -1,0 +1,135 @@
+/* test_tune.c - `lutetia tune`: what it measures gives the bits of plain C whatever the knobs are; the command. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "child.h"
+#include "tune_work.h"
+
+enum { HEIGHT = 40, WIDTH = 2048, COUNT = HEIGHT * WIDTH, RUNS = 3, TURNS = 32 };
+
+/* ---- the stencil, in plain C ---- */
+
+static float wanted[COUNT];
+
+static void spread(float *water, const float *absorbency, int axis)
+{
+    static float in[COUNT];
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            int lower = axis ? y * WIDTH + (x + WIDTH - 1) % WIDTH
+                             : (y + HEIGHT - 1) % HEIGHT * WIDTH + x;
+            int here = y * WIDTH + x;
+            in[here] = (water[lower] - water[here]) * absorbency[here];
+        }
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            int upper = axis ? y * WIDTH + (x + 1) % WIDTH : (y + 1) % HEIGHT * WIDTH + x;
+            int here = y * WIDTH + x;
+            float w = water[here] + in[here] - in[upper];
+            w = w < 1 ? w : 1;
+            water[here] = w > 0 ? w : 0;
+        }
+}
+
+static int oracle(void **state)
+{
+    static float absorbency[COUNT];
+    (void)state;
+    tune_work_start(wanted, COUNT, 1);
+    tune_work_start(absorbency, COUNT, 2);
+    for (int i = 0; i < RUNS * TURNS; i++)
+        for (int axis = 0; axis < 2; axis++)
+            spread(wanted, absorbency, axis);
+    return setenv("LUTETIA_BOX_AFTER", "0", 1);
+}
+
+static void every_knob_gives_the_same_bits(void **state)
+{
+    static const struct {
+        enum machine_knob knob;
+        int value;
+    } forced[] = {{MACHINE_VECTOR, 16},     {MACHINE_VECTOR, 8},
+                  {MACHINE_VECTOR, 1},      {MACHINE_RUN, 48},       {MACHINE_RUN, 1},
+                  {MACHINE_TURNS, 3},       {MACHINE_COLUMNS, 96},   {MACHINE_STREAMS, 0},
+                  {MACHINE_STRIPS_EACH, 1}, {MACHINE_STRIPS_EACH, 7}};
+    static float is[COUNT];
+
+    (void)state;
+    for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
+        struct machine_tuning tuning = machine_tuning_usual();
+        tuning.of[forced[i].knob] = forced[i].value;
+        struct tune_work *w = tune_work_create(TUNE_STENCIL, HEIGHT, &tuning);
+        if (!w)
+            fail_msg("%s", tune_work_error());
+        assert_int_equal(tune_work_count(w), COUNT);
+        for (int run = 0; run < RUNS; run++)
+            if (!(tune_work_run(w) > 0))
+                fail_msg("%s", tune_work_error());
+        assert_true(tune_work_read(w, is));
+        for (int n = 0; n < COUNT; n++)
+            if (memcmp(&is[n], &wanted[n], sizeof *is))
+                fail_msg("%s %d: row %d, column %d: %a instead of %a",
+                         machine_knob_name(forced[i].knob), forced[i].value, n / WIDTH,
+                         n % WIDTH, is[n], wanted[n]);
+        tune_work_destroy(w);
+    }
+}
+
+/* ---- the command ---- */
+
+static void fails_with(struct child *child, int status, const char *said)
+{
+    child_run(child);
+    assert_int_equal(child->status, status);
+    if (!strstr(child->errors, said) ||
+        strchr(child->errors, '\n') != strrchr(child->errors, '\n'))
+        fail_msg("\"%s\" instead of \"%s\"", child->errors, said);
+}
+
+static void wrong_lines_are_said(void **state)
+{
+    const char *lutetia = getenv("LUTETIA");
+    struct child word = {.arguments = {lutetia, "tune", "faster"}};
+    struct child forced = {.arguments = {lutetia, "tune"}, .variables = {"LUTETIA_TURNS=2"}};
+    struct child nowhere = {.arguments = {lutetia, "tune", "--dry-run"},
+                            .variables = {"LUTETIA_DEVICE=nonsense"}};
+
+    (void)state;
+    fails_with(&word, 2, "'faster'");
+    fails_with(&forced, 2, "LUTETIA_TURNS");
+    fails_with(&nowhere, 1, "nonsense");
+}
+
+/* Ctrl-C: what was kept stays, and nothing is left beside it. */
+static void an_interrupted_one_keeps_nothing(void **state)
+{
+    char folder[] = "/tmp/lutetia-tune-XXXXXX", cache[64], command[128];
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    snprintf(cache, sizeof cache, "XDG_CACHE_HOME=%s", folder);
+    struct child child = {.arguments = {getenv("LUTETIA"), "tune"},
+                          .variables = {cache},
+                          .interrupt_after_ms = 700};
+    fails_with(&child, 130, "interrupted");
+    snprintf(command, sizeof command, "ls %s/lutetia | grep -q tuning", folder);
+    assert_int_not_equal(system(command), 0);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_knob_gives_the_same_bits),
+        cmocka_unit_test(wrong_lines_are_said),
+        cmocka_unit_test(an_interrupted_one_keeps_nothing),
+    };
+    return cmocka_run_group_tests(tests, oracle, NULL);
+}

@@ -1,0 +1,233 @@
+/* test_tuning.c - what `lutetia tune` keeps: the file, who is heard first, and that it reaches the kernels. */
+#include "support.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Files are kept here, kernels where they usually are. */
+static char cache_before[400];
+static char folder[] = "/tmp/lutetia-tuning-XXXXXX";
+
+static struct machine *opened(const struct machine_tuning *tuning)
+{
+    struct machine_config config = machine_config_default();
+    struct machine *m = NULL;
+    config.tuning = tuning;
+    config.eager = 0;
+    assert_ok(machine_create(&config, &m), m);
+    return m;
+}
+
+static struct machine_tuning some(void)
+{
+    return (struct machine_tuning){{[MACHINE_VECTOR] = 8,
+                                    [MACHINE_RUN] = 32,
+                                    [MACHINE_STREAMS] = 0,
+                                    [MACHINE_TURNS] = 3,
+                                    [MACHINE_COLUMNS] = 48,
+                                    [MACHINE_STRIPS_EACH] = 5}};
+}
+
+static void assert_tuned(const struct machine_tuning *tuning, struct machine_tuning wanted)
+{
+    struct machine *m = opened(tuning);
+    struct machine_tuning is = machine_tuning_get(m);
+    assert_memory_equal(&is, &wanted, sizeof is);
+    machine_destroy(m);
+}
+
+/* The only file whose name begins so; removes it where path is NULL. False: there is none. */
+static bool kept_file(char *path, size_t size)
+{
+    char where[300];
+    bool found = false;
+    snprintf(where, sizeof where, "%s/lutetia", folder);
+    DIR *d = opendir(where);
+    if (!d)
+        return false;
+    for (struct dirent *e; (e = readdir(d));) {
+        if (strncmp(e->d_name, "tuning-", 7) != 0)
+            continue;
+        assert_false(found);
+        assert_null(strchr(e->d_name, '.')); /* no temporary one is left */
+        found = true;
+        if (path)
+            snprintf(path, size, "%s/%s", where, e->d_name);
+    }
+    closedir(d);
+    return found;
+}
+
+static void a_tuning_is_kept_and_read_again(void **state)
+{
+    char path[600], text[800];
+    struct machine *m = opened(NULL);
+    struct machine_tuning usual = machine_tuning_get(m), wanted = some();
+
+    (void)state;
+    assert_false(kept_file(NULL, 0));
+    assert_int_equal(machine_tuning_describe(m, text, sizeof text), MACHINE_UNTUNED);
+    assert_ok(machine_tuning_keep(m, &wanted), m);
+    assert_true(kept_file(path, sizeof path));
+    assert_int_equal(machine_tuning_describe(m, text, sizeof text), MACHINE_TUNED);
+    assert_non_null(strstr(text, path));
+    assert_tuned(NULL, wanted);
+    /* A configuration is heard before the file, the environment before both. */
+    struct machine_tuning none = machine_tuning_usual();
+    assert_tuned(&none, usual);
+    setenv("LUTETIA_COLUMNS", "64", 1);
+    wanted.of[MACHINE_COLUMNS] = 64;
+    assert_tuned(NULL, wanted);
+    unsetenv("LUTETIA_COLUMNS");
+    setenv("LUTETIA_TUNED", "0", 1);
+    assert_tuned(NULL, usual);
+    unsetenv("LUTETIA_TUNED");
+    /* What may not be is not kept. */
+    wanted.of[MACHINE_VECTOR] = 2;
+    assert_int_equal(machine_tuning_keep(m, &wanted), MACHINE_BAD_ARGUMENT);
+    support_failed(m, MACHINE_BAD_ARGUMENT, "vector");
+    wanted = some();
+    assert_tuned(NULL, wanted);
+    machine_destroy(m);
+}
+
+/* One line of the file is another. */
+static void line_change(const char *path, const char *begins, const char *with)
+{
+    char bytes[4096], out[8192] = "";
+    FILE *f = fopen(path, "r");
+    assert_non_null(f);
+    while (fgets(bytes, sizeof bytes, f))
+        strcat(out, strncmp(bytes, begins, strlen(begins)) == 0 ? with : bytes);
+    fclose(f);
+    f = fopen(path, "w");
+    assert_non_null(f);
+    fputs(out, f);
+    fclose(f);
+}
+
+static void a_file_that_is_wrong_is_as_if_it_were_not_there(void **state)
+{
+    static const char *const changes[][3] = {{"lutetia", "lutetia tuning 2\n", "line 1"},
+                                             {"driver", "driver 0.1\n", "driver"},
+                                             {"device", "device another\n", "device"},
+                                             {"vector", "vector 3\n", "1, 4, 8 or 16"},
+                                             {"turns", "turns\n", "turns"},
+                                             {"columns", "", "columns"},
+                                             {"end", "", "too early"},
+                                             {"end", "end\nend\n", "the last"}};
+    struct machine *m = opened(&(struct machine_tuning){{-1, -1, -1, -1, -1, -1}});
+    struct machine_tuning usual = machine_tuning_get(m), tuning = some();
+    char path[600], text[800];
+
+    (void)state;
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        assert_ok(machine_tuning_keep(m, &tuning), m);
+        assert_true(kept_file(path, sizeof path));
+        line_change(path, changes[i][0], changes[i][1]);
+        assert_int_equal(machine_tuning_describe(m, text, sizeof text), MACHINE_TUNED_BADLY);
+        if (!strstr(text, changes[i][2]) || strchr(text, '\n'))
+            fail_msg("\"%s\" instead of \"%s\"", text, changes[i][2]);
+        assert_tuned(NULL, usual);
+    }
+    assert_int_equal(truncate(path, 100000), 0);
+    assert_int_equal(machine_tuning_describe(m, text, sizeof text), MACHINE_TUNED_BADLY);
+    assert_tuned(NULL, usual);
+    unlink(path);
+    machine_destroy(m);
+}
+
+static void a_folder_that_cannot_be_is_said(void **state)
+{
+    struct machine *m = opened(NULL);
+    struct machine_tuning tuning = some();
+
+    (void)state;
+    setenv("XDG_CACHE_HOME", "/dev/null", 1);
+    assert_int_equal(machine_tuning_keep(m, &tuning), MACHINE_BAD_ARGUMENT);
+    support_failed(m, MACHINE_BAD_ARGUMENT, "/dev/null");
+    setenv("XDG_CACHE_HOME", folder, 1);
+    machine_destroy(m);
+}
+
+/* The options that the plan's kernels are made with. */
+static void knobs_reach_the_kernels(void **state)
+{
+    struct machine_tuning tuning = some();
+    struct machine_config config = machine_config_default();
+    struct machine *m = NULL;
+    char path[300], line[400] = "";
+
+    (void)state;
+    if (*cache_before)
+        setenv("XDG_CACHE_HOME", cache_before, 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+    snprintf(path, sizeof path, "%s/dump", folder);
+    config.dump_dir = path;
+    config.tuning = &tuning;
+    config.eager = 0;
+    setenv("LUTETIA_STRIPS", "1", 1);
+    assert_ok(machine_create(&config, &m), m);
+    unsetenv("LUTETIA_STRIPS");
+    int set = support_set(m, 2, 8, 192);
+    uint32_t field = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+    struct machine_value *v = machine_coordinate(m, 1, 32);
+    v = machine_to_float(m, v, MACHINE_F32, false);
+    assert_ok(
+        machine_field_store(m, field, machine_unary(m, MACHINE_FSQRT, v), MACHINE_EVERYWHERE),
+        m);
+    assert_ok(machine_flush(m), m);
+    machine_begin(m);
+    v = machine_field_value(m, field, MACHINE_F32, MACHINE_EVERYWHERE);
+    for (int i = 0; i < 3; i++) { /* dear enough to be kept for the neighbours */
+        v = machine_unary(m, MACHINE_FSQRT, machine_unary(m, MACHINE_FSQRT, v));
+        v = machine_binary(m, MACHINE_FDIV, machine_shift(m, v, 0, 1),
+                           machine_shift(m, v, 0, -1));
+    }
+    assert_ok(machine_field_store(m, field, v, MACHINE_EVERYWHERE), m);
+    assert_ok(machine_finish(m), m);
+    machine_destroy(m);
+    bool in_strips = false;
+    for (int i = 0; i < 8; i++) {
+        snprintf(path, sizeof path, "%s/dump/%04d.cl", folder, i);
+        FILE *f = fopen(path, "r");
+        if (!f)
+            continue;
+        assert_non_null(fgets(line, sizeof line, f));
+        fclose(f);
+        assert_non_null(strstr(line, "-DVECTOR=8 "));
+        assert_non_null(strstr(line, "-DHALO=8 "));
+        in_strips = in_strips || strstr(line, "-DCOLUMNS=48 ");
+    }
+    if (!in_strips)
+        fail_msg("no kernel of strips of 48 columns: %s", line);
+}
+
+static int folder_make(void **state)
+{
+    const char *cache = getenv("XDG_CACHE_HOME");
+    (void)state;
+    snprintf(cache_before, sizeof cache_before, "%s", cache ? cache : "");
+    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
+}
+
+static int folder_remove(void **state)
+{
+    char command[400];
+    (void)state;
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tuning_is_kept_and_read_again),
+        cmocka_unit_test(a_file_that_is_wrong_is_as_if_it_were_not_there),
+        cmocka_unit_test(a_folder_that_cannot_be_is_said),
+        cmocka_unit_test(knobs_reach_the_kernels),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
