@@ -5,7 +5,7 @@
 #include "paper_page.h"
 #include "sheet.h"
 
-enum { SHEET_TEMPORARIES = 16, SHEET_DRIED_BITS = 31 };
+enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
