@@ -110,7 +110,11 @@ inline VU column(int x, int W)
 #define LOAD_u16(p, i) CONVERT(uint, GET(ushort, p, i))
 #define LOAD_u32(p, i) GET(uint, p, i)
 #define LOAD_u64(p, i) GET(ulong, p, i)
+#if defined(AHEAD) && __has_builtin(__builtin_prefetch)
+#define LOAD_f32(p, i) (__builtin_prefetch((p) + (i) + AHEAD), GET(float, p, i))
+#else
 #define LOAD_f32(p, i) GET(float, p, i)
+#endif
 #define LOAD_f64(p, i) GET(double, p, i)
 
 /* Past the caches: where arrays are larger than those, and every vector is aligned. */

@@ -164,6 +164,7 @@ static struct device_shape shape_of(const struct device *d)
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
                                  .strip_columns = strip_columns_of(columns, vector),
+                                 .columns_forced = columns && *columns,
                                  .no_strips = strips && *strips == '0',
                                  .always_strips = strips && *strips == '1',
                                  .launch_ns = 3000};

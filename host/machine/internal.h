@@ -188,6 +188,7 @@ struct device_shape {              /* what generated code should look like there
     double byte_ns;                /* ... one byte to or from memory */
     double near_byte_ns;           /* ... to or from a cache */
     int strip_columns;             /* a multiple of the vector */
+    bool columns_forced;           /* asked for */
     bool no_strips, always_strips; /* see plan.c; for tests */
     double launch_ns;              /* ... a launch */
 };

@@ -83,7 +83,7 @@ struct state {
 
 /* The last calls that were performed one by one, by hash, to see that they repeat: those that the last few
  * were met with before tell a period, and a whole period more that it is one. */
-enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024 };
+enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128 };
 
 struct history {
     uint64_t hashes[HISTORY], window;
@@ -796,10 +796,11 @@ static void history_add(struct history *h, const struct machine_call *call)
     h->met[slot].at = at;
 }
 
+/* A whole period, or much of a long one, has come again. */
 bool replay_in_loop(const struct machine *m)
 {
     const struct history *h = m->replay ? &m->replay->history : NULL;
-    return h && h->period && h->match >= h->period;
+    return h && h->period && h->match >= (h->period < LOOP_SURE ? h->period : LOOP_SURE);
 }
 
 /* After a call: a turn of the loop is complete, or several if they are short. */

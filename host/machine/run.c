@@ -31,7 +31,11 @@ enum {
     HEIGHT_MOST = 1500,
     RUN_COLUMNS = 4096,
     OPTIMISE_AFTER = 4 << 20,
-    BOX_AFTER = 32 << 20
+    BOX_AFTER = 32 << 20,
+    /* More arrays than a processor foresees at once: they are fetched ahead, and better read in long pieces. */
+    ARRAYS_MANY = 16,
+    FETCH_FROM_BYTES = 4 << 20,
+    RINGS_BYTES = 512 << 10 /* of a wide strip; half of a second-level cache */
 };
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
@@ -269,15 +273,47 @@ static bool too_many_arguments(const struct kernel_text *k)
     return bytes > 1024;
 }
 
+/* Strips of many arrays are as wide as their rings allow: rows of a few hundred columns of each in turn are no streams. */
+static struct device_shape shape_for(const struct machine *m, const struct plan_graph *g,
+                                     const struct vpset *set)
+{
+    struct device_shape shape = m->device.shape;
+    int arrays = 0, bytes = 0;
+    if (!g->strips || shape.columns_forced)
+        return shape;
+    for (int i = 0; i < g->count; i++) {
+        const struct plan_node *n = &g->nodes[i];
+        arrays += (n->leaf && !n->constant) || n->target;
+        bytes += n->stored ? 3 * (int)type_bytes(n->type) : 0;
+    }
+    if (arrays <= ARRAYS_MANY)
+        return shape;
+    int most = RINGS_BYTES / (bytes + 1);
+    most = most < (int)set->width ? most : (int)set->width;
+    most = most / shape.vector * shape.vector;
+    shape.strip_columns = most > shape.strip_columns ? most : shape.strip_columns;
+    return shape;
+}
+
+static bool many_streams(const struct machine *m, const struct vpset *set,
+                         const struct kernel_text *k)
+{
+    int arrays = 0;
+    for (int i = 0; i < k->arguments_count; i++)
+        arrays += k->arguments[i].kind == ARGUMENT_INPUT;
+    return m->device.is_cpu && k->vector > 1 && arrays > ARRAYS_MANY &&
+           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
+}
+
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
                         const int *stores, int stores_count)
 {
     int set = g->nodes[stores[0]].set;
     struct kernel_text k;
     double start = watch_clock(m);
-    if (g->strips
-            ? !emit_strips(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)
-            : !emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
+    const struct device_shape shape = shape_for(m, g, &m->sets[set]);
+    if (g->strips ? !emit_strips(g, stores, stores_count, &m->sets[set], &shape, &k)
+                  : !emit_kernel(g, stores, stores_count, &m->sets[set], &shape, &k)) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
         return false;
     }
@@ -306,6 +342,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};
+    if (many_streams(m, &m->sets[set], &k))
+        strcat(k.options, " -DAHEAD=128");
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
@@ -448,8 +486,9 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
                               enum quality quality)
 {
-    /* One turn is as fast without. */
-    bool strips = m->building || m->device.shape.always_strips;
+    /* One turn of few arrays is as fast without. */
+    bool strips = m->building || m->device.shape.always_strips ||
+                  (quality != QUICK && t->count > ARRAYS_MANY);
     struct plan *p = plan_attempt(m, r, t, quality, &strips);
     if (p || !strips)
         return p;

@@ -160,13 +160,14 @@ static void settle(struct paper_sheet *p)
         double pace = p->air.settling * pigment->density;
         f_times(rate, p->height, -pace * pigment->granulation);
         f_plus(rate, rate, pace);
-        f_most(rate, rate, 1.0);
-        f_least(rate, rate, 0.0);
-
         f_times(up, p->height, pace / pigment->staining * pigment->granulation);
         f_plus(up, up, pace / pigment->staining * (1 - pigment->granulation));
-        f_most(up, up, 1.0);
-        f_least(up, up, 0.0);
+        if (pace > 0.5 || pace / pigment->staining > 0.5) { /* else they are within 0..1 */
+            f_most(rate, rate, 1.0);
+            f_least(rate, rate, 0.0);
+            f_most(up, up, 1.0);
+            f_least(up, up, 0.0);
+        }
         f_mul(up, up, p->fixed[i]);
         f_whole_of(up, p->fixed[i]);
 
@@ -175,11 +176,10 @@ static void settle(struct paper_sheet *p)
             f_max(part, rate, dry);
             f_mul(down, part, p->surface[i]);
             f_whole_of(down, p->surface[i]);
+            f_mul(part, up, wet);
+            f_sub(down, down, part);
             f_sub(p->surface[i], p->surface[i], down);
             f_add(p->fixed[i], p->fixed[i], down);
-            f_mul(part, up, wet);
-            f_add(p->surface[i], p->surface[i], part);
-            f_sub(p->fixed[i], p->fixed[i], part);
         }
         f_mul(seeped, seeped, damp);
         f_whole_of(seeped, p->infused[i]);
@@ -305,7 +305,7 @@ static void faces_weigh(const struct paper_sheet *p, struct faces *d, const stru
     f_times(d->in_below, faces->in_below, weight);
 }
 
-/* d = whole grains of out * lower + in * upper. Uses t[14]. */
+/* d = out * lower + in * upper, rounded to whole grains, and SHEET_WHOLE more. Uses t[14]. */
 static void grains_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
                         CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
 {
@@ -313,28 +313,25 @@ static void grains_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t ou
     f_mul(part, upper, in);
     f_mul(d, lower, out);
     f_add(d, d, part);
-    f_whole(d);
+    f_plus(d, d, SHEET_WHOLE);
 }
 
-/* q gets what flows through its four faces, each multiplied by weight[axis]. What comes in from below is computed again
- * from both sides' amounts: the machine would have to store a flow for the neighbour, and that takes longer.
- * Uses t[12..15]. */
+/* q gets what flows through its four faces. What comes in from below is computed again from both sides' amounts: the
+ * machine would have to store a flow for the neighbour, and that takes longer. The difference of two flows is exact while
+ * both have SHEET_WHOLE in them. Uses t[12..15]. */
 static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces faces[2])
 {
-    CM_field_id_t other = p->t[15], flow = p->t[13], sum = p->t[12];
+    CM_field_id_t other = p->t[15], flow = p->t[13], sum[2] = {p->t[12], p->t[15]};
     for (unsigned axis = 0; axis < 2; axis++) {
         const struct faces *f = &faces[axis];
         f_previous(other, q, axis);
         grains_make(p, flow, f->out_below, other, f->in_below, q);
-        if (axis == 0)
-            f_copy(sum, flow);
-        else
-            f_add(sum, sum, flow);
         f_next(other, q, axis);
-        grains_make(p, flow, f->out, q, f->in, other);
-        f_sub(sum, sum, flow);
+        grains_make(p, other, f->out, q, f->in, other);
+        f_sub(sum[axis], flow, other);
     }
-    f_add(q, q, sum);
+    f_add(q, q, sum[0]);
+    f_add(q, q, sum[1]);
 }
 
 /* d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10 upwards, or downwards from x on: w(x) + w(x-1)/2 + ...; on a sheet that is no
