@@ -9,11 +9,10 @@
  *     paper_openmp_steps(peer, 100);
  *     paper_openmp_read(peer, PAPER_PEER_FIXED, 0, out);
  *
- * The full rule (paper_openmp_*) is that of a sheet with all parts (host/paper/sheet_step.c), each operation in its place,
- * so the bits are the same; of the air it takes all but surface tension. The thesis's (paper_cmy_*) is that of a sheet
- * without parts (host/paper/paper_disperse.c), same bits too.
+ * The rule is that of a sheet with all parts (host/paper/sheet_step.c), each operation in its place,
+ * so the bits are the same; of the air it takes all but surface tension. The thesis's rule is in scene.h.
  *
- * Amounts are in grains, as the sheet has them; in the thesis's model in units.
+ * Amounts are in grains.
  * Threads: one thread calls; the steps use all that OpenMP has. */
 #ifndef LUTETIA_BENCH_PAPER_PEER_H
 #define LUTETIA_BENCH_PAPER_PEER_H
@@ -57,17 +56,5 @@ void paper_openmp_start(struct paper_openmp *o);
 /* Errors: false, bench_error(): the air has surface tension. */
 bool paper_openmp_air(struct paper_openmp *o, const struct paper_air *air);
 void paper_openmp_steps(struct paper_openmp *o, int steps_count);
-
-/* ---- the thesis's model: layers ABSORBENCY, WATER, INFUSED ---- */
-
-struct paper_cmy;
-
-struct paper_cmy *paper_cmy_create(const struct paper_peer_config *config);
-void paper_cmy_destroy(struct paper_cmy *o); /* takes NULL */
-void paper_cmy_write(struct paper_cmy *o, enum paper_peer_layer layer, int pigment,
-                     const float *values);
-void paper_cmy_read(const struct paper_cmy *o, enum paper_peer_layer layer, int pigment,
-                    float *values);
-void paper_cmy_steps(struct paper_cmy *o, int steps_count);
 
 #endif

@@ -543,9 +543,10 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
+/* Of many arrays the arguments and the rings of many turns would not fit. */
 int plan_turns(const struct plan *p)
 {
-    return p->quality == BOXED ? p->turns_most : 1;
+    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
 }
 
 const int *plan_stored(const struct plan *p, int *count)
