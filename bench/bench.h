@@ -14,6 +14,7 @@ int bench_scan_main(int argc, char **argv);
 int bench_rank_main(int argc, char **argv);
 int bench_life_main(int argc, char **argv);
 int bench_heat_main(int argc, char **argv);
+int bench_paper_main(int argc, char **argv);
 int bench_paris_main(int argc, char **argv);
 int bench_fonts_main(int argc, char **argv);
 

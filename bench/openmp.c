@@ -124,6 +124,15 @@ static void move(float *restrict field, const float *restrict in, const float *r
         field[x] = moved(field[x], in[x], out[x]);
 }
 
+static void dry(float *water, const float *wet, float humidity, int x0, int x1)
+{
+#pragma omp simd
+    for (int x = x0; x < x1; x++) {
+        float t = wet[x] - humidity;
+        water[x] = t > 0.0f ? t : 0.0f;
+    }
+}
+
 /* The neighbour above the last fiber of the rectangle: -1 if it takes no part. */
 static int beyond(int end, int begin, int length)
 {
@@ -216,10 +225,24 @@ static void strip_y(const struct diffusion_openmp *o, int x0, int x1)
             step = STRIP;
         }
         flows(s, o->absorbency + x0 + y * pitch, from, step, out[0], 0, count, into, wet);
-        memcpy(f[0], wet, bytes);
+        if (s->humidity > 0)
+            dry(f[0], wet, s->humidity, 0, count);
+        else
+            memcpy(f[0], wet, bytes);
         for (int i = 1; i < DIFFUSION_FIELDS_COUNT; i++)
             move(f[i], in[i], out[i], 0, count);
     }
+}
+
+/* What is not in the rectangle dries too. */
+static void rim_dry(const struct diffusion_openmp *o, int y)
+{
+    const struct diffusion_scene *s = &o->scene;
+    float *water = o->field[0] + (size_t)y * o->pitch;
+    bool inside = y >= s->y0 && y < s->y1;
+    dry(water, water, s->humidity, 0, inside ? s->x0 : s->width);
+    if (inside)
+        dry(water, water, s->humidity, s->x1, s->width);
 }
 
 void diffusion_openmp_steps(struct diffusion_openmp *o, int steps_count)
@@ -244,6 +267,9 @@ void diffusion_openmp_steps(struct diffusion_openmp *o, int steps_count)
                 strip_y(o, s->x0 + (int)((long)span * i / strips_count),
                         s->x0 + (int)((long)span * (i + 1) / strips_count));
             }
+#pragma omp for schedule(static)
+            for (int y = 0; y < (s->humidity > 0 ? s->height : 0); y++)
+                rim_dry(o, y);
         }
         free(buffer);
     }

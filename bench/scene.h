@@ -32,6 +32,8 @@ struct diffusion_scene {
     int x0, y0, x1, y1;
     float gravity; /* above zero */
     float molecular_weight[3];
+    float
+        humidity; /* water that every fiber loses after a step; 0 in the listing, and only openmp.c knows it */
     /* As they are at the start: row-major, width by height. */
     float *absorbency, *field[DIFFUSION_FIELDS_COUNT]; /* water, three pigments */
 };

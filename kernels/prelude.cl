@@ -105,6 +105,16 @@ inline VU column(int x, int W)
 
 /* ---- memory ---- */
 
+/* To the second-level cache, where there is a way to say so. */
+#ifdef __has_builtin
+#if __has_builtin(__builtin_prefetch)
+#define PREFETCH(p, writes) __builtin_prefetch((const void *)(uintptr_t)(p), writes, 2)
+#endif
+#endif
+#ifndef PREFETCH
+#define PREFETCH(p, writes) (void)0
+#endif
+
 /* How a kind is kept in memory, and how it comes from there and goes back. */
 #define TYPE_bit uchar
 #define TYPE_u8 uchar
@@ -133,7 +143,11 @@ inline VU column(int x, int W)
 #define LOAD_u16(p, i) FROM_u16(GET(ushort, p, i))
 #define LOAD_u32(p, i) GET(uint, p, i)
 #define LOAD_u64(p, i) GET(ulong, p, i)
+#ifdef AHEAD
+#define LOAD_f32(p, i) (PREFETCH((p) + (i) + AHEAD, 0), GET(float, p, i))
+#else
 #define LOAD_f32(p, i) GET(float, p, i)
+#endif
 #define LOAD_f64(p, i) GET(double, p, i)
 
 /* Past the caches: where arrays are larger than those, and every vector is aligned. */

@@ -39,15 +39,6 @@
             OUT_##kind(q, -VECTOR, v);                                                         \
     } while (0)
 
-#ifdef __has_builtin
-#if __has_builtin(__builtin_prefetch)
-#define PREFETCH(p, writes) __builtin_prefetch((const void *)(uintptr_t)(p), writes, 2)
-#endif
-#endif
-#ifndef PREFETCH
-#define PREFETCH(p, writes)
-#endif
-
 inline int ring(int y, int rows)
 {
     y %= rows;

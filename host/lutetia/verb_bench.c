@@ -19,6 +19,7 @@ static const struct {
     {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
     {"life", bench_life_main, "Conway's Life in Paris, beside C with OpenMP"},
     {"heat", bench_heat_main, "a heat equation of nine points in Paris, beside C with OpenMP"},
+    {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
 };

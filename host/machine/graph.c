@@ -152,19 +152,29 @@ static void table_remove(struct machine *m, struct machine_value *v)
     m->table_count--;
 }
 
+/* Asked for once more, a value that still waits to be computed is as good as made now, if all in it is. Otherwise what a
+ * turn of a loop makes of one that the turn before has left in a temporary would look old. */
+static void bear(struct machine_value *v, uint32_t epoch)
+{
+    v->birth = epoch;
+    for (int i = 0; i < node_ops[v->op].inputs; i++) {
+        const struct machine_value *in = v->in[i];
+        if (!node_is_leaf(in) && !node_is_cheap(in) && in->birth < v->birth)
+            v->birth = in->birth;
+    }
+}
+
 static void derive(struct machine_value *v, uint32_t epoch)
 {
     const struct node_op_info *info = &node_ops[v->op];
     unsigned generator = (unsigned)node_cost(v->op, v->type), height = 0;
     bool nan = info->may_be_nan;
-    v->birth = epoch;
+    bear(v, epoch);
     for (int i = 0; i < info->inputs; i++) {
         const struct machine_value *in = v->in[i];
         generator += in->generator;
         if (in->height + 1u > height && !node_is_leaf(in))
             height = in->height + 1u;
-        if (!node_is_leaf(in) && !node_is_cheap(in) && in->birth < v->birth)
-            v->birth = in->birth;
         if (v->op == NODE_SELECT || v->op == NODE_SHIFT)
             nan = nan || in->maybe_nan;
     }
@@ -204,6 +214,8 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     struct machine_value *known = find(m, key, hash);
     if (known) {
         m->vanished.known += node_ops[known->op].inputs > 0;
+        if (!known->buffer)
+            bear(known, m->epoch);
         return graph_borrow(m, known);
     }
     if (m->table_count >= m->table_size)

@@ -47,7 +47,7 @@ void loops_call(struct machine *m, const struct machine_call *call)
 bool replay_in_loop(const struct machine *m)
 {
     const struct history *h = m->replay ? &m->replay->history : NULL;
-    return h && h->period && h->match >= h->period;
+    return h && h->period && h->match >= (h->period < LOOP_SURE ? h->period : LOOP_SURE);
 }
 
 bool loop_turn_ends(const struct machine *m)

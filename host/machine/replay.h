@@ -57,7 +57,7 @@ struct state {
 
 /* The last calls that were performed one by one, by hash, to see that they repeat: those that the last few
  * were met with before tell a period, and a whole period more that it is one. */
-enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024 };
+enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128 };
 
 struct history {
     uint64_t hashes[HISTORY], window;

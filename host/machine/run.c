@@ -254,6 +254,18 @@ static bool too_many_arguments(const struct kernel_text *k)
     return bytes > 1024;
 }
 
+/* More arrays than a processor foresees at once are fetched ahead. */
+static bool many_streams(const struct machine *m, const struct vpset *set,
+                         const struct kernel_text *k)
+{
+    enum { ARRAYS_MANY = 16, FETCH_FROM_BYTES = 4 << 20 };
+    int arrays = 0;
+    for (int i = 0; i < k->arguments_count; i++)
+        arrays += k->arguments[i].kind == ARGUMENT_INPUT;
+    return m->device.is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
+           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
+}
+
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
                         const int *stores, int stores_count)
 {
@@ -294,6 +306,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     char *streams = m->device.shape.streams ? NULL : strstr(k.options, "-DSTREAMS=1");
     if (streams)
         streams[strlen("-DSTREAMS=")] = '0';
+    if (many_streams(m, &m->sets[set], &k))
+        strcat(k.options, " -DAHEAD=128");
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");

@@ -5,7 +5,7 @@
 #include "paper_page.h"
 #include "sheet.h"
 
-enum { SHEET_TEMPORARIES = 16, SHEET_DRIED_BITS = 31 };
+enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
@@ -112,10 +112,11 @@ static inline void f_least(CM_field_id_t d, CM_field_id_t a, double n)
 
 /* Rounds to a whole number: adding 3 * 2^22 leaves no place for a fraction. To the nearest up to 2^22, to an even one near
  * it up to 2^24; nothing is rounded away from that. */
+#define SHEET_WHOLE 12582912.0
 static inline void f_whole(CM_field_id_t d)
 {
-    CM_f_add_constant_2_1L(d, 12582912.0, SHEET_F);
-    CM_f_subtract_constant_2_1L(d, 12582912.0, SHEET_F);
+    CM_f_add_constant_2_1L(d, SHEET_WHOLE, SHEET_F);
+    CM_f_subtract_constant_2_1L(d, SHEET_WHOLE, SHEET_F);
 }
 
 /* d becomes whole and is at most q, which is whole. */

@@ -160,13 +160,14 @@ static void settle(struct paper_sheet *p)
         double pace = p->air.settling * pigment->density;
         f_times(rate, p->height, -pace * pigment->granulation);
         f_plus(rate, rate, pace);
-        f_most(rate, rate, 1.0);
-        f_least(rate, rate, 0.0);
-
         f_times(up, p->height, pace / pigment->staining * pigment->granulation);
         f_plus(up, up, pace / pigment->staining * (1 - pigment->granulation));
-        f_most(up, up, 1.0);
-        f_least(up, up, 0.0);
+        if (pace > 0.5 || pace / pigment->staining > 0.5) { /* else they are within 0..1 */
+            f_most(rate, rate, 1.0);
+            f_least(rate, rate, 0.0);
+            f_most(up, up, 1.0);
+            f_least(up, up, 0.0);
+        }
         f_mul(up, up, p->fixed[i]);
         f_whole_of(up, p->fixed[i]);
 
@@ -175,11 +176,10 @@ static void settle(struct paper_sheet *p)
             f_max(part, rate, dry);
             f_mul(down, part, p->surface[i]);
             f_whole_of(down, p->surface[i]);
+            f_mul(part, up, wet);
+            f_sub(down, down, part);
             f_sub(p->surface[i], p->surface[i], down);
             f_add(p->fixed[i], p->fixed[i], down);
-            f_mul(part, up, wet);
-            f_add(p->surface[i], p->surface[i], part);
-            f_sub(p->fixed[i], p->fixed[i], part);
         }
         f_mul(seeped, seeped, damp);
         f_whole_of(seeped, p->infused[i]);
@@ -270,25 +270,68 @@ static void room_make(struct paper_sheet *p, CM_field_id_t room)
     f_most(room, room, 1.0);
 }
 
-/* flow = whole grains of out * q(x) + in * q(x+1). Uses t[14]. */
-static void flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t out,
-                      CM_field_id_t in, CM_field_id_t q, unsigned axis)
+/* Parts of a gradient at the faces of an axis: out and in at that above a fiber, and at that below, which is the
+ * lower neighbour's. */
+struct faces {
+    CM_field_id_t out, in, out_below, in_below;
+};
+
+/* Uses t[16..23]. */
+static void faces_init(const struct paper_sheet *p, struct faces faces[2])
 {
-    CM_field_id_t other = p->t[14];
-    f_next(other, q, axis);
-    f_mul(other, other, in);
-    f_mul(flow, q, out);
-    f_add(flow, flow, other);
-    f_whole(flow);
+    for (unsigned axis = 0; axis < 2; axis++)
+        faces[axis] = (struct faces){p->t[16 + 4 * axis], p->t[17 + 4 * axis],
+                                     p->t[18 + 4 * axis], p->t[19 + 4 * axis]};
 }
 
-/* Uses t[14]. */
-static void flow_take(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow, unsigned axis)
+static void faces_below(const struct faces *faces, unsigned axis)
 {
-    CM_field_id_t arriving = p->t[14];
-    f_previous(arriving, flow, axis);
-    f_add(q, q, arriving);
-    f_sub(q, q, flow);
+    f_previous(faces->out_below, faces->out, axis);
+    f_previous(faces->in_below, faces->in, axis);
+}
+
+/* All parts times weight. Uses t[7..10], t[16 + ...]. */
+static void faces_weigh(const struct paper_sheet *p, struct faces *d, const struct faces *faces,
+                        unsigned axis, double weight)
+{
+    *d = *faces;
+    if (weight == 1)
+        return;
+    *d = (struct faces){p->t[4 + 4 * axis], p->t[5 + 4 * axis], p->t[6 + 4 * axis],
+                        p->t[7 + 4 * axis]};
+    f_times(d->out, faces->out, weight);
+    f_times(d->in, faces->in, weight);
+    f_times(d->out_below, faces->out_below, weight);
+    f_times(d->in_below, faces->in_below, weight);
+}
+
+/* d = out * lower + in * upper, rounded to whole grains, and SHEET_WHOLE more. Uses t[14]. */
+static void grains_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
+                        CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
+{
+    CM_field_id_t part = p->t[14];
+    f_mul(part, upper, in);
+    f_mul(d, lower, out);
+    f_add(d, d, part);
+    f_plus(d, d, SHEET_WHOLE);
+}
+
+/* q gets what flows through its four faces. What comes in from below is computed again from both sides' amounts: the
+ * machine would have to store a flow for the neighbour, and that takes longer. The difference of two flows is exact while
+ * both have SHEET_WHOLE in them. Uses t[12..15]. */
+static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces faces[2])
+{
+    CM_field_id_t other = p->t[15], flow = p->t[13], sum[2] = {p->t[12], p->t[15]};
+    for (unsigned axis = 0; axis < 2; axis++) {
+        const struct faces *f = &faces[axis];
+        f_previous(other, q, axis);
+        grains_make(p, flow, f->out_below, other, f->in_below, q);
+        f_next(other, q, axis);
+        grains_make(p, other, f->out, q, f->in, other);
+        f_sub(sum[axis], flow, other);
+    }
+    f_add(q, q, sum[0]);
+    f_add(q, q, sum[1]);
 }
 
 /* d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10 upwards, or downwards from x on: w(x) + w(x-1)/2 + ...; on a sheet that is no
@@ -356,6 +399,9 @@ static void displacement_make(struct paper_sheet *p, const struct surface_terms 
         f_times(other, other, gravity / 2);
         f_add(d, d, other);
     }
+    f_times(gate, p->face[axis], OPEN_SCALE); /* 0 or 1: open */
+    f_most(gate, gate, 1.0);
+    f_mul(d, d, gate);
     f_least(out, d, 0.0);
     f_most(out, out, SURFACE_SHARE);
     f_most(in, d, 0.0);
@@ -385,10 +431,6 @@ static void displacement_make(struct paper_sheet *p, const struct surface_terms 
         f_most(gate, gate, 1.0);
         f_mul(in, in, gate);
     }
-    f_times(gate, p->face[axis], OPEN_SCALE);
-    f_most(gate, gate, 1.0);
-    f_mul(out, out, gate);
-    f_mul(in, in, gate);
 }
 
 /* Small's displacement on the surface: what lies higher sinks, what is pulled goes, at most SURFACE_SHARE across a face;
@@ -402,8 +444,8 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
                                   .wet = p->t[4],
                                   .entry = p->t[5],
                                   .room = room};
-    CM_field_id_t out[2] = {p->t[6], p->t[7]}, in[2] = {p->t[8], p->t[9]};
-    CM_field_id_t flow[2] = {p->t[10], p->t[11]};
+    struct faces faces[2];
+    faces_init(p, faces);
     f_times(terms.water, p->surface_water, 1 / p->unit);
     f_times(terms.film, terms.water, 1 / p->air.film);
     f_most(terms.film, terms.film, 1.0);
@@ -414,15 +456,13 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
         f_plus(terms.entry, p->height, 0.5);
         f_times(terms.entry, terms.entry, p->air.pinning);
     }
-    for (unsigned axis = 0; axis < 2; axis++)
-        displacement_make(p, &terms, axis, out[axis], in[axis]);
-    for (int i = -1; i < p->config.pigments_count; i++) {
-        CM_field_id_t q = i < 0 ? p->surface_water : p->surface[i];
-        for (unsigned axis = 0; axis < 2; axis++)
-            flow_make(p, flow[axis], out[axis], in[axis], q, axis);
-        for (unsigned axis = 0; axis < 2; axis++)
-            flow_take(p, q, flow[axis], axis);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        displacement_make(p, &terms, axis, faces[axis].out, faces[axis].in);
+        faces_below(&faces[axis], axis);
     }
+    flow_take(p, p->surface_water, faces);
+    for (int i = 0; i < p->config.pigments_count; i++)
+        flow_take(p, p->surface[i], faces);
 }
 
 /* Water creeps along its gradient into what capacity its neighbour has left; pigments go along theirs where both sides of a face
@@ -430,14 +470,16 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
 static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
 {
     CM_field_id_t left = p->t[1], other = p->t[2], moved = p->t[3], fromward = p->t[4];
-    CM_field_id_t flow[2] = {p->t[5], p->t[6]}, out[2] = {p->t[7], p->t[8]},
-                  in[2] = {p->t[9], p->t[10]}, path[2] = {p->t[11], p->t[12]};
+    CM_field_id_t flow[2] = {p->t[5], p->t[6]};
     CM_field_id_t water = p->page.water;
+    struct faces faces[2], weighed[2];
+    faces_init(p, faces);
     f_times(left, p->capacity, p->unit);
     f_sub(left, left, water);
     f_times(left, left, CAPACITY_SHARE);
     f_least(left, left, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
+        CM_field_id_t out = faces[axis].out, in = faces[axis].in;
         double seep = p->air.seep[axis == PAPER_AXIS_X ? 0 : 1];
         f_next(other, water, axis);
         f_sub(flow[axis], water, other);
@@ -461,33 +503,34 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         f_min(moved, water, other);
         f_times(moved, moved, (1 - p->air.carry) / p->unit);
         f_mul(moved, moved, p->face[axis]);
-        f_least(out[axis], flow[axis], 0.0);
+        f_least(out, flow[axis], 0.0);
         f_least(fromward, water, 1.0);
-        f_div(out[axis], out[axis], fromward);
-        f_times(out[axis], out[axis], p->air.carry);
-        f_add(out[axis], out[axis], moved);
-        f_most(in[axis], flow[axis], 0.0);
+        f_div(out, out, fromward);
+        f_times(out, out, p->air.carry);
+        f_add(out, out, moved);
+        f_most(in, flow[axis], 0.0);
         f_least(fromward, other, 1.0);
-        f_div(in[axis], in[axis], fromward);
-        f_times(in[axis], in[axis], p->air.carry);
-        f_sub(in[axis], in[axis], moved);
-        f_most(out[axis], out[axis], INFUSED_SHARE);
-        f_least(in[axis], in[axis], -INFUSED_SHARE);
+        f_div(in, in, fromward);
+        f_times(in, in, p->air.carry);
+        f_sub(in, in, moved);
+        f_most(out, out, INFUSED_SHARE);
+        f_least(in, in, -INFUSED_SHARE);
         f_next(other, room, axis);
-        f_mul(out[axis], out[axis], other);
-        f_mul(in[axis], in[axis], room);
+        f_mul(out, out, other);
+        f_mul(in, in, room);
+        faces_below(&faces[axis], axis);
     }
-    for (unsigned axis = 0; axis < 2; axis++)
-        flow_take(p, water, flow[axis], axis);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        f_previous(other, flow[axis], axis);
+        f_add(water, water, other);
+        f_sub(water, water, flow[axis]);
+    }
     for (int i = 0; i < p->config.pigments_count; i++) {
-        for (unsigned axis = 0; axis < 2; axis++) {
-            double weight = p->config.pigments[i].weight[axis == PAPER_AXIS_X ? 0 : 1];
-            f_times(moved, out[axis], weight);
-            f_times(fromward, in[axis], weight);
-            flow_make(p, path[axis], moved, fromward, p->infused[i], axis);
-        }
+        const double *weight = p->config.pigments[i].weight;
         for (unsigned axis = 0; axis < 2; axis++)
-            flow_take(p, p->infused[i], path[axis], axis);
+            faces_weigh(p, &weighed[axis], &faces[axis], axis,
+                        weight[axis == PAPER_AXIS_X ? 0 : 1]);
+        flow_take(p, p->infused[i], weighed);
     }
 }
 
