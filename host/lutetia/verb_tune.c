@@ -188,9 +188,11 @@ static int values_of(const struct step *s, int usual, int *values)
     return count;
 }
 
-/* Strips are of vectors, and of several turns; the runs of a GPU's work-items are one column. */
+/* A GPU has scalar work-items of one column, and no knobs; strips are of vectors, and of several turns. */
 static bool step_applies(const struct tune *t, const struct step *s)
 {
+    if (t->usual.of[MACHINE_VECTOR] == 1)
+        return false;
     if (s->knob >= MACHINE_TURNS && t->best.of[MACHINE_VECTOR] == 1)
         return false;
     if (s->knob > MACHINE_TURNS && t->best.of[MACHINE_TURNS] == 1)
@@ -313,6 +315,10 @@ static int tune(struct machine *m, bool dry, const char *json_path)
     t.best = t.usual;
     printf("%s, driver %s\n", machine_device_name(m), machine_device_driver(m));
     fflush(stdout);
+    if (t.usual.of[MACHINE_VECTOR] == 1) {
+        puts("there is nothing to measure: what suits such a device is known");
+        return EXIT_SUCCESS;
+    }
     t.progress = progress_begin("tune", runs_in_all(&t));
     int status = EXIT_SUCCESS;
     for (int i = 0; i < STEPS_COUNT && status == EXIT_SUCCESS; i++)

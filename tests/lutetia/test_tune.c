@@ -55,10 +55,10 @@ static void every_knob_gives_the_same_bits(void **state)
     static const struct {
         enum machine_knob knob;
         int value;
-    } forced[] = {{MACHINE_VECTOR, 16},     {MACHINE_VECTOR, 8},
-                  {MACHINE_VECTOR, 1},      {MACHINE_RUN, 48},       {MACHINE_RUN, 1},
-                  {MACHINE_TURNS, 3},       {MACHINE_COLUMNS, 96},   {MACHINE_STREAMS, 0},
-                  {MACHINE_STRIPS_EACH, 1}, {MACHINE_STRIPS_EACH, 7}};
+    } forced[] = {{MACHINE_VECTOR, 16},    {MACHINE_VECTOR, 8},  {MACHINE_VECTOR, 1},
+                  {MACHINE_RUN, 48},       {MACHINE_RUN, 1},     {MACHINE_TURNS, 3},
+                  {MACHINE_COLUMNS, 96},   {MACHINE_STREAMS, 0}, {MACHINE_STRIPS_EACH, 1},
+                  {MACHINE_STRIPS_EACH, 7}};
     static float is[COUNT];
 
     (void)state;
@@ -116,7 +116,7 @@ static void an_interrupted_one_keeps_nothing(void **state)
     snprintf(cache, sizeof cache, "XDG_CACHE_HOME=%s", folder);
     struct child child = {.arguments = {getenv("LUTETIA"), "tune"},
                           .variables = {cache},
-                          .interrupt_after_ms = 700};
+                          .interrupt_after_ms = 1500};
     fails_with(&child, 130, "interrupted");
     snprintf(command, sizeof command, "ls %s/lutetia | grep -q tuning", folder);
     assert_int_not_equal(system(command), 0);
