@@ -273,10 +273,10 @@ static void edges_darken(void **state)
     for (int i = 0; i < RINGS; i++)
         width += p[i] > (p[peak[1]] + middle[1]) / 2;
     double edge = (p[27] + p[28] + p[29]) / 3, pale = profile[0][27] + profile[0][28];
-    if (!(edge > 1.3 * middle[1] && pale + profile[0][29] < 3 * 1.1 * middle[0]))
+    if (!(edge > 1.2 * middle[1] && pale + profile[0][29] < 3 * 1.1 * middle[0]))
         fail_msg("edge to middle: %g, without %g", edge / middle[1],
                  (pale + profile[0][29]) / 3 / middle[0]);
-    if (!(p[peak[1]] > 1.5 * middle[1] && peak[1] >= RADIUS - 4 && peak[1] <= RADIUS + 1 &&
+    if (!(p[peak[1]] > 1.4 * middle[1] && peak[1] >= RADIUS - 4 && peak[1] <= RADIUS + 1 &&
           width <= 5 && p[RADIUS + 3] < 0.1 * middle[1]))
         fail_msg("a line %g times as dark as the middle, at %d, %d wide; beyond it %g",
                  p[peak[1]] / middle[1], peak[1], width, p[RADIUS + 3] / middle[1]);
@@ -370,41 +370,46 @@ static void light_pigments_run_ahead(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A drop on an upright sheet: how far down its water comes, and how wide what it leaves is. */
-static void drop_hang(const char *stock, double *reach, double *width)
+/* A drop hung on an upright sheet: how long what it leaves is, and how wide. */
+static void drop_hang(const char *stock, int *length, int *width)
 {
-    static float water[FIBERS], infused[FIBERS], pigment[FIBERS];
+    enum { TOP = 12, SIZE = 8 };
+    static float pigment[FIBERS];
+    const double left = MIDDLE - SIZE / 2, right = left + SIZE;
+    const double corners[] = {left, TOP, right, TOP, right, TOP + SIZE, left, TOP + SIZE};
     struct paper_air air = air_make();
-    air.gravity[1] = 0.5;
+    air.gravity[1] = 1;
+    air.humidity = 0.0001;
     struct paper_sheet *sheet = sheet_make(stock, &air);
-    double corners[] = {44, 12, 52, 12, 52, 20, 44, 20};
     struct paper_screen screen;
     int x, y;
     check(paper_polygon_screen(corners, 4, SIDE, SIDE, &screen, &x, &y));
-    check(paper_sheet_put(sheet, &screen, x, y, (double[]){1.5, 1, NONE}));
+    check(paper_sheet_put(sheet, &screen, x, y, (double[]){0.8, 1, NONE}));
     paper_screen_destroy(&screen);
-    steps(sheet, 300);
+    steps(sheet, 400);
     pigment_read(sheet, LIGHT, pigment);
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_SURFACE_WATER, 0, water));
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_INFUSED_WATER, 0, infused));
-    *reach = *width = 0;
-    for (int row = 20; row < SIDE; row++) {
+    *length = *width = 0;
+    for (int row = 0; row < SIDE; row++) {
         int wide = 0;
         for (int column = 0; column < SIDE; column++)
             wide += pigment[row * SIDE + column] > 0.005f;
-        *reach = wide ? row - 20 + 1 : *reach;
+        *length += wide > 0;
         *width = wide > *width ? wide : *width;
     }
     paper_sheet_destroy(sheet);
 }
 
+/* Paper that takes no water lets drops run, little wider than they were; blotting paper drinks them up. */
 static void drops_drip_on_glass(void **state)
 {
     (void)state;
-    double glass[2], paper[2];
+    int glass[2], blotting[2];
     drop_hang("glass", &glass[0], &glass[1]);
-    drop_hang("blotting", &paper[0], &paper[1]);
-    printf("drip glass %g x %g paper %g x %g\n", glass[0], glass[1], paper[0], paper[1]);
+    drop_hang("blotting", &blotting[0], &blotting[1]);
+    if (!(glass[0] > 2.5 * glass[1] && glass[1] <= 14 && blotting[0] < 1.6 * blotting[1] &&
+          glass[0] > blotting[0]))
+        fail_msg("on glass %d long and %d wide, on blotting paper %d and %d", glass[0],
+                 glass[1], blotting[0], blotting[1]);
 }
 
 static void masking_fluid_keeps_clear(void **state)
