@@ -111,6 +111,8 @@ struct walk {
     int roots_count;
     uint64_t places; /* hash of which flags and slots there are */
     bool good;       /* nothing in it that cannot be in a state */
+    /* Leaves that no state keeps are none of it: made of numbers alone, and computed since. */
+    bool of_state;
 };
 
 /* states.c */

@@ -60,6 +60,11 @@ static bool is_leaf(const struct machine_value *v)
     return v->op == NODE_BUFFER;
 }
 
+static bool is_own_leaf(const struct walk *w, const struct machine_value *v)
+{
+    return is_leaf(v) && (v->kept || !w->of_state);
+}
+
 /* In imm, whatever they are: the signature must tell where a node ends. */
 static bool has_numbers(const struct machine_value *v)
 {
@@ -93,6 +98,8 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
                (uint32_t)v->axis << 24);
     say(w, v->set | (uint32_t)m->sets[v->set].generation << 16);
     say(w, v->type.s | (uint32_t)v->type.e << 8 | (uint32_t)v->maybe_nan << 16);
+    if (leaf && !is_own_leaf(w, v))
+        return;
     if (leaf) {
         struct device_buffer *b = v->buffer;
         if (b->mark != m->mark) {
@@ -165,7 +172,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
     s->leaves_count = 0;
     for (int i = 0; i < w->count; i++) {
         struct machine_value *v = w->nodes[i];
-        if (is_leaf(v)) {
+        if (is_own_leaf(w, v)) {
             copies[i] = graph_buffer_node(m, v->type, v->set, NULL);
             graph_keep(m, copies[i], true);
             s->leaves[s->leaves_count++] = (struct leaf){copies[i], v->buffer->number};
@@ -173,7 +180,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
         }
         struct machine_value key = *v;
         bool same = true;
-        for (int k = 0; k < node_ops[v->op].inputs; k++) {
+        for (int k = 0; k < (is_leaf(v) ? 0 : node_ops[v->op].inputs); k++) {
             key.in[k] = copies[v->in[k]->local];
             same = same && key.in[k] == v->in[k];
         }
@@ -275,16 +282,17 @@ void state_leave(struct machine *m)
     struct state *s = &p->states[index], old = *s;
     p->active = -1;
     p->edge = NULL;
-    struct walk w = {.good = true};
+    struct walk w = {.good = true, .of_state = true};
     m->mark++;
     for (int i = 0; i < s->roots_count; i++)
         if (s->roots[i])
             walk_node(m, &w, s->roots[i]);
     s->roots = machine_allocated((size_t)s->roots_count, sizeof(struct machine_value *));
     memcpy(s->roots, old.roots, (size_t)s->roots_count * sizeof(struct machine_value *));
+    INVARIANT(w.buffers_count == s->buffers_count);
+    template_copy(m, s, &w);
     for (int i = 0; i < w.count; i++)
         graph_keep(m, w.nodes[i], false);
-    template_copy(m, s, &w);
     walk_finish(&w);
     replay_from_forget(m);
     if (p->depth)

@@ -21,16 +21,30 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-/* Always two pigments, so that all tests have the same kernels. */
-static struct paper_sheet *sheet_make(const char *first, const char *second)
+/* A light pigment that hardly granulates and a heavy one that does. Always these two, no number of the air 0, and something
+ * of each put on, so that all tests have the same kernels. */
+enum { LIGHT, HEAVY };
+#define NONE 1e-7 /* less than a grain */
+
+static struct paper_air air_make(void)
+{
+    struct paper_air air = paper_air_default();
+    for (int axis = 0; axis < 2; axis++)
+        air.gravity[axis] = air.seep[axis] = 1e-12; /* moves no grain */
+    return air;
+}
+
+static struct paper_sheet *sheet_make(const char *stock, const struct paper_air *air)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
+    config.stock = *paper_stock_find(stock);
     config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find(first);
-    config.pigments[1] = *paper_pigment_find(second);
+    config.pigments[LIGHT] = *paper_pigment_find("phthalo green");
+    config.pigments[HEAVY] = *paper_pigment_find("burnt umber");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
+    check(paper_sheet_air(sheet, air));
     return sheet;
 }
 
@@ -126,34 +140,53 @@ static double difference(const double a[3], const uint16_t *shown)
                 (x[2] - y[2]) * (x[2] - y[2]));
 }
 
+/* One sheet with all pigments, in the fibers alone, for all pairs: one kernel. Every layer is written, so that none is known
+ * to be 0. */
+static void glaze_put(struct paper_sheet *sheet, int count, int one, int two)
+{
+    static float amounts[FIBERS];
+    for (int pigment = 0; pigment < count; pigment++) {
+        for (int i = 0; i < FIBERS; i++)
+            amounts[i] = pigment == one   ? (float)(i % SIDE * 2.0 / SIDE)
+                         : pigment == two ? (float)(i / SIDE * 2.0 / SIDE)
+                                          : 0.0f;
+        check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_PIGMENT, pigment, amounts));
+    }
+}
+
 static void glazes_are_kubelka_munk_by_hand(void **state)
 {
     (void)state;
-    static float amounts[FIBERS];
+    static float paper[3][FIBERS];
     static uint16_t rgb[3 * FIBERS], sealed[3 * FIBERS];
     static double below[3][FIBERS];
+    const struct paper_sheet_view color = {.show = PAPER_SHOW_COLOR};
     double worst = 0;
-    for (int first = 0; paper_pigment_number(first); first += 2) {
-        const struct paper_pigment *one = paper_pigment_number(first);
-        const struct paper_pigment *two = paper_pigment_number(first + 1);
-        if (!two)
-            two = paper_pigment_number(0);
-        struct paper_sheet *sheet = sheet_make(one->name, two->name);
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = config.height = SIDE;
+    config.parts = PAPER_PART_INFUSED;
+    while (paper_pigment_number(config.pigments_count)) {
+        config.pigments[config.pigments_count] = *paper_pigment_number(config.pigments_count);
+        config.pigments_count++;
+    }
+    struct paper_sheet *sheet;
+    check(paper_sheet_create(&config, &sheet));
+    for (int i = 0; i < 3; i++)
+        check(
+            paper_sheet_layer_read(sheet, PAPER_LAYER_RED + (enum paper_layer)i, 0, paper[i]));
+    for (int first = 0; first < config.pigments_count; first += 2) {
+        int second = (first + 1) % config.pigments_count;
+        const struct paper_pigment *one = &config.pigments[first],
+                                   *two = &config.pigments[second];
         for (int i = 0; i < 3; i++) {
-            check(paper_sheet_layer_read(sheet, PAPER_LAYER_RED + (enum paper_layer)i, 0,
-                                         amounts));
+            check(paper_sheet_layer_write(sheet, PAPER_LAYER_RED + (enum paper_layer)i, 0,
+                                          paper[i]));
             for (int j = 0; j < FIBERS; j++)
-                below[i][j] = (double)amounts[j];
+                below[i][j] = (double)paper[i][j];
         }
         for (int glaze = 0; glaze < 2; glaze++) {
-            for (int pigment = 0; pigment < 2; pigment++) {
-                for (int i = 0; i < FIBERS; i++)
-                    amounts[i] = (float)((pigment == 0 ? i % SIDE : i / SIDE) * 2.0 / SIDE);
-                check(paper_sheet_layer_write(sheet, PAPER_LAYER_FIXED_PIGMENT, pigment,
-                                              amounts));
-            }
-            check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR},
-                                   rgb));
+            glaze_put(sheet, config.pigments_count, first, second);
+            check(paper_sheet_view(sheet, &color, rgb));
             for (int i = 0; i < FIBERS; i++) {
                 double p = floor(i % SIDE * 2.0 / SIDE * PAPER_GRAINS) / PAPER_GRAINS;
                 double q = floor(i / SIDE * 2.0 / SIDE * PAPER_GRAINS) / PAPER_GRAINS, hand[3];
@@ -164,14 +197,13 @@ static void glazes_are_kubelka_munk_by_hand(void **state)
                 worst = fmax(worst, difference(hand, rgb + 3 * i));
             }
             check(paper_sheet_seal(sheet));
-            check(paper_sheet_view(sheet, &(struct paper_sheet_view){.show = PAPER_SHOW_COLOR},
-                                   sealed));
+            check(paper_sheet_view(sheet, &color, sealed));
             for (int i = 0; i < 3 * FIBERS; i++) /* by an empty layer: Q is kept from 0 */
                 if (abs(rgb[i] - sealed[i]) > 4)
                     fail_msg("%s: sealing changed %d to %d", one->name, rgb[i], sealed[i]);
         }
-        paper_sheet_destroy(sheet);
     }
+    paper_sheet_destroy(sheet);
     if (worst > 0.1)
         fail_msg("colours are off by %g", worst);
 }
@@ -203,42 +235,66 @@ static void pigments_from_colours_look_so(void **state)
 
 /* ---- effects ---- */
 
+enum { RINGS = 40 };
+
+/* Mean amounts of rings a fiber wide: the profile across the edge of a disc. */
+static void profile_read(struct paper_sheet *sheet, int pigment, double profile[RINGS])
+{
+    static float values[FIBERS];
+    pigment_read(sheet, pigment, values);
+    for (int i = 0; i < RINGS; i++)
+        profile[i] = ring_mean(values, i, i + 1);
+}
+
+/* The profile of a dried wash: even in the middle, a narrow dark line at the edge of what was wet, nothing beyond. */
 static void edges_darken(void **state)
 {
     (void)state;
-    static float values[FIBERS];
-    double contrast[2];
+    enum { RADIUS = 30 };
+    double profile[2][RINGS], middle[2] = {0, 0};
+    int peak[2] = {0, 0};
     for (int with = 0; with < 2; with++) {
-        struct paper_sheet *sheet = sheet_make("french ultramarine", "cadmium red");
-        struct paper_air air = paper_air_default();
+        struct paper_air air = air_make();
         air.edge = with ? 15 : 0.001;
         air.humidity = 0.0008;
-        check(paper_sheet_air(sheet, &air));
-        disc_put(sheet, 30, (double[]){0.7, 0.4, 0});
+        struct paper_sheet *sheet = sheet_make("cold press", &air);
+        disc_put(sheet, RADIUS, (double[]){0.7, 0.4, NONE});
         steps(sheet, 800);
         check(paper_sheet_dry(sheet));
-        pigment_read(sheet, 0, values);
-        contrast[with] = ring_mean(values, 27, 30) / ring_mean(values, 0, 15);
+        profile_read(sheet, LIGHT, profile[with]);
+        for (int i = 0; i < RADIUS / 2; i++)
+            middle[with] += profile[with][i] * (2 * i + 1) / (RADIUS / 2 * (RADIUS / 2));
+        for (int i = 0; i < RINGS; i++)
+            peak[with] = profile[with][i] > profile[with][peak[with]] ? i : peak[with];
         paper_sheet_destroy(sheet);
     }
-    if (!(contrast[1] > 1.3 && contrast[0] < 1.1))
-        fail_msg("edge to middle: %g, without %g", contrast[1], contrast[0]);
+    const double *p = profile[1];
+    int width = 0; /* of the line at half its height over the middle */
+    for (int i = 0; i < RINGS; i++)
+        width += p[i] > (p[peak[1]] + middle[1]) / 2;
+    double edge = (p[27] + p[28] + p[29]) / 3, pale = profile[0][27] + profile[0][28];
+    if (!(edge > 1.2 * middle[1] && pale + profile[0][29] < 3 * 1.1 * middle[0]))
+        fail_msg("edge to middle: %g, without %g", edge / middle[1],
+                 (pale + profile[0][29]) / 3 / middle[0]);
+    if (!(p[peak[1]] > 1.4 * middle[1] && peak[1] >= RADIUS - 4 && peak[1] <= RADIUS + 1 &&
+          width <= 5 && p[RADIUS + 3] < 0.1 * middle[1]))
+        fail_msg("a line %g times as dark as the middle, at %d, %d wide; beyond it %g",
+                 p[peak[1]] / middle[1], peak[1], width, p[RADIUS + 3] / middle[1]);
 }
 
 static void backruns_push_pigment_away(void **state)
 {
     (void)state;
     static float before[FIBERS], after[FIBERS];
-    struct paper_sheet *sheet = sheet_make("phthalo green", "cadmium red");
-    struct paper_air air = paper_air_default();
+    struct paper_air air = air_make();
     air.humidity = 0.0002;
-    check(paper_sheet_air(sheet, &air));
-    disc_put(sheet, 40, (double[]){0.25, 0.4, 0});
+    struct paper_sheet *sheet = sheet_make("cold press", &air);
+    disc_put(sheet, 40, (double[]){0.25, 0.4, NONE});
     steps(sheet, 30);
-    pigment_read(sheet, 0, before);
-    disc_put(sheet, 8, (double[]){2, 0, 0}); /* clear water into the damp wash */
+    pigment_read(sheet, LIGHT, before);
+    disc_put(sheet, 8, (double[]){2, NONE, NONE}); /* clear water into the damp wash */
     steps(sheet, 400);
-    pigment_read(sheet, 0, after);
+    pigment_read(sheet, LIGHT, after);
     double inside = ring_mean(after, 0, 6) / ring_mean(before, 0, 6);
     double rim = ring_mean(after, 13, 18) / ring_mean(before, 13, 18);
     if (!(inside < 0.9 && rim > 1.02))
@@ -268,12 +324,13 @@ static void granulating_pigments_settle_in_hollows(void **state)
 {
     (void)state;
     static float height[FIBERS], coarse[FIBERS], fine[FIBERS];
-    struct paper_sheet *sheet = sheet_make("burnt umber", "hansa yellow");
+    struct paper_air air = air_make();
+    struct paper_sheet *sheet = sheet_make("cold press", &air);
     disc_put(sheet, 35, (double[]){0.8, 0.4, 0.4});
     steps(sheet, 60);
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_HEIGHT, 0, height));
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, 0, coarse));
-    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, 1, fine));
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, HEAVY, coarse));
+    check(paper_sheet_layer_read(sheet, PAPER_LAYER_FIXED_PIGMENT, LIGHT, fine));
     double deviation[2];
     const float *layers[2] = {coarse, fine};
     for (int i = 0; i < 2; i++) {
@@ -296,22 +353,63 @@ static void light_pigments_run_ahead(void **state)
 {
     (void)state;
     static float light[FIBERS], heavy[FIBERS], wet[FIBERS];
-    struct paper_sheet *sheet = sheet_make("cyan", "hooker's green");
-    struct paper_air air = paper_air_default();
+    struct paper_air air = air_make();
     air.settling = 0.001;
-    check(paper_sheet_air(sheet, &air));
+    struct paper_sheet *sheet = sheet_make("cold press", &air);
     for (int i = 0; i < FIBERS; i++)
         wet[i] = 0.5f;
     check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_WATER, 0, wet));
     disc_put(sheet, 15, (double[]){0.3, 0.5, 0.5});
     steps(sheet, 300);
-    pigment_read(sheet, 0, light);
-    pigment_read(sheet, 1, heavy);
+    pigment_read(sheet, LIGHT, light);
+    pigment_read(sheet, HEAVY, heavy);
     double ahead = ring_mean(light, 17, 22) / ring_mean(light, 0, 12);
     double behind = ring_mean(heavy, 17, 22) / ring_mean(heavy, 0, 12);
     if (!(ahead > 2 * behind && ahead > 0.001))
         fail_msg("beyond the edge: %g of the light one, %g of the heavy one", ahead, behind);
     paper_sheet_destroy(sheet);
+}
+
+/* A drop hung on an upright sheet: how long what it leaves is, and how wide. */
+static void drop_hang(const char *stock, int *length, int *width)
+{
+    enum { TOP = 12, SIZE = 8 };
+    static float pigment[FIBERS];
+    const double left = MIDDLE - SIZE / 2, right = left + SIZE;
+    const double corners[] = {left, TOP, right, TOP, right, TOP + SIZE, left, TOP + SIZE};
+    struct paper_air air = air_make();
+    air.gravity[1] = 1;
+    air.humidity = 0.0001;
+    struct paper_sheet *sheet = sheet_make(stock, &air);
+    struct paper_screen screen;
+    int x, y;
+    check(paper_polygon_screen(corners, 4, SIDE, SIDE, &screen, &x, &y));
+    check(paper_sheet_put(sheet, &screen, x, y, (double[]){0.8, 1, NONE}));
+    paper_screen_destroy(&screen);
+    steps(sheet, 400);
+    pigment_read(sheet, LIGHT, pigment);
+    *length = *width = 0;
+    for (int row = 0; row < SIDE; row++) {
+        int wide = 0;
+        for (int column = 0; column < SIDE; column++)
+            wide += pigment[row * SIDE + column] > 0.005f;
+        *length += wide > 0;
+        *width = wide > *width ? wide : *width;
+    }
+    paper_sheet_destroy(sheet);
+}
+
+/* Paper that takes no water lets drops run, little wider than they were; blotting paper drinks them up. */
+static void drops_drip_on_glass(void **state)
+{
+    (void)state;
+    int glass[2], blotting[2];
+    drop_hang("glass", &glass[0], &glass[1]);
+    drop_hang("blotting", &blotting[0], &blotting[1]);
+    if (!(glass[0] > 2.5 * glass[1] && glass[1] <= 14 && blotting[0] < 1.6 * blotting[1] &&
+          glass[0] > blotting[0]))
+        fail_msg("on glass %d long and %d wide, on blotting paper %d and %d", glass[0],
+                 glass[1], blotting[0], blotting[1]);
 }
 
 static void masking_fluid_keeps_clear(void **state)
@@ -321,9 +419,10 @@ static void masking_fluid_keeps_clear(void **state)
     static uint8_t on[20 * 20];
     memset(on, 255, sizeof on);
     struct paper_screen screen = {.width_px = 20, .height_px = 20, .gray = on};
-    struct paper_sheet *sheet = sheet_make("cyan", "cadmium red");
+    struct paper_air air = air_make();
+    struct paper_sheet *sheet = sheet_make("cold press", &air);
     check(paper_sheet_resist(sheet, &screen, 38, 38, true));
-    disc_put(sheet, 35, (double[]){1, 1, 0});
+    disc_put(sheet, 35, (double[]){1, 1, NONE});
     steps(sheet, 100);
     pigment_read(sheet, 0, values);
     double inside = 0, outside = 0;
@@ -410,6 +509,7 @@ int main(void)
         cmocka_unit_test(backruns_push_pigment_away),
         cmocka_unit_test(granulating_pigments_settle_in_hollows),
         cmocka_unit_test(light_pigments_run_ahead),
+        cmocka_unit_test(drops_drip_on_glass),
         cmocka_unit_test(masking_fluid_keeps_clear),
         cmocka_unit_test(stocks_are_what_they_say),
         cmocka_unit_test(polygons_cover_their_area),
