@@ -213,6 +213,7 @@ void paper_sheet_destroy(struct paper_sheet *p)
 {
     if (!p)
         return;
+    sheet_brushes_destroy(p);
     CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
     CM_deallocate_geometry(p->page.geometry);
     free(p);

@@ -28,7 +28,13 @@ struct paper_sheet {
     CM_field_id_t mask;     /* 8 bits */
     CM_field_id_t shown[3]; /* 16 bits */
     CM_field_id_t t[SHEET_TEMPORARIES];
+    struct sheet_brushes *brushes; /* brush_internal.h; NULL: there is none */
+    bool (*due)(void *context);    /* paper_sheet_stop_when() */
+    void *due_context;
 };
+
+/* NULL is fine. */
+void sheet_brushes_destroy(struct paper_sheet *p);
 
 static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
 {
