@@ -28,7 +28,7 @@ static struct drop drop_make(const struct paper_splatter *s, int i)
     double c = cos(s->toward), sn = sin(s->toward);
     double along = away * cos(angle), across = away * sin(angle);
     if (s->thrown > 0) /* the farther it flies the more */
-        along = fabs(along) * (1 + s->thrown) - s->radius / 2;
+        along = fabs(along) * (1 + s->thrown);
     struct drop d = {.x = s->x + c * along - sn * across,
                      .y = s->y + sn * along + c * across,
                      .radius = s->size[0] + (s->size[1] - s->size[0]) * large,
