@@ -40,10 +40,10 @@ local p = paper{
   width = w, height = h, stock = "cold press", seed = 26, grain = math.max(1, 6 * scale),
   pigments = {"french ultramarine", "quinacridone rose", "brilliant orange"},
 }
-p:air{humidity = 0.0008, settling = 0.2, absorption = 0.03, edge = 12, edge_width = math.max(1, 6 * scale)}
-local b = p:brush{kind = "flat", width = 22 * scale, depth = math.max(1, 4 * scale), angle = -40, reach = 1900 * scale, load = 0.8, seed = 7}
+p:air{humidity = 0.0008, settling = 0.2, absorption = 0.03, pinning = 1.4, edge = 12, edge_width = math.max(1, 6 * scale)}
+local b = p:brush{kind = "flat", width = 17 * scale, depth = math.max(1, 2.6 * scale), angle = -40, reach = 2200 * scale, load = 0.6, splay = 0.05, thickness = 1.2, bend = 0, seed = 7}
 
-local size = 1.02 * scale
+local size = 1.05 * scale
 for r, row in ipairs(rows) do
   local total, gap = 0, 26 * scale
   for c in row:gmatch(".") do total = total + letters[c][1] * size + gap end
@@ -51,7 +51,7 @@ for r, row in ipairs(rows) do
   local warm = (r - 1) / 3
   for c in row:gmatch(".") do
     local letter = letters[c]
-    b:dip({water = 1, ["french ultramarine"] = 1.3 * (1 - warm) + 0.1, ["quinacridone rose"] = 0.25 + 0.7 * math.sin(math.pi * (0.15 + 0.7 * warm)),
+    b:dip({water = 1, ["french ultramarine"] = 1.7 * (1 - warm) + 0.1, ["quinacridone rose"] = 0.3 + 0.9 * math.sin(math.pi * (0.15 + 0.7 * warm)),
       ["brilliant orange"] = 1.1 * warm ^ 2}, {part = 0.55})
     for i = 2, #letter do
       p:stroke{brush = b, path = letter[i], x = x, y = y, scale = size, speed = 620 * scale, pace = 24,

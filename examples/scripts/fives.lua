@@ -23,7 +23,7 @@ for i = 1, 7 do
   local from, to = h * (0.05 + 0.35 * math.random()), h * (0.62 + 0.33 * math.random())
   poured = poured + line({{x, from, wide}, {x + 6 * scale, (from + to) / 2, wide * 1.6}, {x, to, wide * 0.7}})
 end
-p:put(poured:soften(5 * scale), {water = 0.8})
+p:put(poured:soften(5 * scale), {water = 1.2})
 p:step(steps // 4)
 
 -- one large five, its four small sisters, and the years
@@ -32,10 +32,14 @@ five(250, 118, 250, -14, {water = 0.3, cyan = 1.0, magenta = 0.12})
 five(250, 445, 330, 12, {water = 0.3, magenta = 1.0, cyan = 0.1})
 five(180, 120, 690, 9, {water = 0.3, magenta = 0.9, yellow = 0.7})
 five(150, 452, 700, -8, {water = 0.3, cyan = 0.9, yellow = 0.5})
-p:step(steps)
+for pour = 1, 3 do  -- more water, in the same places, pulls them down
+  p:step(steps // 3)
+  p:put(poured:soften(3 * scale), {water = 0.5})
+end
+p:step(steps // 4)
 
 -- varnish where it is wettest now; then the sheet dries under it
-local wet = p:mask("infused water", 0.30, 0.44):soften(2 * scale)
+local wet = p:mask("infused water", 0.36, 0.46):soften(math.max(1, 1.5 * scale))
 p:put(text("one two three four five", {size = 30 * scale, x = w / 2, y = h - 26 * scale, align = "center", tracking = 0.12}),
   {cyan = 0.9, magenta = 0.9, yellow = 0.8})
 p:dry()

@@ -29,27 +29,34 @@ p:wash({water = 0.75, ["french ultramarine"] = 1.6, ["phthalo green"] = 0.28},
   {from = {0, 0}, to = {0, h * 0.62}, into = {water = 0.6, ["french ultramarine"] = 0.1, ["quinacridone rose"] = 0.16},
    mask = rect(-20, -20, w + 40, h * 0.66 + 20)})
 p:blot(ellipse(w * 0.72, h * 0.23, 70 * scale):soften(34 * scale), 0.55)  -- the moon's light
-p:salt{grains = math.floor(150), radius = w, size = {0.6 * scale, 1.7 * scale}, strength = 1.2, reach = math.max(1, 9 * scale),
+p:salt{x = w / 2, y = h * 0.2, grains = 420, radius = w * 0.55, size = {0.3 * scale, 1.0 * scale}, strength = 0.7, reach = math.max(1.5, 4.5 * scale),
   mask = rect(0, 0, w, h * 0.5)}
 p:step(steps)
 p:dry() p:seal()
 
+-- the snow's edge is never level
+local line_of_snow = {{-30, h + 30}}
+for _, point in ipairs(breath(18, 0.75)) do
+  line_of_snow[#line_of_snow + 1] = {-30 + point[1] * (w + 60), h * 0.715 + point[2] * 16 * scale + 12 * scale * math.cos(point[1] * 7)}
+end
+line_of_snow[#line_of_snow + 1] = {w + 30, h + 30}
+local snow = polygon(line_of_snow):soften(3 * scale)
+
 -- hills, each darker and nearer
 p:air{humidity = 0.003, settling = 0.25, edge = 14, edge_width = 6}
 for layer = 1, 3 do
-  local edge, base = {{-10, h * 0.74}}, h * (0.50 + 0.055 * layer)
+  local edge, base = {{-10, h * 0.8}}, h * (0.50 + 0.055 * layer)
   for _, point in ipairs(breath(26 + 10 * layer, 0.8)) do
     edge[#edge + 1] = {point[1] * w, base + point[2] * 44 * scale / layer - 30 * scale * math.sin(point[1] * 5 + layer)}
   end
-  edge[#edge + 1] = {w + 10, h * 0.74}
-  local hills = polygon(edge) - rect(-20, h * 0.735, w + 40, h):soften(10 * scale)
+  edge[#edge + 1] = {w + 10, h * 0.8}
+  local hills = polygon(edge) - snow
   p:put(hills, {water = 0.45, ["french ultramarine"] = 0.2 + 0.22 * layer, ["quinacridone rose"] = 0.12, ["burnt umber"] = 0.06 * layer})
   p:step(steps // 5)
   p:dry() p:seal()
 end
 
 -- snow is the paper; its shadows are wet in wet
-p:put(rect(-20, h * 0.73, w + 40, 10 * scale):soften(10 * scale), {water = 0.5, ["french ultramarine"] = 0.22})
 for i = 1, 7 do
   local x, y = w * math.random(), h * (0.80 + 0.16 * math.random())
   p:put(ellipse(x, y, (80 + 120 * math.random()) * scale, (5 + 8 * math.random()) * scale):soften(12 * scale),

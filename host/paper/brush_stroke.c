@@ -208,6 +208,8 @@ static void brush_go(struct going *g, double from, double to)
     double thick = fmax(PLACE_SPACING, g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
     for (int done = 0; done < places;) {
+        if (g->sheet->due && g->sheet->due(g->sheet->due_context))
+            return;
         int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
         if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell))
             sheet_brush_exchange(g->sheet, g->sheet->brushes, g->own);
