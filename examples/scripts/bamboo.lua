@@ -10,7 +10,7 @@ local p = paper{
   width = w, height = h, stock = "hot press", seed = 31, color = "#f3ecd9", color_variation = 0.35,
   absorbency = 0.16, fibers = {10, 10}, grain = math.max(1, 3 * scale),
   pigments = {{name = "ink", like = "french ultramarine", K = {2.6, 2.5, 2.3}, S = {0.02, 0.02, 0.03}, granulation = 0.2, staining = 8, weight = 0.15},
-    "cadmium red"},
+    "cadmium red", "burnt umber"},
 }
 p:air{humidity = 0.002, settling = 0.3, edge = 8, edge_width = math.max(1, 5 * scale), absorption = 0.05, pinning = 1.5}
 
@@ -22,7 +22,7 @@ local function stalk(x, lean, width, ink, joints, top)
     local length = (joint == joints and 0.8 or 1) * (h + 10 * scale - top * scale) / joints
     b:dip{water = 1, ink = ink * 0.25}
     b:dip({water = 0.8, ink = ink}, {side = {-1, -0.35}})
-    b:dip({water = 0.9, ink = ink * 0.6}, {side = {0.75, 1}})
+    b:dip({water = 0.9, ink = ink * 0.6, ["burnt umber"] = ink * 0.1}, {side = {0.75, 1}})
     local x1, x2 = x + lean * (h - y) / h, x + lean * (h - y + length) / h
     p:stroke{brush = b, points = {{x1 + 1 * scale, y, 0.95, 0}, {x1, y - 3 * scale, 0.9, 0.12}, {(x1 + x2) / 2, y - length / 2, 0.7, 0.45},
       {x2, y - length + 13 * scale, 0.85, 0.75}, {x2 + 1 * scale, y - length + 10 * scale, 0.95, 0.95}}, pace = 20}

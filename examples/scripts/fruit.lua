@@ -1,5 +1,5 @@
 -- fruit.lua - a picture separated into pigments: oranges and a plum, lit by a window, as light would fall on them; each colour
--- becomes the amounts of five pigments that make it, printed on wet paper, which bleeds a little.
+-- becomes the amounts of six pigments that make it, printed on wet paper, which bleeds a little.
 --
 --     lutetia run examples/scripts/fruit.lua [scale=0.5] [steps=90]
 local scale = param("scale", 1)
@@ -56,7 +56,7 @@ end
 
 local p = paper{
   width = w + math.floor(60 * scale), height = h + math.floor(60 * scale), stock = "cold press", seed = 8, grain = math.max(1, 6 * scale),
-  pigments = {"hansa yellow", "cadmium red", "quinacridone rose", "french ultramarine", "cerulean blue"},
+  pigments = {"hansa yellow", "cadmium red", "quinacridone rose", "french ultramarine", "cerulean blue", "burnt umber"},
 }
 p:air{humidity = 0.0015, settling = 0.25, edge = 10, edge_width = math.max(1, 6 * scale), absorption = 0.04}
 local m = 30 * scale

@@ -29,7 +29,7 @@ p:wash({water = 0.75, ["french ultramarine"] = 1.6, ["phthalo green"] = 0.28},
   {from = {0, 0}, to = {0, h * 0.62}, into = {water = 0.6, ["french ultramarine"] = 0.1, ["quinacridone rose"] = 0.16},
    mask = rect(-20, -20, w + 40, h * 0.66 + 20)})
 p:blot(ellipse(w * 0.72, h * 0.23, 70 * scale):soften(34 * scale), 0.55)  -- the moon's light
-p:salt{x = w / 2, y = h * 0.2, grains = 420, radius = w * 0.55, size = {0.3 * scale, 1.0 * scale}, strength = 0.7, reach = math.max(1.5, 4.5 * scale),
+p:salt{x = w / 2, y = h * 0.2, grains = 420, radius = w * 0.55, size = {math.max(0.1, 0.3 * scale), math.max(0.3, scale)}, strength = 0.7, reach = math.max(1.5, 4.5 * scale),
   mask = rect(0, 0, w, h * 0.5)}
 p:step(steps)
 p:dry() p:seal()
@@ -96,7 +96,7 @@ for i = 1, 22 do
   if i % 4 == 1 then stem:dip{water = 0.7, ["burnt umber"] = 0.9} end
   p:stroke{brush = stem, points = {{x, y}, {x + (math.random() - 0.4) * 14 * scale, y - (14 + 22 * math.random()) * scale}}, pressure = {0.5, 0.02}, pace = 0, speed = 400 * scale}
 end
-p:splatter({x = w * 0.5, y = h * 0.9, radius = 150 * scale, drops = 50, size = {0.5 * scale, 1.9 * scale}, angle = -12, thrown = 0.4}, {water = 0.4, ["burnt umber"] = 0.9})
+p:splatter({x = w * 0.5, y = h * 0.9, radius = 150 * scale, drops = 50, size = {math.max(0.1, 0.5 * scale), math.max(0.3, 1.9 * scale)}, angle = -12, thrown = 0.4}, {water = 0.4, ["burnt umber"] = 0.9})
 p:step(steps // 4)
 p:dry()
 p:unresist(moon)
