@@ -1,8 +1,8 @@
 -- glazes.lua - glaze swatches: six bands of pigment, dried and sealed, and the same six across them.
 --
---     lutetia run examples/scripts/glazes.lua [scale=0.5] [steps=110]
+--     lutetia run examples/scripts/glazes.lua [scale=0.5] [steps=80]
 local scale = param("scale", 1)
-local steps = param("steps", 110)
+local steps = param("steps", 80)
 local side = math.floor(640 * scale)
 local inks = {
   {"hansa yellow", 0.55}, {"brilliant orange", 0.5}, {"quinacridone rose", 0.55},

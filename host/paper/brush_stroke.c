@@ -236,6 +236,8 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_s
                           PAPER_STROKE_STEPS_MAX, end - start, pace);
     int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
     struct going g = {.sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
+    g.own->toward[0] = 1; /* where it goes is known as soon as it does */
+    g.own->toward[1] = 0;
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         if (p->due && p->due(p->due_context))
             break;
