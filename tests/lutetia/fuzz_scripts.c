@@ -237,7 +237,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         abort();
     char *arguments[] = {
         (char[]){"run"},      script,         (char[]){"-q"},        (char[]){"-o"}, folder,
-        (char[]){"--memory"}, (char[]){"64"}, (char[]){"--timeout"}, (char[]){"20"}, NULL};
+        (char[]){"--memory"}, (char[]){"64"}, (char[]){"--timeout"}, (char[]){"60"}, NULL};
     int status = verb_run(9, arguments);
     if (status != 0 && status != 1)
         abort();
