@@ -556,5 +556,7 @@ enum paper_status paper_sheet_step(struct paper_sheet *p)
     if (sheet_has(p, PAPER_PART_SURFACE))
         flow_surface(p, room);
     flow_infused(p, room);
+    if (p->salted)
+        sheet_salt_step(p);
     return paper_leave(&p->page);
 }
