@@ -1,4 +1,5 @@
 /* sheet.c - a sheet's life: its fields, its layers in and out, its totals. */
+#include "history_internal.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -164,6 +165,12 @@ static enum paper_status amounts_clear(struct paper_sheet *p)
     return PAPER_OK;
 }
 
+enum paper_status sheet_fresh_make(struct paper_sheet *p)
+{
+    sheet_stock_make(p);
+    return amounts_clear(p);
+}
+
 enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
                                      struct paper_sheet **out)
 {
@@ -195,8 +202,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     p->page.vp_set = CM_allocate_vp_set(p->page.geometry);
     paper_enter(&p->page);
     fields_make(p);
-    sheet_stock_make(p);
-    status = amounts_clear(p);
+    status = sheet_fresh_make(p);
     if (status == PAPER_OK)
         status = paper_leave(&p->page);
     if (status == PAPER_OK)
@@ -213,6 +219,8 @@ void paper_sheet_destroy(struct paper_sheet *p)
 {
     if (!p)
         return;
+    if (p->history)
+        history_free(p->history);
     CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
     CM_deallocate_geometry(p->page.geometry);
     free(p);
@@ -298,12 +306,39 @@ static void news_size(const struct paper_sheet *p, int size[2])
 enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_layer layer,
                                           int pigment, const float *values)
 {
+    return sheet_event(p, SHEET_EVENT_LAYER,
+                       &(struct event_layer){(int)layer, pigment, values});
+}
+
+enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
     CM_field_id_t field;
-    enum paper_status status = layer_check(p, layer, pigment, &field);
-    if (status != PAPER_OK)
-        return status;
-    if (layer == PAPER_LAYER_DRIED_WATER)
+    enum paper_status status =
+        layer_check(p, (enum paper_layer)event->layer, event->pigment, &field);
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_DRIED_WATER)
         return paper_fail(PAPER_BAD_ARGUMENT, "what has dried is counted, not written");
+    unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
+                    : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
+                                                                : 0;
+    if (status == PAPER_OK && part && !sheet_has(p, part))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "pigments have no such layer in this model of the paper");
+    size_t width = (size_t)p->page.width, count = width * (size_t)p->page.height;
+    for (size_t i = 0; i < count && status == PAPER_OK; i++)
+        if (isnan(event->values[i]))
+            return paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
+                              i % width, i / width);
+    return status;
+}
+
+enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
+    enum paper_layer layer = (enum paper_layer)event->layer;
+    const float *values = event->values;
+    CM_field_id_t field = sheet_layer_field(p, layer, event->pigment);
+    enum paper_status status = PAPER_OK;
     size_t count = (size_t)p->page.width * (size_t)p->page.height;
     double unit = layers[layer].amount ? p->unit : 1;
     double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
@@ -311,27 +346,21 @@ enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_laye
     if (!cut)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.width,
                           p->page.height);
-    for (size_t i = 0; i < count && status == PAPER_OK; i++) {
-        if (isnan(values[i]))
-            status = paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
-                                i % (size_t)p->page.width, i / (size_t)p->page.width);
+    for (size_t i = 0; i < count; i++) {
         double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
-    if (status == PAPER_OK) {
-        int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-            size[2];
-        news_size(p, size);
-        paper_enter(&p->page);
-        CM_set_context();
-        CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
-                                    CM_float_single);
-        if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
-            sheet_faces_make(p);
-        if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
-            sheet_wet_around_make(p);
-        status = paper_leave(&p->page);
-    }
+    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
+    news_size(p, size);
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
+                                CM_float_single);
+    if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
+        sheet_faces_make(p);
+    if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
+        sheet_wet_around_make(p);
+    status = paper_leave(&p->page);
     free(cut);
     return status;
 }
@@ -341,6 +370,8 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *p, enum paper_layer
 {
     CM_field_id_t field;
     enum paper_status status = layer_check(p, layer, pigment, &field);
+    if (status == PAPER_OK)
+        status = sheet_ready(p);
     if (status != PAPER_OK)
         return status;
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
@@ -373,6 +404,9 @@ enum paper_status paper_sheet_total(struct paper_sheet *p, int substance, double
     if (substance < -1 || substance > p->config.pigments_count)
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
                           p->config.pigments_count, substance);
+    enum paper_status status = sheet_ready(p);
+    if (status != PAPER_OK)
+        return status;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t wide = CM_allocate_heap_field(64), fields[3];

@@ -10,9 +10,14 @@ enum { SHEET_TEMPORARIES = 16, SHEET_DRIED_BITS = 31 };
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
 
+struct sheet_history;
+
 struct paper_sheet {
     struct paper_sheet_config config;
     struct paper_air air;
+    struct sheet_history *history; /* NULL: nothing is recorded */
+    long steps;                    /* without a history */
+    bool touched;                  /* something was done, and not recorded */
     double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
@@ -41,6 +46,8 @@ int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t
 CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
                                 int pigment);
 
+/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
+enum paper_status sheet_fresh_make(struct paper_sheet *p);
 /* Absorbency, capacity, height and colour from the seed. */
 void sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
