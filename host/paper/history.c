@@ -132,6 +132,8 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     struct position at = h->at;
     h->at.op = -1; /* unless it succeeds */
     enum paper_status status = event_perform(p, op->kind, arguments);
+    if (status == PAPER_OK && op->kind != SHEET_EVENT_STEP)
+        status = paper_sheet_finish(p); /* steps are the same kernels whatever was done before */
     if (status != PAPER_OK)
         return status;
     h->work++;

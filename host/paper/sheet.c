@@ -141,11 +141,13 @@ static void fields_make(struct paper_sheet *p)
  * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
 static enum paper_status amounts_clear(struct paper_sheet *p)
 {
-    CM_field_id_t fields[4 + 3 * PAPER_PIGMENTS_MAX];
+    CM_field_id_t fields[5 + 3 * PAPER_PIGMENTS_MAX];
     int count = 0, offset[2] = {0, 0}, start[2] = {0, 0},
         axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->page.height, p->page.width};
     fields[count++] = p->page.water;
+    if (p->config.parts)
+        fields[count++] = p->resist;
     if (sheet_has(p, PAPER_PART_SURFACE))
         fields[count++] = p->surface_water;
     if (sheet_has(p, PAPER_PART_EDGE))
