@@ -156,6 +156,7 @@ static bool foreseen(struct sheet_history *h, const struct operation *op)
     if (op->kind != SHEET_EVENT_STEP || ++h->now.step == h->ops[h->now.op].steps)
         h->now = (struct position){h->now.op + 1, 0};
     h->following = h->now.op < h->count;
+    h->open = !h->following && op->kind == SHEET_EVENT_STEP; /* it may have been saved amid steps */
     return true;
 }
 

@@ -81,6 +81,9 @@ enum paper_status paper_history_render(struct paper_sheet *sheet, double scale, 
 
 /* ---- states, for files ---- */
 
+/* Goes up with every change that makes the same run give other bits. */
+enum { PAPER_MODEL_VERSION = 1 };
+
 enum { PAPER_PLANES_MAX = 12 + 3 * PAPER_PIGMENTS_MAX };
 /* What changes in a sheet is held in planes of one word of 4 bytes for each fiber. */
 struct paper_plane {
@@ -89,6 +92,8 @@ struct paper_plane {
 };
 int paper_sheet_planes(const struct paper_sheet *sheet,
                        struct paper_plane planes[PAPER_PLANES_MAX]);
+int paper_config_planes(const struct paper_sheet_config *config,
+                        struct paper_plane planes[PAPER_PLANES_MAX]);
 /* Shape: height * width words, rows from the top. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_plane_read(struct paper_sheet *sheet, int number, void *words);
 

@@ -92,8 +92,12 @@ bool paper_sheet_config_same(const struct paper_sheet_config *a,
                              const struct paper_sheet_config *b)
 {
     struct event_bytes bytes[2] = {{0}, {0}};
-    event_config_encode(&bytes[0], a);
-    event_config_encode(&bytes[1], b);
+    const struct paper_sheet_config *const both[2] = {a, b};
+    for (int i = 0; i < 2; i++) { /* parts that others imply are there */
+        struct paper_sheet_config config = *both[i];
+        config.parts = sheet_parts_whole(config.parts);
+        event_config_encode(&bytes[i], &config);
+    }
     bool same = !bytes[0].short_of_memory && bytes[0].count == bytes[1].count &&
                 memcmp(bytes[0].at, bytes[1].at, bytes[0].count) == 0;
     free(bytes[0].at);

@@ -184,10 +184,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     if (!p)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
     p->config = *config;
-    if (sheet_has(p, PAPER_PART_EDGE))
-        p->config.parts |= PAPER_PART_SURFACE;
-    if (p->config.parts)
-        p->config.parts |= PAPER_PART_INFUSED;
+    p->config.parts = sheet_parts_whole(config->parts);
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
     p->page.width = config->width;

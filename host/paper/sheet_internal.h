@@ -40,6 +40,14 @@ static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
     return (p->config.parts & part) != 0;
 }
 
+/* With the parts that others imply. */
+static inline unsigned sheet_parts_whole(unsigned parts)
+{
+    if (parts & PAPER_PART_EDGE)
+        parts |= PAPER_PART_SURFACE;
+    return parts ? parts | PAPER_PART_INFUSED : 0;
+}
+
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
 int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
 /* The field of a layer; 0 where there is none. */

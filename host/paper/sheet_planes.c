@@ -6,60 +6,85 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct row {
-    struct paper_plane plane;
-    CM_field_id_t field;
+/* Where the field of a plane is: beside the others, or one for each pigment. */
+struct place {
+    size_t member;
+    int pigment;
 };
 
-static void row_add(struct row *rows, int *count, const char *name, int number,
-                    CM_field_id_t field)
+static void plane_add(struct paper_plane *planes, struct place *places, int *count,
+                      const char *name, size_t member, int pigment)
 {
-    struct row *row = &rows[(*count)++];
-    *row = (struct row){.field = field};
-    if (number)
-        snprintf(row->plane.name, sizeof row->plane.name, "%s %d", name, number);
+    struct paper_plane *plane = &planes[*count];
+    places[(*count)++] = (struct place){member, pigment};
+    *plane = (struct paper_plane){0};
+    if (pigment >= 0)
+        snprintf(plane->name, sizeof plane->name, "%s %d", name, pigment + 1);
     else
-        snprintf(row->plane.name, sizeof row->plane.name, "%s", name);
+        snprintf(plane->name, sizeof plane->name, "%s", name);
 }
 
-static int rows_make(const struct paper_sheet *p, struct row rows[PAPER_PLANES_MAX])
+/* Their order is that of files: it changes with the model's version only. */
+static int planes_make(const struct paper_sheet_config *config, struct paper_plane *planes,
+                       struct place *places)
 {
     static const char *const channels[3] = {"red", "green", "blue"};
     int count = 0;
-    row_add(rows, &count, "height", 0, p->height);
-    row_add(rows, &count, "absorbency", 0, p->page.absorbency);
-    row_add(rows, &count, "capacity", 0, p->capacity);
-    row_add(rows, &count, "resist", 0, p->resist);
+    unsigned parts = config->parts;
+#define AT(member) offsetof(struct paper_sheet, member)
+    plane_add(planes, places, &count, "height", AT(height), -1);
+    plane_add(planes, places, &count, "absorbency", AT(page.absorbency), -1);
+    plane_add(planes, places, &count, "capacity", AT(capacity), -1);
+    plane_add(planes, places, &count, "resist", AT(resist), -1);
     for (int i = 0; i < 3; i++)
-        row_add(rows, &count, channels[i], 0, p->substrate[i]);
-    row_add(rows, &count, "infused water", 0, p->page.water);
-    row_add(rows, &count, "surface water", 0, p->surface_water);
-    row_add(rows, &count, "wet around", 0, p->wet_around);
-    row_add(rows, &count, "dried water", 0, p->dried);
-    rows[count - 1].plane.whole = true;
-    for (int i = 0; i < p->config.pigments_count; i++) {
-        if (sheet_has(p, PAPER_PART_SURFACE))
-            row_add(rows, &count, "surface pigment", i + 1, p->surface[i]);
-        row_add(rows, &count, "infused pigment", i + 1, p->infused[i]);
-        if (sheet_has(p, PAPER_PART_FIXING))
-            row_add(rows, &count, "fixed pigment", i + 1, p->fixed[i]);
+        plane_add(planes, places, &count, channels[i],
+                  AT(substrate) + (size_t)i * sizeof(CM_field_id_t), -1);
+    plane_add(planes, places, &count, "infused water", AT(page.water), -1);
+    plane_add(planes, places, &count, "surface water", AT(surface_water), -1);
+    plane_add(planes, places, &count, "wet around", AT(wet_around), -1);
+    plane_add(planes, places, &count, "dried water", AT(dried), -1);
+    planes[count - 1].whole = true;
+    for (int i = 0; i < config->pigments_count; i++) {
+        if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE))
+            plane_add(planes, places, &count, "surface pigment", AT(surface), i);
+        plane_add(planes, places, &count, "infused pigment", AT(infused), i);
+        if (parts & PAPER_PART_FIXING)
+            plane_add(planes, places, &count, "fixed pigment", AT(fixed), i);
     }
+#undef AT
     return count;
+}
+
+int paper_config_planes(const struct paper_sheet_config *config,
+                        struct paper_plane planes[PAPER_PLANES_MAX])
+{
+    struct place places[PAPER_PLANES_MAX];
+    return planes_make(config, planes, places);
 }
 
 int paper_sheet_planes(const struct paper_sheet *p, struct paper_plane planes[PAPER_PLANES_MAX])
 {
-    struct row rows[PAPER_PLANES_MAX];
-    int count = rows_make(p, rows);
-    for (int i = 0; i < count; i++)
-        planes[i] = rows[i].plane;
-    return count;
+    return paper_config_planes(&p->config, planes);
+}
+
+static CM_field_id_t plane_field(const struct paper_sheet *p, int number, bool *whole)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    struct place places[PAPER_PLANES_MAX];
+    CM_field_id_t field;
+    planes_make(&p->config, planes, places);
+    int pigment = places[number].pigment;
+    size_t member =
+        places[number].member + (pigment > 0 ? (size_t)pigment * sizeof field : 0);
+    memcpy(&field, (const char *)p + member, sizeof field);
+    *whole = planes[number].whole;
+    return field;
 }
 
 enum paper_status paper_sheet_plane_read(struct paper_sheet *p, int number, void *words)
 {
-    struct row rows[PAPER_PLANES_MAX];
-    int count = rows_make(p, rows);
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    int count = paper_sheet_planes(p, planes);
     if (number < 0 || number >= count)
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d planes (asked for number %d)",
                           count, number);
@@ -69,33 +94,33 @@ enum paper_status paper_sheet_plane_read(struct paper_sheet *p, int number, void
 
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words)
 {
-    struct row rows[PAPER_PLANES_MAX];
+    bool whole;
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->page.height, p->page.width};
-    rows_make(p, rows);
+    CM_field_id_t field = plane_field(p, number, &whole);
     paper_enter(&p->page);
     CM_set_context();
-    if (rows[number].plane.whole)
-        CM_u_read_from_news_array_1L(words, offset, start, size, axes, rows[number].field,
+    if (whole)
+        CM_u_read_from_news_array_1L(words, offset, start, size, axes, field,
                                      SHEET_DRIED_BITS, 2, size, CM_32_bit);
     else
-        CM_f_read_from_news_array_1L(words, offset, start, size, axes, rows[number].field,
+        CM_f_read_from_news_array_1L(words, offset, start, size, axes, field,
                                      SHEET_F, 2, size, CM_float_single);
     return paper_leave(&p->page);
 }
 
 void sheet_plane_write(struct paper_sheet *p, int number, const void *words)
 {
-    struct row rows[PAPER_PLANES_MAX];
+    bool whole;
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->page.height, p->page.width};
-    rows_make(p, rows);
+    CM_field_id_t field = plane_field(p, number, &whole);
     CM_set_context();
-    if (rows[number].plane.whole)
-        CM_u_write_to_news_array_1L(words, offset, start, size, axes, rows[number].field,
+    if (whole)
+        CM_u_write_to_news_array_1L(words, offset, start, size, axes, field,
                                     SHEET_DRIED_BITS, 2, size, CM_32_bit);
     else
-        CM_f_write_to_news_array_1L(words, offset, start, size, axes, rows[number].field,
+        CM_f_write_to_news_array_1L(words, offset, start, size, axes, field,
                                     SHEET_F, 2, size, CM_float_single);
 }
 
