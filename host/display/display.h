@@ -61,5 +61,7 @@ enum display_status display_png_write_16(const char *path, int width_px, int hei
  * Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *image is then zeros.
  * Owns: the caller destroys *image. */
 enum display_status display_png_read_gray(const char *path, struct display_image *image);
+/* The same as 8-bit red, green, blue. */
+enum display_status display_png_read_rgb(const char *path, struct display_image *image);
 
 #endif

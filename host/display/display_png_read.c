@@ -1,4 +1,4 @@
-/* display_png_read.c - any PNG as gray.
+/* display_png_read.c - any PNG as gray or as red, green, blue.
  *
  * libpng's simplified reader would round-trip through colour management; the transformations asked for here
  * are plain: palette and low depths expanded, 16 bits scaled, transparency put over white, colours weighed. */
@@ -17,7 +17,7 @@ struct png_source {
     char message[256];
     uint8_t *
         rows; /* as libpng gives them, gray+alpha or RGB+alpha: one, or all where it is interlaced */
-    struct display_image image;
+    struct display_image image; /* channels: 1 or 3, as asked for */
 };
 
 static void source_read(png_structp png, png_bytep bytes, size_t count)
@@ -55,6 +55,15 @@ static void row_to_gray(const uint8_t *row, int channels, int width_px, uint8_t 
     }
 }
 
+/* One row of RGB+alpha over white. */
+static void row_to_rgb(const uint8_t *row, int width_px, uint8_t *rgb)
+{
+    for (int x = 0; x < width_px; x++, row += 4)
+        for (int c = 0; c < 3; c++)
+            *rgb++ =
+                (uint8_t)((row[c] * (unsigned)row[3] + 255u * (255u - row[3]) + 127u) / 255u);
+}
+
 /* Everything that may jump; what it allocates is in source, so the caller frees it. */
 static int png_decode(png_structp png, png_infop info, struct png_source *source)
 {
@@ -66,14 +75,17 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
     png_read_info(png, info);
     png_set_expand(png);
     png_set_scale_16(png);
+    int wanted = source->image.channels;
+    if (wanted == 3)
+        png_set_gray_to_rgb(png);
     png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
     int passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     int channels = png_get_channels(png, info);
     source->image = (struct display_image){.width_px = (int)png_get_image_width(png, info),
                                            .height_px = (int)png_get_image_height(png, info),
-                                           .channels = 1};
-    if (channels != 2 && channels != 4)
+                                           .channels = wanted};
+    if (channels != 4 && (channels != 2 || wanted == 3))
         png_error(png, "unknown kind of pixels");
     size_t height = (size_t)source->image.height_px, row_bytes = png_get_rowbytes(png, info);
     if (display_image_create(&source->image) != DISPLAY_OK ||
@@ -85,19 +97,22 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
         for (size_t y = 0; y < height; y++) {
             uint8_t *row = source->rows + (passes > 1 ? y * row_bytes : 0);
             png_read_row(png, row, NULL);
-            if (pass == passes - 1)
-                row_to_gray(row, channels, source->image.width_px,
-                            source->image.pixels + y * (size_t)source->image.width_px);
+            uint8_t *out = source->image.pixels +
+                           y * (size_t)source->image.width_px * (size_t)source->image.channels;
+            if (pass == passes - 1 && source->image.channels == 3)
+                row_to_rgb(row, source->image.width_px, out);
+            else if (pass == passes - 1)
+                row_to_gray(row, channels, source->image.width_px, out);
         }
     png_read_end(png, NULL);
     return 1;
 }
 
-enum display_status display_png_read_gray(const char *path, struct display_image *image)
+static enum display_status read_as(const char *path, int channels, struct display_image *image)
 {
     *image = (struct display_image){0};
     errno = 0;
-    struct png_source source = {.file = fopen(path, "rb")};
+    struct png_source source = {.file = fopen(path, "rb"), .image = {.channels = channels}};
     if (!source.file)
         return display_fail(DISPLAY_IO_FAILED, "%s: cannot read: %s", path,
                             strerror(errno ? errno : EIO));
@@ -121,4 +136,14 @@ enum display_status display_png_read_gray(const char *path, struct display_image
         return display_fail(source.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
                             "%s: cannot read: %s", path, strerror(source.error));
     return display_fail(DISPLAY_BAD_FILE, "%s: not a readable PNG: %s", path, source.message);
+}
+
+enum display_status display_png_read_gray(const char *path, struct display_image *image)
+{
+    return read_as(path, 1, image);
+}
+
+enum display_status display_png_read_rgb(const char *path, struct display_image *image)
+{
+    return read_as(path, 3, image);
 }

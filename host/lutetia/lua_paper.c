@@ -246,9 +246,9 @@ static int paper_close(lua_State *L)
 
 /* ---- putting and taking ---- */
 
-static int pigment_number(lua_State *L, const struct run_paper *paper, const char *name)
+int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const char *name)
 {
-    const struct paper_sheet_config *config = config_of(paper);
+    const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     for (int i = 0; i < config->pigments_count; i++)
         if (strcmp(config->pigments[i].name, name) == 0)
             return i;
@@ -256,8 +256,7 @@ static int pigment_number(lua_State *L, const struct run_paper *paper, const cha
 }
 
 /* {water = 0.5, ["phthalo green"] = 0.2}; its values in the order of the sheet's substances. */
-static void amounts_read(lua_State *L, int index, const struct run_paper *paper,
-                         double amount[1 + PAPER_PIGMENTS_MAX])
+void paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet, double *amount)
 {
     luaL_checktype(L, index, LUA_TTABLE);
     memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
@@ -266,7 +265,7 @@ static void amounts_read(lua_State *L, int index, const struct run_paper *paper,
         if (lua_type(L, -2) != LUA_TSTRING)
             luaL_error(L, "amounts are written name = number, ink[\"phthalo green\"] = 0.5");
         const char *name = lua_tostring(L, -2);
-        int i = strcmp(name, "water") == 0 ? 0 : 1 + pigment_number(L, paper, name);
+        int i = strcmp(name, "water") == 0 ? 0 : 1 + paper_pigment_number_of(L, sheet, name);
         lua_pushvalue(L, -1);
         amount[i] = arg_at(L, -1, name, -4, 4);
         lua_pop(L, 2);
@@ -288,20 +287,9 @@ static int paper_put(lua_State *L)
     struct paper_screen screen;
     int x, y;
     lua_settop(L, 3);
-    amounts_read(L, 3, paper, amount);
+    paper_amounts(L, 3, paper->sheet, amount);
     if (screen_read(L, 2, paper, &screen, &x, &y))
         check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
-    run_check(L);
-    return 0;
-}
-
-static int paper_wash(lua_State *L)
-{
-    struct run_paper *paper = paper_at(L);
-    double amount[1 + PAPER_PIGMENTS_MAX];
-    lua_settop(L, 2);
-    amounts_read(L, 2, paper, amount);
-    check(L, paper_sheet_put(paper->sheet, NULL, 0, 0, amount));
     run_check(L);
     return 0;
 }
@@ -352,12 +340,43 @@ static int paper_seal(lua_State *L)
     return 0;
 }
 
+/* ---- for the files beside this one ---- */
+
+struct paper_sheet *paper_arg(lua_State *L, int index)
+{
+    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
+    if (!paper->sheet)
+        luaL_error(L, "this paper is closed");
+    return paper->sheet;
+}
+
+void paper_check(lua_State *L, enum paper_status status)
+{
+    check(L, status);
+}
+
+void paper_memory_take(lua_State *L, int index, double bytes, const char *what)
+{
+    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
+    run_memory_take(L, bytes, what);
+    paper->bytes += bytes;
+}
+
+void paper_steps_add(lua_State *L, int index, int steps)
+{
+    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
+    paper->steps += steps;
+}
+
 /* ---- layers ---- */
 
 static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_ABSORBENCY] = "absorbency",
                                           [PAPER_LAYER_CAPACITY] = "capacity",
                                           [PAPER_LAYER_RESIST] = "resist",
+                                          [PAPER_LAYER_VARNISH] = "varnish",
+                                          [PAPER_LAYER_SALT] = "salt",
+                                          [PAPER_LAYER_BRINE] = "brine",
                                           [PAPER_LAYER_RED] = "red",
                                           [PAPER_LAYER_GREEN] = "green",
                                           [PAPER_LAYER_BLUE] = "blue",
@@ -377,7 +396,7 @@ static enum paper_layer layer_read(lua_State *L, const struct run_paper *paper, 
         (enum paper_layer)choice(L, "a layer", luaL_checkstring(L, index), layer_names);
     *pigment = 0;
     if (layer >= PAPER_LAYER_SURFACE_PIGMENT)
-        *pigment = pigment_number(L, paper, luaL_checkstring(L, pigment_index));
+        *pigment = paper_pigment_number_of(L, paper->sheet, luaL_checkstring(L, pigment_index));
     return layer;
 }
 
@@ -470,9 +489,10 @@ static int paper_total_of(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
     const char *name = luaL_checkstring(L, 2);
-    int substance = strcmp(name, "water") == 0   ? 0
-                    : strcmp(name, "dried") == 0 ? -1
-                                                 : 1 + pigment_number(L, paper, name);
+    int substance = strcmp(name, "water") == 0 ? 0
+                    : strcmp(name, "dried") == 0
+                        ? -1
+                        : 1 + paper_pigment_number_of(L, paper->sheet, name);
     double total;
     check(L, paper_sheet_total(paper->sheet, substance, &total));
     lua_pushnumber(L, total);
@@ -624,16 +644,16 @@ static int paper_index(lua_State *L)
 
 void lua_paper_open(lua_State *L)
 {
-    static const luaL_Reg methods[] = {{"put", paper_put},           {"wash", paper_wash},
-                                       {"blot", paper_blot},         {"resist", paper_resist},
-                                       {"unresist", paper_unresist}, {"dry", paper_dry},
-                                       {"seal", paper_seal},         {"layer", paper_layer},
-                                       {"mask", paper_mask},         {"at", paper_at_fiber},
-                                       {"total", paper_total_of},    {"air", paper_air},
-                                       {"step", paper_step},         {"frame", paper_frame},
-                                       {"close", paper_close},       {NULL, NULL}};
+    static const luaL_Reg methods[] = {
+        {"put", paper_put},           {"blot", paper_blot},   {"resist", paper_resist},
+        {"unresist", paper_unresist}, {"dry", paper_dry},     {"seal", paper_seal},
+        {"layer", paper_layer},       {"mask", paper_mask},   {"at", paper_at_fiber},
+        {"total", paper_total_of},    {"air", paper_air},     {"step", paper_step},
+        {"frame", paper_frame},       {"close", paper_close}, {NULL, NULL}};
     luaL_newmetatable(L, paper_type);
     luaL_newlib(L, methods);
+    luaL_setfuncs(L, lua_brush_methods, 0);
+    luaL_setfuncs(L, lua_technique_methods, 0);
     lua_pushcclosure(L, paper_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pushcfunction(L, paper_close);

@@ -75,8 +75,24 @@ bool mask_screen(lua_State *L, int index, int width, int height, struct paper_sc
 /* Pushes a mask of gray values; takes them over by copying. */
 void mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
 
+/* ---- papers, for what is put on them ---- */
+
+/* The sheet of the paper at index; raises an error where there is none, or it is closed. */
+struct paper_sheet *paper_arg(lua_State *L, int index);
+void paper_check(lua_State *L, enum paper_status status);
+/* {water = 0.5, ["phthalo green"] = 0.2}: amount has 1 + PAPER_PIGMENTS_MAX numbers, in the order of the sheet's substances. */
+void paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet, double *amount);
+int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const char *name);
+/* Memory that is the paper's until it is closed. */
+void paper_memory_take(lua_State *L, int index, double bytes, const char *what);
+/* Steps that something else than paper:step() took. */
+void paper_steps_add(lua_State *L, int index, int steps);
+extern const luaL_Reg lua_brush_methods[], lua_technique_methods[];
+
 void lua_mask_open(lua_State *L);
 void lua_paper_open(lua_State *L);
+void lua_brush_open(lua_State *L);
+void lua_technique_open(lua_State *L);
 
 /* Takes away what reaches out of the script, seeds math.random, and makes pairs() go in order. */
 void lua_sandbox_open(lua_State *L);

@@ -97,6 +97,8 @@ static int open_all(lua_State *L)
     lua_sandbox_open(L);
     lua_mask_open(L);
     lua_paper_open(L);
+    lua_brush_open(L);
+    lua_technique_open(L);
     return 0;
 }
 

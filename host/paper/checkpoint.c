@@ -27,6 +27,8 @@ static void point_free(struct sheet_history *h, struct checkpoint *point)
             h->held_bytes -= point->plane_bytes;
         }
     point->planes_count = 0;
+    free(point->extras.at);
+    point->extras = (struct event_bytes){0};
 }
 
 static void point_drop(struct sheet_history *h, int number)
@@ -45,7 +47,8 @@ static bool point_drop_least(struct sheet_history *h)
     for (int i = 0; i < h->points_count - (h->pinned ? 1 : 0); i++) {
         long before = i > 0 ? h->points[i - 1].work : 0;
         long after = i + 1 < h->points_count ? h->points[i + 1].work : h->work;
-        double worth = (double)(after - before) / (double)(labs(h->work - h->points[i].work) + 1);
+        double worth =
+            (double)(after - before) / (double)(labs(h->work - h->points[i].work) + 1);
         if (least < 0 || worth < least_worth) {
             least = i;
             least_worth = worth;
@@ -122,7 +125,8 @@ static bool point_fill(struct paper_sheet *p, struct checkpoint *point,
         point->planes_count++;
     }
     free(plane);
-    if (point->planes_count == count)
+    if (point->planes_count == count && sheet_extras_encode(p, &point->extras) == PAPER_OK &&
+        !point->extras.short_of_memory)
         return true;
     point_free(h, point);
     return false;
@@ -181,9 +185,13 @@ enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpo
         sheet_plane_write(p, i, point->planes[i]->words);
     sheet_planes_written(p);
     p->air = point->air;
+    enum paper_status status = paper_leave(&p->page);
+    struct event_reader r = {point->extras.at, point->extras.at + point->extras.count, false};
+    if (status == PAPER_OK)
+        status = sheet_extras_decode(p, &r);
     p->history->at = point->position;
     p->history->work = point->work;
-    return paper_leave(&p->page);
+    return status;
 }
 
 enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context)
@@ -214,14 +222,14 @@ enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, 
 }
 
 enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source source,
-                                 void *context, const struct paper_air *air)
+                                 void *context, const struct paper_air *air,
+                                 const struct event_reader *extras)
 {
     struct sheet_history *h = p->history;
     struct paper_plane planes[PAPER_PLANES_MAX];
     int count = paper_sheet_planes(p, planes);
-    struct checkpoint point = {.position = {h->count, 0},
-                               .air = *air,
-                               .plane_bytes = plane_bytes(p)};
+    struct checkpoint point = {
+        .position = {h->count, 0}, .air = *air, .plane_bytes = plane_bytes(p)};
     for (int i = 0; i < h->count; i++)
         point.work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
     enum paper_status status = PAPER_OK;
@@ -238,6 +246,9 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
         if (status == PAPER_OK)
             status = plane_check(p, &planes[i], point.planes[i]->words);
     }
+    event_put_bytes(&point.extras, extras->at, (size_t)(extras->end - extras->at));
+    if (status == PAPER_OK && point.extras.short_of_memory)
+        status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet's brushes");
     if (status != PAPER_OK) {
         point_free(h, &point);
         return status;

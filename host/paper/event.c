@@ -14,9 +14,12 @@ enum member_kind {
     MEMBER_INT,
     MEMBER_WORD, /* uint64_t */
     MEMBER_FLAG,
-    MEMBER_TEXT,  /* count characters, the last 0 */
-    MEMBER_PLACE, /* struct event_place */
-    MEMBER_PLANE  /* const float *: one for each fiber */
+    MEMBER_TEXT,        /* count characters, the last 0 */
+    MEMBER_PLACE,       /* struct event_place */
+    MEMBER_PAPER_PLACE, /* struct paper_place */
+    MEMBER_PLANE,       /* const float *: one for each fiber */
+    MEMBER_SAMPLES, /* samples and their count in struct paper_stroke, which is at offset 0 */
+    MEMBER_AMOUNTS  /* the arrays of struct paper_print, which is at offset 0 */
 };
 
 /* What becomes of a number at another resolution: s fibers for one and t steps for one. */
@@ -26,6 +29,7 @@ enum member_scaling {
     SCALE_RATE,   /* 1/t: what happens in each fiber in a step */
     SCALE_SPREAD, /* s * s / t: part of a gradient that flows in a step */
     SCALE_PULL,   /* s / t: part of an amount that goes on by a fiber in a step */
+    SCALE_PACE,   /* t: steps in a second */
 };
 
 struct member {
@@ -81,10 +85,14 @@ static const struct member stock_members[] = {
 };
 
 static const struct member pigment_members[] = {
-    MEMBER(paper_pigment, name, TEXT, PAPER_NAME_MAX), MEMBER(paper_pigment, weight, DOUBLE, 2),
-    MEMBER(paper_pigment, density, DOUBLE, 1),         MEMBER(paper_pigment, staining, DOUBLE, 1),
-    MEMBER(paper_pigment, granulation, DOUBLE, 1),     MEMBER(paper_pigment, k, DOUBLE, 3),
-    MEMBER(paper_pigment, s, DOUBLE, 3),               MEMBER(paper_pigment, takes, DOUBLE, 3),
+    MEMBER(paper_pigment, name, TEXT, PAPER_NAME_MAX),
+    MEMBER(paper_pigment, weight, DOUBLE, 2),
+    MEMBER(paper_pigment, density, DOUBLE, 1),
+    MEMBER(paper_pigment, staining, DOUBLE, 1),
+    MEMBER(paper_pigment, granulation, DOUBLE, 1),
+    MEMBER(paper_pigment, k, DOUBLE, 3),
+    MEMBER(paper_pigment, s, DOUBLE, 3),
+    MEMBER(paper_pigment, takes, DOUBLE, 3),
 };
 
 static const struct member put_members[] = {
@@ -105,6 +113,71 @@ static const struct member layer_members[] = {
     MEMBER(event_layer, pigment, INT, 1),
     MEMBER(event_layer, values, PLANE, 1),
 };
+
+static const struct member brush_members[] = {
+    MEMBER(paper_brush, number, INT, 1),
+    MEMBER(paper_brush, bristles, INT, 1),
+    SCALED(paper_brush, width, DOUBLE, 1, LENGTH, 1, 1000),
+    SCALED(paper_brush, depth, DOUBLE, 1, LENGTH, 1, 1000),
+    MEMBER(paper_brush, angle, DOUBLE, 1),
+    MEMBER(paper_brush, follows, FLAG, 1),
+    MEMBER(paper_brush, flat, FLAG, 1),
+    MEMBER(paper_brush, point, DOUBLE, 1),
+    MEMBER(paper_brush, uneven, DOUBLE, 1),
+    MEMBER(paper_brush, splay, DOUBLE, 1),
+    MEMBER(paper_brush, bend, DOUBLE, 1),
+    SCALED(paper_brush, thickness, DOUBLE, 1, LENGTH, 0, 100),
+    SCALED(paper_brush, reach, DOUBLE, 1, LENGTH, 1, 1e6),
+    MEMBER(paper_brush, load, DOUBLE, 1),
+    MEMBER(paper_brush, flow, DOUBLE, 1),
+    MEMBER(paper_brush, mixing, DOUBLE, 1),
+    MEMBER(paper_brush, seed, WORD, 1),
+    MEMBER(paper_brush, mirrored, FLAG, 1),
+};
+static const struct member dip_members[] = {
+    MEMBER(paper_dip, number, INT, 1),
+    MEMBER(paper_dip, part, DOUBLE, 1),
+    MEMBER(paper_dip, side, DOUBLE, 2),
+    MEMBER(paper_dip, amount, DOUBLE, 1 + PAPER_PIGMENTS_MAX),
+};
+static const struct member stroke_members[] = {
+    MEMBER(paper_stroke, number, INT, 1),
+    SCALED(paper_stroke, pace, DOUBLE, 1, PACE, 0, 10000),
+    MEMBER(paper_stroke, samples, SAMPLES, 1),
+};
+static const struct member salt_members[] = {
+    MEMBER(paper_salt, place, PAPER_PLACE, 1),
+    SCALED(paper_salt, x, DOUBLE, 1, LENGTH, -1e6, 1e6),
+    SCALED(paper_salt, y, DOUBLE, 1, LENGTH, -1e6, 1e6),
+    SCALED(paper_salt, radius, DOUBLE, 1, LENGTH, 0, 1e5),
+    MEMBER(paper_salt, grains, INT, 1),
+    SCALED(paper_salt, size, DOUBLE, 2, LENGTH, 0.1, 50),
+    MEMBER(paper_salt, strength, DOUBLE, 1),
+    SCALED(paper_salt, reach, DOUBLE, 1, LENGTH, 1, 100),
+    MEMBER(paper_salt, seed, WORD, 1),
+};
+static const struct member wash_members[] = {
+    MEMBER(paper_wash, place, PAPER_PLACE, 1),
+    SCALED(paper_wash, from, DOUBLE, 2, LENGTH, -1e6, 1e6),
+    SCALED(paper_wash, to, DOUBLE, 2, LENGTH, -1e6, 1e6),
+    MEMBER(paper_wash, amount, DOUBLE, 1 + PAPER_PIGMENTS_MAX),
+    MEMBER(paper_wash, end, DOUBLE, 1 + PAPER_PIGMENTS_MAX),
+};
+static const struct member print_members[] = {MEMBER(paper_print, amount, AMOUNTS, 1)};
+static const struct member lift_members[] = {
+    MEMBER(paper_lift, place, PAPER_PLACE, 1),
+    MEMBER(paper_lift, part, DOUBLE, 1),
+};
+static const struct member varnish_members[] = {
+    MEMBER(paper_varnish, place, PAPER_PLACE, 1),
+    MEMBER(paper_varnish, amount, DOUBLE, 1),
+};
+
+static enum paper_status stroke_check(const struct paper_sheet *p, const void *arguments)
+{
+    (void)p;
+    return paper_stroke_check(arguments);
+}
 
 static enum paper_status air_set(struct paper_sheet *p, const void *arguments)
 {
@@ -131,12 +204,32 @@ static const struct kind {
     [SHEET_EVENT_SEAL] = {"seal", 0, NULL, 0, NULL, sheet_seal},
     [SHEET_EVENT_LAYER] = {"layer", KIND(event_layer, layer_members), sheet_layer_check,
                            sheet_layer},
+    [SHEET_EVENT_BRUSH] = {"brush", KIND(paper_brush, brush_members), NULL, sheet_brush},
+    [SHEET_EVENT_DIP] = {"dip", KIND(paper_dip, dip_members), NULL, sheet_dip},
+    [SHEET_EVENT_STROKE] = {"stroke", KIND(paper_stroke, stroke_members), stroke_check,
+                            sheet_stroke},
+    [SHEET_EVENT_SALT] = {"salt", KIND(paper_salt, salt_members), NULL, sheet_salt},
+    [SHEET_EVENT_WASH] = {"wash", KIND(paper_wash, wash_members), NULL, sheet_wash},
+    [SHEET_EVENT_PRINT] = {"print", KIND(paper_print, print_members), NULL, sheet_print},
+    [SHEET_EVENT_LIFT] = {"lift", KIND(paper_lift, lift_members), NULL, sheet_lift},
+    [SHEET_EVENT_VARNISH] = {"varnish", KIND(paper_varnish, varnish_members), NULL,
+                             sheet_varnish},
 #undef KIND
 };
 
 const char *event_name(enum sheet_event_kind kind)
 {
     return kinds[kind].name;
+}
+
+size_t event_size(enum sheet_event_kind kind)
+{
+    size_t size = 0;
+    for (size_t i = 0; i < kinds[kind].members_count; i++) {
+        const struct member *m = &kinds[kind].members[i];
+        size += (size_t)m->count * (m->kind == MEMBER_FLAG || m->kind == MEMBER_TEXT ? 1 : 8);
+    }
+    return size;
 }
 
 int event_find(const char *name, size_t length)
@@ -249,6 +342,28 @@ static void place_encode(struct event_bytes *b, const struct paper_sheet_config 
             (size_t)(x2 - x1));
 }
 
+enum { SAMPLE_NUMBERS = sizeof(struct paper_stroke_sample) / sizeof(double) };
+_Static_assert(sizeof(struct paper_stroke_sample) == 6 * sizeof(double), "six doubles");
+
+/* Its rectangle, and for each substance whether there is an array, and the array. A rectangle that cannot be is kept, without
+ * arrays, so that it can be refused. */
+static void amounts_encode(struct event_bytes *b, const struct paper_sheet_config *config,
+                           const struct paper_print *print)
+{
+    const int rectangle[4] = {print->x, print->y, print->width, print->height};
+    bool good = print->width > 0 && print->height > 0 && print->width <= PAPER_SIDE_MAX &&
+                print->height <= PAPER_SIDE_MAX;
+    for (int i = 0; i < 4; i++)
+        event_put_number(b, (uint64_t)(int64_t)rectangle[i], 8);
+    for (int i = 0; i <= config->pigments_count; i++) {
+        const float *amounts = good ? print->amount[i] : NULL;
+        event_put_number(b, amounts != NULL, 1);
+        if (amounts)
+            event_put_bytes(b, amounts,
+                            (size_t)print->width * (size_t)print->height * sizeof *amounts);
+    }
+}
+
 static void members_encode(struct event_bytes *b, const struct paper_sheet_config *config,
                            const struct member *members, size_t count, const void *of)
 {
@@ -275,6 +390,28 @@ static void members_encode(struct event_bytes *b, const struct paper_sheet_confi
             break;
         case MEMBER_PLACE:
             place_encode(b, config, start);
+            break;
+        case MEMBER_PAPER_PLACE: {
+            const struct paper_place *place = start;
+            struct event_place held = {!place->screen, place->x, place->y, {0}};
+            if (place->screen)
+                held.screen = *place->screen;
+            place_encode(b, config, &held);
+            break;
+        }
+        case MEMBER_SAMPLES: {
+            const struct paper_stroke *stroke = of;
+            event_put_number(b, (uint64_t)stroke->samples_count, 4);
+            for (int i = 0; i < stroke->samples_count; i++) {
+                double numbers[SAMPLE_NUMBERS];
+                memcpy(numbers, &stroke->samples[i], sizeof numbers);
+                for (int j = 0; j < SAMPLE_NUMBERS; j++)
+                    event_put_double(b, numbers[j]);
+            }
+            break;
+        }
+        case MEMBER_AMOUNTS:
+            amounts_encode(b, config, of);
             break;
         case MEMBER_PLANE: { /* floats are kept as they are: low byte first here and on every machine this runs on */
             _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "low byte first");
@@ -327,6 +464,52 @@ static bool place_decode(struct event_reader *r, const struct paper_sheet_config
     return r->bad || place->screen.gray;
 }
 
+static bool samples_decode(struct event_reader *r, struct paper_stroke *stroke)
+{
+    uint64_t count = event_get_number(r, 4);
+    if (count > PAPER_STROKE_SAMPLES_MAX || count == 0 ||
+        count * sizeof(struct paper_stroke_sample) > (size_t)(r->end - r->at))
+        r->bad = true;
+    if (r->bad)
+        return true;
+    struct paper_stroke_sample *samples = malloc((size_t)count * sizeof *samples);
+    if (!samples)
+        return false;
+    for (uint64_t i = 0; i < count; i++) {
+        double numbers[SAMPLE_NUMBERS];
+        for (int j = 0; j < SAMPLE_NUMBERS; j++)
+            numbers[j] = event_get_double(r);
+        memcpy(&samples[i], numbers, sizeof numbers);
+    }
+    stroke->samples_count = (int)count;
+    stroke->samples = samples;
+    return true;
+}
+
+static bool amounts_decode(struct event_reader *r, const struct paper_sheet_config *config,
+                           struct paper_print *print)
+{
+    int *const rectangle[4] = {&print->x, &print->y, &print->width, &print->height};
+    for (int i = 0; i < 4; i++) {
+        int64_t number = (int64_t)event_get_number(r, 8);
+        r->bad = r->bad || number < -PAPER_SIDE_MAX * 64 || number > PAPER_SIDE_MAX * 64;
+        *rectangle[i] = r->bad ? 0 : (int)number;
+    }
+    if (print->width < 1 || print->height < 1 || print->width > PAPER_SIDE_MAX ||
+        print->height > PAPER_SIDE_MAX)
+        r->bad = true;
+    for (int i = 0; i <= config->pigments_count && !r->bad; i++) {
+        if (event_get_number(r, 1) == 0 || r->bad)
+            continue;
+        uint8_t *amounts =
+            copy_get(r, (size_t)print->width * (size_t)print->height * sizeof(float));
+        if (!amounts && !r->bad)
+            return false;
+        memcpy(&print->amount[i], &amounts, sizeof amounts);
+    }
+    return true;
+}
+
 /* False where memory is short. */
 static bool members_decode(struct event_reader *r, const struct paper_sheet_config *config,
                            const struct member *members, size_t count, void *of)
@@ -363,9 +546,31 @@ static bool members_decode(struct event_reader *r, const struct paper_sheet_conf
         case MEMBER_PLACE:
             memory = place_decode(r, config, start);
             break;
+        case MEMBER_PAPER_PLACE: {
+            struct event_place held = {0};
+            struct paper_place *place = start;
+            memory = place_decode(r, config, &held);
+            *place = (struct paper_place){.x = held.x, .y = held.y};
+            if (memory && !r->bad && !held.everywhere) {
+                struct paper_screen *screen = malloc(sizeof *screen);
+                memory = screen != NULL;
+                if (memory)
+                    *screen = held.screen;
+                else
+                    free(held.screen.gray);
+                place->screen = screen;
+            }
+            break;
+        }
+        case MEMBER_SAMPLES:
+            memory = samples_decode(r, of);
+            break;
+        case MEMBER_AMOUNTS:
+            memory = amounts_decode(r, config, of);
+            break;
         case MEMBER_PLANE: {
-            uint8_t *values = copy_get(r, (size_t)config->width * (size_t)config->height *
-                                              sizeof(float));
+            uint8_t *values =
+                copy_get(r, (size_t)config->width * (size_t)config->height * sizeof(float));
             memory = values || r->bad;
             memcpy(at, &values, sizeof values);
             break;
@@ -404,8 +609,20 @@ void event_free(enum sheet_event_kind kind, void *arguments)
         void *start = at, *held = NULL;
         if (k->members[i].kind == MEMBER_PLACE)
             held = ((struct event_place *)start)->screen.gray;
-        if (k->members[i].kind == MEMBER_PLANE)
+        if (k->members[i].kind == MEMBER_PLANE || k->members[i].kind == MEMBER_SAMPLES)
             memcpy(&held, at, sizeof held);
+        if (k->members[i].kind == MEMBER_PAPER_PLACE) {
+            struct paper_screen *screen;
+            memcpy(&screen, at + offsetof(struct paper_place, screen), sizeof screen);
+            if (screen)
+                free(screen->gray);
+            held = screen;
+        }
+        for (int j = 0; k->members[i].kind == MEMBER_AMOUNTS && j <= PAPER_PIGMENTS_MAX; j++) {
+            void *amounts;
+            memcpy(&amounts, at + (size_t)j * sizeof amounts, sizeof amounts);
+            free(amounts);
+        }
         free(held);
     }
     free(arguments);
@@ -594,6 +811,64 @@ static bool plane_scale(const float **values, const struct event_scaling *scalin
     return done;
 }
 
+static bool paper_place_scale(struct paper_place *place, const struct event_scaling *scaling)
+{
+    struct event_place held = {!place->screen, place->x, place->y, {0}};
+    if (!place->screen)
+        return true;
+    held.screen = *place->screen;
+    if (!place_scale(&held, scaling))
+        return false;
+    struct paper_screen *screen;
+    memcpy(&screen, &place->screen, sizeof screen);
+    *screen = held.screen;
+    place->x = held.x;
+    place->y = held.y;
+    return true;
+}
+
+static void samples_scale(struct paper_stroke *stroke, const struct event_scaling *scaling)
+{
+    struct paper_stroke_sample *samples;
+    memcpy(&samples, &stroke->samples, sizeof samples);
+    for (int i = 0; i < stroke->samples_count; i++) {
+        samples[i].x *= scaling->length;
+        samples[i].y *= scaling->length;
+    }
+}
+
+static bool amounts_scale(struct paper_print *print, const struct event_scaling *scaling)
+{
+    double s = scaling->length;
+    struct resampled r = {.scale = s,
+                          .x0 = (int)floor(print->x * s),
+                          .y0 = (int)floor(print->y * s),
+                          .width = (int)fmin(PAPER_SIDE_MAX, fmax(1, round(print->width * s))),
+                          .height =
+                              (int)fmin(PAPER_SIDE_MAX, fmax(1, round(print->height * s))),
+                          .old_x = print->x,
+                          .old_y = print->y,
+                          .old_width = print->width,
+                          .old_height = print->height,
+                          .edge_goes_on = true};
+    bool done = true;
+    for (int i = 0; i <= PAPER_PIGMENTS_MAX && done; i++) {
+        if (!print->amount[i])
+            continue;
+        float *new = malloc((size_t)r.width * (size_t)r.height * sizeof *new), *old;
+        memcpy(&old, &print->amount[i], sizeof old);
+        done = new &&resample(&r, old, new);
+        free(done ? old : new);
+        if (done)
+            print->amount[i] = new;
+    }
+    print->x = r.x0;
+    print->y = r.y0;
+    print->width = r.width;
+    print->height = r.height;
+    return done;
+}
+
 static double number_scale(const struct member *m, double value, double length, double pace)
 {
     switch (m->scaling) {
@@ -611,6 +886,9 @@ static double number_scale(const struct member *m, double value, double length, 
     case SCALE_PULL:
         value *= length / pace;
         break;
+    case SCALE_PACE:
+        value *= pace;
+        break;
     }
     return m->least < m->most ? fmin(m->most, fmax(m->least, value)) : value;
 }
@@ -623,16 +901,22 @@ static bool members_scale(const struct member *members, size_t count, void *of,
         void *start = (char *)of + m->offset;
         if (m->kind == MEMBER_PLACE)
             memory = place_scale(start, scaling);
+        else if (m->kind == MEMBER_PAPER_PLACE)
+            memory = paper_place_scale(start, scaling);
+        else if (m->kind == MEMBER_SAMPLES)
+            samples_scale(of, scaling);
+        else if (m->kind == MEMBER_AMOUNTS)
+            memory = amounts_scale(of, scaling);
         else if (m->kind == MEMBER_PLANE)
             memory = plane_scale(start, scaling);
         else if (m->scaling != SCALE_NOT)
             for (int i = 0; i < m->count; i++) {
                 if (m->kind == MEMBER_DOUBLE)
-                    ((double *)start)[i] = number_scale(m, ((double *)start)[i],
-                                                        scaling->length, scaling->pace);
+                    ((double *)start)[i] =
+                        number_scale(m, ((double *)start)[i], scaling->length, scaling->pace);
                 else if (m->kind == MEMBER_INT)
-                    ((int *)start)[i] = (int)lround(number_scale(
-                        m, ((int *)start)[i], scaling->length, scaling->pace));
+                    ((int *)start)[i] = (int)lround(
+                        number_scale(m, ((int *)start)[i], scaling->length, scaling->pace));
             }
     }
     return memory;

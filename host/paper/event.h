@@ -14,8 +14,10 @@
 #ifndef LUTETIA_PAPER_EVENT_H
 #define LUTETIA_PAPER_EVENT_H
 
+#include "brush.h"
 #include "paper_internal.h"
 #include "sheet.h"
+#include "techniques.h"
 
 enum sheet_event_kind {
     SHEET_EVENT_STEP,
@@ -26,6 +28,14 @@ enum sheet_event_kind {
     SHEET_EVENT_DRY,
     SHEET_EVENT_SEAL,
     SHEET_EVENT_LAYER,
+    SHEET_EVENT_BRUSH,
+    SHEET_EVENT_DIP,
+    SHEET_EVENT_STROKE,
+    SHEET_EVENT_SALT,
+    SHEET_EVENT_WASH,
+    SHEET_EVENT_PRINT,
+    SHEET_EVENT_LIFT,
+    SHEET_EVENT_VARNISH,
     SHEET_EVENT_KINDS
 };
 
@@ -63,6 +73,8 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
 enum paper_status sheet_ready(struct paper_sheet *p);
 
 const char *event_name(enum sheet_event_kind kind);
+/* Bytes of its arguments, of kinds that have only numbers, flags and text. */
+size_t event_size(enum sheet_event_kind kind);
 /* By name; -1: none. */
 int event_find(const char *name, size_t length);
 enum paper_status event_check(const struct paper_sheet *p, enum sheet_event_kind kind,
@@ -109,8 +121,8 @@ void event_air_decode(struct event_reader *r, struct paper_air *air);
 /* ---- at another resolution ---- */
 
 struct event_scaling {
-    double length; /* fibers for one */
-    double pace;   /* steps for one */
+    double length;             /* fibers for one */
+    double pace;               /* steps for one */
     int width, height;         /* of the sheet that the event was for */
     int new_width, new_height; /* and of the one that it is for now */
 };
@@ -133,5 +145,13 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_print(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments);
 
 #endif

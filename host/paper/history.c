@@ -69,8 +69,9 @@ static struct position position_at(const struct sheet_history *h, long time,
         return (struct position){-1, 0};
     while (position_compare(position, end) < 0) {
         int steps = h->ops[position.op].steps;
-        if (steps > 0 && passed + steps > time) {
-            position.step = (int)(time - passed);
+        if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
+            if (h->ops[position.op].kind == SHEET_EVENT_STEP)
+                position.step = (int)(time - passed);
             break;
         }
         passed += steps;
@@ -116,6 +117,23 @@ bool paper_history_diverged(const struct paper_sheet *p)
     return p->history && p->history->diverged;
 }
 
+bool paper_history_brush(const struct paper_sheet *p, int number)
+{
+    const struct sheet_history *h = p->history;
+    if (!h)
+        return paper_sheet_brush_get(p, number) != NULL;
+    bool there = false;
+    for (int i = 0; i < h->now.op && !there; i++) {
+        void *arguments = NULL;
+        if (h->ops[i].kind != SHEET_EVENT_BRUSH)
+            continue;
+        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+            there = ((const struct paper_brush *)arguments)->number == number;
+        event_free(SHEET_EVENT_BRUSH, arguments);
+    }
+    return there;
+}
+
 /* ---- doing ---- */
 
 void paper_history_mark(struct paper_sheet *p)
@@ -130,10 +148,15 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
 {
     struct sheet_history *h = p->history;
     struct position at = h->at;
-    h->at.op = -1; /* unless it succeeds */
+    h->at.op = -1; /* unless it succeeds, or changes nothing */
+    h->performing = true;
     enum paper_status status = event_perform(p, op->kind, arguments);
+    h->performing = false;
+    if (status == PAPER_BAD_ARGUMENT)
+        h->at = at;
     if (status == PAPER_OK && op->kind != SHEET_EVENT_STEP)
-        status = paper_sheet_finish(p); /* steps are the same kernels whatever was done before */
+        status =
+            paper_sheet_finish(p); /* steps are the same kernels whatever was done before */
     if (status != PAPER_OK)
         return status;
     h->work++;
@@ -156,7 +179,8 @@ static bool foreseen(struct sheet_history *h, const struct operation *op)
     if (op->kind != SHEET_EVENT_STEP || ++h->now.step == h->ops[h->now.op].steps)
         h->now = (struct position){h->now.op + 1, 0};
     h->following = h->now.op < h->count;
-    h->open = !h->following && op->kind == SHEET_EVENT_STEP; /* it may have been saved amid steps */
+    h->open =
+        !h->following && op->kind == SHEET_EVENT_STEP; /* it may have been saved amid steps */
     return true;
 }
 
@@ -190,7 +214,7 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
     enum paper_status status = event_check(p, kind, arguments);
     if (status != PAPER_OK)
         return status;
-    if (!h) {
+    if (!h || h->performing) {
         p->touched = true;
         p->steps += kind == SHEET_EVENT_STEP;
         return event_perform(p, kind, arguments);
@@ -205,12 +229,14 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
     status = history_cut(h);
     if (status == PAPER_OK)
         status = sheet_ready(p);
+    long before = p->steps;
     if (status == PAPER_OK)
         status = operation_perform(p, &op, arguments);
     if (status != PAPER_OK) {
         operation_free(&op);
         return status;
     }
+    op.steps += (int)(p->steps - before);
     status = record(h, op);
     if (status == PAPER_OK)
         checkpoint_offer(p, false);
@@ -256,7 +282,7 @@ enum paper_status sheet_ready(struct paper_sheet *p)
 {
     struct sheet_history *h = p->history;
     enum paper_status status = PAPER_OK;
-    if (!h || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
         return PAPER_OK;
     const struct checkpoint *point = checkpoint_before(h, h->now);
     struct position from = point ? point->position : beginning;
@@ -314,8 +340,8 @@ int paper_history_redo(struct paper_sheet *p, int count)
     return count;
 }
 
-static enum paper_status time_check(const struct paper_sheet *p, long time,
-                                    struct position end, struct position *position)
+static enum paper_status time_check(const struct paper_sheet *p, long time, struct position end,
+                                    struct position *position)
 {
     const struct sheet_history *h = p->history;
     if (!h)
@@ -333,8 +359,7 @@ enum paper_status paper_history_seek(struct paper_sheet *p, long time)
 {
     struct position position, end = beginning;
     if (p->history)
-        end = p->history->following ? p->history->now
-                                    : (struct position){p->history->count, 0};
+        end = p->history->following ? p->history->now : (struct position){p->history->count, 0};
     enum paper_status status = time_check(p, time, end, &position);
     if (status == PAPER_OK)
         move_to(p, position);

@@ -34,6 +34,8 @@ bool paper_history_has(const struct paper_sheet *sheet);
 /* Operations that are done, and those undone that can be done again. */
 int paper_history_done(const struct paper_sheet *sheet);
 int paper_history_undone(const struct paper_sheet *sheet);
+/* Whether a brush of that number has been made by now. */
+bool paper_history_brush(const struct paper_sheet *sheet, int number);
 /* Steps gone by. */
 long paper_sheet_steps(const struct paper_sheet *sheet);
 /* Memory that the list and the checkpoints take. */
@@ -84,7 +86,7 @@ enum paper_status paper_history_render(struct paper_sheet *sheet, double scale, 
 /* Goes up with every change that makes the same run give other bits. */
 enum { PAPER_MODEL_VERSION = 1 };
 
-enum { PAPER_PLANES_MAX = 12 + 3 * PAPER_PIGMENTS_MAX };
+enum { PAPER_PLANES_MAX = 15 + 3 * PAPER_PIGMENTS_MAX };
 /* What changes in a sheet is held in planes of one word of 4 bytes for each fiber. */
 struct paper_plane {
     char name[40];
@@ -99,7 +101,7 @@ enum paper_status paper_sheet_plane_read(struct paper_sheet *sheet, int number, 
 
 /* The sheet's description and its operations, as bytes. Owns: the caller frees *bytes. Errors: BAD_ARGUMENT (no history),
  * NO_MEMORY. */
-enum paper_status paper_history_encode(const struct paper_sheet *sheet, uint8_t **bytes,
+enum paper_status paper_history_encode(struct paper_sheet *sheet, uint8_t **bytes,
                                        size_t *count);
 /* Only the description: what a sheet of that state takes. Errors: BAD_FILE. */
 enum paper_status paper_history_describe(const uint8_t *bytes, size_t count,

@@ -16,7 +16,7 @@
 
 struct operation {
     enum sheet_event_kind kind;
-    int steps;      /* of SHEET_EVENT_STEP */
+    int steps;      /* that it takes */
     uint8_t *bytes; /* arguments, deflated if stored < raw */
     size_t raw, stored;
 };
@@ -35,6 +35,7 @@ struct checkpoint {
     struct position position;
     long work; /* operations and steps before it */
     struct paper_air air;
+    struct event_bytes extras;
     double plane_bytes;
     int planes_count;
     struct plane_copy *planes[PAPER_PLANES_MAX];
@@ -46,9 +47,10 @@ struct sheet_history {
     struct operation *ops;
     int count, room;
     struct position now, at;
-    long work;        /* at `at` */
-    bool open;        /* the last operation's steps may get more */
+    long work; /* at `at` */
+    bool open; /* the last operation's steps may get more */
     bool following, diverged;
+    bool performing;  /* what is asked for meanwhile is a part of the operation */
     int inserting_at; /* operations before it are not undone; -1: no insertion */
     struct operation *tail;
     int tail_count;
@@ -62,8 +64,7 @@ struct sheet_history {
 
 static inline int position_compare(struct position a, struct position b)
 {
-    return a.op != b.op ? (a.op > b.op) - (a.op < b.op)
-                        : (a.step > b.step) - (a.step < b.step);
+    return a.op != b.op ? (a.op > b.op) - (a.op < b.op) : (a.step > b.step) - (a.step < b.step);
 }
 
 /* ---- operations (history_list.c) ---- */
@@ -94,7 +95,8 @@ const struct checkpoint *checkpoint_before(const struct sheet_history *h,
 enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point);
 /* A saved state as one that stays. Errors: NO_MEMORY, the source's. */
 enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source source,
-                                 void *context, const struct paper_air *air);
+                                 void *context, const struct paper_air *air,
+                                 const struct event_reader *extras);
 /* The state straight into the sheet. */
 enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context);
 void checkpoints_free(struct sheet_history *h);
@@ -107,6 +109,11 @@ enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *wor
 void sheet_plane_write(struct paper_sheet *p, int number, const void *words);
 /* After all have been written: what follows from them. */
 void sheet_planes_written(struct paper_sheet *p);
+/* What is in no plane: brushes with what they hold, whether there is salt or varnish. */
+enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes *b);
+/* Errors: BAD_FILE (only what bytes from outside can bring about), NO_MEMORY, MACHINE_FAILED. */
+enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r);
+void sheet_extras_reset(struct paper_sheet *p);
 /* The sheet is as it was made. */
 enum paper_status sheet_reset(struct paper_sheet *p);
 

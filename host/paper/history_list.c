@@ -71,7 +71,8 @@ bool operation_same(const struct operation *a, const struct operation *b)
     if (a->kind == SHEET_EVENT_STEP || a->raw == 0)
         return true;
     uint8_t *made_a, *made_b;
-    const uint8_t *bytes_a = operation_bytes(a, &made_a), *bytes_b = operation_bytes(b, &made_b);
+    const uint8_t *bytes_a = operation_bytes(a, &made_a),
+                  *bytes_b = operation_bytes(b, &made_b);
     bool same = bytes_a && bytes_b && memcmp(bytes_a, bytes_b, a->raw) == 0;
     free(made_a);
     free(made_b);

@@ -5,6 +5,8 @@
  *     air                                as it is now
  *     now: operation, step               4, 4
  *     names: count, {length, name}       1, {1, length}: of the kinds below
+ *     extras: length                     8: brushes and what they hold
+ *       sheet_extras_encode()
  *     operations: count                  4
  *       kind, steps, raw, stored         1, 4, 8, 8: lengths of the arguments, before and after deflating
  *       arguments                        stored bytes, event_encode() */
@@ -22,8 +24,7 @@ enum { RUN_VERSION = 1, OPERATIONS_MAX = 1 << 24 };
 
 static const char magic[4] = {'L', 'R', 'U', 'N'};
 
-enum paper_status paper_history_encode(const struct paper_sheet *p, uint8_t **bytes,
-                                       size_t *count)
+enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, size_t *count)
 {
     const struct sheet_history *h = p->history;
     struct event_bytes b = {0};
@@ -32,6 +33,14 @@ enum paper_status paper_history_encode(const struct paper_sheet *p, uint8_t **by
     if (!h || h->inserting_at >= 0)
         return paper_fail(PAPER_BAD_ARGUMENT, h ? "something is being inserted; save later"
                                                 : "the sheet has no history to save");
+    struct event_bytes extras = {0};
+    enum paper_status status = sheet_ready(p);
+    if (status == PAPER_OK)
+        status = sheet_extras_encode(p, &extras);
+    if (status != PAPER_OK) {
+        free(extras.at);
+        return status;
+    }
     int ops_count = h->following ? h->now.op + (h->now.step > 0) : h->count;
     event_put_bytes(&b, magic, sizeof magic);
     event_put_number(&b, RUN_VERSION, 4);
@@ -45,6 +54,10 @@ enum paper_status paper_history_encode(const struct paper_sheet *p, uint8_t **by
         event_put_number(&b, strlen(name), 1);
         event_put_bytes(&b, name, strlen(name));
     }
+    event_put_number(&b, extras.count, 8);
+    event_put_bytes(&b, extras.at, extras.count);
+    b.short_of_memory |= extras.short_of_memory;
+    free(extras.at);
     event_put_number(&b, (uint64_t)ops_count, 4);
     for (int i = 0; i < ops_count; i++) {
         const struct operation *op = &h->ops[i];
@@ -138,7 +151,7 @@ static enum paper_status operation_read(struct event_reader *r, const struct pap
                           "the run has an operation that this program does not know");
     bool step = kinds[kind] == SHEET_EVENT_STEP;
     if (stored > raw || raw > most || raw > stored * DEFLATE_RATIO_MAX + 64 ||
-        (step ? steps < 1 || steps > INT32_MAX / 2 : steps != 0))
+        steps > INT32_MAX / 2 || (step && steps < 1))
         return damaged("an operation");
     const uint8_t *bytes = event_get_bytes(r, (size_t)stored);
     if (!bytes)
@@ -168,12 +181,16 @@ static enum paper_status operation_check(const struct paper_sheet *p,
     return status == PAPER_BAD_ARGUMENT ? damaged("an operation") : status;
 }
 
-static enum paper_status operations_read(struct event_reader *r, struct paper_sheet *p)
+static enum paper_status operations_read(struct event_reader *r, struct paper_sheet *p,
+                                         struct event_reader *extras)
 {
     struct sheet_history *h = p->history;
     int kinds[256];
     uint64_t now_op = event_get_number(r, 4), now_step = event_get_number(r, 4);
     enum paper_status status = names_read(r, kinds);
+    uint64_t extras_count = event_get_number(r, 8);
+    extras->at = event_get_bytes(r, (size_t)extras_count);
+    extras->end = extras->at ? extras->at + extras_count : NULL;
     uint64_t count = event_get_number(r, 4);
     if (status == PAPER_OK && (r->bad || count > OPERATIONS_MAX))
         status = damaged("the list of operations");
@@ -203,6 +220,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     struct paper_air air;
     struct paper_sheet *p = NULL;
     struct paper_plane planes[PAPER_PLANES_MAX];
+    struct event_reader extras = {NULL, NULL, false};
     *out = NULL;
     enum paper_status status = run_begin(&r, &config, &air);
     if (status == PAPER_OK && r.bad)
@@ -216,7 +234,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     if (status == PAPER_OK)
         status = paper_history_begin(p, budget_bytes);
     if (status == PAPER_OK)
-        status = operations_read(&r, p);
+        status = operations_read(&r, p, &extras);
     if (status == PAPER_OK && follow)
         status = history_cut(p->history);
     if (status != PAPER_OK)
@@ -225,13 +243,15 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     struct sheet_history *h = p->history;
     double state_bytes = 4.0 * config.width * config.height * paper_sheet_planes(p, planes);
     if (follow && state_bytes <= budget_bytes) {
-        status = checkpoint_pin(p, source, context, &air);
+        status = checkpoint_pin(p, source, context, &air, &extras);
     } else {
         status = planes_load(p, source, context);
+        if (status == PAPER_OK)
+            status = sheet_extras_decode(p, &extras);
         h->at = h->now;
         p->air = air;
         for (int i = 0; i < h->now.op; i++)
-            h->work += h->ops[i].steps > 0 ? h->ops[i].steps : 1;
+            h->work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
         h->work += h->now.step;
     }
     if (status == PAPER_OK && follow) {
@@ -299,6 +319,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
             break;
         if (h->ops[i].kind != SHEET_EVENT_STEP) {
             status = render_operation(to, &h->ops[i], &p->config, &scaling);
+            passed += h->ops[i].steps;
             continue;
         }
         passed += i == h->now.op ? h->now.step : h->ops[i].steps;

@@ -114,7 +114,8 @@ static void fields_make(struct paper_sheet *p)
         &p->page.absorbency, &p->page.water,   &p->page.inflow,   &p->page.inward,
         &p->page.outward,    &p->page.scratch, &p->height,        &p->capacity,
         &p->resist,          &p->face[0],      &p->face[1],       &p->substrate[0],
-        &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around};
+        &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around,
+        &p->varnish,         &p->salt,         &p->brine};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = field_make(PAPER_FLOAT_BITS);
     for (int i = 0; i < p->config.pigments_count; i++) {
@@ -187,6 +188,8 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     p->config.parts = sheet_parts_whole(config->parts);
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
+    p->salt_reach = 10;
+    p->salt_strength = 1;
     p->page.width = config->width;
     p->page.height = config->height;
     p->page.x_bits = coordinate_bits(config->width);
@@ -220,6 +223,7 @@ void paper_sheet_destroy(struct paper_sheet *p)
         return;
     if (p->history)
         history_free(p->history);
+    sheet_brushes_destroy(p);
     CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
     CM_deallocate_geometry(p->page.geometry);
     free(p);
@@ -260,6 +264,9 @@ static const struct {
     LAYER(ABSORBENCY, page.absorbency, false, false, 0, PAPER_ABSORBENCY_MAX),
     LAYER(CAPACITY, capacity, false, false, 0.01, 1),
     LAYER(RESIST, resist, false, false, 0, 1),
+    LAYER(VARNISH, varnish, false, false, 0, 1),
+    LAYER(SALT, salt, false, false, 0, 4),
+    LAYER(BRINE, brine, false, false, 0, 4),
     LAYER(RED, substrate[0], false, false, 0, 1),
     LAYER(GREEN, substrate[1], false, false, 0, 1),
     LAYER(BLUE, substrate[2], false, false, 0, 1),
@@ -355,6 +362,8 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     CM_set_context();
     CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
                                 CM_float_single);
+    p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
+    p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
         sheet_faces_make(p);
     if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)

@@ -138,6 +138,9 @@ enum paper_layer {
     PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
     PAPER_LAYER_CAPACITY,   /* 0.01..1 */
     PAPER_LAYER_RESIST,     /* masking fluid: 1 where nothing comes */
+    PAPER_LAYER_VARNISH,    /* 0..1; techniques.h */
+    PAPER_LAYER_SALT,       /* grains, 0..4, and what has dissolved of them, 0..4 */
+    PAPER_LAYER_BRINE,
     PAPER_LAYER_RED, /* what the pigments lie on: linear light, 0..1, or by the other rules display values */
     PAPER_LAYER_GREEN,
     PAPER_LAYER_BLUE,

@@ -18,8 +18,7 @@ static int clip(int64_t at, int length)
 static enum paper_status place_check(const struct event_place *place)
 {
     const struct paper_screen *screen = &place->screen;
-    if (!place->everywhere &&
-        (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
+    if (!place->everywhere && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
     return PAPER_OK;
 }
@@ -32,13 +31,17 @@ static struct event_place place_of(const struct paper_screen *screen, int x, int
     return place;
 }
 
-/* share = the screen's gray as 0..1, 0 where there is resist. */
 static enum paper_status share_make(struct paper_sheet *p, const struct event_place *place,
                                     CM_field_id_t share)
 {
-    const struct paper_screen *screen = &place->screen;
-    int x = place->x, y = place->y;
-    if (place->everywhere) {
+    return sheet_share_make(p, place->everywhere ? NULL : &place->screen, place->x, place->y,
+                            share);
+}
+
+enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_screen *screen,
+                                   int x, int y, CM_field_id_t share)
+{
+    if (!screen) {
         f_set(share, 1.0);
         return PAPER_OK;
     }
@@ -61,7 +64,7 @@ static enum paper_status share_make(struct paper_sheet *p, const struct event_pl
     return PAPER_OK;
 }
 
-static void resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open)
+void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open)
 {
     f_from(open, 1.0, p->resist);
     f_least(open, open, 0.0);
@@ -74,6 +77,29 @@ void sheet_wet_around_make(struct paper_sheet *p)
         return;
     f_most(p->t[0], p->surface_water, 1.0);
     f_max(p->wet_around, p->wet_around, p->t[0]);
+}
+
+/* Where water (0) or a pigment (1 + its number) is put. */
+static CM_field_id_t amount_field(const struct paper_sheet *p, int substance)
+{
+    bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    if (substance == 0)
+        return surface ? p->surface_water : p->page.water;
+    return surface ? p->surface[substance - 1] : p->infused[substance - 1];
+}
+
+void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part)
+{
+    CM_field_id_t q = amount_field(p, substance), left = p->t[3], fields[3] = {q};
+    int count = substance == 0 ? 1 : sheet_pigment_fields(p, substance - 1, fields);
+    if (p->unit != 1)
+        f_whole(part);
+    f_from(left, (p->unit == 1 ? 1 : PUT_MOST) * p->unit, fields[0]);
+    for (int i = 1; i < count; i++)
+        f_sub(left, left, fields[i]);
+    f_least(left, left, 0.0);
+    f_min(part, part, left);
+    f_add(q, q, part);
 }
 
 enum paper_status paper_sheet_put(struct paper_sheet *p, const struct paper_screen *screen,
@@ -100,32 +126,23 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
 {
     const struct event_put *put = arguments;
     const double *amount = put->amount;
-    double most = p->unit == 1 ? 1 : PUT_MOST;
     paper_enter(&p->page);
     CM_set_context();
-    CM_field_id_t share = p->t[1], part = p->t[2], left = p->t[3], fields[3];
+    CM_field_id_t share = p->t[1], part = p->t[2];
     enum paper_status status = share_make(p, &put->place, share);
     if (status != PAPER_OK)
         return status;
-    resist_heed(p, share, part);
-    bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    sheet_resist_heed(p, share, part);
     for (int i = 0; i <= p->config.pigments_count; i++) {
         if (amount[i] == 0)
             continue;
-        CM_field_id_t q = i == 0 ? (surface ? p->surface_water : p->page.water)
-                                 : (surface ? p->surface[i - 1] : p->infused[i - 1]);
         f_times(part, share, amount[i] * p->unit);
-        if (p->unit != 1)
-            f_whole(part);
         if (amount[i] > 0) {
-            int count = i == 0 ? 1 : sheet_pigment_fields(p, i - 1, fields);
-            f_from(left, most * p->unit, i == 0 ? q : fields[0]);
-            for (int j = 1; j < count; j++)
-                f_sub(left, left, fields[j]);
-            f_least(left, left, 0.0);
-            f_min(part, part, left);
-            f_add(q, q, part);
+            sheet_amount_put(p, i, part);
         } else {
+            CM_field_id_t q = amount_field(p, i);
+            if (p->unit != 1)
+                f_whole(part);
             f_add(q, q, part);
             f_least(q, q, 0.0);
         }
@@ -134,9 +151,8 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
     return paper_leave(&p->page);
 }
 
-/* q loses whole grains of share * part. */
-static void lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
-                 CM_field_id_t lost)
+void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
+                       CM_field_id_t lost)
 {
     f_times(lost, share, part);
     f_mul(lost, lost, q);
@@ -174,16 +190,16 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
     enum paper_status status = share_make(p, &blot->place, share);
     if (status != PAPER_OK)
         return status;
-    resist_heed(p, share, lost);
-    lose(p, p->page.water, share, part, lost);
+    sheet_resist_heed(p, share, lost);
+    sheet_amount_lose(p, p->page.water, share, part, lost);
     if (sheet_has(p, PAPER_PART_SURFACE))
-        lose(p, p->surface_water, share, part, lost);
+        sheet_amount_lose(p, p->surface_water, share, part, lost);
     for (int i = 0; i < p->config.pigments_count; i++) {
-        lose(p, p->infused[i], share, part, lost);
+        sheet_amount_lose(p, p->infused[i], share, part, lost);
         if (sheet_has(p, PAPER_PART_SURFACE))
-            lose(p, p->surface[i], share, part, lost);
+            sheet_amount_lose(p, p->surface[i], share, part, lost);
         if (sheet_has(p, PAPER_PART_FIXING) && lift > 0)
-            lose(p, p->fixed[i], share, lift, lost);
+            sheet_amount_lose(p, p->fixed[i], share, lift, lost);
     }
     return paper_leave(&p->page);
 }
@@ -261,6 +277,11 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
     }
     if (sheet_has(p, PAPER_PART_EDGE))
         f_set(p->wet_around, 0.0);
+    if (p->salted) { /* brushed off */
+        f_set(p->salt, 0.0);
+        f_set(p->brine, 0.0);
+        p->salted = false;
+    }
     return paper_leave(&p->page);
 }
 

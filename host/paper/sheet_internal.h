@@ -18,7 +18,7 @@ struct paper_sheet {
     struct sheet_history *history; /* NULL: nothing is recorded */
     long steps;                    /* without a history */
     bool touched;                  /* something was done, and not recorded */
-    double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
+    double unit;                   /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
     CM_field_id_t height, capacity, resist;
@@ -28,12 +28,21 @@ struct paper_sheet {
     CM_field_id_t surface_water;
     CM_field_id_t dried; /* grains, SHEET_DRIED_BITS */
     CM_field_id_t wet_around;
+    CM_field_id_t varnish, salt, brine;
+    bool varnished, salted; /* there may be some */
+    double salt_reach, salt_strength;
     CM_field_id_t surface[PAPER_PIGMENTS_MAX], infused[PAPER_PIGMENTS_MAX],
         fixed[PAPER_PIGMENTS_MAX];
     CM_field_id_t mask;     /* 8 bits */
     CM_field_id_t shown[3]; /* 16 bits */
     CM_field_id_t t[SHEET_TEMPORARIES];
+    struct sheet_brushes *brushes; /* brush_internal.h; NULL: there is none */
+    bool (*due)(void *context);    /* paper_sheet_stop_when() */
+    void *due_context;
 };
+
+/* NULL is fine. */
+void sheet_brushes_destroy(struct paper_sheet *p);
 
 static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
 {
@@ -60,6 +69,21 @@ enum paper_status sheet_fresh_make(struct paper_sheet *p);
 void sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
+/* share = the screen's gray (NULL: 1) as 0..1; then 0 where there is resist. `open` is free. */
+enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_screen *screen,
+                                   int x, int y, CM_field_id_t share);
+void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open);
+/* q gets whole grains of part (the same field is free afterwards), up to what may be put in a fiber. Uses t[3]. */
+void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part);
+/* q loses whole grains of share * part. */
+void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
+                       CM_field_id_t lost);
+
+/* Salt dissolves and pushes: a part of a step. Uses t[0..15]. */
+void sheet_salt_step(struct paper_sheet *p);
+/* Varnish over the colours. Uses t[0..3]. */
+void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
+
 /* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
 void sheet_wet_around_make(struct paper_sheet *p);
 /* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */

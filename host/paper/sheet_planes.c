@@ -36,6 +36,9 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
     plane_add(planes, places, &count, "absorbency", AT(page.absorbency), -1);
     plane_add(planes, places, &count, "capacity", AT(capacity), -1);
     plane_add(planes, places, &count, "resist", AT(resist), -1);
+    plane_add(planes, places, &count, "varnish", AT(varnish), -1);
+    plane_add(planes, places, &count, "salt", AT(salt), -1);
+    plane_add(planes, places, &count, "brine", AT(brine), -1);
     for (int i = 0; i < 3; i++)
         plane_add(planes, places, &count, channels[i],
                   AT(substrate) + (size_t)i * sizeof(CM_field_id_t), -1);
@@ -74,8 +77,7 @@ static CM_field_id_t plane_field(const struct paper_sheet *p, int number, bool *
     CM_field_id_t field;
     planes_make(&p->config, planes, places);
     int pigment = places[number].pigment;
-    size_t member =
-        places[number].member + (pigment > 0 ? (size_t)pigment * sizeof field : 0);
+    size_t member = places[number].member + (pigment > 0 ? (size_t)pigment * sizeof field : 0);
     memcpy(&field, (const char *)p + member, sizeof field);
     *whole = planes[number].whole;
     return field;
@@ -101,11 +103,11 @@ enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *wor
     paper_enter(&p->page);
     CM_set_context();
     if (whole)
-        CM_u_read_from_news_array_1L(words, offset, start, size, axes, field,
-                                     SHEET_DRIED_BITS, 2, size, CM_32_bit);
+        CM_u_read_from_news_array_1L(words, offset, start, size, axes, field, SHEET_DRIED_BITS,
+                                     2, size, CM_32_bit);
     else
-        CM_f_read_from_news_array_1L(words, offset, start, size, axes, field,
-                                     SHEET_F, 2, size, CM_float_single);
+        CM_f_read_from_news_array_1L(words, offset, start, size, axes, field, SHEET_F, 2, size,
+                                     CM_float_single);
     return paper_leave(&p->page);
 }
 
@@ -117,11 +119,11 @@ void sheet_plane_write(struct paper_sheet *p, int number, const void *words)
     CM_field_id_t field = plane_field(p, number, &whole);
     CM_set_context();
     if (whole)
-        CM_u_write_to_news_array_1L(words, offset, start, size, axes, field,
-                                    SHEET_DRIED_BITS, 2, size, CM_32_bit);
+        CM_u_write_to_news_array_1L(words, offset, start, size, axes, field, SHEET_DRIED_BITS,
+                                    2, size, CM_32_bit);
     else
-        CM_f_write_to_news_array_1L(words, offset, start, size, axes, field,
-                                    SHEET_F, 2, size, CM_float_single);
+        CM_f_write_to_news_array_1L(words, offset, start, size, axes, field, SHEET_F, 2, size,
+                                    CM_float_single);
 }
 
 void sheet_planes_written(struct paper_sheet *p)
@@ -137,6 +139,10 @@ enum paper_status sheet_reset(struct paper_sheet *p)
     f_set(p->resist, 0.0);
     f_set(p->wet_around, 0.0);
     f_set(p->surface_water, 0.0);
+    f_set(p->varnish, 0.0);
+    f_set(p->salt, 0.0);
+    f_set(p->brine, 0.0);
+    sheet_extras_reset(p);
     CM_u_move_constant_1L(p->dried, 0, SHEET_DRIED_BITS);
     p->air = paper_air_default();
     enum paper_status status = sheet_fresh_make(p), left = paper_leave(&p->page);

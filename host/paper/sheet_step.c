@@ -519,5 +519,7 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
     if (sheet_has(p, PAPER_PART_SURFACE))
         flow_surface(p, room);
     flow_infused(p, room);
+    if (p->salted)
+        sheet_salt_step(p);
     return paper_leave(&p->page);
 }

@@ -224,6 +224,8 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
         sheet_color_make(p, color);
         if (view->show == PAPER_SHOW_WET && sheet_has(p, PAPER_PART_SURFACE))
             shine(p, color);
+        if (p->varnished)
+            sheet_varnish_shine(p, color);
     } else if (view->show == PAPER_SHOW_WATER) {
         water_make(p, color[0]);
     } else {

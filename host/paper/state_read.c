@@ -136,8 +136,9 @@ _Noreturn void state_reader(const char *path, int number, bool planes, int descr
     hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     snprintf(name, sizeof name, "sheet-%d", number);
     hid_t group = file < 0 ? -1 : H5Gopen2(file, name, H5P_DEFAULT);
-    uint8_t *run =
-        group < 0 ? NULL : dataset_read(group, "run", H5T_NATIVE_UINT8, 1, &most, &least, &count);
+    uint8_t *run = group < 0
+                       ? NULL
+                       : dataset_read(group, "run", H5T_NATIVE_UINT8, 1, &most, &least, &count);
     if (!run)
         reader_fail(descriptor, "a sheet is missing in it");
     frame_write(descriptor, STATE_FRAME_RUN, run, count);
@@ -296,8 +297,7 @@ enum paper_status paper_state_load(struct paper_state *state, int index, bool fo
     if (status == PAPER_OK && paper_history_describe(run, count, &config) != PAPER_OK)
         status = file_failed(state, PAPER_BAD_FILE);
     else if (status == PAPER_OK) {
-        struct planes_from from = {state,
-                                   4 * (uint64_t)config.width * (uint64_t)config.height};
+        struct planes_from from = {state, 4 * (uint64_t)config.width * (uint64_t)config.height};
         status = paper_history_decode(run, count, follow, budget_bytes, plane_read, &from, out);
         if (status != PAPER_OK && strncmp(paper_error(), state->path, strlen(state->path)) != 0)
             status = file_failed(state, status);
@@ -314,8 +314,8 @@ static enum paper_status header_read(struct paper_state *state, const char *head
 {
     int version = 0, model = 0, used = 0;
     char program[33] = "";
-    if (sscanf(header, "LUTETIA STATE %d\nmodel %d\nprogram %32s\n%n", &version, &model, program,
-               &used) != 3 ||
+    if (sscanf(header, "LUTETIA STATE %d\nmodel %d\nprogram %32s\n%n", &version, &model,
+               program, &used) != 3 ||
         used == 0)
         return file_bad(state, "it is not a saved state");
     if (version != STATE_VERSION || model != PAPER_MODEL_VERSION)
@@ -356,8 +356,7 @@ enum paper_status paper_state_open(const char *path, struct paper_state **out)
     state->pipe = -1;
     enum paper_status status;
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no waiting for pipes */
-    ssize_t read_count =
-        descriptor < 0 ? -1 : pread(descriptor, header, STATE_HEADER_BYTES, 0);
+    ssize_t read_count = descriptor < 0 ? -1 : pread(descriptor, header, STATE_HEADER_BYTES, 0);
     if (read_count < 0)
         status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", path, strerror(errno));
     else if (read_count < STATE_HEADER_BYTES)
@@ -366,11 +365,12 @@ enum paper_status paper_state_open(const char *path, struct paper_state **out)
         status = header_read(state, header, &checksum, &bytes);
     if (status == PAPER_OK) {
         if (!state_checksum(descriptor, header, &found, &length))
-            status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", path, strerror(errno));
+            status =
+                paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", path, strerror(errno));
         else if (length != bytes)
             status = paper_fail(PAPER_BAD_FILE,
-                                "%s: it is damaged: it should have %lld bytes and has %lld", path,
-                                bytes, length);
+                                "%s: it is damaged: it should have %lld bytes and has %lld",
+                                path, bytes, length);
         else if (checksum != found)
             status = file_bad(state, "it is damaged: its checksum is wrong");
     }

@@ -74,8 +74,8 @@ static bool bytes_write(hid_t group, const uint8_t *bytes, size_t count)
     hid_t space = H5Screate_simple(1, &size, NULL);
     hid_t set =
         H5Dcreate2(group, "run", H5T_STD_U8LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    bool done = set >= 0 &&
-                H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
+    bool done =
+        set >= 0 && H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
     H5Dclose(set);
     H5Sclose(space);
     return done;

@@ -55,6 +55,19 @@ static void color_reads_as_luminance(void **state)
     assert_int_equal(in.pixels[0], 54);
     assert_int_equal(in.pixels[1], 182);
     assert_int_equal(in.pixels[2], 200);
+    display_image_destroy(&in);
+    assert_int_equal(display_png_read_rgb(scratch_path("color.png"), &in), DISPLAY_OK);
+    assert_int_equal(in.channels, 3);
+    assert_memory_equal(in.pixels, pixels, sizeof pixels);
+    display_image_destroy(&in);
+    display_image_destroy(&out);
+    out = image_make(2, 2, 1); /* gray has equal channels */
+    for (int i = 0; i < 4; i++)
+        out.pixels[i] = (uint8_t)(80 * i);
+    assert_int_equal(display_png_write(scratch_path("color.png"), &out), DISPLAY_OK);
+    assert_int_equal(display_png_read_rgb(scratch_path("color.png"), &in), DISPLAY_OK);
+    for (int i = 0; i < 12; i++)
+        assert_int_equal(in.pixels[i], 80 * (i / 3));
     display_image_destroy(&out);
     display_image_destroy(&in);
 }

@@ -1,7 +1,9 @@
 /* test_history.c - time as something one edits: whatever way leads to a moment, the sheet is the same to the bit. */
+#include <brush.h>
 #include <history.h>
 #include <paper.h>
 #include <sheet.h>
+#include <techniques.h>
 
 #include "sample.h"
 
@@ -94,7 +96,7 @@ static void operate(struct paper_sheet *sheet, uint64_t number)
 {
     chance = number * 77 + 5;
     paper_history_mark(sheet);
-    int kind = below(10);
+    int kind = below(18);
     struct paper_air air = *paper_sheet_get_air(sheet);
     float values[FIBERS];
     uint8_t gray[6] = {255, 128, 7, 0, 90, 255};
@@ -122,6 +124,66 @@ static void operate(struct paper_sheet *sheet, uint64_t number)
             values[i] = (float)uniform(0.3, 0.9);
         check(paper_sheet_layer_write(sheet, PAPER_LAYER_CAPACITY, 0, values));
         break;
+    case 7: {
+        struct paper_brush brush = paper_brush_default();
+        brush.width = uniform(3, 8);
+        brush.depth = 4;
+        brush.bristles = 30;
+        brush.number = below(2);
+        brush.seed = number;
+        check(paper_sheet_brush(sheet, &brush));
+        check(paper_sheet_dip(
+            sheet,
+            &(struct paper_dip){brush.number, 1, {-1, 1}, {1, uniform(0, 1), uniform(0, 1)}}));
+        break;
+    }
+    case 8:
+    case 9:
+    case 10: {
+        struct paper_stroke_sample samples[3] = {
+            {0, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0, 0.2},
+            {0.1, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0.1, 0},
+            {0.2, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0, 0}};
+        int which = below(2), steps = -1;
+        struct paper_stroke stroke = {which, below(2) ? 20 : 0, 3, samples};
+        if (!paper_history_brush(sheet, which))
+            break;
+        check(paper_sheet_stroke(sheet, &stroke, &steps));
+        assert_int_equal(steps, stroke.pace > 0 ? 4 : 0);
+        break;
+    }
+    case 11:
+        check(paper_sheet_salt(sheet, &(struct paper_salt){{below(2) ? &screen : NULL, 5, 4},
+                                                           12,
+                                                           10,
+                                                           8,
+                                                           20,
+                                                           {0.5, 1.5},
+                                                           uniform(0, 2),
+                                                           8,
+                                                           number}));
+        break;
+    case 12:
+        check(paper_sheet_wash(
+            sheet, &(struct paper_wash){
+                       {&screen, 2, 3}, {0, 0}, {20, 20}, {0.5, 0.1, 0.2}, {0.1, 0.4, 0}}));
+        check(paper_sheet_lift(sheet, &(struct paper_lift){{NULL, 0, 0}, 0.3}));
+        break;
+    case 13:
+        for (int i = 0; i < FIBERS; i++)
+            values[i] = (float)uniform(0, 1);
+        check(paper_sheet_print(
+            sheet, &(struct paper_print){
+                       .x = 3, .y = -2, .width = 9, .height = 7, .amount[1] = values}));
+        check(paper_sheet_varnish(sheet, &(struct paper_varnish){{&screen, 8, 8}, 0.7}));
+        check(paper_sheet_splatter(sheet, &(struct paper_splatter){.x = 9,
+                                                                   .y = 9,
+                                                                   .radius = 6,
+                                                                   .drops = 9,
+                                                                   .size = {0.5, 2},
+                                                                   .seed = number,
+                                                                   .amount = {0.5, 0.3}}));
+        break;
     default:
         for (int steps = 1 + below(9); steps > 0; steps--)
             step(sheet);
@@ -132,39 +194,46 @@ static void operate(struct paper_sheet *sheet, uint64_t number)
 static void going_back_and_forth_gives_the_same_bits(void **state)
 {
     (void)state;
-    enum { OPERATIONS = 60, MOVES = 24 };
+    enum { OPERATIONS = 80, MOVES = 40 };
     static const double budgets[] = {-1, 0, 60e3, 400e3, 1e9};
     static uint64_t hashes[OPERATIONS + 1];
     static long times[OPERATIONS + 1];
     for (size_t budget = 0; budget < sizeof budgets / sizeof *budgets; budget++) {
         struct paper_sheet *sheet = sheet_new(budgets[budget]);
+        int done[OPERATIONS + 1], compared = 0; /* some are more than one to the history */
         for (int i = 0; i <= OPERATIONS; i++) {
             if (budget == 0) {
                 hashes[i] = state_hash(sheet);
                 times[i] = paper_sheet_steps(sheet);
             } else {
-                assert_int_equal(paper_history_done(sheet), i);
                 assert_int_equal(paper_sheet_steps(sheet), times[i]);
             }
+            done[i] = paper_history_done(sheet);
             if (i < OPERATIONS)
                 operate(sheet, (uint64_t)i);
         }
         assert_true(state_hash(sheet) == hashes[OPERATIONS]);
         assert_int_equal(paper_history_has(sheet), budget > 0);
         uint64_t moves = 99;
-        int at = OPERATIONS;
+        int at = done[OPERATIONS];
         for (int i = 0; i < MOVES && budget > 0; i++) {
-            int by = 1 + (int)(sample_word(&moves) % 30);
+            int by = 1 + (int)(sample_word(&moves) % 50);
             if (sample_word(&moves) % 2)
                 at -= paper_history_undo(sheet, by);
             else
                 at += paper_history_redo(sheet, by);
             assert_int_equal(paper_history_done(sheet), at);
-            assert_int_equal(paper_history_undone(sheet), OPERATIONS - at);
-            assert_int_equal(paper_sheet_steps(sheet), times[at]);
-            if (sample_word(&moves) % 3 && state_hash(sheet) != hashes[at])
-                fail_msg("budget %g: operation %d is not as it was", budgets[budget], at);
+            assert_int_equal(paper_history_undone(sheet), done[OPERATIONS] - at);
+            for (int j = 0; j <= OPERATIONS; j++) {
+                if (done[j] != at)
+                    continue;
+                assert_int_equal(paper_sheet_steps(sheet), times[j]);
+                if (state_hash(sheet) != hashes[j])
+                    fail_msg("budget %g: operation %d is not as it was", budgets[budget], j);
+                compared++;
+            }
         }
+        assert_true(budget == 0 || compared > MOVES / 2);
         if (budget > 0)
             assert_true(paper_history_bytes(sheet) < budgets[budget] + 60e3);
         assert_int_equal(paper_history_undo(sheet, 1000), budget > 0 ? at : 0);
@@ -285,23 +354,26 @@ static void a_saved_run_goes_on(void **state)
     enum { OPERATIONS = 24, SAVED = 15 };
     static struct saved saved;
     struct paper_sheet *whole = sheet_new(0), *sheet;
+    int done[OPERATIONS + 1];
     for (int i = 0; i < OPERATIONS; i++) {
         if (i == SAVED)
             save(whole, &saved);
+        done[i] = paper_history_done(whole);
         operate(whole, (uint64_t)i + 200);
     }
+    done[OPERATIONS] = paper_history_done(whole);
     uint64_t end = state_hash(whole);
-    paper_history_undo(whole, OPERATIONS - SAVED);
+    paper_history_undo(whole, done[OPERATIONS] - done[SAVED]);
     uint64_t middle = state_hash(whole);
 
     /* loaded: it is there, with its past */
-    check(paper_history_decode(saved.bytes, saved.count, false, 1e6, saved_give, &saved,
-                               &sheet));
+    check(
+        paper_history_decode(saved.bytes, saved.count, false, 1e6, saved_give, &saved, &sheet));
     assert_true(state_hash(sheet) == middle);
     for (int i = SAVED; i < OPERATIONS; i++)
         operate(sheet, (uint64_t)i + 200);
     assert_true(state_hash(sheet) == end);
-    paper_history_undo(sheet, OPERATIONS - SAVED + 3);
+    paper_history_undo(sheet, done[OPERATIONS] - done[SAVED] + 3);
     paper_history_redo(sheet, 3);
     assert_true(state_hash(sheet) == middle);
     paper_sheet_destroy(sheet);
@@ -316,15 +388,16 @@ static void a_saved_run_goes_on(void **state)
             if (way >= 2 && i == 9)
                 state_hash(sheet);
             operate(sheet, (uint64_t)i + 200);
-            assert_int_equal(paper_history_following(sheet), i < SAVED ? SAVED - i - 1 : 0);
+            assert_int_equal(paper_history_following(sheet),
+                             i < SAVED ? done[SAVED] - done[i + 1] : 0);
         }
         assert_false(paper_history_diverged(sheet));
         assert_true(state_hash(sheet) == end);
         paper_sheet_destroy(sheet);
     }
-    check(paper_history_decode(saved.bytes, saved.count, true, 1e6, saved_give, &saved,
-                               &sheet));
-    paper_history_undo(whole, SAVED - 9);
+    check(
+        paper_history_decode(saved.bytes, saved.count, true, 1e6, saved_give, &saved, &sheet));
+    paper_history_undo(whole, done[SAVED] - done[9]);
     for (int i = 0; i < 9; i++)
         operate(sheet, (uint64_t)i + 200);
     operate(whole, 5);
@@ -358,12 +431,13 @@ static void damaged_runs_are_refused_or_harmless(void **state)
             count = (size_t)(sample_word(&word) % count);
         for (int j = (int)(sample_word(&word) % 3); j >= 0; j--) {
             size_t at = i < 300 ? (size_t)i * 2 : (size_t)(sample_word(&word) % saved.count);
-            copy[at % saved.count] = (uint8_t)(sample_word(&word) % 3 ? sample_word(&word) : 255);
+            copy[at % saved.count] =
+                (uint8_t)(sample_word(&word) % 3 ? sample_word(&word) : 255);
         }
         /* another size would be another sheet, with kernels of its own: the description is checked by itself */
         struct paper_sheet_config config;
-        if (paper_history_describe(copy, count, &config) != PAPER_OK ||
-            config.width != WIDTH || config.height != HEIGHT || config.pigments_count != 2 ||
+        if (paper_history_describe(copy, count, &config) != PAPER_OK || config.width != WIDTH ||
+            config.height != HEIGHT || config.pigments_count != 2 ||
             config.parts != PAPER_PARTS_ALL || !config.torus) {
             refused++;
             continue;
@@ -435,9 +509,10 @@ static void another_resolution_is_the_same_picture(void **state)
     double both = 0, first = 0, second = 0;
     for (int i = 0; i < FIBERS; i++) {
         int corner = i / WIDTH * 4 * WIDTH + i % WIDTH * 2;
-        double mean = ((double)fine[corner] + (double)fine[corner + 1] +
-                       (double)fine[corner + 2 * WIDTH] + (double)fine[corner + 2 * WIDTH + 1]) /
-                      4;
+        double mean =
+            ((double)fine[corner] + (double)fine[corner + 1] +
+             (double)fine[corner + 2 * WIDTH] + (double)fine[corner + 2 * WIDTH + 1]) /
+            4;
         both += mean * (double)coarse[i];
         first += mean * mean;
         second += (double)coarse[i] * (double)coarse[i];

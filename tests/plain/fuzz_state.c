@@ -43,8 +43,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         abort();
     memcpy(file, good, good_count);
     for (size_t i = 0; i + 5 <= count; i += 5) {
-        size_t at = (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) %
-                    good_count;
+        size_t at =
+            (bytes[i] | (size_t)bytes[i + 1] << 8 | (size_t)bytes[i + 2] << 16) % good_count;
         if (bytes[i + 4] < 8 && at > SAMPLE_HEADER)
             length = at;
         else if (bytes[i + 4] < 128)

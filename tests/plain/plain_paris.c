@@ -224,23 +224,21 @@ void CM_f_lt_zero_1L(CM_field_id_t source, unsigned int s, unsigned int e)
 /* ---- arithmetic ---- */
 
 /* As IEEE 754-2008 has them, but for zeros of two signs, which sheets never compare. */
-static inline float least_of(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-static inline float most_of(float a, float b)
-{
-    return a > b ? a : b;
-}
+#define LEAST_OF(a, b) ((a) < (b) ? (a) : (b))
+#define MOST_OF(a, b) ((a) > (b) ? (a) : (b))
 
 #define BINARY(name, expression)                                                               \
     void CM_f_##name##_3_1L(CM_field_id_t dest, CM_field_id_t source1, CM_field_id_t source2,  \
                             unsigned int s, unsigned int e)                                    \
     {                                                                                          \
-        (void)s, (void)e;                                                                      \
-        float *d = floats(dest), *p = floats(source1), *q = floats(source2);                   \
-        EACH(float a = p[i]; float b = q[i]; d[i] = expression);                               \
+        (void)e;                                                                               \
+        if (s == 52) {                                                                         \
+            double *d = doubles(dest), *p = doubles(source1), *q = doubles(source2);           \
+            EACH(double a = p[i]; double b = q[i]; d[i] = expression);                         \
+        } else {                                                                               \
+            float *d = floats(dest), *p = floats(source1), *q = floats(source2);               \
+            EACH(float a = p[i]; float b = q[i]; d[i] = expression);                           \
+        }                                                                                      \
     }                                                                                          \
     void CM_f_##name##_2_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int s,          \
                             unsigned int e);                                                   \
@@ -251,18 +249,23 @@ static inline float most_of(float a, float b)
     }
 BINARY(add, a + b)
 BINARY(subtract, a - b)
-BINARY(multiply, a * b)
+BINARY(multiply, a *b)
 BINARY(divide, a / b)
-BINARY(min, least_of(a, b))
-BINARY(max, most_of(a, b))
+BINARY(min, LEAST_OF(a, b))
+BINARY(max, MOST_OF(a, b))
 
 #define WITH_CONSTANT(name, expression)                                                        \
     void CM_f_##name##_constant_3_1L(CM_field_id_t dest, CM_field_id_t source, double value,   \
                                      unsigned int s, unsigned int e)                           \
     {                                                                                          \
-        (void)s, (void)e;                                                                      \
-        float *d = floats(dest), *p = floats(source), b = (float)value;                        \
-        EACH(float a = p[i]; d[i] = expression);                                               \
+        (void)e;                                                                               \
+        if (s == 52) {                                                                         \
+            double *d = doubles(dest), *p = doubles(source), b = value;                        \
+            EACH(double a = p[i]; d[i] = expression);                                          \
+        } else {                                                                               \
+            float *d = floats(dest), *p = floats(source), b = (float)value;                    \
+            EACH(float a = p[i]; d[i] = expression);                                           \
+        }                                                                                      \
     }                                                                                          \
     void CM_f_##name##_constant_2_1L(CM_field_id_t dest, double value, unsigned int s,         \
                                      unsigned int e);                                          \
@@ -276,8 +279,9 @@ WITH_CONSTANT(subtract, a - b)
 WITH_CONSTANT(subfrom, b - a)
 WITH_CONSTANT(multiply, a *b)
 WITH_CONSTANT(divide, a / b)
-WITH_CONSTANT(min, least_of(a, b))
-WITH_CONSTANT(max, most_of(a, b))
+WITH_CONSTANT(min, LEAST_OF(a, b))
+WITH_CONSTANT(max, MOST_OF(a, b))
+WITH_CONSTANT(divinto, b / a)
 
 void CM_f_sqrt_1_1L(CM_field_id_t dest, unsigned int s, unsigned int e)
 {
@@ -301,9 +305,11 @@ void CM_u_add_2_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int len)
 
 void CM_f_move_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int s, unsigned int e)
 {
-    (void)s, (void)e;
-    float *d = floats(dest), *p = floats(source);
-    EACH(d[i] = p[i]);
+    (void)e;
+    if (s == 52)
+        EACH(doubles(dest)[i] = doubles(source)[i]);
+    else
+        EACH(floats(dest)[i] = floats(source)[i]);
 }
 
 void CM_f_move_constant_1L(CM_field_id_t dest, double value, unsigned int s, unsigned int e)
@@ -317,9 +323,12 @@ void CM_f_move_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int ds, uns
                   unsigned int ss, unsigned int se)
 {
     (void)de, (void)se;
-    if (ds != 52 || ss != 23)
+    if (ds == 52 && ss == 23)
+        EACH(doubles(dest)[i] = (double)floats(source)[i]);
+    else if (ds == 23 && ss == 52)
+        EACH(floats(dest)[i] = (float)doubles(source)[i]);
+    else
         abort();
-    EACH(doubles(dest)[i] = (double)floats(source)[i]);
 }
 
 void CM_u_move_constant_1L(CM_field_id_t dest, unsigned long value, unsigned int len)
@@ -341,8 +350,11 @@ void CM_f_u_float_2_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int sl
 void CM_u_f_truncate_2_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int dlen,
                           unsigned int s, unsigned int e)
 {
-    (void)dlen, (void)s, (void)e;
-    EACH(words(dest)[i] = (uint32_t)floats(source)[i]);
+    (void)dlen, (void)e;
+    if (s == 52)
+        EACH(words(dest)[i] = (uint32_t)doubles(source)[i]);
+    else
+        EACH(words(dest)[i] = (uint32_t)floats(source)[i]);
 }
 
 void CM_u_f_round_2_2L(CM_field_id_t dest, CM_field_id_t source, unsigned int dlen,
@@ -390,6 +402,59 @@ void CM_get_from_news_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int 
     EACH(words(dest)[i] = shifted[i]);
 }
 
+/* ---- between sets: an address is the number of a processor in the order of rows ---- */
+
+CM_sendaddr_t CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int axis,
+                                         unsigned int coordinate)
+{
+    return axis == 0 ? coordinate * (unsigned)geometries[geometry].width : coordinate;
+}
+
+CM_sendaddr_t CM_fe_deposit_news_coordinate(CM_geometry_id_t geometry, CM_sendaddr_t address,
+                                            unsigned int axis, unsigned int coordinate)
+{
+    unsigned width = (unsigned)geometries[geometry].width;
+    return axis == 0 ? coordinate * width + address % width
+                     : address / width * width + coordinate;
+}
+
+void CM_get_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_id_t source,
+               unsigned int len)
+{
+    (void)len;
+    EACH(words(dest)[i] = words(source)[words(address)[i]]);
+}
+
+/* Whole numbers: their order does not matter. */
+void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_id_t source,
+                           unsigned int s, unsigned int e, CM_field_id_t notify)
+{
+    (void)s, (void)e, (void)notify;
+    EACH(floats(dest)[words(address)[i]] += floats(source)[i]);
+}
+
+void CM_spread_with_f_add_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
+                             unsigned int s, unsigned int e)
+{
+    (void)e;
+    int width = the()->width, height = the()->height;
+    if (axis != 0 || s != 52 || !the()->all)
+        abort();
+    for (int x = 0; x < width; x++) {
+        double sum = 0;
+        for (int y = 0; y < height; y++)
+            sum += doubles(source)[y * width + x];
+        for (int y = 0; y < height; y++)
+            doubles(dest)[y * width + x] = sum;
+    }
+}
+
+void CM_f_gt_constant_1L(CM_field_id_t source, double value, unsigned int s, unsigned int e)
+{
+    (void)s, (void)e;
+    EACH(the()->test[i] = floats(source)[i] > (float)value);
+}
+
 /* Sums of whole numbers: their order does not matter. */
 double CM_global_f_add_1L(CM_field_id_t source, unsigned int s, unsigned int e)
 {
@@ -418,13 +483,14 @@ void CM_u_random_1L(CM_field_id_t dest, unsigned int len, unsigned long limit)
 
 static int bytes_of(unsigned int format)
 {
-    return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : 4;
+    return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format == CM_float_double ? 8 : 4;
 }
 
+/* All of the grid, or of its first rows. */
 static void array_check(CM_vector_t start, CM_vector_t end, CM_vector_t axes)
 {
-    if (start.ints[0] != 0 || start.ints[1] != 0 || end.ints[0] != the()->height ||
-        end.ints[1] != the()->width || axes.ints[0] != 0 || axes.ints[1] != 1)
+    if (start.ints[0] != 0 || start.ints[1] != 0 || end.ints[0] > the()->height ||
+        end.ints[1] != the()->width || axes.ints[0] != 0 || axes.ints[1] != 1 || !the()->all)
         abort();
 }
 
@@ -435,10 +501,14 @@ void CM_u_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vecto
 {
     (void)offset, (void)len, (void)rank, (void)dimensions;
     array_check(start, end, axes);
-    int bytes = bytes_of(format);
-    EACH(uint32_t x = 0;
-         memcpy(&x, (const char *)array + (ptrdiff_t)i * bytes, (size_t)bytes);
-         words(dest)[i] = x);
+    size_t count = (size_t)end.ints[0] * (size_t)end.ints[1], bytes = (size_t)bytes_of(format);
+    if (bytes >= 4)
+        memcpy(fields[dest].words, array, count * bytes);
+    for (size_t i = 0; i < count && bytes < 4; i++) {
+        uint32_t x = 0;
+        memcpy(&x, (const char *)array + i * bytes, bytes);
+        words(dest)[i] = x;
+    }
 }
 
 void CM_u_read_from_news_array_1L(void *array, CM_vector_t offset, CM_vector_t start,
@@ -448,9 +518,11 @@ void CM_u_read_from_news_array_1L(void *array, CM_vector_t offset, CM_vector_t s
 {
     (void)offset, (void)len, (void)rank, (void)dimensions;
     array_check(start, end, axes);
-    int bytes = bytes_of(format);
-    EACH(uint32_t x = words(source)[i];
-         memcpy((char *)array + (ptrdiff_t)i * bytes, &x, (size_t)bytes));
+    size_t count = (size_t)end.ints[0] * (size_t)end.ints[1], bytes = (size_t)bytes_of(format);
+    if (bytes >= 4)
+        memcpy(array, fields[source].words, count * bytes);
+    for (size_t i = 0; i < count && bytes < 4; i++)
+        memcpy((char *)array + i * bytes, &words(source)[i], bytes);
 }
 
 void CM_f_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vector_t start,
@@ -458,9 +530,9 @@ void CM_f_write_to_news_array_1L(const void *array, CM_vector_t offset, CM_vecto
                                  unsigned int s, unsigned int e, unsigned int rank,
                                  CM_vector_t dimensions, unsigned int format)
 {
-    (void)s, (void)e, (void)format;
+    (void)s, (void)e;
     CM_u_write_to_news_array_1L(array, offset, start, end, axes, dest, 32, rank, dimensions,
-                                CM_32_bit);
+                                format);
 }
 
 void CM_f_read_from_news_array_1L(void *array, CM_vector_t offset, CM_vector_t start,
@@ -468,7 +540,7 @@ void CM_f_read_from_news_array_1L(void *array, CM_vector_t offset, CM_vector_t s
                                   unsigned int s, unsigned int e, unsigned int rank,
                                   CM_vector_t dimensions, unsigned int format)
 {
-    (void)s, (void)e, (void)format;
+    (void)s, (void)e;
     CM_u_read_from_news_array_1L(array, offset, start, end, axes, source, 32, rank, dimensions,
-                                 CM_32_bit);
+                                 format);
 }

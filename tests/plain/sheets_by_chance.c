@@ -4,8 +4,8 @@
  *
  * Each set chooses all that there is to choose: parts, torus, paper, pigments, air, twice in its life, and what is put on,
  * blotted, masked and dried. One parameter in three is at an end of its range. Prints how many were looked at. */
-#include <paper.h>
 #include <history.h>
+#include <paper.h>
 #include <sheet.h>
 
 #include "../sample.h"
@@ -159,7 +159,7 @@ static void planes_look(struct paper_sheet *sheet, const char *when)
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     int count = paper_sheet_planes(sheet, planes), fibers = config->width * config->height;
     for (int i = 0; i < count; i++) {
-        bool fraction = i < 7 || strcmp(planes[i].name, "wet around") == 0;
+        bool fraction = i < 10 || strcmp(planes[i].name, "wet around") == 0;
         double most = fraction ? 1 : config->parts ? 15.0 * PAPER_GRAINS : 1;
         check(paper_sheet_plane_read(sheet, i, &plane));
         for (int j = 0; j < fibers; j++) {

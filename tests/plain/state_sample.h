@@ -77,10 +77,9 @@ static inline void sample_header_mend(uint8_t *bytes, size_t count)
         return;
     uLong sum = crc32(crc32(0, NULL, 0), bytes + SAMPLE_HEADER, (uInt)(count - SAMPLE_HEADER));
     for (int i = 0; i < 2; i++) {
-        snprintf(
-            text, sizeof text,
-            "LUTETIA STATE 1\nmodel %d\nprogram 0\nbytes %zu\nchecksum %08lx\nsheets 1\n",
-            PAPER_MODEL_VERSION, count, i ? sum : 0);
+        snprintf(text, sizeof text,
+                 "LUTETIA STATE 1\nmodel %d\nprogram 0\nbytes %zu\nchecksum %08lx\nsheets 1\n",
+                 PAPER_MODEL_VERSION, count, i ? sum : 0);
         sum = i ? sum : crc32(sum, (const Bytef *)text, sizeof text);
     }
     memcpy(bytes, text, sizeof text);

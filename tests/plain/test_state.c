@@ -110,8 +110,7 @@ static void files_are_whole_or_as_they_were(void **state)
     full.rlim_max = before.rlim_max;
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &full);
-    enum paper_status status =
-        paper_state_save(path, &(struct paper_state_sheet){1, sheet}, 1);
+    enum paper_status status = paper_state_save(path, &(struct paper_state_sheet){1, sheet}, 1);
     setrlimit(RLIMIT_FSIZE, &before);
     assert_int_equal(status, PAPER_BAD_ARGUMENT);
     assert_non_null(strstr(paper_error(), "cannot write"));
@@ -119,8 +118,9 @@ static void files_are_whole_or_as_they_were(void **state)
     snprintf(command, sizeof command, "ls '%s'*.part >/dev/null 2>&1", path);
     assert_int_not_equal(system(command), 0);
 
-    assert_int_equal(paper_state_save("/no/such/x.h5", &(struct paper_state_sheet){1, sheet}, 1),
-                     PAPER_BAD_ARGUMENT);
+    assert_int_equal(
+        paper_state_save("/no/such/x.h5", &(struct paper_state_sheet){1, sheet}, 1),
+        PAPER_BAD_ARGUMENT);
     check(paper_sheet_create(&config, &bare)); /* without history */
     assert_int_equal(paper_state_save(path, &(struct paper_state_sheet){1, bare}, 1),
                      PAPER_BAD_ARGUMENT);

@@ -1,0 +1,78 @@
+/* techniques.h - what painters do besides the brush: graded washes, splatter, salt, lifting, varnish, printed amounts.
+ *
+ *     paper_sheet_splatter(sheet, &(struct paper_splatter){.x = 200, .y = 150, .radius = 80, .drops = 60,
+ *                                                          .size = {1, 5}, .seed = 3, .amount = {1, 0.7}});
+ *     paper_sheet_salt(sheet, &(struct paper_salt){.x = 200, .y = 150, .radius = 60, .grains = 40,
+ *                                                  .size = {1, 2}, .strength = 1, .reach = 10, .seed = 4});
+ *
+ * Everything by chance comes from the seed given, so the same calls make the same bits.
+ *
+ * Errors and threads: as sheet.h says. */
+#ifndef LUTETIA_PAPER_TECHNIQUES_H
+#define LUTETIA_PAPER_TECHNIQUES_H
+
+#include "sheet.h"
+
+/* A screen and where its upper left corner is; NULL: everywhere. */
+struct paper_place {
+    const struct paper_screen *screen;
+    int x, y;
+};
+
+/* Amounts that change evenly from one place to another, and are constant beyond both. */
+struct paper_wash {
+    struct paper_place place;
+    double from[2], to[2]; /* x, y; the same twice: `amount` everywhere */
+    double amount[1 + PAPER_PIGMENTS_MAX], end[1 + PAPER_PIGMENTS_MAX]; /* 0..4 */
+};
+enum paper_status paper_sheet_wash(struct paper_sheet *sheet, const struct paper_wash *wash);
+
+/* Amounts for each fiber of a rectangle: an image that was separated, say. What lies off the sheet is ignored. */
+struct paper_print {
+    int x, y, width, height;
+    const float *amount[1 + PAPER_PIGMENTS_MAX]; /* rows from the top, 0..4; NULL: none */
+};
+enum paper_status paper_sheet_print(struct paper_sheet *sheet, const struct paper_print *print);
+
+/* Drops by chance about a place: many small ones, few large; thrown in a direction they fly further and are longer. */
+struct paper_splatter {
+    double x, y, radius; /* most fall within it */
+    double toward;       /* radians from x towards y */
+    double thrown;       /* 0: straight down; 1..4: how much longer than wide */
+    int drops;           /* 1..100000 */
+    double size[2];      /* radii, least and most, 0.1..500 */
+    uint64_t seed;
+    double amount[1 + PAPER_PIGMENTS_MAX];
+};
+enum paper_status paper_sheet_splatter(struct paper_sheet *sheet,
+                                       const struct paper_splatter *splatter);
+
+/* Grains of salt within a radius, of those only what falls on the place. In water they dissolve; brine spreads, draws surface
+ * water and pushes pigments away, until the paper is dried, when they are brushed off. */
+struct paper_salt {
+    struct paper_place place;
+    double x, y, radius;
+    int grains;      /* 1..100000 */
+    double size[2];  /* radii, least and most, 0.1..50 */
+    double strength; /* 0..4 */
+    double reach;    /* how far brine goes, fibers, 1..100; of all salt on a sheet the last */
+    uint64_t seed;
+};
+enum paper_status paper_sheet_salt(struct paper_sheet *sheet, const struct paper_salt *salt);
+
+/* Rubs with a damp sponge: takes `part` (0..1) of what is not fixed, and of what is the more the less it stains. */
+struct paper_lift {
+    struct paper_place place;
+    double part;
+};
+enum paper_status paper_sheet_lift(struct paper_sheet *sheet, const struct paper_lift *lift);
+
+/* Clear gloss on top: colours are deeper under it and light shows its edges. It stays when the paper is sealed. */
+struct paper_varnish {
+    struct paper_place place;
+    double amount; /* 0..1; a fiber has the most that it was given */
+};
+enum paper_status paper_sheet_varnish(struct paper_sheet *sheet,
+                                      const struct paper_varnish *varnish);
+
+#endif
