@@ -96,6 +96,13 @@ long paper_sheet_steps(const struct paper_sheet *p)
     return p->history ? time_of(p->history, p->history->now) : p->steps;
 }
 
+long paper_sheet_now(const struct paper_sheet *p)
+{
+    const struct sheet_history *h = p->history;
+    return h && h->performing ? time_of(h, h->now) + (p->steps - h->steps_before)
+                              : paper_sheet_steps(p);
+}
+
 bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_moment *out)
 {
     const struct sheet_history *h = p->history;
@@ -150,6 +157,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     struct position at = h->at;
     h->at.op = -1; /* unless it succeeds, or changes nothing */
     h->performing = true;
+    h->steps_before = p->steps;
     enum paper_status status = event_perform(p, op->kind, arguments);
     h->performing = false;
     if (status == PAPER_BAD_ARGUMENT)

@@ -48,6 +48,7 @@ struct sheet_history {
     int count, room;
     struct position now, at;
     long work; /* at `at` */
+    long steps_before; /* of the sheet, before what is performed */
     bool open; /* the last operation's steps may get more */
     bool following, diverged;
     bool performing;  /* what is asked for meanwhile is a part of the operation */
