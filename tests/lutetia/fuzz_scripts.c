@@ -140,9 +140,10 @@ static void value(struct source *s, int depth)
 
 static void statement(struct source *s)
 {
-    static const char *const methods[] = {"put",   "wash", "blot",  "resist", "unresist",
-                                          "dry",   "seal", "layer", "mask",   "at",
-                                          "total", "air",  "frame", "close",  "step"};
+    static const char *const methods[] = {
+        "put",  "wash", "blot",    "resist", "unresist", "dry",   "seal", "layer",
+        "mask", "at",   "total",   "air",    "frame",    "close", "step", "undo",
+        "redo", "to",   "moments", "save",   "film",     "at"};
     unsigned kind = byte(s) % 8;
     say(s, "pcall(function() ");
     if (kind < 2) {
