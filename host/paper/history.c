@@ -158,13 +158,15 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     h->at.op = -1; /* unless it succeeds, or changes nothing */
     h->performing = true;
     h->steps_before = p->steps;
-    enum paper_status status = event_perform(p, op->kind, arguments);
+    /* steps are the same kernels whatever was done before them */
+    bool step = op->kind == SHEET_EVENT_STEP || op->kind == SHEET_EVENT_STROKE;
+    enum paper_status status = step && h->unfinished ? paper_sheet_finish(p) : PAPER_OK;
+    h->unfinished = !step;
+    if (status == PAPER_OK)
+        status = event_perform(p, op->kind, arguments);
     h->performing = false;
     if (status == PAPER_BAD_ARGUMENT)
         h->at = at;
-    if (status == PAPER_OK && op->kind != SHEET_EVENT_STEP)
-        status =
-            paper_sheet_finish(p); /* steps are the same kernels whatever was done before */
     if (status != PAPER_OK)
         return status;
     h->work++;

@@ -47,10 +47,11 @@ struct sheet_history {
     struct operation *ops;
     int count, room;
     struct position now, at;
-    long work; /* at `at` */
+    long work;         /* at `at` */
     long steps_before; /* of the sheet, before what is performed */
-    bool open; /* the last operation's steps may get more */
+    bool open;         /* the last operation's steps may get more */
     bool following, diverged;
+    bool unfinished;  /* something was done since the last step */
     bool performing;  /* what is asked for meanwhile is a part of the operation */
     int inserting_at; /* operations before it are not undone; -1: no insertion */
     struct operation *tail;
