@@ -100,6 +100,16 @@ double clock_s(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void time_left_text(char *text, size_t room, double seconds)
+{
+    if (seconds < 100)
+        snprintf(text, room, "%.0f s left", seconds);
+    else if (seconds < 6000)
+        snprintf(text, room, "about %.0f min left", seconds / 60);
+    else
+        snprintf(text, room, "about %.1f hours left", seconds / 3600);
+}
+
 struct progress progress_begin(const char *what, int total)
 {
     double now = clock_s();
@@ -119,8 +129,11 @@ void progress_show(struct progress *p, int done)
     memset(bar, '#', (size_t)filled);
     bar[BAR] = '\0';
     double passed = now - p->began_s;
-    fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s \033[K", p->what, bar, done, p->total,
-            passed > 0 ? done / passed : 0);
+    char left[40] = "";
+    if (passed > 0.5 && done > 0 && done < p->total)
+        time_left_text(left, sizeof left, passed / done * (p->total - done));
+    fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s  %s\033[K", p->what, bar, done, p->total,
+            passed > 0 ? done / passed : 0, left);
     fflush(stderr);
 }
 

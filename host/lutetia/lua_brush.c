@@ -87,7 +87,7 @@ static int paper_brush(lua_State *L)
     const struct kind *kind = kind_find(L, arg_text(L, 2, "brush", "kind"));
     struct paper_brush b = paper_brush_default();
     int free_one = 0;
-    while (free_one < PAPER_BRUSHES_MAX && paper_sheet_brush_get(sheet, free_one))
+    while (free_one < PAPER_BRUSHES_MAX && paper_history_brush(sheet, free_one))
         free_one++;
     b.number = arg_integer(L, 2, "brush", "number", free_one + 1, 1, PAPER_BRUSHES_MAX + 1) - 1;
     if (b.number == PAPER_BRUSHES_MAX)
@@ -261,7 +261,6 @@ struct drawing {
     bool timed;     /* samples have times */
     bool profiled;  /* pressure comes from the profile */
     int pressure;   /* the profile's index on the stack */
-    int steps;
 };
 
 /* Times from the speed: the chords' lengths. */
@@ -281,7 +280,7 @@ static void times_make(const struct drawing *d, struct paper_stroke_sample *samp
 static void draw(lua_State *L, struct drawing *d, struct paper_stroke_sample *samples,
                  int count)
 {
-    int top = lua_gettop(L), steps;
+    int top = lua_gettop(L);
     if (!d->timed)
         times_make(d, samples, count);
     double start = samples[0].time_s, length = samples[count - 1].time_s - start;
@@ -308,8 +307,7 @@ static void draw(lua_State *L, struct drawing *d, struct paper_stroke_sample *sa
         d->stroke.samples = made;
         d->stroke.samples_count = fine;
     }
-    paper_check(L, paper_sheet_stroke(d->sheet, &d->stroke, &steps));
-    d->steps += steps;
+    paper_check(L, paper_sheet_stroke(d->sheet, &d->stroke, NULL));
     lua_settop(L, top);
     run_check(L);
 }
@@ -472,12 +470,6 @@ static void way_draw(lua_State *L, struct drawing *d)
     draw(L, d, samples, count);
 }
 
-static bool due(void *context)
-{
-    const struct run *run = context;
-    return interrupted() || (run->deadline_s > 0 && clock_s() > run->deadline_s);
-}
-
 /* paper:stroke{brush =, points = | path = | svg = | file = | way =, ...} */
 static int paper_stroke(lua_State *L)
 {
@@ -523,7 +515,7 @@ static int paper_stroke(lua_State *L)
     }
     if (count != 1)
         luaL_error(L, "a stroke has one of points, path, svg, file, way (got %d)", count);
-    paper_sheet_stop_when(d.sheet, due, run_of(L));
+    paper_stop_when_due(L, 1);
     const char *text = found == 0 || found == 4 ? NULL : arg_text(L, 2, "stroke", ways[found]);
     if (found == 0 || found == 4) {
         lua_getfield(L, 2, ways[found]);
@@ -539,7 +531,6 @@ static int paper_stroke(lua_State *L)
         for (int i = 0; i < lines->count; i++)
             line_draw(L, &d, &lines->line[i]);
     }
-    paper_steps_add(L, 1, d.steps);
     run_check(L);
     return 0;
 }

@@ -1,22 +1,22 @@
 /* lua_paper.c - sheets in scripts: paper{...} and its methods. */
-#include "lua_run.h"
+#include "lua_paper.h"
 #include "lutetia.h"
 
+#include <brush.h>
 #include <display.h>
+#include <history.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char paper_type[] = "lutetia paper";
 
-struct run_paper {
-    struct run *run;
-    struct paper_sheet *sheet;
-    double bytes;
-    int steps;
-};
+/* What the past of a paper takes in checkpoints, of the memory that a run may take, and at most. */
+#define UNDO_SHARE 16
+#define UNDO_BYTES_MOST 256e6
 
 static void check(lua_State *L, enum paper_status status)
 {
@@ -26,12 +26,24 @@ static void check(lua_State *L, enum paper_status status)
     }
 }
 
-static struct run_paper *paper_at(lua_State *L)
+/* What has been done since, and how it is remembered, is counted. */
+static struct run_paper *paper_settled(lua_State *L, int index)
 {
-    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
     if (!paper->sheet)
         luaL_error(L, "this paper is closed");
+    double more = paper_history_bytes(paper->sheet) - paper->history_bytes;
+    if (more > 0)
+        run_memory_take(L, more, "a paper's history (history = false does without)");
+    else
+        run_memory_give(paper->run, -more);
+    paper->history_bytes += more;
     return paper;
+}
+
+struct run_paper *paper_at(lua_State *L)
+{
+    return paper_settled(L, 1);
 }
 
 static const struct paper_sheet_config *config_of(const struct run_paper *paper)
@@ -183,6 +195,28 @@ static void stock_read(lua_State *L, struct paper_stock *stock)
 
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
+struct run_paper *paper_new(lua_State *L)
+{
+    struct run_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
+    memset(paper, 0, sizeof *paper);
+    paper->run = run_of(L);
+    paper->number = ++paper->run->papers_made;
+    luaL_setmetatable(L, paper_type);
+    return paper;
+}
+
+/* Each field, what replaces it, and what lies between steps. */
+double paper_bytes_needed(double width, double height, int pigments)
+{
+    return 2 * 4 * (20 + 5.0 * pigments) * width * height;
+}
+
+static void film(lua_State *L, struct run_paper *paper)
+{
+    if (!film_step(&paper->run->film, paper->number, paper->sheet))
+        luaL_error(L, "%s", paper->run->film.error);
+}
+
 static int make_paper(lua_State *L)
 {
     static const char *const keys[] = {"width",
@@ -202,7 +236,10 @@ static int make_paper(lua_State *L)
                                        "roughness",
                                        "grain",
                                        "fibers",
+                                       "history",
+                                       "undo",
                                        NULL};
+    lua_remove(L, 1); /* the table `paper`, which is called */
     luaL_checktype(L, 1, LUA_TTABLE);
     lua_settop(L, 1);
     arg_keys(L, 1, "paper", keys);
@@ -219,28 +256,36 @@ static int make_paper(lua_State *L)
         config.rule = (enum paper_rule)choice(L, "paper rule", rule, rules);
     stock_read(L, &config.stock);
     pigments_read(L, &config);
+    bool history = arg_boolean(L, 1, "paper", "history", true);
+    double undo = fmin(UNDO_BYTES_MOST, (double)(run->memory_most_bytes / UNDO_SHARE));
+    undo = 1e6 * arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
 
-    struct run_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
-    memset(paper, 0, sizeof *paper);
-    paper->run = run;
-    luaL_setmetatable(L, paper_type);
-    /* each field, what replaces it, and what lies between steps */
-    double fields = 20 + 5.0 * config.pigments_count;
-    double bytes = 2 * 4 * fields * config.width * config.height;
+    struct run_paper *paper = paper_new(L);
+    double bytes = paper_bytes_needed(config.width, config.height, config.pigments_count);
     run_memory_take(L, bytes, "a paper");
     paper->bytes = bytes;
-    enum paper_status status = paper_sheet_create(&config, &paper->sheet);
+    bool found = false;
+    enum paper_status status = PAPER_OK;
+    if (history)
+        status = paper_resumed(paper, &config, undo, &found);
+    if (status == PAPER_OK && !found)
+        status = paper_sheet_create(&config, &paper->sheet);
+    if (status == PAPER_OK && !found && history)
+        status = paper_history_begin(paper->sheet, undo);
     check(L, status);
+    paper_keep(paper);
+    film(L, paper);
     return 1;
 }
 
 static int paper_close(lua_State *L)
 {
     struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    paper_forget(paper);
     paper_sheet_destroy(paper->sheet);
     paper->sheet = NULL;
-    run_memory_give(paper->run, paper->bytes);
-    paper->bytes = 0;
+    run_memory_give(paper->run, paper->bytes + paper->history_bytes);
+    paper->bytes = paper->history_bytes = 0;
     return 0;
 }
 
@@ -344,10 +389,23 @@ static int paper_seal(lua_State *L)
 
 struct paper_sheet *paper_arg(lua_State *L, int index)
 {
+    return paper_settled(L, index)->sheet;
+}
+
+/* Between the steps of a stroke. */
+static bool due(void *context)
+{
+    struct run_paper *paper = context;
+    film_step(&paper->run->film, paper->number,
+              paper->sheet); /* a failure is heard afterwards */
+    return run_due(paper->run);
+}
+
+void paper_stop_when_due(lua_State *L, int index)
+{
     struct run_paper *paper = luaL_checkudata(L, index, paper_type);
-    if (!paper->sheet)
-        luaL_error(L, "this paper is closed");
-    return paper->sheet;
+    paper_sheet_stop_when(paper->sheet, due, paper);
+    film(L, paper);
 }
 
 void paper_check(lua_State *L, enum paper_status status)
@@ -360,12 +418,6 @@ void paper_memory_take(lua_State *L, int index, double bytes, const char *what)
     struct run_paper *paper = luaL_checkudata(L, index, paper_type);
     run_memory_take(L, bytes, what);
     paper->bytes += bytes;
-}
-
-void paper_steps_add(lua_State *L, int index, int steps)
-{
-    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
-    paper->steps += steps;
 }
 
 /* ---- layers ---- */
@@ -473,6 +525,8 @@ static int paper_mask(lua_State *L)
 /* paper:at(name, x, y [, pigment]) */
 static int paper_at_fiber(lua_State *L)
 {
+    if (lua_type(L, 2) == LUA_TNUMBER)
+        return paper_at_time(L);
     struct run_paper *paper = paper_at(L);
     const struct paper_sheet_config *config = config_of(paper);
     int pigment;
@@ -540,23 +594,33 @@ static int paper_air(lua_State *L)
 static int paper_step(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
+    struct run *run = paper->run;
     int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "step's count", 0, 1e6);
-    struct progress progress = progress_begin(paper->run->script, count);
-    if (paper->run->quiet)
-        progress.shown = false;
+    bool expected = run->steps_expected > 0;
+    long first = expected ? run->steps_done : 0;
+    long total =
+        expected && run->steps_expected > first + count ? run->steps_expected : first + count;
+    struct progress progress = run_progress_begin(run, run->script, total);
+    if (expected)
+        progress.began_s = run->began_s;
+    paper_history_mark(paper->sheet);
     enum paper_status status = PAPER_OK;
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         status = paper_sheet_step(paper->sheet);
         if (status == PAPER_OK)
             status = paper_sheet_finish(paper->sheet);
-        paper->steps++;
-        progress_show(&progress, i + 1);
-        if (interrupted() || (paper->run->deadline_s > 0 && clock_s() > paper->run->deadline_s))
+        if (status == PAPER_OK && !film_step(&run->film, paper->number, paper->sheet))
+            break;
+        run->steps_done++;
+        progress_show(&progress, (int)(first + i + 1));
+        run_report(run, first + i + 1, total);
+        if (run_due(run))
             break;
     }
     progress_end(&progress);
     run_check(L);
     check(L, status);
+    film(L, paper);
     return 0;
 }
 
@@ -600,6 +664,10 @@ static int paper_frame(lua_State *L)
         luaL_error(L, "frame's file must end in .png (got '%s')", name);
     const char *path = run_path(L, paper->run->out_folder, name, "frame");
 
+    if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0) {
+        paper->run->pictures++; /* made before this run was saved */
+        return 0;
+    }
     size_t count = 3 * (size_t)config->width * (size_t)config->height;
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
     check(L, paper_sheet_view(paper->sheet, &view, rgb));
@@ -632,7 +700,7 @@ static int paper_index(lua_State *L)
     else if (paper->sheet && strcmp(key, "height") == 0)
         lua_pushinteger(L, config_of(paper)->height);
     else if (strcmp(key, "steps") == 0)
-        lua_pushinteger(L, paper->steps);
+        lua_pushinteger(L, paper->sheet ? paper_sheet_steps(paper->sheet) : 0);
     else {
         lua_pushvalue(L, 2);
         lua_rawget(L, lua_upvalueindex(1));
@@ -654,6 +722,7 @@ void lua_paper_open(lua_State *L)
     luaL_newlib(L, methods);
     luaL_setfuncs(L, lua_brush_methods, 0);
     luaL_setfuncs(L, lua_technique_methods, 0);
+    luaL_setfuncs(L, lua_time_methods, 0);
     lua_pushcclosure(L, paper_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pushcfunction(L, paper_close);
@@ -661,5 +730,15 @@ void lua_paper_open(lua_State *L)
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
     lua_pop(L, 1);
-    lua_register(L, "paper", make_paper);
+    /* paper{...} and paper.load(...) */
+    lua_newtable(L);
+    lua_pushcfunction(L, paper_load);
+    lua_setfield(L, -2, "load");
+    lua_newtable(L);
+    lua_pushcfunction(L, make_paper);
+    lua_setfield(L, -2, "__call");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_setmetatable(L, -2);
+    lua_setglobal(L, "paper");
 }

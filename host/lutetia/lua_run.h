@@ -5,8 +5,12 @@
 #ifndef LUTETIA_LUA_RUN_H
 #define LUTETIA_LUA_RUN_H
 
+#include "film.h"
+#include "lutetia.h"
+
 #include <paper.h>
 #include <sheet.h>
+#include <state.h>
 
 #include <lauxlib.h>
 #include <lua.h>
@@ -15,7 +19,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { RUN_WORDS_MAX = 64 };
+enum { RUN_WORDS_MAX = 64, RUN_PAPERS_MAX = PAPER_STATE_SHEETS_MAX };
 
 struct run {
     const char *script;     /* as it was named */
@@ -32,11 +36,26 @@ struct run {
     bool asked[RUN_WORDS_MAX];
     int words_count;
     int pictures;
+    int papers_made;
+    struct paper_state_sheet kept[RUN_PAPERS_MAX]; /* papers that are open, by number */
+    int kept_count;
+    struct paper_state *resumed; /* --resume; NULL: none */
+    const char *save;            /* --save; NULL: none */
+    struct film film;
+    long steps_done, steps_expected; /* by the script; expected 0: it did not say */
+    double began_s;
+    int report_to; /* where steps are reported to, of a run among others; 0: nowhere */
 };
 
 /* The run of a state. */
 struct run *run_of(lua_State *L);
 
+/* Time is up, or Ctrl-C was pressed. */
+bool run_due(const struct run *run);
+/* A progress line of the run; not shown where it is quiet. */
+struct progress run_progress_begin(const struct run *run, const char *what, long total);
+/* Tells whoever runs this run among others (run_sweep.c). */
+void run_report(struct run *run, long done, long total);
 /* Raises an error when time is up or Ctrl-C was pressed. */
 void run_check(lua_State *L);
 /* Counts memory that is not Lua's; raises an error, having counted nothing, where there is not enough. */
@@ -85,14 +104,15 @@ void paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet, dou
 int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const char *name);
 /* Memory that is the paper's until it is closed. */
 void paper_memory_take(lua_State *L, int index, double bytes, const char *what);
-/* Steps that something else than paper:step() took. */
-void paper_steps_add(lua_State *L, int index, int steps);
-extern const luaL_Reg lua_brush_methods[], lua_technique_methods[];
+/* For paper_sheet_stop_when(), with the paper at index: films steps, and stops when time is up. */
+void paper_stop_when_due(lua_State *L, int index);
+extern const luaL_Reg lua_brush_methods[], lua_technique_methods[], lua_time_methods[];
 
 void lua_mask_open(lua_State *L);
 void lua_paper_open(lua_State *L);
 void lua_brush_open(lua_State *L);
 void lua_technique_open(lua_State *L);
+void lua_time_open(lua_State *L);
 
 /* Takes away what reaches out of the script, seeds math.random, and makes pairs() go in order. */
 void lua_sandbox_open(lua_State *L);

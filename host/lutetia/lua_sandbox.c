@@ -17,6 +17,19 @@ struct run *run_of(lua_State *L)
     return run;
 }
 
+bool run_due(const struct run *run)
+{
+    return interrupted() || (run->deadline_s > 0 && clock_s() > run->deadline_s);
+}
+
+struct progress run_progress_begin(const struct run *run, const char *what, long total)
+{
+    struct progress progress = progress_begin(what, (int)total);
+    if (run->quiet || run->report_to)
+        progress.shown = false;
+    return progress;
+}
+
 /* level: 0 for the script itself, 1 for a function that it called. */
 static void stop_if_due(lua_State *L, int level)
 {

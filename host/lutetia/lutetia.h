@@ -8,6 +8,7 @@
 #include <paper.h>
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
@@ -53,6 +54,9 @@ struct progress {
 struct progress progress_begin(const char *what, int total);
 void progress_show(struct progress *p, int done);
 void progress_end(struct progress *p); /* clears the line */
+
+/* "12 s left", "about 3 min left" */
+void time_left_text(char *text, size_t room, double seconds);
 
 double clock_s(void); /* seconds since some moment */
 

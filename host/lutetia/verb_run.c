@@ -2,6 +2,10 @@
 #include "lua_run.h"
 #include "lutetia.h"
 #include "options.h"
+#include "run_sweep.h"
+
+#include <history.h>
+#include <state.h>
 
 #include <errno.h>
 #include <paris_internal.h>
@@ -12,12 +16,12 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { GRACE_S = 3, SWEEPS_MAX = 8, VALUES_MAX = 4096, WORD_MAX = 256 };
+enum { GRACE_S = 3, JOBS_MOST = 256 };
 
 struct options {
-    const char *in, *out, *sweep;
-    double timeout_s;
-    int memory_mb, seed;
+    const char *in, *out, *sweep, *save, *resume, *video, *frames;
+    double timeout_s, camera[4];
+    int memory_mb, seed, jobs, fps, every;
     bool trusted, quiet;
 };
 
@@ -33,6 +37,21 @@ static int options_read(struct options *o, int argc, char **argv, struct option_
          "run once for each value: a,b,c or 1..5; several, after ';'; each in a folder of its "
          "own",
          &o->sweep, 0, 0, 0},
+        {"jobs", 'j', OPTION_INTEGER, "N", "runs of a sweep at a time (1)", &o->jobs, 1,
+         JOBS_MOST, 0},
+        {"save", 0, OPTION_TEXT, "FILE",
+         "save all papers with what was done to them at the end", &o->save, 0, 0, 0},
+        {"resume", 0, OPTION_TEXT, "FILE", "go on where a run was saved", &o->resume, 0, 0, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "film the first paper: .mp4 (with ffmpeg), .y4m",
+         &o->video, 0, 0, 0},
+        {"frames", 0, OPTION_TEXT, "DIR",
+         "the same as pictures of 16 bits: colour, water, masking fluid", &o->frames, 0, 0, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "frames in a second of the film (30)", &o->fps, 1, 240,
+         0},
+        {"every", 0, OPTION_INTEGER, "N", "steps from frame to frame (4)", &o->every, 1,
+         1000000, 0},
+        {"camera", 0, OPTION_NUMBERS, "X,Y,W,H", "what the film shows, in fibers (all)",
+         &o->camera, 0, 16384, 4},
         {"timeout", 0, OPTION_NUMBER, "S", "seconds that a run may take; 0: any (600)",
          &o->timeout_s, 0, 1e6, 0},
         {"memory", 0, OPTION_INTEGER, "MB", "that papers, masks and Lua may take (4096)",
@@ -56,6 +75,10 @@ static int options_read(struct options *o, int argc, char **argv, struct option_
     for (int i = 1; i < words->count; i++)
         if (!strchr(words->words[i], '=') || words->words[i][0] == '=')
             return fail_usage("run", "'%.60s' must be key=value", words->words[i]);
+    if (o->sweep && (o->save || o->resume))
+        return fail_usage("run", "--save and --resume are of one run, not of a sweep");
+    if (o->jobs > 1 && !o->sweep)
+        return fail_usage("run", "--jobs is for a --sweep");
     return EXIT_SUCCESS;
 }
 
@@ -98,6 +121,7 @@ static int open_all(lua_State *L)
     lua_mask_open(L);
     lua_paper_open(L);
     lua_brush_open(L);
+    lua_time_open(L);
     lua_technique_open(L);
     return 0;
 }
@@ -120,8 +144,43 @@ static void complain(const char *text)
     fprintf(stderr, "%s\n", line);
 }
 
-static int script_run(struct run *run)
+/* ---- saving and resuming ---- */
+
+/* What was done until now, however the run ended. */
+static int run_save(struct run *run, int result)
 {
+    for (int i = 0; i < run->kept_count;
+         i++) /* what is to be computed for it must not be stopped */
+        paper_history_set_watch(run->kept[i].sheet, NULL, NULL);
+    struct paper_state_sheet kept[RUN_PAPERS_MAX];
+    int count = 0;
+    for (int i = 0; i < run->kept_count; i++)
+        if (paper_history_has(run->kept[i].sheet))
+            kept[count++] = run->kept[i];
+    if (paper_state_save(run->save, kept, count) != PAPER_OK)
+        return fail("run", "%s", paper_error());
+    if (!run->quiet && result != EXIT_SUCCESS)
+        fprintf(stderr, "lutetia run: saved; `lutetia run %s --resume %s` goes on\n",
+                run->script, run->save);
+    return result;
+}
+
+static void divergence_report(const struct run *run)
+{
+    for (int i = 0; i < run->kept_count; i++)
+        if (paper_history_diverged(run->kept[i].sheet) && !run->quiet)
+            fprintf(
+                stderr,
+                "lutetia run: paper %d goes another way than the one that was saved; it was "
+                "computed again from there\n",
+                run->kept[i].number);
+}
+
+/* ---- the script ---- */
+
+int script_run(struct run *run)
+{
+    run->began_s = clock_s();
     run->deadline_s = run->timeout_s > 0 ? clock_s() + run->timeout_s : 0;
     lua_State *L = lua_newstate(allocate, run);
     if (!L)
@@ -150,9 +209,15 @@ static int script_run(struct run *run)
             complain(text ? text : "error");
         result = interrupted() ? EXIT_INTERRUPTED : EXIT_FAILED;
     }
-    lua_sethook(L, NULL, 0, 0);
-    lua_close(L);
     alarm(0);
+    lua_sethook(L, NULL, 0, 0);
+    bool film_failed = run->film.failed; /* and has been said */
+    if (!film_end(&run->film) && !film_failed)
+        result = fail("run", "%s", run->film.error);
+    divergence_report(run);
+    if (run->save)
+        result = run_save(run, result);
+    lua_close(L);
     for (int i = 0; i < run->words_count && result == EXIT_SUCCESS; i++)
         if (!run->asked[i])
             result = fail("run", "%s asked for no '%.*s'", run->script,
@@ -160,115 +225,31 @@ static int script_run(struct run *run)
     return result;
 }
 
-/* ---- sweeps ---- */
-
-struct sweep {
-    char *key;
-    char *values[VALUES_MAX];
-    int count;
-};
-
-/* "a=1,2;b=1..3"; the text is cut up. */
-static bool sweep_parse(char *text, struct sweep *sweeps, int *count)
-{
-    char *next_one, *next_value;
-    *count = 0;
-    for (char *one = strtok_r(text, ";", &next_one); one;
-         one = strtok_r(NULL, ";", &next_one)) {
-        char *values = strchr(one, '=');
-        if (!values || values == one || *count == SWEEPS_MAX)
-            return false;
-        *values++ = '\0';
-        struct sweep *sweep = &sweeps[(*count)++];
-        sweep->key = one;
-        sweep->count = 0;
-        int from, to;
-        char end;
-        if (sscanf(values, "%d..%d%c", &from, &to, &end) == 2) {
-            if (from > to || to - from >= VALUES_MAX)
-                return false;
-            for (int i = from; i <= to; i++)
-                if (asprintf(&sweep->values[sweep->count++], "%d", i) < 0)
-                    return false;
-            continue;
-        }
-        for (char *value = strtok_r(values, ",", &next_value); value;
-             value = strtok_r(NULL, ",", &next_value)) {
-            if (sweep->count == VALUES_MAX || strchr(value, '/') || strlen(value) > WORD_MAX)
-                return false;
-            sweep->values[sweep->count++] = strdup(value);
-        }
-        if (sweep->count == 0)
-            return false;
-    }
-    return *count > 0;
-}
-
-/* Runs for every combination of values from number `depth` on; folder is what the values before it made. */
-static int sweep_run(struct run *run, const struct sweep *sweeps, int count, int depth,
-                     const char *folder)
-{
-    if (depth == count) {
-        run->out_folder = folder;
-        memset(run->asked, 0, sizeof run->asked);
-        if (!run->quiet)
-            fprintf(stderr, "lutetia run: %s\n", folder);
-        return script_run(run);
-    }
-    const struct sweep *sweep = &sweeps[depth];
-    int status = EXIT_SUCCESS;
-    for (int i = 0; i < sweep->count && status == EXIT_SUCCESS; i++) {
-        char *word = NULL, *path = NULL;
-        if (asprintf(&word, "%s=%s", sweep->key, sweep->values[i]) < 0 ||
-            asprintf(&path, "%s/%s-%s", folder, sweep->key, sweep->values[i]) < 0)
-            return fail("run", "no memory for a sweep");
-        status = folder_make("run", path);
-        if (status == EXIT_SUCCESS) {
-            run->words[run->words_count++] = word;
-            status = sweep_run(run, sweeps, count, depth + 1, path);
-            run->words_count--;
-        }
-        free(word);
-        free(path);
-    }
-    return status;
-}
-
-static int sweep_all(struct run *run, const char *text)
-{
-    static struct sweep sweeps[SWEEPS_MAX];
-    int count = 0, status;
-    char *copy = strdup(text), *folder = strdup(run->out_folder);
-    if (!copy || !folder || !sweep_parse(copy, sweeps, &count))
-        status = fail_usage(
-            "run", "--sweep must be KEY=a,b,c or KEY=1..5, several after ';' (got '%.60s')",
-            text);
-    else if (run->words_count + count > RUN_WORDS_MAX)
-        status = fail_usage("run", "a script takes up to %d key=value", RUN_WORDS_MAX);
-    else
-        status = sweep_run(run, sweeps, count, 0, folder);
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < sweeps[i].count; j++)
-            free(sweeps[i].values[j]);
-    free(copy);
-    free(folder);
-    return status;
-}
-
 int verb_run(int argc, char **argv)
 {
-    struct options o = {.out = ".", .timeout_s = 600, .memory_mb = 4096, .seed = 1990};
+    struct options o = {.out = ".",
+                        .timeout_s = 600,
+                        .memory_mb = 4096,
+                        .seed = 1990,
+                        .jobs = 1,
+                        .fps = 30,
+                        .every = 4};
     struct option_words words;
     int status = options_read(&o, argc, argv, &words);
     if (status != EXIT_SUCCESS || words.help)
         return status;
-    struct run run = {.script = words.words[0],
-                      .out_folder = o.out,
-                      .trusted = o.trusted,
-                      .quiet = o.quiet,
-                      .timeout_s = o.timeout_s,
-                      .memory_most_bytes = (size_t)o.memory_mb << 20,
-                      .seed = (uint64_t)o.seed};
+    struct run run = {
+        .script = words.words[0],
+        .out_folder = o.out,
+        .trusted = o.trusted,
+        .quiet = o.quiet,
+        .timeout_s = o.timeout_s,
+        .memory_most_bytes = (size_t)o.memory_mb << 20,
+        .seed = (uint64_t)o.seed,
+        .save = o.save,
+        .film = {
+            .video = o.video, .folder = o.frames, .fps = o.fps, .every = o.every, .paper = 1}};
+    memcpy(run.film.camera, o.camera, sizeof run.film.camera);
     for (int i = 1; i < words.count; i++)
         run.words[run.words_count++] = words.words[i];
     if (access(run.script, R_OK) != 0)
@@ -278,10 +259,16 @@ int verb_run(int argc, char **argv)
         *slash = '\0';
     run.in_folder = o.in ? o.in : slash ? (*folder ? folder : "/") : ".";
     status = folder_make("run", o.out);
+    if (status == EXIT_SUCCESS && o.frames && !o.sweep)
+        status = folder_make("run", o.frames);
+    if (status == EXIT_SUCCESS && o.resume &&
+        paper_state_open(o.resume, &run.resumed) != PAPER_OK)
+        status = fail("run", "%s", paper_error());
     if (status == EXIT_SUCCESS) {
         interrupt_catch();
-        status = o.sweep ? sweep_all(&run, o.sweep) : script_run(&run);
+        status = o.sweep ? sweep_all(&run, o.sweep, o.jobs) : script_run(&run);
     }
+    paper_state_close(run.resumed);
     free(folder);
     return status;
 }

@@ -1,6 +1,7 @@
 /* brush.c - a sheet's brushes: making, dipping, counting. The stroke is in brush_stroke.c, what passes between bristles and
  * fibers in brush_exchange.c. */
 #include "brush_internal.h"
+#include "event.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -137,6 +138,12 @@ static void held_read(struct sheet_brushes *b, CM_field_id_t field, double *grai
 
 enum paper_status paper_sheet_brush(struct paper_sheet *p, const struct paper_brush *brush)
 {
+    return sheet_event(p, SHEET_EVENT_BRUSH, brush);
+}
+
+enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_brush *brush = arguments;
     enum paper_status status = brush_check(brush);
     if (status != PAPER_OK)
         return status;
@@ -203,7 +210,9 @@ static enum paper_status held_check(const struct paper_sheet *p, int number, int
 enum paper_status paper_sheet_brush_read(struct paper_sheet *p, int number, int substance,
                                          double *grains)
 {
-    enum paper_status status = held_check(p, number, substance);
+    enum paper_status status = sheet_ready(p);
+    if (status == PAPER_OK)
+        status = held_check(p, number, substance);
     if (status != PAPER_OK)
         return status;
     paper_enter(&p->page);
@@ -247,6 +256,12 @@ enum paper_status paper_sheet_brush_total(struct paper_sheet *p, int number, int
 
 enum paper_status paper_sheet_dip(struct paper_sheet *p, const struct paper_dip *dip)
 {
+    return sheet_event(p, SHEET_EVENT_DIP, dip);
+}
+
+enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_dip *dip = arguments;
     enum paper_status status = held_check(p, dip->number, 0);
     if (status != PAPER_OK)
         return status;

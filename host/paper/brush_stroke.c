@@ -9,6 +9,8 @@
  * BRUSH_ROWS in one exchange. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
  * Places are moved by chance within the bristle's thickness, by numbers that depend on the bristle and the place alone. */
 #include "brush_internal.h"
+#include "event.h"
+#include "history.h"
 
 #include <math.h>
 #include <string.h>
@@ -220,8 +222,16 @@ static void brush_go(struct going *g, double from, double to)
 enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_stroke *stroke,
                                      int *steps)
 {
+    long before = paper_sheet_steps(p);
+    enum paper_status status = sheet_event(p, SHEET_EVENT_STROKE, stroke);
     if (steps)
-        *steps = 0;
+        *steps = (int)(paper_sheet_steps(p) - before);
+    return status;
+}
+
+enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_stroke *stroke = arguments;
     if (!paper_sheet_brush_get(p, stroke->number))
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
     enum paper_status status = paper_stroke_check(stroke);
@@ -239,8 +249,11 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_s
     g.own->toward[0] = 1; /* where it goes is known as soon as it does */
     g.own->toward[1] = 0;
     for (int i = 0; i < count && status == PAPER_OK; i++) {
-        if (p->due && p->due(p->due_context))
+        if (p->due && p->due(p->due_context)) {
+            if (p->history) /* half a stroke is no operation: it is as if it had not been begun */
+                return paper_fail(PAPER_MACHINE_FAILED, "stopped");
             break;
+        }
         double from = start + i / pace, to = fmin(end, start + (i + 1) / pace);
         paper_enter(&p->page);
         brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
@@ -249,8 +262,6 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_s
             status = paper_sheet_step(p);
             if (status == PAPER_OK)
                 status = paper_sheet_finish(p);
-            if (steps)
-                (*steps)++;
         }
     }
     return status;

@@ -31,7 +31,8 @@ enum paper_status {
     PAPER_NO_MEMORY,
     PAPER_BAD_FONT, /* not found, or not a font */
     PAPER_BAD_TEXT, /* not UTF-8, or nothing in it that leaves a mark */
-    PAPER_MACHINE_FAILED
+    PAPER_MACHINE_FAILED,
+    PAPER_BAD_FILE /* not a saved state, or a damaged one */
 };
 
 /* Detail of the last failure, one line without a newline; "" if there was none.

@@ -10,6 +10,7 @@
  *
  * Flows are whole grains of matter, computed once for each face, as in sheet_step.c: nothing is lost, and mirrored sheets give
  * mirrored bits. Brine is no matter of the sheet's; it is only where it pushes from. */
+#include "event.h"
 #include "sheet_internal.h"
 #include "techniques.h"
 
@@ -57,6 +58,12 @@ static void grain_add(float *salt, int width, int height, double x, double y, do
 
 enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct paper_salt *s)
 {
+    return sheet_event(p, SHEET_EVENT_SALT, s);
+}
+
+enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_salt *s = arguments;
     const struct {
         const char *name;
         double value, low, high;

@@ -1,4 +1,5 @@
 /* sheet.c - a sheet's life: its fields, its layers in and out, its totals. */
+#include "history_internal.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -141,11 +142,13 @@ static void fields_make(struct paper_sheet *p)
  * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
 static enum paper_status amounts_clear(struct paper_sheet *p)
 {
-    CM_field_id_t fields[4 + 3 * PAPER_PIGMENTS_MAX];
+    CM_field_id_t fields[5 + 3 * PAPER_PIGMENTS_MAX];
     int count = 0, offset[2] = {0, 0}, start[2] = {0, 0},
         axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
     int size[2] = {p->page.height, p->page.width};
     fields[count++] = p->page.water;
+    if (p->config.parts)
+        fields[count++] = p->resist;
     if (sheet_has(p, PAPER_PART_SURFACE))
         fields[count++] = p->surface_water;
     if (sheet_has(p, PAPER_PART_EDGE))
@@ -165,6 +168,12 @@ static enum paper_status amounts_clear(struct paper_sheet *p)
     return PAPER_OK;
 }
 
+enum paper_status sheet_fresh_make(struct paper_sheet *p)
+{
+    sheet_stock_make(p);
+    return amounts_clear(p);
+}
+
 enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
                                      struct paper_sheet **out)
 {
@@ -176,10 +185,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     if (!p)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
     p->config = *config;
-    if (sheet_has(p, PAPER_PART_EDGE))
-        p->config.parts |= PAPER_PART_SURFACE;
-    if (p->config.parts)
-        p->config.parts |= PAPER_PART_INFUSED;
+    p->config.parts = sheet_parts_whole(config->parts);
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
     p->salt_reach = 10;
@@ -198,8 +204,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
     p->page.vp_set = CM_allocate_vp_set(p->page.geometry);
     paper_enter(&p->page);
     fields_make(p);
-    sheet_stock_make(p);
-    status = amounts_clear(p);
+    status = sheet_fresh_make(p);
     if (status == PAPER_OK)
         status = paper_leave(&p->page);
     if (status == PAPER_OK)
@@ -216,6 +221,8 @@ void paper_sheet_destroy(struct paper_sheet *p)
 {
     if (!p)
         return;
+    if (p->history)
+        history_free(p->history);
     sheet_brushes_destroy(p);
     CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
     CM_deallocate_geometry(p->page.geometry);
@@ -305,12 +312,39 @@ static void news_size(const struct paper_sheet *p, int size[2])
 enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_layer layer,
                                           int pigment, const float *values)
 {
+    return sheet_event(p, SHEET_EVENT_LAYER,
+                       &(struct event_layer){(int)layer, pigment, values});
+}
+
+enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
     CM_field_id_t field;
-    enum paper_status status = layer_check(p, layer, pigment, &field);
-    if (status != PAPER_OK)
-        return status;
-    if (layer == PAPER_LAYER_DRIED_WATER)
+    enum paper_status status =
+        layer_check(p, (enum paper_layer)event->layer, event->pigment, &field);
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_DRIED_WATER)
         return paper_fail(PAPER_BAD_ARGUMENT, "what has dried is counted, not written");
+    unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
+                    : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
+                                                                : 0;
+    if (status == PAPER_OK && part && !sheet_has(p, part))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "pigments have no such layer in this model of the paper");
+    size_t width = (size_t)p->page.width, count = width * (size_t)p->page.height;
+    for (size_t i = 0; i < count && status == PAPER_OK; i++)
+        if (isnan(event->values[i]))
+            return paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
+                              i % width, i / width);
+    return status;
+}
+
+enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
+    enum paper_layer layer = (enum paper_layer)event->layer;
+    const float *values = event->values;
+    CM_field_id_t field = sheet_layer_field(p, layer, event->pigment);
+    enum paper_status status = PAPER_OK;
     size_t count = (size_t)p->page.width * (size_t)p->page.height;
     double unit = layers[layer].amount ? p->unit : 1;
     double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
@@ -318,29 +352,23 @@ enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_laye
     if (!cut)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.width,
                           p->page.height);
-    for (size_t i = 0; i < count && status == PAPER_OK; i++) {
-        if (isnan(values[i]))
-            status = paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
-                                i % (size_t)p->page.width, i / (size_t)p->page.width);
+    for (size_t i = 0; i < count; i++) {
         double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
-    if (status == PAPER_OK) {
-        int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-            size[2];
-        news_size(p, size);
-        paper_enter(&p->page);
-        CM_set_context();
-        CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
-                                    CM_float_single);
-        if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
-            sheet_faces_make(p);
-        p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
-        p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
-        if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
-            sheet_wet_around_make(p);
-        status = paper_leave(&p->page);
-    }
+    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
+    news_size(p, size);
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
+                                CM_float_single);
+    p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
+    p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
+    if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
+        sheet_faces_make(p);
+    if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
+        sheet_wet_around_make(p);
+    status = paper_leave(&p->page);
     free(cut);
     return status;
 }
@@ -350,6 +378,8 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *p, enum paper_layer
 {
     CM_field_id_t field;
     enum paper_status status = layer_check(p, layer, pigment, &field);
+    if (status == PAPER_OK)
+        status = sheet_ready(p);
     if (status != PAPER_OK)
         return status;
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
@@ -382,6 +412,9 @@ enum paper_status paper_sheet_total(struct paper_sheet *p, int substance, double
     if (substance < -1 || substance > p->config.pigments_count)
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
                           p->config.pigments_count, substance);
+    enum paper_status status = sheet_ready(p);
+    if (status != PAPER_OK)
+        return status;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t wide = CM_allocate_heap_field(64), fields[3];

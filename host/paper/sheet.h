@@ -190,6 +190,8 @@ enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
 enum paper_status paper_sheet_step(struct paper_sheet *sheet);
 enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
+/* Steps that the sheet as it is has gone through, also in the midst of a stroke. */
+long paper_sheet_now(const struct paper_sheet *sheet);
 
 /* ---- looking ---- */
 

@@ -1,4 +1,6 @@
-/* sheet_apply.c - what is put on a sheet and taken from it: through screens, or everywhere. */
+/* sheet_apply.c - what is put on a sheet and taken from it: through screens, or everywhere. What the public functions ask
+ * for are events (event.h); the sheet_...() below perform them, when they happen and when they are replayed. */
+#include "event.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -13,11 +15,27 @@ static int clip(int64_t at, int length)
     return at < 0 ? 0 : at > length ? length : (int)at;
 }
 
-static enum paper_status screen_check(const struct paper_screen *screen)
+static enum paper_status place_check(const struct event_place *place)
 {
-    if (screen && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
+    const struct paper_screen *screen = &place->screen;
+    if (!place->everywhere && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
     return PAPER_OK;
+}
+
+static struct event_place place_of(const struct paper_screen *screen, int x, int y)
+{
+    struct event_place place = {.everywhere = !screen, .x = x, .y = y};
+    if (screen)
+        place.screen = *screen;
+    return place;
+}
+
+static enum paper_status share_make(struct paper_sheet *p, const struct event_place *place,
+                                    CM_field_id_t share)
+{
+    return sheet_share_make(p, place->everywhere ? NULL : &place->screen, place->x, place->y,
+                            share);
 }
 
 enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_screen *screen,
@@ -87,18 +105,31 @@ void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part)
 enum paper_status paper_sheet_put(struct paper_sheet *p, const struct paper_screen *screen,
                                   int x, int y, const double *amount)
 {
+    struct event_put put = {.place = place_of(screen, x, y)};
     for (int i = 0; i <= p->config.pigments_count; i++)
-        if (!(fabs(amount[i]) <= PUT_MOST))
+        put.amount[i] = amount[i];
+    return sheet_event(p, SHEET_EVENT_PUT, &put);
+}
+
+enum paper_status sheet_put_check(const struct paper_sheet *p, const void *arguments)
+{
+    const struct event_put *put = arguments;
+    for (int i = 0; i <= p->config.pigments_count; i++)
+        if (!(fabs(put->amount[i]) <= PUT_MOST))
             return paper_fail(PAPER_BAD_ARGUMENT, "the amount of %.*s must be %g..%g (got %g)",
                               PAPER_NAME_MAX, i == 0 ? "water" : p->config.pigments[i - 1].name,
-                              -PUT_MOST, PUT_MOST, amount[i]);
-    enum paper_status status = screen_check(screen);
-    if (status != PAPER_OK)
-        return status;
+                              -PUT_MOST, PUT_MOST, put->amount[i]);
+    return place_check(&put->place);
+}
+
+enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_put *put = arguments;
+    const double *amount = put->amount;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2];
-    status = sheet_share_make(p, screen, x, y, share);
+    enum paper_status status = share_make(p, &put->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, part);
@@ -133,17 +164,30 @@ void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t sha
 enum paper_status paper_sheet_blot(struct paper_sheet *p, const struct paper_screen *screen,
                                    int x, int y, double part, double lift)
 {
+    return sheet_event(p, SHEET_EVENT_BLOT,
+                       &(struct event_blot){place_of(screen, x, y), part, lift});
+}
+
+enum paper_status sheet_blot_check(const struct paper_sheet *p, const void *arguments)
+{
+    (void)p;
+    const struct event_blot *blot = arguments;
+    double part = blot->part, lift = blot->lift;
     if (!(part >= 0 && part <= 1 && lift >= 0 && lift <= 1))
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "blotting takes parts of 0..1 (got %g, and %g of what is fixed)",
                           part, lift);
-    enum paper_status status = screen_check(screen);
-    if (status != PAPER_OK)
-        return status;
+    return place_check(&blot->place);
+}
+
+enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_blot *blot = arguments;
+    double part = blot->part, lift = blot->lift;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
-    status = sheet_share_make(p, screen, x, y, share);
+    enum paper_status status = share_make(p, &blot->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, lost);
@@ -163,20 +207,31 @@ enum paper_status paper_sheet_blot(struct paper_sheet *p, const struct paper_scr
 enum paper_status paper_sheet_resist(struct paper_sheet *p, const struct paper_screen *screen,
                                      int x, int y, bool on)
 {
-    enum paper_status status = screen_check(screen);
-    if (status != PAPER_OK)
-        return status;
-    if (p->config.parts == 0)
+    return sheet_event(p, SHEET_EVENT_RESIST,
+                       &(struct event_resist){place_of(screen, x, y), on});
+}
+
+enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *arguments)
+{
+    const struct event_resist *resist = arguments;
+    enum paper_status status = place_check(&resist->place);
+    if (status == PAPER_OK && p->config.parts == 0)
         return paper_fail(
             PAPER_BAD_ARGUMENT,
             "the thesis's paper takes no masking fluid; choose a paper with parts");
+    return status;
+}
+
+enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_resist *resist = arguments;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[2];
-    status = sheet_share_make(p, screen, x, y, share);
+    enum paper_status status = share_make(p, &resist->place, share);
     if (status != PAPER_OK)
         return status;
-    if (on) {
+    if (resist->on) {
         f_max(p->resist, p->resist, share);
     } else {
         f_from(share, 1.0, share);
@@ -188,6 +243,17 @@ enum paper_status paper_sheet_resist(struct paper_sheet *p, const struct paper_s
 
 enum paper_status paper_sheet_dry(struct paper_sheet *p)
 {
+    return sheet_event(p, SHEET_EVENT_DRY, NULL);
+}
+
+enum paper_status paper_sheet_seal(struct paper_sheet *p)
+{
+    return sheet_event(p, SHEET_EVENT_SEAL, NULL);
+}
+
+enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
+{
+    (void)arguments;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t water[2] = {p->page.water, p->surface_water}, count = p->t[0];
@@ -219,9 +285,9 @@ enum paper_status paper_sheet_dry(struct paper_sheet *p)
     return paper_leave(&p->page);
 }
 
-enum paper_status paper_sheet_seal(struct paper_sheet *p)
+enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
 {
-    enum paper_status status = paper_sheet_dry(p);
+    enum paper_status status = sheet_dry(p, arguments);
     if (status != PAPER_OK)
         return status;
     paper_enter(&p->page);

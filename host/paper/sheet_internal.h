@@ -10,10 +10,15 @@ enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
 
+struct sheet_history;
+
 struct paper_sheet {
     struct paper_sheet_config config;
     struct paper_air air;
-    double unit; /* of amounts: PAPER_GRAINS, or 1 without parts */
+    struct sheet_history *history; /* NULL: nothing is recorded */
+    long steps;                    /* without a history */
+    bool touched;                  /* something was done, and not recorded */
+    double unit;                   /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
     CM_field_id_t height, capacity, resist;
@@ -44,12 +49,22 @@ static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
     return (p->config.parts & part) != 0;
 }
 
+/* With the parts that others imply. */
+static inline unsigned sheet_parts_whole(unsigned parts)
+{
+    if (parts & PAPER_PART_EDGE)
+        parts |= PAPER_PART_SURFACE;
+    return parts ? parts | PAPER_PART_INFUSED : 0;
+}
+
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
 int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
 /* The field of a layer; 0 where there is none. */
 CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
                                 int pigment);
 
+/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
+enum paper_status sheet_fresh_make(struct paper_sheet *p);
 /* Absorbency, capacity, height and colour from the seed. */
 void sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */

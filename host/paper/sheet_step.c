@@ -27,6 +27,7 @@
  *
  * Sources: Small 1991 (displacement by gravity, tension, spreading; absorption; evaporation); Curtis et al. 1997 (wet area, edge
  * darkening, transfer of pigment, capacities). */
+#include "event.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -62,8 +63,10 @@ static bool within(double x, double low, double high)
     return x >= low && x <= high; /* false for NaN */
 }
 
-static enum paper_status air_check(const struct paper_air *a)
+enum paper_status sheet_air_check(const struct paper_sheet *p, const void *arguments)
 {
+    (void)p;
+    const struct paper_air *a = arguments;
     const struct {
         const char *name;
         double value, low, high;
@@ -92,10 +95,7 @@ static enum paper_status air_check(const struct paper_air *a)
 
 enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air *air)
 {
-    enum paper_status status = air_check(air);
-    if (status == PAPER_OK)
-        p->air = *air;
-    return status;
+    return sheet_event(p, SHEET_EVENT_AIR, air);
 }
 
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
@@ -536,6 +536,12 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
 
 enum paper_status paper_sheet_step(struct paper_sheet *p)
 {
+    return sheet_event(p, SHEET_EVENT_STEP, NULL);
+}
+
+enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
+{
+    (void)arguments;
     paper_enter(&p->page);
     CM_set_context();
     if (p->config.parts == 0) {

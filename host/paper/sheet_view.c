@@ -11,6 +11,7 @@
  *
  * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps); the front
  * end takes them to display values by a table. */
+#include "event.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -207,6 +208,12 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
         return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->page.width,
                           p->page.height);
     }
+    enum paper_status status = sheet_ready(p);
+    if (status != PAPER_OK) {
+        free(one);
+        free(table);
+        return status;
+    }
     bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
     bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
     table_make(table, linear);
@@ -232,7 +239,7 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
     }
     for (int i = 0; i < (colored ? 3 : 1); i++)
         shade_store(p, i, color[i], linear);
-    enum paper_status status = shades_read(p, colored ? 3 : 1, table, one, rgb);
+    status = shades_read(p, colored ? 3 : 1, table, one, rgb);
     free(one);
     free(table);
     return status;

@@ -1,5 +1,6 @@
 /* varnish.c - clear gloss on the paper. Under it less light is scattered at the fibers, so colours are deeper; where it
  * begins and ends it shines or is in shade, with light from the upper left. */
+#include "event.h"
 #include "sheet_internal.h"
 #include "techniques.h"
 
@@ -10,6 +11,12 @@
 
 enum paper_status paper_sheet_varnish(struct paper_sheet *p, const struct paper_varnish *v)
 {
+    return sheet_event(p, SHEET_EVENT_VARNISH, v);
+}
+
+enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_varnish *v = arguments;
     if (!(v->amount >= 0 && v->amount <= 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "varnish must be 0..1 (got %g)", v->amount);
     paper_enter(&p->page);

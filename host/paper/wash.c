@@ -1,4 +1,5 @@
 /* wash.c - amounts that are not the same everywhere: graded washes, printed amounts; and lifting them again. */
+#include "event.h"
 #include "sheet_internal.h"
 #include "techniques.h"
 
@@ -37,6 +38,12 @@ static void grade_make(struct paper_sheet *p, const struct paper_wash *w, CM_fie
 
 enum paper_status paper_sheet_wash(struct paper_sheet *p, const struct paper_wash *w)
 {
+    return sheet_event(p, SHEET_EVENT_WASH, w);
+}
+
+enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_wash *w = arguments;
     enum paper_status status = PAPER_OK;
     for (int i = 0; i < 2; i++)
         if (!(fabs(w->from[i]) <= 1e6 && fabs(w->to[i]) <= 1e6))
@@ -91,6 +98,12 @@ static enum paper_status print_lay(const struct paper_sheet *p, const struct pap
 
 enum paper_status paper_sheet_print(struct paper_sheet *p, const struct paper_print *print)
 {
+    return sheet_event(p, SHEET_EVENT_PRINT, print);
+}
+
+enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_print *print = arguments;
     if (print->width < 1 || print->height < 1 || print->width > PAPER_SIDE_MAX ||
         print->height > PAPER_SIDE_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "a print is 1..%d wide and high (got %dx%d)",
@@ -126,6 +139,12 @@ enum paper_status paper_sheet_print(struct paper_sheet *p, const struct paper_pr
 
 enum paper_status paper_sheet_lift(struct paper_sheet *p, const struct paper_lift *lift)
 {
+    return sheet_event(p, SHEET_EVENT_LIFT, lift);
+}
+
+enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_lift *lift = arguments;
     if (!(lift->part >= 0 && lift->part <= 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "lifting takes a part of 0..1 (got %g)",
                           lift->part);

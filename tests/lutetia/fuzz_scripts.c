@@ -150,7 +150,8 @@ static void statement(struct source *s)
     static const char *const methods[] = {
         "put",  "wash", "blot",    "resist",   "unresist", "dry",    "seal",     "layer",
         "mask", "at",   "total",   "air",      "frame",    "close",  "step",     "wash",
-        "lift", "salt", "varnish", "splatter", "brush",    "stroke", "separate", "picture"};
+        "lift", "salt", "varnish", "splatter", "brush",    "stroke", "separate", "picture",
+        "undo", "redo", "to",      "moments",  "save",     "film"};
     unsigned kind = byte(s) % 10;
     say(s, "pcall(function() ");
     if (kind < 2) {

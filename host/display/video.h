@@ -1,0 +1,40 @@
+/* video.h - pictures in a row to a file: MP4 and whatever else ffmpeg knows, where it is installed, and YUV4MPEG2 (.y4m) by us.
+ *
+ *     struct video *video;
+ *     if (video_create("film.mp4", 640, 480, 30, &video) != DISPLAY_OK)
+ *         die(display_error());
+ *     for (...)
+ *         if (video_add(video, rgb) != DISPLAY_OK)
+ *             die(display_error());
+ *     if (video_finish(video) != DISPLAY_OK)
+ *         die(display_error());
+ *
+ * Both are written beside their name first; video_finish() puts the whole file there. A file's ending says what it is; where ffmpeg
+ * is missing, film.mp4 becomes film.y4m (video_path() tells), which every player and encoder takes.
+ *
+ * Errors and threads: as display.h says; SIGPIPE is ignored from the first video on. */
+#ifndef LUTETIA_DISPLAY_VIDEO_H
+#define LUTETIA_DISPLAY_VIDEO_H
+
+#include "display.h"
+
+struct video;
+
+/* Width and height: even, 2 to 16384. `fps` 1 to 240. Errors: BAD_ARGUMENT, IO_FAILED, NO_MEMORY; *out is then NULL.
+ * Owns: the caller ends it by video_finish() or video_abandon(). */
+enum display_status video_create(const char *path, int width_px, int height_px, int fps,
+                                 struct video **out);
+/* Adds a picture. Shape: height * width * 3 bytes of display values. Errors: IO_FAILED (a full disk; ffmpeg failed or was
+ * killed: what it said). */
+enum display_status video_add(struct video *video, const uint8_t *rgb);
+/* Ends the file and puts it under its name; without pictures there is none. Frees the video, also when it fails: then nothing
+ * is left. Errors: IO_FAILED. */
+enum display_status video_finish(struct video *video);
+/* Nothing is left of it. NULL is fine. */
+void video_abandon(struct video *video);
+
+/* Where it will be. Owns: the video. */
+const char *video_path(const struct video *video);
+long video_frames(const struct video *video);
+
+#endif

@@ -1,0 +1,274 @@
+/* lua_time.c - a paper's time in scripts: back and forth, earlier, larger, saved and loaded, filmed. */
+#include "lua_paper.h"
+#include "lutetia.h"
+
+#include <history.h>
+#include <state.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- what the run keeps ---- */
+
+/* While something is computed again. */
+static bool watch(void *context, long done, long total)
+{
+    struct run_paper *paper = context;
+    struct run *run = paper->run;
+    if (!paper->replay.what && total > 0)
+        paper->replay = run_progress_begin(run, "computing again", total);
+    progress_show(&paper->replay, (int)done);
+    if (done >= total && paper->replay.what) {
+        progress_end(&paper->replay);
+        paper->replay = (struct progress){0};
+    }
+    return !run_due(run);
+}
+
+void paper_keep(struct run_paper *paper)
+{
+    struct run *run = paper->run;
+    if (run->kept_count < RUN_PAPERS_MAX)
+        run->kept[run->kept_count++] = (struct paper_state_sheet){paper->number, paper->sheet};
+    paper_history_set_watch(paper->sheet, watch, paper);
+}
+
+void paper_forget(struct run_paper *paper)
+{
+    struct run *run = paper->run;
+    for (int i = 0; i < run->kept_count; i++)
+        if (run->kept[i].sheet == paper->sheet) {
+            memmove(&run->kept[i], &run->kept[i + 1],
+                    (size_t)(run->kept_count - i - 1) * sizeof *run->kept);
+            run->kept_count--;
+            return;
+        }
+}
+
+enum paper_status paper_resumed(struct run_paper *paper,
+                                const struct paper_sheet_config *config, double budget_bytes,
+                                bool *found)
+{
+    struct paper_state *state = paper->run->resumed;
+    *found = false;
+    for (int i = 0; state && i < paper_state_count(state); i++) {
+        struct paper_sheet_config saved;
+        if (paper_state_number(state, i) != paper->number)
+            continue;
+        enum paper_status status = paper_state_describe(state, i, &saved);
+        if (status != PAPER_OK)
+            return status;
+        if (!paper_sheet_config_same(&saved, config)) {
+            fprintf(stderr,
+                    "lutetia run: paper %d is not the one that was saved; it begins anew\n",
+                    paper->number);
+            return PAPER_OK;
+        }
+        *found = true;
+        return paper_state_load(state, i, true, budget_bytes, &paper->sheet);
+    }
+    return PAPER_OK;
+}
+
+/* ---- back and forth ---- */
+
+static void history_need(lua_State *L, const struct run_paper *paper)
+{
+    if (!paper_history_has(paper->sheet))
+        luaL_error(L, "this paper has no history: it was made with history = false");
+}
+
+static int paper_undo(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "undo's count", 0, 1e9);
+    lua_pushinteger(L, paper_history_undo(paper->sheet, count));
+    return 1;
+}
+
+static int paper_redo(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "redo's count", 0, 1e9);
+    lua_pushinteger(L, paper_history_redo(paper->sheet, count));
+    return 1;
+}
+
+/* paper:to(time) */
+static int paper_to(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    paper_check(L, paper_history_seek(paper->sheet, (long)arg_at(L, 2, "a time", 0, 1e9)));
+    return 0;
+}
+
+/* paper:moments(): a list of {what =, time =, steps =, done =}. */
+static int paper_moments(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    struct paper_moment moment;
+    history_need(L, paper);
+    int done = paper_history_done(paper->sheet);
+    lua_newtable(L);
+    for (int i = 0; paper_history_moment(paper->sheet, i, &moment); i++) {
+        lua_createtable(L, 0, 4);
+        lua_pushstring(L, moment.what);
+        lua_setfield(L, -2, "what");
+        lua_pushinteger(L, moment.time);
+        lua_setfield(L, -2, "time");
+        lua_pushinteger(L, moment.steps);
+        lua_setfield(L, -2, "steps");
+        lua_pushboolean(L, i < done);
+        lua_setfield(L, -2, "done");
+        lua_rawseti(L, -2, i + 1);
+    }
+    return 1;
+}
+
+/* paper:at(time, function): what the function does is done at that time, and all that followed after it. */
+int paper_at_time(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    long time = (long)arg_at(L, 2, "a time", 0, 1e9);
+    luaL_checktype(L, 3, LUA_TFUNCTION);
+    lua_settop(L, 3);
+    paper_check(L, paper_history_insert_begin(paper->sheet, time));
+    lua_pushvalue(L, 1);
+    int status = lua_pcall(L, 1, 0, 0);
+    if (paper->sheet) /* it may have been closed */
+        paper_check(L, paper_history_insert_end(paper->sheet, status == LUA_OK));
+    if (status != LUA_OK)
+        lua_error(L);
+    return 0;
+}
+
+/* paper:render(scale [, pace]): another paper, on which the same was done larger or smaller. */
+static int paper_render(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
+    double scale = arg_at(L, 2, "render's scale", 1.0 / 64, 64);
+    double pace =
+        lua_isnoneornil(L, 3) ? scale * scale : arg_at(L, 3, "render's pace", 1.0 / 4096, 4096);
+    struct run_paper *made = paper_new(L);
+    double bytes = paper_bytes_needed(round(config->width * scale),
+                                      round(config->height * scale), config->pigments_count);
+    run_memory_take(L, bytes, "a paper");
+    made->bytes = bytes;
+    paper_check(L, paper_history_render(paper->sheet, scale, pace, 0, &made->sheet));
+    paper_keep(made);
+    return 1;
+}
+
+/* ---- files ---- */
+
+/* paper:save("state.h5") */
+static int paper_save(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    history_need(L, paper);
+    const char *path =
+        run_path(L, paper->run->out_folder, luaL_checkstring(L, 2), "a saved paper");
+    paper_check(L, paper_state_save(path, &(struct paper_state_sheet){1, paper->sheet}, 1));
+    return 0;
+}
+
+static const char state_type[] = "lutetia state";
+
+static int state_gc(lua_State *L)
+{
+    struct paper_state **state = luaL_checkudata(L, 1, state_type);
+    paper_state_close(*state);
+    *state = NULL;
+    return 0;
+}
+
+/* paper.load("state.h5" [, number]) */
+int paper_load(lua_State *L)
+{
+    struct run *run = run_of(L);
+    const char *name = luaL_checkstring(L, 1);
+    int number = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "a paper's number", 1, 1e9);
+    const char *path = run_path(L, run->in_folder, name, "a saved paper");
+    if (access(path, F_OK) != 0) /* what was saved by a script is where it writes */
+        path = run_path(L, run->out_folder, name, "a saved paper");
+    struct paper_state **state = lua_newuserdatauv(L, sizeof *state, 0);
+    *state = NULL;
+    luaL_setmetatable(L, state_type);
+    paper_check(L, paper_state_open(path, state));
+    int index = 0, count = paper_state_count(*state);
+    while (index < count && paper_state_number(*state, index) != number)
+        index++;
+    if (index == count)
+        luaL_error(L, "%s has no paper %d", path, number);
+    struct paper_sheet_config config;
+    paper_check(L, paper_state_describe(*state, index, &config));
+    struct run_paper *paper = paper_new(L);
+    double bytes = paper_bytes_needed(config.width, config.height, config.pigments_count);
+    run_memory_take(L, bytes, "a paper");
+    paper->bytes = bytes;
+    paper_check(L, paper_state_load(*state, index, false, 0, &paper->sheet));
+    paper_keep(paper);
+    return 1;
+}
+
+/* ---- film ---- */
+
+/* paper:film{show =, x =, y =, width =, height =}: this paper is the one that --video and --frames show, as this. */
+static int paper_film(lua_State *L)
+{
+    static const char *const keys[] = {"show", "x", "y", "width", "height", NULL};
+    struct run_paper *paper = paper_at(L);
+    const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
+    struct film *film = &paper->run->film;
+    lua_settop(L, 2);
+    if (lua_isnil(L, 2)) {
+        lua_newtable(L);
+        lua_replace(L, 2);
+    }
+    luaL_checktype(L, 2, LUA_TTABLE);
+    arg_keys(L, 2, "film", keys);
+    const char *show = arg_text(L, 2, "film", "show");
+    if (show && strcmp(show, "color") != 0 && strcmp(show, "wet") != 0)
+        luaL_error(L, "film show must be one of color, wet (got '%s')", show);
+    film->show = show && strcmp(show, "wet") == 0 ? PAPER_SHOW_WET : PAPER_SHOW_COLOR;
+    double *camera = film->camera;
+    camera[0] = arg_number(L, 2, "film", "x", 0, 0, config->width - 2);
+    camera[1] = arg_number(L, 2, "film", "y", 0, 0, config->height - 2);
+    camera[2] = arg_number(L, 2, "film", "width", config->width - camera[0], 2, config->width);
+    camera[3] =
+        arg_number(L, 2, "film", "height", config->height - camera[1], 2, config->height);
+    film->paper = paper->number;
+    return 0;
+}
+
+/* expect(steps): how many the whole script takes, for the estimate of the time left. */
+static int expect(lua_State *L)
+{
+    run_of(L)->steps_expected = (long)arg_at(L, 1, "steps expected", 0, 1e9);
+    return 0;
+}
+
+const luaL_Reg lua_time_methods[] = {{"undo", paper_undo}, {"redo", paper_redo},
+                                     {"to", paper_to},     {"moments", paper_moments},
+                                     {"save", paper_save}, {"render", paper_render},
+                                     {"film", paper_film}, {NULL, NULL}};
+
+void lua_time_open(lua_State *L)
+{
+    luaL_newmetatable(L, state_type);
+    lua_pushcfunction(L, state_gc);
+    lua_setfield(L, -2, "__gc");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_pop(L, 1);
+    lua_register(L, "expect", expect);
+}

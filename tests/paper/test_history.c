@@ -1,0 +1,565 @@
+/* test_history.c - time as something one edits: whatever way leads to a moment, the sheet is the same to the bit. */
+#include <brush.h>
+#include <history.h>
+#include <paper.h>
+#include <sheet.h>
+#include <techniques.h>
+
+#include "sample.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 24, HEIGHT = 20, FIBERS = WIDTH * HEIGHT };
+
+static uint64_t chance = 7;
+
+static double uniform(double low, double high)
+{
+    return low + (high - low) * (double)(sample_word(&chance) >> 11) * 0x1p-53;
+}
+
+static int below(int n)
+{
+    return (int)(sample_word(&chance) % (uint64_t)n);
+}
+
+static void check(enum paper_status status)
+{
+    if (status != PAPER_OK)
+        fail_msg("status %d: %s", (int)status, paper_error());
+}
+
+static struct paper_sheet *sheet_new(double budget_bytes)
+{
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.torus = true;
+    config.width = WIDTH;
+    config.height = HEIGHT;
+    config.parts = PAPER_PARTS_ALL;
+    config.pigments_count = 2;
+    config.pigments[0] = *paper_pigment_find("quinacridone rose");
+    config.pigments[1] = *paper_pigment_find("french ultramarine");
+    struct paper_sheet *sheet;
+    check(paper_sheet_create(&config, &sheet));
+    if (budget_bytes >= 0)
+        check(paper_history_begin(sheet, budget_bytes));
+    return sheet;
+}
+
+/* Of everything that the sheet holds. */
+static uint64_t state_hash(struct paper_sheet *sheet)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    static uint32_t words[FIBERS];
+    uint64_t hash = 0xcbf29ce484222325u;
+    int count = paper_sheet_planes(sheet, planes);
+    for (int i = 0; i < count; i++) {
+        check(paper_sheet_plane_read(sheet, i, words));
+        for (int j = 0; j < FIBERS; j++)
+            hash = (hash ^ words[j]) * 0x100000001b3u;
+    }
+    const struct paper_air *air = paper_sheet_get_air(sheet);
+    uint64_t bits[2];
+    memcpy(&bits[0], &air->humidity, sizeof bits[0]);
+    memcpy(&bits[1], &air->edge, sizeof bits[1]);
+    return ((hash ^ bits[0]) * 0x100000001b3u ^ bits[1]) * 0x100000001b3u;
+}
+
+static void box_put(struct paper_sheet *sheet, double x, double y, double side,
+                    const double *amount)
+{
+    double corners[8] = {x, y, x + side, y, x + side, y + side, x, y + side};
+    struct paper_screen screen;
+    int at_x, at_y;
+    check(paper_polygon_screen(corners, 4, WIDTH, HEIGHT, &screen, &at_x, &at_y));
+    if (screen.gray)
+        check(paper_sheet_put(sheet, &screen, at_x, at_y, amount));
+    paper_screen_destroy(&screen);
+}
+
+static void step(struct paper_sheet *sheet)
+{
+    check(paper_sheet_step(sheet));
+    check(paper_sheet_finish(sheet));
+}
+
+/* An operation by its number, always the same one. */
+static void operate(struct paper_sheet *sheet, uint64_t number)
+{
+    chance = number * 77 + 5;
+    paper_history_mark(sheet);
+    int kind = below(18);
+    struct paper_air air = *paper_sheet_get_air(sheet);
+    float values[FIBERS];
+    uint8_t gray[6] = {255, 128, 7, 0, 90, 255};
+    struct paper_screen screen = {.width_px = 3, .height_px = 2, .gray = gray};
+    switch (kind) {
+    case 0:
+    case 1:
+    case 2:
+        box_put(sheet, uniform(0, 18), uniform(0, 15), uniform(1, 8),
+                (double[]){uniform(0.1, 1.5), uniform(0.1, 1), uniform(0.1, 1)});
+        break;
+    case 3:
+        air.humidity = uniform(1e-4, 0.01);
+        air.edge = uniform(1, 50);
+        check(paper_sheet_air(sheet, &air));
+        break;
+    case 4:
+        check(paper_sheet_blot(sheet, &screen, below(30) - 3, below(25) - 3, 0.5, 0.25));
+        break;
+    case 5:
+        check(paper_sheet_resist(sheet, &screen, below(24), below(20), below(3) > 0));
+        break;
+    case 6:
+        for (int i = 0; i < FIBERS; i++)
+            values[i] = (float)uniform(0.3, 0.9);
+        check(paper_sheet_layer_write(sheet, PAPER_LAYER_CAPACITY, 0, values));
+        break;
+    case 7: {
+        struct paper_brush brush = paper_brush_default();
+        brush.width = uniform(3, 8);
+        brush.depth = 4;
+        brush.bristles = 30;
+        brush.number = below(2);
+        brush.seed = number;
+        check(paper_sheet_brush(sheet, &brush));
+        check(paper_sheet_dip(
+            sheet,
+            &(struct paper_dip){brush.number, 1, {-1, 1}, {1, uniform(0, 1), uniform(0, 1)}}));
+        break;
+    }
+    case 8:
+    case 9:
+    case 10: {
+        struct paper_stroke_sample samples[3] = {
+            {0, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0, 0.2},
+            {0.1, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0.1, 0},
+            {0.2, uniform(0, 20), uniform(0, 15), uniform(0, 1), 0, 0}};
+        int which = below(2), steps = -1;
+        struct paper_stroke stroke = {which, below(2) ? 20 : 0, 3, samples};
+        if (!paper_history_brush(sheet, which))
+            break;
+        check(paper_sheet_stroke(sheet, &stroke, &steps));
+        assert_int_equal(steps, stroke.pace > 0 ? 4 : 0);
+        break;
+    }
+    case 11:
+        check(paper_sheet_salt(sheet, &(struct paper_salt){{below(2) ? &screen : NULL, 5, 4},
+                                                           12,
+                                                           10,
+                                                           8,
+                                                           20,
+                                                           {0.5, 1.5},
+                                                           uniform(0, 2),
+                                                           8,
+                                                           number}));
+        break;
+    case 12:
+        check(paper_sheet_wash(
+            sheet, &(struct paper_wash){
+                       {&screen, 2, 3}, {0, 0}, {20, 20}, {0.5, 0.1, 0.2}, {0.1, 0.4, 0}}));
+        check(paper_sheet_lift(sheet, &(struct paper_lift){{NULL, 0, 0}, 0.3}));
+        break;
+    case 13:
+        for (int i = 0; i < FIBERS; i++)
+            values[i] = (float)uniform(0, 1);
+        check(paper_sheet_print(
+            sheet, &(struct paper_print){
+                       .x = 3, .y = -2, .width = 9, .height = 7, .amount[1] = values}));
+        check(paper_sheet_varnish(sheet, &(struct paper_varnish){{&screen, 8, 8}, 0.7}));
+        check(paper_sheet_splatter(sheet, &(struct paper_splatter){.x = 9,
+                                                                   .y = 9,
+                                                                   .radius = 6,
+                                                                   .drops = 9,
+                                                                   .size = {0.5, 2},
+                                                                   .seed = number,
+                                                                   .amount = {0.5, 0.3}}));
+        break;
+    default:
+        for (int steps = 1 + below(9); steps > 0; steps--)
+            step(sheet);
+    }
+    check(paper_sheet_finish(sheet));
+}
+
+static void going_back_and_forth_gives_the_same_bits(void **state)
+{
+    (void)state;
+    enum { OPERATIONS = 80, MOVES = 40 };
+    static const double budgets[] = {-1, 0, 60e3, 400e3, 1e9};
+    static uint64_t hashes[OPERATIONS + 1];
+    static long times[OPERATIONS + 1];
+    for (size_t budget = 0; budget < sizeof budgets / sizeof *budgets; budget++) {
+        struct paper_sheet *sheet = sheet_new(budgets[budget]);
+        int done[OPERATIONS + 1], compared = 0; /* some are more than one to the history */
+        for (int i = 0; i <= OPERATIONS; i++) {
+            if (budget == 0) {
+                hashes[i] = state_hash(sheet);
+                times[i] = paper_sheet_steps(sheet);
+            } else {
+                assert_int_equal(paper_sheet_steps(sheet), times[i]);
+            }
+            done[i] = paper_history_done(sheet);
+            if (i < OPERATIONS)
+                operate(sheet, (uint64_t)i);
+        }
+        assert_true(state_hash(sheet) == hashes[OPERATIONS]);
+        assert_int_equal(paper_history_has(sheet), budget > 0);
+        uint64_t moves = 99;
+        int at = done[OPERATIONS];
+        for (int i = 0; i < MOVES && budget > 0; i++) {
+            int by = 1 + (int)(sample_word(&moves) % 50);
+            if (sample_word(&moves) % 2)
+                at -= paper_history_undo(sheet, by);
+            else
+                at += paper_history_redo(sheet, by);
+            assert_int_equal(paper_history_done(sheet), at);
+            assert_int_equal(paper_history_undone(sheet), done[OPERATIONS] - at);
+            for (int j = 0; j <= OPERATIONS; j++) {
+                if (done[j] != at)
+                    continue;
+                assert_int_equal(paper_sheet_steps(sheet), times[j]);
+                if (state_hash(sheet) != hashes[j])
+                    fail_msg("budget %g: operation %d is not as it was", budgets[budget], j);
+                compared++;
+            }
+        }
+        assert_true(budget == 0 || compared > MOVES / 2);
+        if (budget > 0)
+            assert_true(paper_history_bytes(sheet) < budgets[budget] + 60e3);
+        assert_int_equal(paper_history_undo(sheet, 1000), budget > 0 ? at : 0);
+        if (budget > 0)
+            assert_true(state_hash(sheet) == hashes[0]);
+        paper_sheet_destroy(sheet);
+    }
+}
+
+static void moments_are_found_while_paint_flows(void **state)
+{
+    (void)state;
+    enum { STEPS = 30 };
+    static uint64_t hashes[STEPS + 1];
+    struct paper_sheet *sheet = sheet_new(100e3);
+    box_put(sheet, 4, 4, 9, (double[]){1, 0.5, 0.2});
+    for (int i = 0; i < STEPS; i++) {
+        hashes[i] = state_hash(sheet);
+        step(sheet);
+    }
+    hashes[STEPS] = state_hash(sheet);
+    assert_int_equal(paper_history_done(sheet), 2); /* steps in a row are one operation */
+    struct paper_moment moment;
+    assert_true(paper_history_moment(sheet, 1, &moment));
+    assert_string_equal(moment.what, "step");
+    assert_int_equal(moment.time, 0);
+    assert_int_equal(moment.steps, STEPS);
+    assert_false(paper_history_moment(sheet, 2, &moment));
+    static const int times[] = {17, 3, 29, 0, 30, 12};
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        check(paper_history_seek(sheet, times[i]));
+        assert_int_equal(paper_sheet_steps(sheet), times[i]);
+        assert_true(state_hash(sheet) == hashes[times[i]]);
+    }
+    assert_int_equal(paper_history_seek(sheet, 31), PAPER_BAD_ARGUMENT);
+    assert_int_equal(paper_history_seek(sheet, -1), PAPER_BAD_ARGUMENT);
+    /* what is done now takes the place of what was undone */
+    check(paper_sheet_dry(sheet));
+    assert_int_equal(paper_history_undone(sheet), 0);
+    assert_int_equal(paper_history_done(sheet), 3);
+    paper_history_undo(sheet, 1);
+    assert_true(state_hash(sheet) == hashes[12]);
+    paper_sheet_destroy(sheet);
+}
+
+static void what_is_inserted_comes_before_what_followed(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(100e3), *other = sheet_new(-1);
+    for (int i = 0; i < 2; i++) {
+        struct paper_sheet *s = i ? other : sheet;
+        box_put(s, 2, 2, 9, (double[]){1, 0.5, 0});
+        for (int n = 0; n < 12; n++)
+            step(s);
+        if (i == 1) {
+            box_put(s, 12, 3, 6, (double[]){0.4, 0, 0.7});
+            step(s);
+        }
+        for (int n = 0; n < 8; n++)
+            step(s);
+        box_put(s, 10, 8, 5, (double[]){0.5, 0, 0.5});
+        for (int n = 0; n < 6; n++)
+            step(s);
+    }
+    uint64_t before = state_hash(sheet);
+    assert_int_equal(paper_history_insert_begin(sheet, 27), PAPER_BAD_ARGUMENT);
+    check(paper_history_insert_begin(sheet, 12)); /* thinks better of it */
+    box_put(sheet, 0, 0, 20, (double[]){2, 2, 2});
+    check(paper_history_insert_end(sheet, false));
+    assert_true(state_hash(sheet) == before);
+
+    check(paper_history_insert_begin(sheet, 12));
+    assert_int_equal(paper_sheet_steps(sheet), 12);
+    assert_int_equal(paper_history_insert_begin(sheet, 3), PAPER_BAD_ARGUMENT);
+    box_put(sheet, 12, 3, 6, (double[]){0.4, 0, 0.7});
+    step(sheet);
+    assert_int_equal(paper_history_undo(sheet, 99), 2); /* not what was before */
+    box_put(sheet, 12, 3, 6, (double[]){0.4, 0, 0.7});
+    step(sheet);
+    check(paper_history_insert_end(sheet, true));
+    assert_int_equal(paper_sheet_steps(sheet), 27);
+    assert_true(state_hash(sheet) == state_hash(other));
+    assert_true(state_hash(sheet) != before);
+    paper_sheet_destroy(sheet);
+    paper_sheet_destroy(other);
+}
+
+/* ---- states ---- */
+
+struct saved {
+    uint8_t *bytes;
+    size_t count;
+    uint32_t words[PAPER_PLANES_MAX][FIBERS];
+    int asked;
+};
+
+static enum paper_status saved_give(void *context, int number, void *words)
+{
+    struct saved *saved = context;
+    memcpy(words, saved->words[number], sizeof saved->words[number]);
+    saved->asked++;
+    return PAPER_OK;
+}
+
+static void save(struct paper_sheet *sheet, struct saved *saved)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    free(saved->bytes);
+    int count = paper_sheet_planes(sheet, planes);
+    for (int i = 0; i < count; i++)
+        check(paper_sheet_plane_read(sheet, i, saved->words[i]));
+    check(paper_history_encode(sheet, &saved->bytes, &saved->count));
+}
+
+static void a_saved_run_goes_on(void **state)
+{
+    (void)state;
+    enum { OPERATIONS = 24, SAVED = 15 };
+    static struct saved saved;
+    struct paper_sheet *whole = sheet_new(0), *sheet;
+    int done[OPERATIONS + 1];
+    for (int i = 0; i < OPERATIONS; i++) {
+        if (i == SAVED)
+            save(whole, &saved);
+        done[i] = paper_history_done(whole);
+        operate(whole, (uint64_t)i + 200);
+    }
+    done[OPERATIONS] = paper_history_done(whole);
+    uint64_t end = state_hash(whole);
+    paper_history_undo(whole, done[OPERATIONS] - done[SAVED]);
+    uint64_t middle = state_hash(whole);
+
+    /* loaded: it is there, with its past */
+    check(
+        paper_history_decode(saved.bytes, saved.count, false, 1e6, saved_give, &saved, &sheet));
+    assert_true(state_hash(sheet) == middle);
+    for (int i = SAVED; i < OPERATIONS; i++)
+        operate(sheet, (uint64_t)i + 200);
+    assert_true(state_hash(sheet) == end);
+    paper_history_undo(sheet, done[OPERATIONS] - done[SAVED] + 3);
+    paper_history_redo(sheet, 3);
+    assert_true(state_hash(sheet) == middle);
+    paper_sheet_destroy(sheet);
+
+    /* followed: done again without being computed, looked at or not; or otherwise from some moment on */
+    for (int way = 0; way < 4; way++) {
+        double budget = way % 2 ? 1e6 : 0;
+        check(paper_history_decode(saved.bytes, saved.count, true, budget, saved_give, &saved,
+                                   &sheet));
+        assert_int_equal(paper_history_done(sheet), 0);
+        for (int i = 0; i < OPERATIONS; i++) {
+            if (way >= 2 && i == 9)
+                state_hash(sheet);
+            operate(sheet, (uint64_t)i + 200);
+            assert_int_equal(paper_history_following(sheet),
+                             i < SAVED ? done[SAVED] - done[i + 1] : 0);
+        }
+        assert_false(paper_history_diverged(sheet));
+        assert_true(state_hash(sheet) == end);
+        paper_sheet_destroy(sheet);
+    }
+    check(
+        paper_history_decode(saved.bytes, saved.count, true, 1e6, saved_give, &saved, &sheet));
+    paper_history_undo(whole, done[SAVED] - done[9]);
+    for (int i = 0; i < 9; i++)
+        operate(sheet, (uint64_t)i + 200);
+    operate(whole, 5);
+    operate(sheet, 5);
+    assert_true(paper_history_diverged(sheet));
+    assert_int_equal(paper_history_following(sheet), 0);
+    assert_true(state_hash(sheet) == state_hash(whole));
+    paper_sheet_destroy(sheet);
+    paper_sheet_destroy(whole);
+    free(saved.bytes);
+    saved.bytes = NULL;
+}
+
+/* Every byte of the run's beginning and many of the rest, changed; and every length. */
+static void damaged_runs_are_refused_or_harmless(void **state)
+{
+    (void)state;
+    static struct saved saved;
+    struct paper_sheet *sheet = sheet_new(0);
+    for (int i = 0; i < 12; i++)
+        operate(sheet, (uint64_t)i + 300);
+    save(sheet, &saved);
+    paper_sheet_destroy(sheet);
+    uint8_t *copy = malloc(saved.count);
+    uint64_t word = 4;
+    int refused = 0, taken = 0;
+    for (int i = 0; i < 700; i++) {
+        size_t count = saved.count;
+        memcpy(copy, saved.bytes, count);
+        if (i % 8 == 0)
+            count = (size_t)(sample_word(&word) % count);
+        for (int j = (int)(sample_word(&word) % 3); j >= 0; j--) {
+            size_t at = i < 300 ? (size_t)i * 2 : (size_t)(sample_word(&word) % saved.count);
+            copy[at % saved.count] =
+                (uint8_t)(sample_word(&word) % 3 ? sample_word(&word) : 255);
+        }
+        /* another size would be another sheet, with kernels of its own: the description is checked by itself */
+        struct paper_sheet_config config;
+        if (paper_history_describe(copy, count, &config) != PAPER_OK || config.width != WIDTH ||
+            config.height != HEIGHT || config.pigments_count != 2 ||
+            config.parts != PAPER_PARTS_ALL || !config.torus) {
+            refused++;
+            continue;
+        }
+        enum paper_status status =
+            paper_history_decode(copy, count, i % 2, 0, saved_give, &saved, &sheet);
+        if (status == PAPER_OK) {
+            taken++;
+            paper_sheet_destroy(sheet);
+        } else {
+            refused++;
+            assert_int_equal(status, PAPER_BAD_FILE);
+            assert_null(sheet);
+        }
+    }
+    if (refused < 100 || taken < 50)
+        fail_msg("%d refused, %d taken", refused, taken);
+    free(copy);
+    free(saved.bytes);
+    saved.bytes = NULL;
+}
+
+/* ---- another resolution ---- */
+
+static void another_resolution_is_the_same_picture(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(0), *same, *twice;
+    struct paper_air air = paper_air_default();
+    air.humidity = 0.002;
+    air.edge = 0.01;
+    check(paper_sheet_air(sheet, &air));
+    box_put(sheet, 5, 4, 10, (double[]){1, 0.6, 0.1});
+    for (int i = 0; i < 20; i++)
+        step(sheet);
+    check(paper_history_render(sheet, 1, 1, 0, &same));
+    assert_true(state_hash(same) == state_hash(sheet));
+    paper_sheet_destroy(same);
+    assert_int_equal(paper_history_render(sheet, 0, 1, 0, &same), PAPER_BAD_ARGUMENT);
+    assert_int_equal(paper_history_render(sheet, 0.1, 1, 0, &same), PAPER_BAD_ARGUMENT);
+    assert_int_equal(paper_history_render(sheet, 2, NAN, 0, &same), PAPER_BAD_ARGUMENT);
+
+    check(paper_history_render(sheet, 2, 4, -1, &twice));
+    const struct paper_sheet_config *config = paper_sheet_get_config(twice);
+    assert_int_equal(config->width, 2 * WIDTH);
+    assert_int_equal(config->height, 2 * HEIGHT);
+    assert_int_equal(paper_sheet_steps(twice), 80);
+    for (int substance = -1; substance <= 2; substance++) {
+        double small, large;
+        check(paper_sheet_total(sheet, substance, &small));
+        check(paper_sheet_total(twice, substance, &large));
+        /* pigment is what was put on; water dries alike */
+        if (fabs(large / small - 4) > (substance > 0 ? 0.01 : 0.5))
+            fail_msg("substance %d: %g became %g", substance, small, large);
+    }
+    /* where pigment is, in all layers */
+    static float coarse[FIBERS], fine[4 * FIBERS], part[4 * FIBERS];
+    memset(coarse, 0, sizeof coarse);
+    memset(fine, 0, sizeof fine);
+    for (int i = 0; i < 3; i++) {
+        enum paper_layer layer = (enum paper_layer)(PAPER_LAYER_SURFACE_PIGMENT + i);
+        check(paper_sheet_layer_read(sheet, layer, 0, part));
+        for (int j = 0; j < FIBERS; j++)
+            coarse[j] += part[j];
+        check(paper_sheet_layer_read(twice, layer, 0, part));
+        for (int j = 0; j < 4 * FIBERS; j++)
+            fine[j] += part[j];
+    }
+    double both = 0, first = 0, second = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        int corner = i / WIDTH * 4 * WIDTH + i % WIDTH * 2;
+        double mean =
+            ((double)fine[corner] + (double)fine[corner + 1] +
+             (double)fine[corner + 2 * WIDTH] + (double)fine[corner + 2 * WIDTH + 1]) /
+            4;
+        both += mean * (double)coarse[i];
+        first += mean * mean;
+        second += (double)coarse[i] * (double)coarse[i];
+    }
+    if (!(both / sqrt(first * second) > 0.97))
+        fail_msg("the pictures agree by %g", both / sqrt(first * second));
+    paper_sheet_destroy(twice);
+    paper_sheet_destroy(sheet);
+}
+
+static bool stop_at(void *context, long done, long total)
+{
+    (void)total;
+    return done < *(long *)context;
+}
+
+static void computing_again_can_be_stopped(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(0);
+    box_put(sheet, 5, 4, 10, (double[]){1, 0.6, 0.1});
+    for (int i = 0; i < 20; i++)
+        step(sheet);
+    uint64_t end = state_hash(sheet);
+    check(paper_history_seek(sheet, 15));
+    double total;
+    long stop = 6;
+    paper_history_set_watch(sheet, stop_at, &stop);
+    assert_int_equal(paper_sheet_total(sheet, 0, &total), PAPER_MACHINE_FAILED);
+    assert_string_equal(paper_error(), "stopped");
+    stop = 1000;
+    check(paper_sheet_total(sheet, 0, &total));
+    assert_int_equal(paper_history_redo(sheet, 1), 1);
+    assert_true(state_hash(sheet) == end);
+    paper_sheet_destroy(sheet);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(going_back_and_forth_gives_the_same_bits),
+        cmocka_unit_test(moments_are_found_while_paint_flows),
+        cmocka_unit_test(what_is_inserted_comes_before_what_followed),
+        cmocka_unit_test(a_saved_run_goes_on),
+        cmocka_unit_test(damaged_runs_are_refused_or_harmless),
+        cmocka_unit_test(another_resolution_is_the_same_picture),
+        cmocka_unit_test(computing_again_can_be_stopped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

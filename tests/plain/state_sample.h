@@ -1,0 +1,109 @@
+/* state_sample.h - small sheets with a past, and files changed so that only their header notices. */
+#ifndef LUTETIA_TESTS_STATE_SAMPLE_H
+#define LUTETIA_TESTS_STATE_SAMPLE_H
+
+#include <paper.h>
+#include <state.h>
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zlib.h>
+
+enum { SAMPLE_WIDTH = 16, SAMPLE_HEIGHT = 12, SAMPLE_HEADER = 512 };
+
+static inline void sample_check(enum paper_status status)
+{
+    if (status == PAPER_OK)
+        return;
+    fprintf(stderr, "status %d: %s\n", (int)status, paper_error());
+    abort();
+}
+
+static inline void sample_paint(struct paper_sheet *sheet, int turns)
+{
+    uint8_t gray[5 * 4];
+    for (int i = 0; i < turns; i++) {
+        memset(gray, 255 - 20 * i, sizeof gray);
+        struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
+        paper_history_mark(sheet);
+        sample_check(
+            paper_sheet_put(sheet, &screen, 3 + i, 2 + i, (double[]){1, 0.2 * i, 0.3}));
+        for (int step = 0; step < 3; step++)
+            sample_check(paper_sheet_step(sheet));
+    }
+}
+
+static inline struct paper_sheet *sample_sheet(uint64_t seed)
+{
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = SAMPLE_WIDTH;
+    config.height = SAMPLE_HEIGHT;
+    config.seed = seed;
+    config.pigments_count = 2;
+    config.pigments[0] = *paper_pigment_find("burnt umber");
+    config.pigments[1] = *paper_pigment_find("phthalo green");
+    struct paper_sheet *sheet;
+    sample_check(paper_sheet_create(&config, &sheet));
+    sample_check(paper_history_begin(sheet, 1e6));
+    return sheet;
+}
+
+static inline uint8_t *sample_file_read(const char *path, size_t *count)
+{
+    FILE *file = fopen(path, "rb");
+    uint8_t *bytes = malloc(1 << 22);
+    if (!file || !bytes)
+        abort();
+    *count = fread(bytes, 1, 1 << 22, file);
+    fclose(file);
+    return bytes;
+}
+
+static inline void sample_file_write(const char *path, const uint8_t *bytes, size_t count)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file || fwrite(bytes, 1, count, file) != count || fclose(file) != 0)
+        abort();
+}
+
+/* Makes the header agree with what follows it, as somebody would who means harm. */
+static inline void sample_header_mend(uint8_t *bytes, size_t count)
+{
+    char text[SAMPLE_HEADER] = "";
+    if (count < SAMPLE_HEADER)
+        return;
+    uLong sum = crc32(crc32(0, NULL, 0), bytes + SAMPLE_HEADER, (uInt)(count - SAMPLE_HEADER));
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, sizeof text,
+                 "LUTETIA STATE 1\nmodel %d\nprogram 0\nbytes %zu\nchecksum %08lx\nsheets 1\n",
+                 PAPER_MODEL_VERSION, count, i ? sum : 0);
+        sum = i ? sum : crc32(sum, (const Bytef *)text, sizeof text);
+    }
+    memcpy(bytes, text, sizeof text);
+}
+
+/* Loads all that there is in the file. Only a good state, or a bad file, is right. */
+static inline enum paper_status sample_load_all(const char *path)
+{
+    struct paper_state *state;
+    struct paper_sheet *sheet;
+    enum paper_status status = paper_state_open(path, &state);
+    for (int i = 0; status == PAPER_OK && i < paper_state_count(state); i++) {
+        status = paper_state_load(state, i, i % 2, 1e6, &sheet);
+        if (status == PAPER_OK)
+            status = paper_sheet_step(sheet);
+        if (status == PAPER_OK)
+            paper_history_undo(sheet, 2);
+        double total;
+        if (status == PAPER_OK)
+            status = paper_sheet_total(sheet, 0, &total);
+        paper_sheet_destroy(sheet);
+    }
+    paper_state_close(state);
+    return status;
+}
+
+#endif
