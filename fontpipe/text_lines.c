@@ -386,6 +386,8 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
     enum font_status status = FONT_OK;
     for (int i = 0; i < p->runs_count && status == FONT_OK; i++)
         status = run_set(g, p, &p->runs[i], out->lines_count, y, width_px, out);
+    if (p->runs_count) /* between letters: not behind the last */
+        *width_px -= g->options->letter_spacing_px;
     if (hyphen)
         p->characters[end - 1] = kept;
     return status;

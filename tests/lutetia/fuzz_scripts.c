@@ -89,10 +89,10 @@ static void mask(struct source *s, int depth)
 static void table(struct source *s, int depth)
 {
     static const char *const keys[] = {
-        "water",   "cyan",  "size",     "font", "x",     "y",       "align",
-        "show",    "layer", "low",      "high", "bits",  "gravity", "spread",
-        "tension", "film",  "humidity", "edge", "width", "height",  "stock",
-        "weight",  "white", "black",    "K",    "like",  "bogus"};
+        "water",    "cyan", "size",  "font",   "x",       "y",       "align",   "show",
+        "layer",    "low",  "high",  "bits",   "gravity", "spread",  "tension", "film",
+        "humidity", "edge", "width", "height", "stock",   "weight",  "white",   "black",
+        "K",        "like", "bogus", "angle",  "filter",  "leading", "anchor",  "features"};
     say(s, "{");
     for (unsigned i = 0, count = byte(s) % 4; i < count; i++) {
         say(s, i ? ", " : "");
@@ -140,9 +140,9 @@ static void value(struct source *s, int depth)
 
 static void statement(struct source *s)
 {
-    static const char *const methods[] = {"put",   "wash", "blot",  "resist", "unresist",
-                                          "dry",   "seal", "layer", "mask",   "at",
-                                          "total", "air",  "frame", "close",  "step"};
+    static const char *const methods[] = {"put",   "wash",  "blot", "resist", "unresist", "dry",
+                                          "seal",  "layer", "mask", "at",     "total",    "air",
+                                          "frame", "close", "step", "type"};
     unsigned kind = byte(s) % 8;
     say(s, "pcall(function() ");
     if (kind < 2) {
