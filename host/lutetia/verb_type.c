@@ -94,7 +94,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         puts("\nFilters: box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, "
              "each "
              "with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
-             "round:radius,s0,s1,.. from the centre outwards.\n--corners: where the text's "
+             "round:radius,s0,s1,.. from the centre outwards; @FILE reads such words from a "
+             "file.\n--corners: where the text's "
              "upper "
              "left, upper right, lower right and lower left corners go.");
         return EXIT_SUCCESS;
@@ -276,9 +277,15 @@ int verb_type(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     struct font_face *face = NULL;
+    char *filter;
+    status = type_filter_read("type", t.filter, &filter);
+    if (status != EXIT_SUCCESS)
+        return status;
+    t.filter = filter;
     status = type_face_open("type", t.font, t.face, t.axes, &face);
     if (status == EXIT_SUCCESS)
         status = type_run(&t, face);
     font_face_close(face);
+    free(filter);
     return status;
 }
