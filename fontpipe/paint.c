@@ -462,6 +462,33 @@ enum font_status font_painter_cover(struct font_painter *p, const struct font_la
     return status;
 }
 
+enum font_status font_painter_glyph(struct font_painter *p, struct font_face *face,
+                                    uint32_t glyph, double size_px, const struct font_map *map,
+                                    double x_px, double y_px, const struct font_gray **gray)
+{
+    struct font_placed one = {.face = face, .glyph = glyph};
+    const struct font_layout layout = {.glyphs = &one, .glyphs_count = 1, .size_px = size_px};
+    struct font_map whole;
+    struct font_edges *edges;
+    struct key key;
+    double x, y;
+    if (!(size_px >= 0.1 && size_px <= FONT_SIDE_MAX))
+        return font_fail(FONT_BAD_ARGUMENT, "a size must be 0.1..%d pixels (got %g)",
+                         FONT_SIDE_MAX, size_px);
+    enum font_status status = placed_map(&layout, &one, map, x_px, y_px, &whole, &x, &y);
+    if (map && map->kind == FONT_AFFINE) { /* its linear part */
+        x = x_px;
+        y = y_px;
+    }
+    if (status == FONT_OK)
+        status = edges_get(p, face, glyph, &whole, size_px, &key, &edges);
+    if (status == FONT_OK)
+        status = font_gray_draw(&p->scratch[0], edges, p->filter, x, y);
+    p->stats.drawn++;
+    *gray = &p->scratch[0];
+    return status;
+}
+
 enum font_status font_painter_measure(struct font_painter *p, const struct font_layout *layout,
                                       const struct font_map *map, double x_px, double y_px,
                                       struct font_box *box)
