@@ -309,24 +309,21 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
 
 /* ---- by the number of taps: loops of a known length ---- */
 
-INLINE void edges_add(const struct font_gray_job *job, int stride, int taps)
+INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, bool banded)
 {
     rows_clear(job, stride);
     for (int term = 0; term < job->filter->terms_count; term++) {
-        if (job->banded)
-            nodes_add(job, term, stride, taps, true);
-        else
-            nodes_add(job, term, stride, taps, false);
+        nodes_add(job, term, stride, taps, banded);
         lines_add(job, term, stride, taps);
     }
 }
 
 INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
 {
-    if (job->stride == FONT_NARROW_STRIDE)
-        edges_add(job, FONT_NARROW_STRIDE, taps);
+    if (job->stride == FONT_NARROW_STRIDE && !job->banded)
+        edges_add(job, FONT_NARROW_STRIDE, taps, false);
     else
-        edges_add(job, job->stride, taps);
+        edges_add(job, job->stride, taps, job->banded);
 }
 
 void KERNEL(const struct font_gray_job *job)
@@ -348,10 +345,10 @@ void KERNEL(const struct font_gray_job *job)
         edges_add_taps(job, 5);
         break;
     case 6:
-        edges_add(job, job->stride, 6);
+        edges_add(job, job->stride, 6, job->banded);
         break;
     default:
-        edges_add(job, job->stride, job->filter->taps);
+        edges_add(job, job->stride, job->filter->taps, job->banded);
     }
     if (job->exact)
         rows_add_up(job, job->stride, job->odd, true);
