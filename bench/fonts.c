@@ -3,6 +3,7 @@
  * peers by the box, the one they know. Contenders of a case take turns. */
 #include "bench.h"
 #include "fonts_peers.h"
+#include "fonts_thorough.h"
 #include "harness.h"
 
 #include <edges.h>
@@ -151,9 +152,10 @@ enum { WAYS = sizeof ways / sizeof *ways };
 
 /* ---- exactness ---- */
 
-/* Adds a picture's difference from gold of the same filter. */
+/* Adds a picture's difference from gold of the same filter; gold_bytes (may be NULL): and gold's own bytes'. */
 static bool gold_add(struct fonts *f, const struct place *p, const struct font_filter *filter,
-                     const struct font_gray *gray, bool exact, struct font_difference *sum)
+                     const struct font_gray *gray, bool exact, struct font_difference *sum,
+                     struct font_difference *gold_bytes)
 {
     struct font_gray where;
     if (font_gray_place(&where, &f->edges[p->letter], f->filter, p->x, p->y) != FONT_OK)
@@ -166,6 +168,8 @@ static bool gold_add(struct fonts *f, const struct place *p, const struct font_f
                                      top, width, height, gold) == FONT_OK;
     if (ok)
         font_gold_compare(gray, exact, left, top, width, height, gold, sum);
+    if (ok && gold_bytes)
+        font_gold_bytes_compare(gold, width * height, gold_bytes);
     free(gold);
     return ok || font_wrong();
 }
@@ -185,27 +189,29 @@ static void difference_add(struct bench_report *r, const char *what, const char 
 static bool way_check(struct fonts *f, const struct way *way, const char *of_case,
                       struct bench_report *r)
 {
-    struct font_difference bytes = {0}, exact = {0};
+    struct font_difference bytes = {0}, exact = {0}, gold_bytes = {0};
     int step = f->page ? 53 : way->slow || f->size_px > 40 ? 4 : 1;
     font_simd_use(way->simd);
     for (int i = 0; i < f->places_count; i += step) {
         const struct font_gray *gray;
         if (!way->draw(f, i, &gray) ||
-            !gold_add(f, &f->places[i], way->box ? f->box : f->filter, gray, false, &bytes))
+            !gold_add(f, &f->places[i], way->box ? f->box : f->filter, gray, false, &bytes,
+                      NULL))
             return false;
     }
     difference_add(r, way->what, of_case, &bytes);
     if (way->draw != cached_edges || way->simd != FONT_SIMD_AVX512)
         return true;
-    /* Ours before rounding too: bytes alone end at about 60 dB. */
+    /* Ours before rounding too, and what bytes cannot avoid: gold's own end at about 62 dB. */
     for (int i = 0; i < f->places_count; i += step) {
         const struct place *p = &f->places[i];
         if (font_gray_draw_exact(&f->gray, &f->edges[p->letter], f->filter, p->x, p->y) !=
             FONT_OK)
             return font_wrong();
-        if (!gold_add(f, p, f->filter, &f->gray, true, &exact))
+        if (!gold_add(f, p, f->filter, &f->gray, true, &exact, &gold_bytes))
             return false;
     }
+    difference_add(r, "bytes of gold", of_case, &gold_bytes);
     difference_add(r, "unrounded", of_case, &exact);
     double ink = 100 * fabs(exact.ink / exact.ink_gold - 1);
     bench_report_add(r, "unrounded ink off by", of_case, (struct bench_sample){ink, ink}, 1,
@@ -419,23 +425,28 @@ static bool thesis_direct(void *context)
 static bool thesis_run(struct fonts *f, struct bench_report *r)
 {
     struct bench_sample rectangles, direct_part;
-    long count = 0;
+    static const int ems[] = {730, 980, 860}; /* the last is measured */
     font_simd_use(FONT_SIMD_AVX512);
-    for (int i = 0; i < LETTERS; i++) {
-        struct font_rectangles parts = {0};
-        if (font_master_make(&f->masters[i], &f->outlines[i], 860) != FONT_OK ||
-            font_rectangles_make(&parts, &f->masters[i]) != FONT_OK)
-            return font_wrong();
-        count += parts.count;
-        font_rectangles_finish(&parts);
+    for (size_t e = 0; e < sizeof ems / sizeof *ems; e++) {
+        long count = 0;
+        char of_case[32];
+        for (int i = 0; i < LETTERS; i++) {
+            struct font_rectangles parts = {0};
+            if (font_master_make(&f->masters[i], &f->outlines[i], ems[e]) != FONT_OK ||
+                font_rectangles_make(&parts, &f->masters[i]) != FONT_OK)
+                return font_wrong();
+            count += parts.count;
+            font_rectangles_finish(&parts);
+        }
+        double each = (double)count / LETTERS;
+        snprintf(of_case, sizeof of_case, "typeface, em %d", ems[e]);
+        bench_report_add(r, "rectangles a glyph", of_case, (struct bench_sample){each, each}, 1,
+                         "");
     }
     if (!bench_measure(thesis_rectangles, f, 10, &rectangles) ||
         !bench_measure(thesis_direct, f, 2, &direct_part))
         return false;
     double share = (double)LETTERS / ((LETTERS + 7) / 8);
-    double each = (double)count / LETTERS;
-    bench_report_add(r, "rectangles a glyph", "typeface", (struct bench_sample){each, each}, 1,
-                     "");
     bench_report_add(r, "master rectangles", "typeface", rectangles, 1e3, "ms");
     bench_report_add(r, "direct", "typeface", direct_part, 1e3 * share, "ms");
     double ratio = direct_part.median * share / rectangles.median;
@@ -516,7 +527,7 @@ static bool fonts_run(struct fonts *f, bool quick, struct bench_report *r)
 int bench_fonts_main(int argc, char **argv)
 {
     const char *json = NULL, *font = "DejaVuSans", *filter = "gaussian-fast";
-    bool quick = false;
+    bool quick = false, thorough = false;
     for (int i = 1; i < argc; i++) {
         const char **target = strcmp(argv[i], "--json") == 0     ? &json
                               : strcmp(argv[i], "--font") == 0   ? &font
@@ -524,14 +535,19 @@ int bench_fonts_main(int argc, char **argv)
                                                                  : NULL;
         if (strcmp(argv[i], "--quick") == 0) {
             quick = true;
+        } else if (strcmp(argv[i], "--thorough") == 0) {
+            thorough = true;
         } else if (target && i + 1 < argc) {
             *target = argv[++i];
         } else {
             bool help = strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0;
             fprintf(help ? stdout : stderr,
                     "usage: lutetia bench fonts [--json FILE] [--font FONT] [--filter FILTER] "
-                    "[--quick]\n\nGlyphs a second and how exact they are, beside FreeType and "
-                    "stb_truetype.\n--quick: only 12.25 px.\n");
+                    "[--quick] [--thorough]\n\nGlyphs a second and how exact they are, beside "
+                    "FreeType and "
+                    "stb_truetype.\n--quick: only 12.25 px.\n--thorough: how exact, over all "
+                    "places, "
+                    "angles and distortions (minutes); no times.\n");
             return help ? EXIT_SUCCESS : EXIT_WRONG;
         }
     }
@@ -540,8 +556,8 @@ int bench_fonts_main(int argc, char **argv)
     bool ok = f != NULL && fonts_open(f, font, filter);
     if (ok) {
         bench_report_init(&report, "fonts", 1, font_many_device(f->many));
-        ok = fonts_run(f, quick, &report);
-        if (ok)
+        ok = thorough ? fonts_thorough_run(&report) : fonts_run(f, quick, &report);
+        if (ok || thorough)
             bench_report_print(&report, "freetype", stdout);
         ok = ok && (!json || bench_report_write(&report, json));
     }

@@ -9,7 +9,7 @@
  *
  * Edges are in pixels, y downwards, relative to the glyph's origin: a size, a rotation, a distortion are in them, the
  * place is not. Curves are points on the curve itself with weights (Gauss's nodes), as many as keep what
- * they are wrong by below a twentieth of a 255th each; horizontal lines are their two ends; vertical ones are nothing
+ * they are wrong by below a tenth of a 255th each; horizontal lines are their two ends; vertical ones are nothing
  * at all. See docs/fonts.md.
  *
  * Threads. Building writes the edges alone; drawing reads them. */

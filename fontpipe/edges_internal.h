@@ -10,6 +10,8 @@
 
 /* A line whose ends differ less in y is horizontal: it is then wrong by less than a tenth of a 255th. */
 #define FONT_FLAT_PX 4e-4f
+#define FONT_SPECK_PX 0.06f /* a cubic so short needs two nodes, not three */
+#define FONT_BEND_PX2 0.03f /* the square of how far a quadratic's second difference reaches */
 #define FONT_LENGTH_LAST 6.727f /* the longest piece that was measured */
 
 /* Room for more; eight floats past what is asked for may be written. */

@@ -42,7 +42,7 @@ INLINE vector root(vector v)
 
 struct measured {
     float x[LANES], y[LANES], cx[LANES], cy[LANES], bx[LANES], by[LANES], ax[LANES], ay[LANES];
-    float across[LANES], down[LANES], length[LANES], flat[LANES];
+    float across[LANES], down[LANES], length[LANES], flat[LANES], bend[LANES];
     int row[LANES]; /* of the table of errors */
 };
 
@@ -94,6 +94,7 @@ INLINE void measure(struct measured *out, const struct font_edges_job *job, int 
     put(out->down, down);
     put(out->length, length);
     put(out->flat, flat);
+    put(out->bend, Bx * Bx + By * By);
     *(ints *)out->row = (s * FONT_LENGTHS + l) * FONT_NODES_MAX;
 }
 
@@ -137,8 +138,13 @@ enum font_status KERNEL(const struct font_edges_job *job)
                 m -= large[i];
             if (m > FONT_NODES_MAX || length > FONT_LENGTH_LAST)
                 m = font_nodes_needed(f, length, across, q.flat[k] * across, &pieces);
-            /* So many nodes that the area under the curve is exact; specks can do with less. */
-            int least = degree == 1 ? 1 : length > 0.4f ? degree : length > 0.02f ? 2 : 1;
+            /* So many nodes that the area under the curve is exact, one more where a quadratic turns around; specks
+             * can do with less. */
+            int least = degree == 1              ? 1
+                        : length < 0.02f         ? 1
+                        : degree == 2            ? 2 + (q.bend[k] > FONT_BEND_PX2)
+                        : length < FONT_SPECK_PX ? 2
+                                                 : 3;
             m = m < least ? least : m;
             if (pieces > 1) {
                 status = font_nodes_reserve(e, m * pieces + LANES * FONT_NODES_MAX);

@@ -201,17 +201,23 @@ static enum font_status file_read(const char *path, unsigned char **bytes, size_
     return status;
 }
 
-enum font_status font_face_open(const char *name, int index, struct font_face **out)
+char *font_face_find(const char *name, int *index)
 {
     struct stat about;
+    int own = 0;
+    if (!name || !*name)
+        return NULL;
+    if (strchr(name, '/') || (stat(name, &about) == 0 && S_ISREG(about.st_mode)))
+        return strdup(name);
+    return by_fontconfig(name, index ? index : &own);
+}
+
+enum font_status font_face_open(const char *name, int index, struct font_face **out)
+{
     *out = NULL;
     if (!name || !*name)
         return font_fail(FONT_BAD_ARGUMENT, "a font needs a name");
-    char *path;
-    if (strchr(name, '/') || (stat(name, &about) == 0 && S_ISREG(about.st_mode)))
-        path = strdup(name);
-    else
-        path = by_fontconfig(name, &index);
+    char *path = font_face_find(name, &index);
     if (!path)
         return font_fail(FONT_BAD_FILE,
                          "there is no font '%.80s'; give a file, or a name that fc-list shows",

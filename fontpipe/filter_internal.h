@@ -83,7 +83,9 @@ enum font_status font_filter_decompose(struct font_filter *f);
 extern const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 extern const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 
-/* What an edge may be wrong by for each of its pieces: a twentieth of a 255th. */
-#define FONT_PIECE_TOLERANCE 2e-4
+/* What an edge may be wrong by for each of its pieces: a tenth of a 255th at nodes, half of that in steps, of which there
+ * are more. */
+#define FONT_PIECE_TOLERANCE 4e-4
+#define FONT_STEP_TOLERANCE 2e-4
 
 #endif

@@ -108,7 +108,7 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
                         error[m] = error[m - 1];
                 }
             }
-            if (l == 8 && s == 0 && error[4] * t->dx > 2 * FONT_PIECE_TOLERANCE)
+            if (l == 8 && s == 0 && error[4] * t->dx > FONT_PIECE_TOLERANCE)
                 return; /* a pixel's length needs more than four: steps */
         }
     f->use_nodes = true;
@@ -124,7 +124,7 @@ static void steps_measure(struct font_filter *f, struct trial *t)
             worst = fmax(worst, trial_error(t));
         }
         /* Round filters leave something out already. */
-        if (worst <= (f->round ? 1 : 3) * FONT_PIECE_TOLERANCE)
+        if (worst <= (f->round ? 1 : 3) * FONT_STEP_TOLERANCE)
             return;
     }
 }

@@ -136,6 +136,18 @@ void font_gold_compare(const struct font_gray *gray, bool exact, int left, int t
         }
 }
 
+void font_gold_bytes_compare(const double *gold, int count, struct font_difference *sum)
+{
+    for (int i = 0; i < count; i++) {
+        double want = fmin(fmax(gold[i], 0), 1), have = rint(255 * want) / 255;
+        sum->max = fmax(sum->max, 255 * fabs(have - want));
+        sum->square_sum += (have - want) * (have - want);
+        sum->ink += have;
+        sum->ink_gold += want;
+        sum->pixels_count++;
+    }
+}
+
 double font_difference_psnr(const struct font_difference *d)
 {
     if (!d->pixels_count || d->square_sum == 0)

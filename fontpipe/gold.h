@@ -26,6 +26,9 @@ struct font_difference {
 /* exact: compares gray->exact rather than the bytes. Adds to *sum. */
 void font_gold_compare(const struct font_gray *gray, bool exact, int left, int top, int width,
                        int height, const double *gold, struct font_difference *sum);
+/* How far gold's own bytes are from it: what no picture in bytes can do without. Adds to *sum. */
+void font_gold_bytes_compare(const double *gold, int count, struct font_difference *sum);
+/* -10 log10 of the mean square over pixels_count; 1 is the peak. */
 double font_difference_psnr(const struct font_difference *d); /* dB */
 
 #endif

@@ -154,9 +154,9 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     int pitch = gray->pitch, height = gray->height_px;
     job.width = gray->width_px;
     job.pitch = pitch;
-    /* Lines write up to 16 floats past the width, odd blocks 8 past 4 more. */
+    /* Odd blocks end up to 8 floats past the width; with more taps a block of 16 does. */
     if (f->taps <= 5) {
-        job.odd = pitch == 16 ? 16 : pitch + 16;
+        job.odd = pitch == 16 ? FONT_NARROW_ODD : pitch + 16;
         job.stride = pitch == 16 ? FONT_NARROW_STRIDE : 2 * pitch + 48;
     } else {
         job.stride = pitch + 16;
@@ -176,18 +176,13 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     gray->pixels = (uint8_t *)gray->memory + (exact ? 4 * pixels : 0);
     job.carry = gray->work;
     job.sums = job.carry + pitch;
-    memset(job.carry, 0, sizeof(float) * (size_t)pitch);
+    for (int k = 0; k < pitch; k++)
+        job.carry[k] = 0;
     job.banded = rows < height;
     for (job.row = 0; job.row < height; job.row += rows) {
         job.rows = height - job.row < rows ? height - job.row : rows;
         job.out = gray->pixels + (size_t)job.row * (size_t)pitch;
         job.exact = exact ? gray->exact + (size_t)job.row * (size_t)pitch : NULL;
-        /* What is added lies in the band's rows, or in the margins where there are bands. */
-        if (job.banded)
-            memset(job.sums, 0, sizeof(float) * floats);
-        else
-            memset(job.sums + FONT_MARGIN_ROWS * job.stride, 0,
-                   sizeof(float) * (size_t)job.stride * (size_t)rows);
         kernel(&job);
     }
     return FONT_OK;

@@ -10,7 +10,9 @@
 enum {
     FONT_MARGIN_ROWS =
         16, /* above and below a band: what is written there belongs to another */
-    FONT_NARROW_STRIDE = 48,   /* of pictures of up to 16 columns */
+    FONT_NARROW_STRIDE =
+        32, /* of pictures of up to 16 columns and 5 taps, and where odd blocks begin there */
+    FONT_NARROW_ODD = 8,
     FONT_SUMS_FLOATS = 1 << 16 /* of a band */
 };
 

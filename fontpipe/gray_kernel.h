@@ -21,6 +21,8 @@
  *     even   |0       |8       |16      |         a row of sums is two rows of blocks,
  *     odd    |   4    |   12   |   20   |         each block aligned, added up at the end
  *
+ * (Of a picture of up to 16 columns a row of sums is two cache lines: the odd blocks follow the even ones at once.)
+ *
  * The tables are padded, so that a block's values are one load whatever column the taps begin at. More taps take 16
  * columns from a multiple of 8, as two blocks of the even row. */
 #include "gray_internal.h"
@@ -126,18 +128,23 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const f
     IN_MEMORY();
 }
 
+/* What the compiler knows of a pointer it forgets: it then counts from it, and does not compute each row's address. */
+#define OPAQUE(pointer) __asm__("" : "+r"(pointer))
+
 INLINE void block_add(float *sums, int stride, const half_vector *columns, int parts,
                       const float *weights, int rows)
 {
+    OPAQUE(sums);
+    OPAQUE(weights);
     for (int r = 0; r < rows; r++)
         for (int p = 0; p < parts; p++)
             *(half_vector *)(sums + r * stride + p * HALF_LANES) += columns[p] * weights[r];
 }
 
 INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int k,
-                     const float *xs, float *sums, int stride, int taps)
+                     const float *xs, float *sums, int stride, int taps, bool banded)
 {
-    if (job->banded && !row_in_band(job, b->row[k]))
+    if (banded && !row_in_band(job, b->row[k]))
         return;
     const int parts = (SHORT(taps) ? 8 : ROW) / HALF_LANES;
     const float *x = xs + b->column[k];
@@ -152,7 +159,8 @@ INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int
 
 /* Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
  * through from three places in turns. */
-INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps)
+INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps,
+                      bool banded)
 {
     const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
     float *sums = job->sums;
@@ -162,18 +170,18 @@ INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int
         int third = count / 3;
         batch_fill(&b, job, ys, first, count, stride, taps);
         for (int k = 0; k < third; k++) {
-            node_add(job, &b, k, xs, sums, stride, taps);
-            node_add(job, &b, k + third, xs, sums, stride, taps);
-            node_add(job, &b, k + 2 * third, xs, sums, stride, taps);
+            node_add(job, &b, k, xs, sums, stride, taps, banded);
+            node_add(job, &b, k + third, xs, sums, stride, taps, banded);
+            node_add(job, &b, k + 2 * third, xs, sums, stride, taps, banded);
         }
         for (int k = 3 * third; k < count; k++)
-            node_add(job, &b, k, xs, sums, stride, taps);
+            node_add(job, &b, k, xs, sums, stride, taps, banded);
     }
 }
 
 /* ---- lines ---- */
 
-/* 16 columns, from `offset` columns left of a line's end: what is right of it. */
+/* 8 columns from `first` on: what is right of a line's end. */
 INLINE const float *line_end(const float *table, float a, int first, float *t)
 {
     int i = (int)a;
@@ -197,18 +205,19 @@ INLINE void lines_add(const struct font_gray_job *job, int term, int stride, int
         if (job->banded && !row_in_band(job, row))
             continue;
         IN_MEMORY();
-        int first = (int)(a0 < a1 ? a0 : a1) & ~7, last = (int)(a0 < a1 ? a1 : a0) + taps;
+        /* Blocks of the even row; what lies beyond the ends' reach is 0. */
+        int first = (int)(a0 < a1 ? a0 : a1) & ~7, end = (int)(a0 < a1 ? a1 : a0) + taps;
         float *sums = job->sums + (long)(FONT_MARGIN_ROWS + row) * stride;
-        for (; first <= last; first += ROW) {
+        for (; first < end; first += 8) {
             float t0, t1;
             const float *h0 = line_end(hs, a0, first, &t0), *h1 = line_end(hs, a1, first, &t1);
-            half_vector columns[HALF_PARTS];
-            for (int p = 0; p < HALF_PARTS; p++) {
+            half_vector columns[8 / HALF_LANES];
+            for (int p = 0; p < 8 / HALF_LANES; p++) {
                 int at = p * HALF_LANES;
                 columns[p] = (half_load(h0 + at) + half_load(h0 + FONT_H_ROW + at) * t0) -
                              (half_load(h1 + at) + half_load(h1 + FONT_H_ROW + at) * t1);
             }
-            block_add(sums + first, stride, columns, HALF_PARTS, weights, taps + 1);
+            block_add(sums + first, stride, columns, 8 / HALF_LANES, weights, taps + 1);
         }
     }
 }
@@ -248,6 +257,30 @@ INLINE void pixels_store(uint8_t *out, const vector *sum)
 #endif
 }
 
+/* Of a row of odd blocks, which begins at column 4. What is before it in a narrow picture is another's. */
+INLINE vector odd_load(const float *at, bool first)
+{
+    vector v = load(at);
+    if (!first)
+        return v;
+#if LANES == 16
+    return (vector)_mm512_maskz_mov_ps(0xfff0, (__m512)v);
+#elif LANES == 8
+    return (vector)_mm256_blend_ps(_mm256_setzero_ps(), (__m256)v, 0xf0);
+#else
+    return v * 0;
+#endif
+}
+
+/* The rows that are added to. */
+INLINE void rows_clear(const struct font_gray_job *job, int stride)
+{
+    float *from = job->sums + (job->banded ? 0 : FONT_MARGIN_ROWS * stride);
+    long count = (long)stride * (job->rows + (job->banded ? 2 * FONT_MARGIN_ROWS : 0));
+    for (long k = 0; k < count; k += LANES)
+        *(vector *)(from + k) = (vector){0};
+}
+
 INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bool exact)
 {
     int rows = job->rows, width = job->width;
@@ -263,7 +296,8 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
             for (int p = 0; p < PARTS; p++)
                 sum[p] += load(sums + p * LANES);
             for (int p = 0; odd && p < PARTS; p++)
-                sum[p] += load(sums + odd + 4 + p * LANES);
+                sum[p] += odd_load(sums + odd + 4 + p * LANES,
+                                   stride == FONT_NARROW_STRIDE && p * LANES < 4);
             pixels_store(out, sum);
             for (int p = 0; exact && p < PARTS; p++)
                 *(vector_loose *)(values + r * pitch + p * LANES) = sum[p];
@@ -275,20 +309,21 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
 
 /* ---- by the number of taps: loops of a known length ---- */
 
-INLINE void edges_add(const struct font_gray_job *job, int stride, int taps)
+INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, bool banded)
 {
+    rows_clear(job, stride);
     for (int term = 0; term < job->filter->terms_count; term++) {
-        nodes_add(job, term, stride, taps);
+        nodes_add(job, term, stride, taps, banded);
         lines_add(job, term, stride, taps);
     }
 }
 
 INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
 {
-    if (job->stride == FONT_NARROW_STRIDE)
-        edges_add(job, FONT_NARROW_STRIDE, taps);
+    if (job->stride == FONT_NARROW_STRIDE && !job->banded)
+        edges_add(job, FONT_NARROW_STRIDE, taps, false);
     else
-        edges_add(job, job->stride, taps);
+        edges_add(job, job->stride, taps, job->banded);
 }
 
 void KERNEL(const struct font_gray_job *job)
@@ -310,13 +345,15 @@ void KERNEL(const struct font_gray_job *job)
         edges_add_taps(job, 5);
         break;
     case 6:
-        edges_add(job, job->stride, 6);
+        edges_add(job, job->stride, 6, job->banded);
         break;
     default:
-        edges_add(job, job->stride, job->filter->taps);
+        edges_add(job, job->stride, job->filter->taps, job->banded);
     }
     if (job->exact)
         rows_add_up(job, job->stride, job->odd, true);
+    else if (job->stride == FONT_NARROW_STRIDE && job->odd)
+        rows_add_up(job, FONT_NARROW_STRIDE, FONT_NARROW_ODD, false);
     else if (job->odd)
         rows_add_up(job, job->stride, job->odd, false);
     else

@@ -129,6 +129,23 @@ enum font_status font_levels_master_fill(struct font_levels *l, int x, int y, in
     return FONT_OK;
 }
 
+enum font_status font_levels_master_set(struct font_levels *l, const struct font_master *master)
+{
+    struct font_master copy;
+    if (master->em_px < 1 || master->em_px > FONT_MASTER_EM_MAX)
+        return font_fail(FONT_BAD_ARGUMENT, "a master's em must be 1..%d pixels (got %d)",
+                         FONT_MASTER_EM_MAX, master->em_px);
+    enum font_status status = font_master_copy(master, &copy);
+    if (status != FONT_OK)
+        return status;
+    font_master_finish(&l->master);
+    l->master = copy;
+    l->em_px = copy.em_px;
+    below_forget(l, MASTER);
+    l->master_made = l->master_edited = true;
+    return FONT_OK;
+}
+
 enum font_status font_levels_rectangles_merge(struct font_levels *l, int slack, int *gone)
 {
     const struct font_rectangles *rectangles;

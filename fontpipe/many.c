@@ -351,7 +351,7 @@ static enum font_status jobs_place(struct font_many *m, const struct font_many_j
             return status;
         /* As glyphs.cl has it: margins and at least a row must fit local memory. */
         int stride = m->filter->taps > 5 ? gray->pitch + 16
-                     : gray->pitch == 16 ? FONT_NARROW_STRIDE
+                     : gray->pitch == 16 ? 48
                                          : 2 * gray->pitch + 48;
         if (gray->width_px > FONT_MANY_WIDTH_MAX || m->sums / stride <= 2 * FONT_MARGIN_ROWS)
             return font_fail(FONT_TOO_LARGE,

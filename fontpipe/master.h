@@ -43,6 +43,26 @@ bool font_master_at(const struct font_master *m, int x, int y); /* white outside
 void font_master_fill(struct font_master *m, int x, int y, int width, int height, bool black);
 long font_master_ink(const struct font_master *m); /* black pixels */
 
+/* ---- as pictures, for retouching (master_picture.c) ---- */
+
+/* Bytes, rows from the top, without padding: 0 is ink, 255 is none; with a margin of white all around.
+ * Shape: (width_px + 2 * margin_px) * (height_px + 2 * margin_px). */
+void font_master_to_picture(const struct font_master *m, int margin_px, uint8_t *gray);
+/* Ink is what is below 128. Shape: frame->width_px * frame->height_px. Errors: BAD_ARGUMENT, NO_MEMORY; the master is then
+ * empty. */
+struct font_master_frame {
+    int em_px, left_px, top_px, width_px, height_px;
+    double advance_px;
+};
+enum font_status font_master_from_picture(struct font_master *m,
+                                          const struct font_master_frame *frame,
+                                          const uint8_t *gray);
+/* Errors: NO_MEMORY; *to is then as it was. */
+enum font_status font_master_copy(const struct font_master *from, struct font_master *to);
+long font_master_differs(const struct font_master *a, const struct font_master *b); /* pixels */
+
+/* ---- rectangles ---- */
+
 /* x1, y1: one past the last. */
 struct font_rectangle {
     int x0, y0, x1, y1;

@@ -330,6 +330,24 @@ static void gray_blend(const struct font_painter *p, const struct font_gray *gra
     }
 }
 
+static void gray_cover(const struct font_gray *gray, int x, int y, struct font_cover *to)
+{
+    if (!gray->pixels)
+        return;
+    int left = x + gray->left_px, top = y + gray->top_px;
+    int c0 = left < 0 ? -left : 0, r0 = top < 0 ? -top : 0;
+    int c1 = to->width_px - left < gray->width_px ? to->width_px - left : gray->width_px;
+    int r1 = to->height_px - top < gray->height_px ? to->height_px - top : gray->height_px;
+    for (int r = r0; r < r1; r++) {
+        const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
+        uint8_t *row = to->gray + (size_t)(top + r) * (size_t)to->pitch + (ptrdiff_t)left;
+        for (int c = c0; c < c1; c++) {
+            int rest = 255 - row[c];
+            row[c] = (uint8_t)(row[c] + (rest * from[c] + 127) / 255);
+        }
+    }
+}
+
 /* A picture at a place, drawn or kept. *whole_x, *whole_y: the pixel that it counts from. */
 static enum font_status gray_get(struct font_painter *p, const struct font_edges *edges,
                                  struct key key, double x, double y, struct font_gray *scratch,
@@ -371,6 +389,33 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
     return FONT_OK;
 }
 
+/* Where glyph i of a layout goes: its map without its place, and the place. */
+static enum font_status glyph_place(const struct font_layout *layout, int i,
+                                    const struct font_map *map, double x_px, double y_px,
+                                    struct font_map *whole, double *x, double *y)
+{
+    enum font_status status =
+        placed_map(layout, &layout->glyphs[i], map, x_px, y_px, whole, x, y);
+    if (status == FONT_OK && !(fabs(*x) < 1e6 && fabs(*y) < 1e6))
+        status = font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be at (%g, %g)", *x, *y);
+    return status;
+}
+
+/* Its picture, counted from a whole pixel. */
+static enum font_status glyph_draw(struct font_painter *p, const struct font_layout *layout,
+                                   int i, const struct font_map *whole, double x, double y,
+                                   struct font_gray *scratch, const struct font_gray **gray,
+                                   int *whole_x, int *whole_y)
+{
+    const struct font_placed *g = &layout->glyphs[i];
+    struct font_edges *edges;
+    struct key key;
+    enum font_status status =
+        edges_get(p, g->face, g->glyph, whole, layout->size_px, &key, &edges);
+    return status == FONT_OK ? gray_get(p, edges, key, x, y, scratch, gray, whole_x, whole_y)
+                             : status;
+}
+
 enum font_status font_painter_layout(struct font_painter *p, const struct font_layout *layout,
                                      const struct font_map *map, double x_px, double y_px,
                                      struct font_picture *picture)
@@ -380,27 +425,67 @@ enum font_status font_painter_layout(struct font_painter *p, const struct font_l
         ink[i] = (float)font_light(p->def.ink[i], p->def.gamma);
     enum font_status status = FONT_OK;
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
-        const struct font_placed *g = &layout->glyphs[i];
         struct font_map whole;
-        struct font_edges *edges;
-        struct key key;
         double x, y;
-        status = placed_map(layout, g, map, x_px, y_px, &whole, &x, &y);
-        if (status == FONT_OK && !(fabs(x) < 1e6 && fabs(y) < 1e6))
-            status = font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be at (%g, %g)", x, y);
+        status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
         for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
             const struct font_gray *gray;
             int whole_x, whole_y;
             double shift =
                 p->def.stripes ? (1 - c) / 3.0 : 0; /* red is left: the glyph is right of it */
-            status = edges_get(p, g->face, g->glyph, &whole, layout->size_px, &key, &edges);
-            if (status == FONT_OK)
-                status = gray_get(p, edges, key, x + shift, y, &p->scratch[c], &gray, &whole_x,
-                                  &whole_y);
+            status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray,
+                                &whole_x, &whole_y);
             if (status == FONT_OK)
                 gray_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, picture);
         }
     }
+    return status;
+}
+
+enum font_status font_painter_cover(struct font_painter *p, const struct font_layout *layout,
+                                    const struct font_map *map, double x_px, double y_px,
+                                    struct font_cover *cover)
+{
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
+        struct font_map whole;
+        const struct font_gray *gray;
+        double x, y;
+        int whole_x, whole_y;
+        status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
+        if (status == FONT_OK)
+            status = glyph_draw(p, layout, i, &whole, x, y, &p->scratch[0], &gray, &whole_x,
+                                &whole_y);
+        if (status == FONT_OK)
+            gray_cover(gray, whole_x, whole_y, cover);
+    }
+    return status;
+}
+
+enum font_status font_painter_glyph(struct font_painter *p, struct font_face *face,
+                                    uint32_t glyph, double size_px, const struct font_map *map,
+                                    double x_px, double y_px, const struct font_gray **gray)
+{
+    struct font_placed one = {.face = face, .glyph = glyph};
+    const struct font_layout layout = {.glyphs = &one, .glyphs_count = 1, .size_px = size_px};
+    struct font_map whole;
+    struct font_edges *edges;
+    struct key key;
+    double x, y;
+    if (!(size_px >= 0.1 && size_px <= FONT_SIDE_MAX))
+        return font_fail(FONT_BAD_ARGUMENT, "a size must be 0.1..%d pixels (got %g)",
+                         FONT_SIDE_MAX, size_px);
+    enum font_status status = placed_map(&layout, &one, map, x_px, y_px, &whole, &x, &y);
+    if (map && map->kind == FONT_AFFINE) { /* its linear part */
+        x = x_px;
+        y = y_px;
+    }
+    if (status == FONT_OK)
+        status = edges_get(p, face, glyph, &whole, size_px, &key, &edges);
+    if (status == FONT_OK)
+        status = font_gray_draw(&p->scratch[0], edges, p->filter, x, y);
+    p->stats.drawn++;
+    *gray = &p->scratch[0];
     return status;
 }
 

@@ -53,6 +53,23 @@ enum font_status font_painter_layout(struct font_painter *painter,
                                      const struct font_map *map, double x_px, double y_px,
                                      struct font_picture *picture);
 
+/* The part of each pixel that the layout covers, of 255, added to what is covered already: a letter takes its part of what
+ * is left. No ink, light or stripes. As font_painter_layout() otherwise. */
+struct font_cover {
+    int width_px, height_px, pitch; /* pitch: bytes from row to row */
+    uint8_t *gray;
+};
+enum font_status font_painter_cover(struct font_painter *painter,
+                                    const struct font_layout *layout,
+                                    const struct font_map *map, double x_px, double y_px,
+                                    struct font_cover *cover);
+
+/* One glyph at a size, through a map that takes pixels to pixels (NULL: as it is), its origin at (x_px, y_px), 0..1; the edges
+ * are kept. *gray: the painter's, valid until it draws again. */
+enum font_status font_painter_glyph(struct font_painter *painter, struct font_face *face,
+                                    uint32_t glyph, double size_px, const struct font_map *map,
+                                    double x_px, double y_px, const struct font_gray **gray);
+
 /* The box around all the ink of a layout drawn so, with the filter's reach: in pixels. Empty: x1 < x0. */
 enum font_status font_painter_measure(struct font_painter *painter,
                                       const struct font_layout *layout,

@@ -11,8 +11,10 @@
  *     font_layout_finish(&layout);
  *     font_shaper_destroy(shaper);
  *
- * Text is UTF-8. What is not is replaced, each damaged sequence by U+FFFD, and counted. Lines end at newlines. Places
- * are fractions of pixels; nothing is rounded.
+ * Text is UTF-8. What is not is replaced, each damaged sequence by U+FFFD, and counted. Lines end at newlines (and what
+ * Unicode has beside them), and with `width_px` where no more fits: at a place where a break is allowed (UAX 14), or,
+ * where a word is longer than the line, between two letters. White space at the end of such a line stands in the
+ * margin; a soft hyphen that ends it is seen. Places are fractions of pixels; nothing is rounded.
  *
  * Threads. A shaper and its faces belong to one thread at a time. */
 #ifndef LUTETIA_FONT_TEXT_H
@@ -26,13 +28,26 @@ struct font_shaper;
 enum font_status font_shaper_create(struct font_face *face, struct font_shaper **out);
 void font_shaper_destroy(struct font_shaper *shaper); /* NULL is fine */
 
+/* START: left, and where a paragraph runs to the left, right. JUSTIFY: white spaces are widened until lines fill the
+ * column, but for a paragraph's last one. */
+enum font_align {
+    FONT_ALIGN_START,
+    FONT_ALIGN_LEFT,
+    FONT_ALIGN_RIGHT,
+    FONT_ALIGN_CENTER,
+    FONT_ALIGN_JUSTIFY
+};
+
 struct font_text_options {
     const char
         *features; /* HarfBuzz's, by commas: "-liga,ss01,kern=0"; NULL: the font's usual ones */
     const char *language; /* "fr"; NULL: the locale's */
     double letter_spacing_px;
     double line_height; /* of the size; 0: the font's */
-    bool no_fallback;   /* only the first face */
+    double
+        width_px; /* of the column that lines are broken for; 0: only where the text has line ends */
+    enum font_align align; /* in the column, or within the longest line */
+    bool no_fallback;      /* only the first face */
     int right_to_left; /* 1 the paragraph runs to the left, -1 to the right, 0 as its first letter */
 };
 
@@ -40,18 +55,27 @@ struct font_placed {
     struct font_face *face; /* owned by the shaper or its creator */
     uint32_t glyph;
     double x_px,
-        y_px; /* of the origin, from the first line's left end of the baseline; y downwards */
+        y_px; /* of the origin, from the column's left edge on the first baseline; y downwards */
     int cluster; /* byte of the text that it comes from */
     int line;
+};
+
+struct font_line {
+    int glyphs_begin, glyphs_count;
+    double x_px, y_px; /* where its baseline begins at the left */
+    double width_px;
+    bool to_left; /* the paragraph runs to the left */
+    bool ends_paragraph;
 };
 
 enum { FONT_MISSING_MAX = 16 };
 
 struct font_layout {
     struct font_placed *glyphs;
-    int glyphs_count, glyphs_capacity, lines_count;
-    double width_px, ascent_px,
-        descent_px; /* of the longest line; descent: below the last baseline */
+    struct font_line *lines;
+    int glyphs_count, glyphs_capacity, lines_count, lines_capacity;
+    double width_px;              /* of the longest line or the column */
+    double ascent_px, descent_px; /* of the first face; descent: below the last baseline */
     double line_height_px;
     double size_px;
     int missing_count;                  /* characters for which there is no glyph anywhere */
@@ -60,7 +84,7 @@ struct font_layout {
     int fallback_count;                 /* characters set in another face */
 };
 
-/* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read), TOO_LARGE past a million
+/* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read, a width below 0), TOO_LARGE past a million
  * characters, NO_MEMORY; *out is then empty. options: NULL for the usual. */
 enum font_status font_shaper_layout(struct font_shaper *shaper, const char *text, size_t bytes,
                                     double size_px, const struct font_text_options *options,

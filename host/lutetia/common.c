@@ -2,6 +2,7 @@
 #include "lutetia.h"
 
 #include <display.h>
+#include <face.h>
 #include <paris_internal.h>
 
 #include <errno.h>
@@ -214,7 +215,7 @@ int folder_make(const char *verb, const char *path)
 const char *font_first(const char *const *names)
 {
     for (int i = 0; names[i]; i++) {
-        char *path = paper_font_find(names[i]);
+        char *path = font_face_find(names[i], NULL);
         bool found = path != NULL;
         free(path);
         if (found)

@@ -91,7 +91,10 @@ static enum paper_status advance_of(const struct paper_line *line, int count,
 /* Each letter of the word on its own screen, where it stands in the line. */
 static enum paper_status word_set(struct demo_page *page)
 {
-    struct paper_line line = {.font = font_first(word_fonts), .size_px = word_size_px};
+    /* Letters are set one by one: none may join. */
+    struct paper_line line = {.font = font_first(word_fonts),
+                              .size_px = word_size_px,
+                              .features = "-liga,-clig,-calt"};
     double length_px, advance_px;
     enum paper_status status = advance_of(&line, LETTERS, &length_px);
     for (int i = 0; i < LETTERS && status == PAPER_OK; i++) {

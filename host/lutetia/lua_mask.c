@@ -280,45 +280,88 @@ static int make_line(lua_State *L)
 
 static const char *const text_fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
 
-/* text("word", {size=, font=, x=, y=, align=, tracking=}): x, y is where the baseline begins, or its middle or end. */
-static int make_text(lua_State *L)
+/* What text{} and p:type{} take, but for the place. */
+static void text_options(lua_State *L, int index, struct paper_line *line)
 {
-    static const char *const keys[] = {"size", "font", "x", "y", "align", "tracking", NULL};
-    const char *text = luaL_checkstring(L, 1);
-    if (lua_isnoneornil(L, 2)) {
-        lua_settop(L, 1);
+    static const char *const keys[] = {"size",   "font",          "x",        "y",
+                                       "align",  "tracking",      "filter",   "angle",
+                                       "width",  "leading",       "features", "language",
+                                       "anchor", "right_to_left", NULL};
+    static const char *const aligns[] = {[PAPER_ALIGN_LEFT] = "left",
+                                         [PAPER_ALIGN_RIGHT] = "right",
+                                         [PAPER_ALIGN_CENTER] = "center",
+                                         [PAPER_ALIGN_JUSTIFY] = "justify"};
+    arg_keys(L, index, "text", keys);
+    line->font = arg_text(L, index, "text", "font");
+    line->size_px = arg_number(L, index, "text", "size", 100, 1, 8192);
+    line->tracking_em = arg_number(L, index, "text", "tracking", 0, -1, 10);
+    line->filter = arg_text(L, index, "text", "filter");
+    line->angle_deg = arg_number(L, index, "text", "angle", 0, -3600, 3600);
+    line->width_px = arg_number(L, index, "text", "width", 0, 0, PLACE_MAX);
+    line->leading = arg_number(L, index, "text", "leading", 0, 0, 100);
+    line->features = arg_text(L, index, "text", "features");
+    line->language = arg_text(L, index, "text", "language");
+    line->right_to_left = arg_boolean(L, index, "text", "right_to_left", false);
+    const char *align = arg_text(L, index, "text", "align");
+    for (int i = PAPER_ALIGN_LEFT; align && i <= PAPER_ALIGN_JUSTIFY; i++)
+        if (strcmp(align, aligns[i]) == 0)
+            line->align = (enum paper_align)i;
+    if (align && line->align == PAPER_ALIGN_START)
+        luaL_error(
+            L, "text align must be \"left\", \"center\", \"right\" or \"justify\" (got '%s')",
+            align);
+    line->anchor = line->align == PAPER_ALIGN_CENTER  ? 0.5
+                   : line->align == PAPER_ALIGN_RIGHT ? 1
+                                                      : 0;
+    line->anchor = arg_number(L, index, "text", "anchor", line->anchor, 0, 1);
+    if (line->font && strchr(line->font, '/') && !run_of(L)->trusted)
+        luaL_error(L, "text font must be a font's name, not a file (got '%s')", line->font);
+    if (!line->font)
+        line->font = font_first(text_fonts);
+}
+
+/* text("word", {size=, font=, x=, y=, align=, …}): x, y is where the baseline begins, or its middle or end. */
+int mask_text_push(lua_State *L, int index)
+{
+    struct paper_line line = {.text = luaL_checkstring(L, index)};
+    struct run *run = run_of(L);
+    int options = index + 1;
+    if (lua_isnoneornil(L, options)) {
         lua_newtable(L);
+        options = lua_gettop(L);
     }
-    luaL_checktype(L, 2, LUA_TTABLE);
-    arg_keys(L, 2, "text", keys);
-    struct paper_line line = {.text = text, .font = arg_text(L, 2, "text", "font")};
-    line.size_px = arg_number(L, 2, "text", "size", 100, 1, 8192);
-    line.tracking_em = arg_number(L, 2, "text", "tracking", 0, -1, 10);
-    double x = arg_number(L, 2, "text", "x", 0, -PLACE_MAX, PLACE_MAX);
-    double y = arg_number(L, 2, "text", "y", line.size_px, -PLACE_MAX, PLACE_MAX);
-    const char *align = arg_text(L, 2, "text", "align");
-    align = align ? align : "left";
-    double part = strcmp(align, "left") == 0 ? 0 : strcmp(align, "center") == 0 ? 0.5 : 1;
-    if (part == 1 && strcmp(align, "right") != 0)
-        luaL_error(L, "text align must be \"left\", \"center\" or \"right\" (got '%s')", align);
-    if (line.font && strchr(line.font, '/') && !run_of(L)->trusted)
-        luaL_error(L, "text font must be a font's name, not a file (got '%s')", line.font);
-    if (!line.font)
-        line.font = font_first(text_fonts);
-    run_memory_take(L, 4 * line.size_px * line.size_px * (double)strlen(text), "a text");
+    luaL_checktype(L, options, LUA_TTABLE);
+    text_options(L, options, &line);
+    double x = arg_number(L, options, "text", "x", 0, -PLACE_MAX, PLACE_MAX);
+    double y = arg_number(L, options, "text", "y", line.size_px, -PLACE_MAX, PLACE_MAX);
+    line.x_px = x - floor(x);
+    line.y_px = y - floor(y);
+    /* What drawing takes at most for a letter, and its place in the picture: given back but for the picture. */
+    double work = 16 * line.size_px * line.size_px + 64 * (double)strlen(line.text);
+    run_memory_take(L, work, "a text");
+    line.pixels_max = fmax(1, (double)run->memory_most_bytes - (double)run->memory_bytes);
     struct run_mask *mask = mask_new(L); /* takes the screen's gray over */
     struct paper_screen screen;
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
-    run_memory_give(run_of(L), 4 * line.size_px * line.size_px * (double)strlen(text));
+    run_memory_give(run, work);
     if (status != PAPER_OK)
         luaL_error(L, "%s", paper_error());
+    mask->bytes = (double)screen.width_px * screen.height_px;
+    run->memory_bytes += (size_t)mask->bytes; /* within pixels_max */
     mask->gray = screen.gray;
     mask->width = screen.width_px;
     mask->height = screen.height_px;
-    mask->x = (int)lround(x - part * screen.advance_px) - screen.origin_x_px;
-    mask->y = (int)lround(y) - screen.baseline_y_px;
+    mask->x = (int)floor(x) - screen.origin_x_px;
+    mask->y = (int)floor(y) - screen.baseline_y_px;
     lua_pushnumber(L, screen.advance_px);
-    return 2;
+    lua_pushnumber(L, screen.lines_count * screen.line_height_px);
+    return 3;
+}
+
+static int make_text(lua_State *L)
+{
+    lua_settop(L, 2);
+    return mask_text_push(L, 1);
 }
 
 /* image("file.png" [, x, y]): black is 1. */

@@ -339,6 +339,22 @@ static int paper_put(lua_State *L)
     return 0;
 }
 
+/* p:type("word", {…}, {water = …}): text() put onto the sheet. Returns its length, and its lines' height. */
+static int paper_put_type(lua_State *L)
+{
+    struct run_paper *paper = paper_at(L);
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    struct paper_screen screen;
+    int x, y;
+    lua_settop(L, 4);
+    paper_amounts(L, 4, paper->sheet, amount);
+    int made = mask_text_push(L, 2);
+    if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
+        check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+    run_check(L);
+    return made - 1;
+}
+
 static int paper_blot(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
@@ -712,12 +728,14 @@ static int paper_index(lua_State *L)
 
 void lua_paper_open(lua_State *L)
 {
-    static const luaL_Reg methods[] = {
-        {"put", paper_put},           {"blot", paper_blot},   {"resist", paper_resist},
-        {"unresist", paper_unresist}, {"dry", paper_dry},     {"seal", paper_seal},
-        {"layer", paper_layer},       {"mask", paper_mask},   {"at", paper_at_fiber},
-        {"total", paper_total_of},    {"air", paper_air},     {"step", paper_step},
-        {"frame", paper_frame},       {"close", paper_close}, {NULL, NULL}};
+    static const luaL_Reg methods[] = {{"put", paper_put},       {"blot", paper_blot},
+                                       {"resist", paper_resist}, {"unresist", paper_unresist},
+                                       {"dry", paper_dry},       {"seal", paper_seal},
+                                       {"layer", paper_layer},   {"mask", paper_mask},
+                                       {"at", paper_at_fiber},   {"total", paper_total_of},
+                                       {"air", paper_air},       {"step", paper_step},
+                                       {"frame", paper_frame},   {"type", paper_put_type},
+                                       {"close", paper_close},   {NULL, NULL}};
     luaL_newmetatable(L, paper_type);
     luaL_newlib(L, methods);
     luaL_setfuncs(L, lua_brush_methods, 0);

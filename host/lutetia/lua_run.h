@@ -91,6 +91,8 @@ struct run_mask;
 /* The mask at an argument, as a screen within width x height; empty: false. The screen is the state's: it is kept on the stack. */
 bool mask_screen(lua_State *L, int index, int width, int height, struct paper_screen *screen,
                  int *x, int *y);
+/* Pushes what Lua's text() makes of the text at an argument and the table behind it: a mask, a length and a height. */
+int mask_text_push(lua_State *L, int index);
 /* Pushes a mask of gray values; takes them over by copying. */
 void mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
 

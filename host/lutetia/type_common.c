@@ -2,6 +2,7 @@
 #include "type_common.h"
 #include "lutetia.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -64,6 +65,44 @@ int type_face_open(const char *verb, const char *name, int index, const char *ax
             return fail_font(verb);
         axes = *end ? end + 1 : end;
     }
+    return EXIT_SUCCESS;
+}
+
+int type_filter_read(const char *verb, const char *name, char **out)
+{
+    enum { BYTES_MAX = 16384 };
+    *out = name[0] == '@' ? calloc(1, BYTES_MAX + 1) : strdup(name);
+    if (!*out)
+        return fail(verb, "no memory");
+    if (name[0] != '@')
+        return EXIT_SUCCESS;
+    FILE *file = fopen(name + 1, "rb");
+    size_t count = file ? fread(*out, 1, BYTES_MAX, file) : 0;
+    bool whole = file && !ferror(file) && fgetc(file) == EOF;
+    int reason = errno;
+    if (file)
+        fclose(file);
+    if (!whole) {
+        free(*out);
+        *out = NULL;
+        return file ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
+                    : fail(verb, "%s: %s", name + 1, strerror(reason));
+    }
+    /* Words, whatever is between them, as one line with a comma between each; none behind "samples:". */
+    size_t length = 0;
+    bool gap = false;
+    for (size_t i = 0; i < count; i++) {
+        char c = (*out)[i];
+        if (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '\0') {
+            gap = length > 0;
+            continue;
+        }
+        if (gap && (*out)[length - 1] != ':')
+            (*out)[length++] = ',';
+        gap = false;
+        (*out)[length++] = c;
+    }
+    (*out)[length] = '\0';
     return EXIT_SUCCESS;
 }
 

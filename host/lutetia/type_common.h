@@ -20,6 +20,9 @@ int type_image_write(const char *verb, const char *path, const struct display_im
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
                    struct font_face **out);
 
+/* A filter's name; of one that begins with @, the words of that file, separated by commas. The caller frees *out. */
+int type_filter_read(const char *verb, const char *name, char **out);
+
 /* A line of small type, for labels: black, its baseline's left end at (x, y). Nothing where there is no font for it. */
 struct type_labels;
 struct type_labels *type_labels_create(double size_px);

@@ -11,9 +11,9 @@
 #include <string.h>
 
 struct font_verb {
-    const char *file, *axes, *filter, *glyph, *text, *out_path;
+    const char *file, *axes, *filter, *glyph, *text, *out_path, *master_in, *master_out;
     double size_px;
-    int face, em_px;
+    int face, em_px, merge;
     bool show_filter;
 };
 
@@ -30,6 +30,12 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
         {"size", 0, OPTION_NUMBER, "PX", "of its gray level (12.25)", &v->size_px, 0.5, 200, 0},
         {"em", 0, OPTION_INTEGER, "N", "pixels to its master's em (860)", &v->em_px, 16, 4096,
          0},
+        {"master-out", 0, OPTION_TEXT, "FILE", "writes the master, PNG: to be retouched",
+         &v->master_out, 0, 0, 0},
+        {"master", 0, OPTION_TEXT, "FILE", "takes this one, PNG: it has been retouched",
+         &v->master_in, 0, 0, 0},
+        {"merge", 0, OPTION_INTEGER, "N",
+         "joins rectangles whose sides differ by up to N pixels", &v->merge, 1, 4096, 0},
         {"filter", 0, OPTION_TEXT, "F", "its name, as for type (gaussian-fast)", &v->filter, 0,
          0, 0},
         {"show-filter", 0, OPTION_FLAG, NULL, "the filter itself: its plot and what is known",
@@ -49,6 +55,8 @@ static int font_options(struct font_verb *v, int argc, char **argv, bool *help)
     if (words.count > 1)
         return fail_usage("font", "there is one font (then came '%.60s')", words.words[1]);
     v->file = words.count ? words.words[0] : NULL;
+    if (!v->glyph && (v->master_in || v->master_out || v->merge))
+        return fail_usage("font", "--master, --master-out and --merge want a --glyph");
     if (!v->file && !v->show_filter)
         return fail_usage("font", "give a font file, a font file's name or a family");
     return EXIT_SUCCESS;
@@ -352,6 +360,76 @@ static int levels_draw(const struct font_verb *v, struct font_levels *levels, co
     return status;
 }
 
+/* ---- the master retouched ---- */
+
+static int master_write(const struct font_verb *v, struct font_levels *levels)
+{
+    const struct font_master *m;
+    if (font_levels_master(levels, &m) != FONT_OK)
+        return fail_font("font");
+    int margin = m->em_px / 16;
+    struct display_image image = {.width_px = m->width_px + 2 * margin,
+                                  .height_px = m->height_px + 2 * margin,
+                                  .channels = 1};
+    if (display_image_create(&image) != DISPLAY_OK)
+        return fail("font", "%s", display_error());
+    font_master_to_picture(m, margin, image.pixels);
+    int status = type_image_write("font", v->master_out, &image);
+    display_image_destroy(&image);
+    return status;
+}
+
+/* The picture may be larger than the master, by as much on opposite sides. */
+static int master_read(const struct font_verb *v, struct font_levels *levels)
+{
+    const struct font_master *m;
+    struct font_master retouched = {0};
+    struct display_image image = {0};
+    if (font_levels_master(levels, &m) != FONT_OK)
+        return fail_font("font");
+    if (display_png_read_gray(v->master_in, &image) != DISPLAY_OK)
+        return fail("font", "%s", display_error());
+    int more_x = image.width_px - m->width_px, more_y = image.height_px - m->height_px;
+    int status = EXIT_SUCCESS;
+    if (more_x < 0 || more_y < 0 || more_x % 2 || more_y % 2) {
+        status =
+            fail("font",
+                 "%s is %dx%d pixels, and the master %dx%d; retouch what --master-out wrote "
+                 "with the same --em",
+                 v->master_in, image.width_px, image.height_px, m->width_px, m->height_px);
+    } else {
+        const struct font_master_frame frame = {
+            m->em_px,       m->left_px - more_x / 2, m->top_px - more_y / 2,
+            image.width_px, image.height_px,         m->advance_px};
+        if (font_master_from_picture(&retouched, &frame, image.pixels) != FONT_OK)
+            status = fail_font("font");
+        if (status == EXIT_SUCCESS) {
+            printf("retouched: %ld pixels\n", font_master_differs(m, &retouched));
+            if (font_levels_master_set(levels, &retouched) != FONT_OK)
+                status = fail_font("font");
+        }
+    }
+    font_master_finish(&retouched);
+    display_image_destroy(&image);
+    return status;
+}
+
+/* What is asked for before anything is shown, each level from the one above. */
+static int levels_edit(const struct font_verb *v, struct font_levels *levels)
+{
+    int status = EXIT_SUCCESS, gone;
+    if (v->master_out)
+        status = master_write(v, levels);
+    if (status == EXIT_SUCCESS && v->master_in)
+        status = master_read(v, levels);
+    if (status != EXIT_SUCCESS || !v->merge)
+        return status;
+    if (font_levels_rectangles_merge(levels, v->merge, &gone) != FONT_OK)
+        return fail_font("font");
+    printf("merged: %d rectangles gone\n", gone);
+    return EXIT_SUCCESS;
+}
+
 static int levels_make(const struct font_verb *v, struct font_face *face)
 {
     uint32_t character, glyph;
@@ -370,6 +448,8 @@ static int levels_make(const struct font_verb *v, struct font_face *face)
         font_levels_create(&outline, v->em_px, v->size_px, v->filter, &levels) != FONT_OK)
         status = fail_font("font");
     else
+        status = levels_edit(v, levels);
+    if (status == EXIT_SUCCESS)
         status = levels_draw(v, levels, name);
     font_levels_destroy(levels);
     font_outline_finish(&outline);
@@ -467,8 +547,16 @@ int verb_font(int argc, char **argv)
     int status = font_options(&v, argc, argv, &help);
     if (status != EXIT_SUCCESS || help)
         return status;
-    if (v.show_filter)
-        return filter_show(&v);
+    char *filter;
+    status = type_filter_read("font", v.filter, &filter);
+    if (status != EXIT_SUCCESS)
+        return status;
+    v.filter = filter;
+    if (v.show_filter) {
+        status = filter_show(&v);
+        free(filter);
+        return status;
+    }
     struct font_face *face = NULL;
     status = type_face_open("font", v.file, v.face, v.axes, &face);
     if (status == EXIT_SUCCESS) {
@@ -476,5 +564,6 @@ int verb_font(int argc, char **argv)
         status = v.glyph ? levels_make(&v, face) : specimen_make(&v, face);
     }
     font_face_close(face);
+    free(filter);
     return status;
 }

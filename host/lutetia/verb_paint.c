@@ -10,7 +10,8 @@
 #include <string.h>
 
 struct paint {
-    const char *text, *image_path, *font, *view, *frames_dir, *out_path;
+    const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
+    double angle_deg;
     double size_px; /* 0: so that the line fills the paper */
     double ink[3], water, wet;
     int size[2], steps, every, seed;
@@ -54,6 +55,10 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
          0},
         {"size", 0, OPTION_NUMBER, "PX", "of the em (so that the line fills the paper)",
          &paint->size_px, 1, 8192, 0},
+        {"filter", 0, OPTION_TEXT, "F", "of the type, as lutetia type has them (box)",
+         &paint->filter, 0, 0, 0},
+        {"angle", 0, OPTION_NUMBER, "DEG", "turns the type counterclockwise (0)",
+         &paint->angle_deg, -3600, 3600, 0},
         {"ink", 0, OPTION_NUMBERS, "C,M,Y", "cyan, magenta, yellow of the type, 0..1",
          paint->ink, 0, 1, 3},
         {"water", 0, OPTION_NUMBER, "W", "water put on with the type, 0..1 (0.8)",
@@ -124,6 +129,8 @@ static int screen_from_text(struct paint *paint)
 {
     struct paper_line line = {.text = paint->text,
                               .font = paint->font ? paint->font : font_first(fonts),
+                              .filter = paint->filter,
+                              .angle_deg = paint->angle_deg,
                               .size_px = paint->size_px};
     uint32_t missing = 0;
     if ((paint->size_px == 0 && line_fit(paint, &line) != PAPER_OK) ||
@@ -131,8 +138,9 @@ static int screen_from_text(struct paint *paint)
         return fail_paper("paint");
     if (missing)
         fprintf(stderr,
-                "lutetia paint: %s has no glyph for U+%04X; its sign for that is set instead\n",
-                line.font, (unsigned)missing);
+                "lutetia paint: no font has a glyph for U+%04X; %s's sign for that is set "
+                "instead\n",
+                (unsigned)missing, line.font);
     return EXIT_SUCCESS;
 }
 

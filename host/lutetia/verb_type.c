@@ -9,13 +9,27 @@
 #include <string.h>
 
 struct type {
-    const char *text, *font, *axes, *filter, *features, *language, *warp, *display, *out_path;
+    const char *text, *font, *axes, *filter, *features, *language, *warp, *display, *out_path,
+        *align;
     double size_px, rotate, shear, place[2], ink[3], gamma, darken_px, spacing_px, leading;
-    double margin_px;
+    double margin_px, width_px;
     struct option_list corners;
     int face, zoom;
     bool stripes, to_left, no_fallback, compare, statistics;
 };
+
+/* -1 if there is no such word. */
+static int align_of(const char *word)
+{
+    static const char *const words[] = {[FONT_ALIGN_LEFT] = "left",
+                                        [FONT_ALIGN_RIGHT] = "right",
+                                        [FONT_ALIGN_CENTER] = "center",
+                                        [FONT_ALIGN_JUSTIFY] = "justify"};
+    for (int i = FONT_ALIGN_LEFT; word && i <= FONT_ALIGN_JUSTIFY; i++)
+        if (strcmp(word, words[i]) == 0)
+            return i;
+    return word ? -1 : FONT_ALIGN_START;
+}
 
 static int type_options(struct type *t, int argc, char **argv, bool *help)
 {
@@ -57,6 +71,10 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
          1000, 0},
         {"leading", 0, OPTION_NUMBER, "L", "from line to line, of the size (the font's)",
          &t->leading, 0.1, 10, 0},
+        {"width", 0, OPTION_NUMBER, "PX", "lines are broken to fit (only at line ends)",
+         &t->width_px, 1, 1e6, 0},
+        {"align", 0, OPTION_TEXT, "A", "left, right, center or justify (as the text runs)",
+         &t->align, 0, 0, 0},
         {"margin", 0, OPTION_NUMBER, "PX", "around the text (8)", &t->margin_px, 0, 4096, 0},
         {"no-fallback", 0, OPTION_FLAG, NULL, "no other font for what this one has not",
          &t->no_fallback, 0, 0, 0},
@@ -76,7 +94,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         puts("\nFilters: box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, "
              "each "
              "with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
-             "round:radius,s0,s1,.. from the centre outwards.\n--corners: where the text's "
+             "round:radius,s0,s1,.. from the centre outwards; @FILE reads such words from a "
+             "file.\n--corners: where the text's "
              "upper "
              "left, upper right, lower right and lower left corners go.");
         return EXIT_SUCCESS;
@@ -97,6 +116,9 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         strcmp(t->display, "print") != 0)
         return fail_usage("type", "--display must be lcd, crt or print (got '%.60s')",
                           t->display);
+    if (align_of(t->align) < 0)
+        return fail_usage(
+            "type", "--align must be left, right, center or justify (got '%.60s')", t->align);
     return EXIT_SUCCESS;
 }
 
@@ -192,6 +214,8 @@ static int type_run(struct type *t, struct font_face *face)
                                         .language = t->language,
                                         .letter_spacing_px = t->spacing_px,
                                         .line_height = t->leading,
+                                        .width_px = t->width_px,
+                                        .align = (enum font_align)align_of(t->align),
                                         .no_fallback = t->no_fallback,
                                         .right_to_left = t->to_left ? 1 : 0};
     struct font_shaper *shaper = NULL;
@@ -253,9 +277,15 @@ int verb_type(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     struct font_face *face = NULL;
+    char *filter;
+    status = type_filter_read("type", t.filter, &filter);
+    if (status != EXIT_SUCCESS)
+        return status;
+    t.filter = filter;
     status = type_face_open("type", t.font, t.face, t.axes, &face);
     if (status == EXIT_SUCCESS)
         status = type_run(&t, face);
     font_face_close(face);
+    free(filter);
     return status;
 }

@@ -85,9 +85,11 @@ struct paper_ink { /* amounts that are added to a fiber; what it holds stays wit
 struct paper_screen {
     int width_px, height_px;
     uint8_t *gray;     /* rows from the top, no padding */
-    int origin_x_px;   /* type: where the line begins, from the left edge */
-    int baseline_y_px; /* type: the baseline, from the top edge */
-    double advance_px; /* type: the length of the line */
+    int origin_x_px;   /* type: its origin, from the left edge */
+    int baseline_y_px; /* type: the first baseline at the origin, from the top edge */
+    double advance_px; /* type: the length of the longest line, or the column */
+    double line_height_px;
+    int lines_count;
 };
 
 /* Adds ink to each fiber with x <= its x < x + width, and so in y; what lies off the sheet is ignored.
@@ -102,25 +104,41 @@ enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *s
 
 /* ---- type ---- */
 
-struct paper_line {
-    const char *text; /* UTF-8, one line */
-    const char
-        *font; /* a file, or a font file's name without its ending, found in the font folders */
-    double size_px;     /* of the em, 1..8192 */
-    double tracking_em; /* added between letters */
+enum paper_align { /* of lines, in the column or within the longest of them */
+                   PAPER_ALIGN_START, /* where the text's direction begins */
+                   PAPER_ALIGN_LEFT,
+                   PAPER_ALIGN_RIGHT,
+                   PAPER_ALIGN_CENTER,
+                   PAPER_ALIGN_JUSTIFY
 };
 
-/* Sets a line of type as a screen: anti-aliased, kerned (from the font's kern or GPOS table), as small as
- * its ink.  A missing glyph is set as the font's own sign for it; *missing (may be NULL) gets the first
- * code point without a glyph, or 0.
+/* What is zero is as usual. */
+struct paper_line {
+    const char *text;   /* UTF-8; lines end at newlines */
+    const char *font;   /* a file, or a font file's name without its ending, or a family */
+    double size_px;     /* of the em, 1..8192 */
+    double tracking_em; /* added between letters */
+    double anchor;     /* the part of the first baseline's length that the origin is at, 0..1 */
+    double x_px, y_px; /* moves the type between fibers, -1..1 */
+    double angle_deg;  /* turns it around its origin, counterclockwise */
+    double width_px;   /* of the column that lines are broken for; 0: none */
+    double leading;    /* from line to line, of the size; 0: the font's */
+    enum paper_align align;
+    const char *
+        filter; /* the pipeline's, docs/fonts.md; NULL: "box", the part of a fiber that is covered */
+    const char *features; /* OpenType: "-liga,ss01" */
+    const char *language; /* "fr" */
+    int right_to_left; /* 1 lines run to the left, -1 to the right, 0 as their first letter */
+    double pixels_max; /* of the screen; 0: 2^29 */
+};
+
+/* Sets type as a screen: shaped, filtered, in other fonts where this one lacks a character, as small as its ink. What no
+ * font has is set as the font's own sign for it; *missing (may be NULL) gets the first such code point, or 0.
  * Errors: BAD_ARGUMENT, BAD_FONT, BAD_TEXT, NO_MEMORY; *screen is then zeros.
  * Owns: the caller destroys *screen. */
 enum paper_status paper_line_screen(const struct paper_line *line, struct paper_screen *screen,
                                     uint32_t *missing);
 void paper_screen_destroy(struct paper_screen *screen);
-
-/* The file of a font that has the name, or NULL. Owns: the caller frees it. */
-char *paper_font_find(const char *name);
 
 /* ---- time ---- */
 

@@ -1,228 +1,208 @@
-/* paper_line.c - a line of type as a screen, by FreeType.
+/* paper_line.c - type as a screen, by the font pipeline.
  *
- * The line is laid out unhinted in font units scaled to 1/64 pixel, so letters stand where the type designer
- * put them; each is rendered at its own fraction of a pixel.  Where letters overlap the darker wins. */
+ * The text is shaped, set in lines, turned by its angle and drawn at its place between fibers. A screen's shade is the
+ * part of a fiber that the letters cover, through the filter; where letters overlap, one takes its part of what the other
+ * has left. */
 #include "paper_internal.h"
-#include "paper_kerning.h"
 
-#include FT_GLYPH_H
+#include <paint.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LETTERS_MAX = 4096, SCREEN_SIDE_MAX = 32768 };
-
-struct line_letter {
-    FT_Glyph glyph; /* rendered: an FT_BitmapGlyph at its place, y upwards from the baseline */
-};
+enum { SCREEN_SIDE_MAX = 32768 };
+static const double screen_pixels_max = 1 << 29;
 
 struct line_setting {
-    FT_Library library;
-    FT_Face face;
-    struct paper_kerning kerning;
-    struct line_letter letters[LETTERS_MAX];
-    int letters_count;
-    FT_Pos pen;       /* 1/64 pixel */
-    uint32_t missing; /* the first code point without a glyph, or 0 */
-    int found_count;  /* code points other than spaces that have one */
+    const struct paper_line *line;
+    struct font_face *face;
+    struct font_shaper *shaper;
+    struct font_painter *painter;
+    struct font_layout layout;
+    struct font_map map;
 };
 
-/* The next code point of UTF-8, *text moved past it; UINT32_MAX where it is malformed. */
-static uint32_t utf8_next(const char **text)
+/* What the pipeline said, as a failure of the paper's. */
+static enum paper_status pipeline_failed(enum font_status status, enum paper_status otherwise)
 {
-    const unsigned char *s = (const unsigned char *)*text;
-    int more = s[0] < 0x80 ? 0 : (s[0] & 0xe0) == 0xc0 ? 1 : (s[0] & 0xf0) == 0xe0 ? 2 : 3;
-    if (s[0] >= 0x80 && s[0] < 0xc2)
-        return UINT32_MAX;
-    if (s[0] > 0xf4)
-        return UINT32_MAX;
-    uint32_t code = more == 0 ? s[0] : s[0] & (0x3fu >> more);
-    for (int i = 1; i <= more; i++) {
-        if ((s[i] & 0xc0) != 0x80)
-            return UINT32_MAX;
-        code = code << 6 | (s[i] & 0x3fu);
-    }
-    static const uint32_t least[4] = {0, 0x80, 0x800, 0x10000};
-    if (code < least[more] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000))
-        return UINT32_MAX;
-    *text += more + 1;
-    return code;
+    return paper_fail(status == FONT_NO_MEMORY ? PAPER_NO_MEMORY : otherwise, "%s",
+                      font_error());
 }
 
-static enum paper_status font_open(struct line_setting *set, const struct paper_line *line)
+static enum paper_status line_check(const struct paper_line *line)
 {
-    if (FT_Init_FreeType(&set->library) != 0)
-        return paper_fail(PAPER_NO_MEMORY, "FreeType does not start: no memory");
-    char *path = paper_font_find(line->font);
-    if (!path)
-        return paper_fail(PAPER_BAD_FONT,
-                          "there is no font '%s'; give a font file, or the name of one in "
-                          "/usr/share/fonts",
-                          line->font ? line->font : "");
-    FT_Error error = FT_New_Face(set->library, path, 0, &set->face);
-    enum paper_status status = PAPER_OK;
-    if (error == FT_Err_Cannot_Open_Resource)
-        status = paper_fail(PAPER_BAD_FONT, "%s: there is no such font file", path);
-    else if (error)
-        status = paper_fail(PAPER_BAD_FONT, "%s: not a font that FreeType can read", path);
-    else if (!FT_IS_SCALABLE(set->face))
-        status = paper_fail(PAPER_BAD_FONT, "%s: the font has no outlines; choose one that has",
-                            path);
-    else if (FT_Set_Char_Size(set->face, 0, (FT_F26Dot6)lround(line->size_px * 64), 72, 72) !=
-             0)
-        status =
-            paper_fail(PAPER_BAD_FONT, "%s: cannot be set at %g pixels", path, line->size_px);
-    free(path);
-    return status;
-}
-
-static FT_Pos kerning_between(struct line_setting *set, unsigned left, unsigned right)
-{
-    FT_Vector kern = {0, 0};
-    if (FT_HAS_KERNING(set->face)) {
-        FT_Get_Kerning(set->face, left, right, FT_KERNING_UNFITTED, &kern);
-        return kern.x;
-    }
-    return FT_MulFix(paper_kerning_between(&set->kerning, left, right),
-                     set->face->size->metrics.x_scale);
-}
-
-/* Puts one glyph at the pen and moves the pen on. */
-static enum paper_status letter_set(struct line_setting *set, unsigned glyph)
-{
-    if (set->letters_count == LETTERS_MAX)
-        return paper_fail(PAPER_BAD_TEXT, "a line has at most %d letters", LETTERS_MAX);
-    FT_Glyph *out = &set->letters[set->letters_count].glyph;
-    if (FT_Load_Glyph(set->face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0 ||
-        FT_Get_Glyph(set->face->glyph, out) != 0)
-        return paper_fail(PAPER_BAD_FONT, "%s: glyph %u is damaged",
-                          set->face->family_name ? set->face->family_name : "the font", glyph);
-    set->letters_count++;
-    FT_Vector origin = {set->pen, 0};
-    FT_BBox box;
-    FT_Glyph_Get_CBox(*out, FT_GLYPH_BBOX_PIXELS, &box);
-    if (box.xMax - box.xMin > SCREEN_SIDE_MAX || box.yMax - box.yMin > SCREEN_SIDE_MAX)
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "a letter is larger than %d pixels; set it smaller", SCREEN_SIDE_MAX);
-    set->pen += set->face->glyph->linearHoriAdvance >> 10;
-    if (FT_Glyph_To_Bitmap(out, FT_RENDER_MODE_NORMAL, &origin, 1) != 0)
-        return paper_fail(PAPER_NO_MEMORY, "no memory to render a letter");
-    return PAPER_OK;
-}
-
-static enum paper_status line_set(struct line_setting *set, const struct paper_line *line)
-{
-    unsigned previous = 0;
-    FT_Pos tracking = (FT_Pos)lround(line->tracking_em * line->size_px * 64);
-    for (const char *text = line->text; *text;) {
-        uint32_t code = utf8_next(&text);
-        if (code == UINT32_MAX)
-            return paper_fail(PAPER_BAD_TEXT, "the text is not UTF-8 at its byte %zu",
-                              (size_t)(text - line->text) + 1);
-        if (code < 0x20) /* tabs and line ends: a line has neither */
-            code = ' ';
-        unsigned glyph = FT_Get_Char_Index(set->face, code);
-        if (glyph == 0 && set->missing == 0)
-            set->missing = code;
-        set->found_count += glyph != 0 && code != ' ';
-        if (previous)
-            set->pen += kerning_between(set, previous, glyph) + tracking;
-        enum paper_status status = letter_set(set, glyph);
-        if (status != PAPER_OK)
-            return status;
-        if (labs(set->pen) > SCREEN_SIDE_MAX * 64l)
-            return paper_fail(PAPER_BAD_ARGUMENT,
-                              "the line is longer than %d pixels; set it smaller",
-                              SCREEN_SIDE_MAX);
-        previous = glyph;
-    }
-    if (set->missing && !set->found_count)
-        return paper_fail(
-            PAPER_BAD_TEXT,
-            "%s has no glyphs for \"%.60s\" (U+%04X is the first it lacks); choose "
-            "another font",
-            set->face->family_name ? set->face->family_name : "the font", line->text,
-            (unsigned)set->missing);
-    return PAPER_OK;
-}
-
-static void letter_blend(struct paper_screen *screen, FT_BitmapGlyph letter)
-{
-    for (unsigned y = 0; y < letter->bitmap.rows; y++) {
-        const uint8_t *from = letter->bitmap.buffer + (long)y * letter->bitmap.pitch;
-        int row = screen->baseline_y_px - letter->top + (int)y;
-        uint8_t *to = screen->gray + (size_t)row * (size_t)screen->width_px +
-                      (screen->origin_x_px + letter->left);
-        for (unsigned x = 0; x < letter->bitmap.width; x++)
-            to[x] = from[x] > to[x] ? from[x] : to[x];
-    }
-}
-
-static enum paper_status line_render(const struct line_setting *set,
-                                     const struct paper_line *line, struct paper_screen *screen)
-{
-    int left = SCREEN_SIDE_MAX, right = -SCREEN_SIDE_MAX, top = right, bottom = left;
-    for (int i = 0; i < set->letters_count; i++) {
-        FT_BitmapGlyph letter = (FT_BitmapGlyph)set->letters[i].glyph;
-        int width = (int)letter->bitmap.width, height = (int)letter->bitmap.rows;
-        if (width == 0 || height == 0)
-            continue;
-        left = letter->left < left ? letter->left : left;
-        right = letter->left + width > right ? letter->left + width : right;
-        top = letter->top > top ? letter->top : top;
-        bottom = letter->top - height < bottom ? letter->top - height : bottom;
-    }
-    if (left >= right)
-        return paper_fail(PAPER_BAD_TEXT, "the text \"%.60s\" leaves no mark on the paper",
-                          line->text);
-    screen->width_px = right - left;
-    screen->height_px = top - bottom;
-    screen->origin_x_px = -left;
-    screen->baseline_y_px = top;
-    screen->advance_px = (double)set->pen / 64;
-    screen->gray = calloc((size_t)screen->height_px, (size_t)screen->width_px);
-    if (!screen->gray)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a line of %dx%d pixels", right - left,
-                          top - bottom);
-    for (int i = 0; i < set->letters_count; i++)
-        letter_blend(screen, (FT_BitmapGlyph)set->letters[i].glyph);
-    return PAPER_OK;
-}
-
-enum paper_status paper_line_screen(const struct paper_line *line, struct paper_screen *screen,
-                                    uint32_t *missing)
-{
-    *screen = (struct paper_screen){0};
-    if (missing)
-        *missing = 0;
     if (!line->text || !(line->size_px >= 1 && line->size_px <= 8192) ||
         !(fabs(line->tracking_em) <= 16))
         return paper_fail(
             PAPER_BAD_ARGUMENT,
             "type is 1..8192 pixels large and tracked by at most 16 em (got %g, %g)",
             line->size_px, line->tracking_em);
-    struct line_setting *set = calloc(1, sizeof *set);
-    if (!set)
-        return paper_fail(PAPER_NO_MEMORY, "no memory to set type");
-
-    enum paper_status status = font_open(set, line);
-    if (status == PAPER_OK) {
-        paper_kerning_create(&set->kerning, set->face);
-        status = line_set(set, line);
+    if (!(fabs(line->x_px) <= 1 && fabs(line->y_px) <= 1 && fabs(line->angle_deg) <= 3600 &&
+          line->width_px >= 0 && line->width_px <= 1e6 && line->leading >= 0 &&
+          line->leading <= 100 && line->anchor >= 0 && line->anchor <= 1 &&
+          (unsigned)line->align <= PAPER_ALIGN_JUSTIFY))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "type is placed by -1..1 fibers, turned by up to 3600 degrees, set "
+                          "in columns of up to 1e6 pixels with a leading of up to 100, and "
+                          "anchored at 0..1 (got %g, %g; %g; %g; %g; %g)",
+                          line->x_px, line->y_px, line->angle_deg, line->width_px,
+                          line->leading, line->anchor);
+    const char *at = line->text, *end = at + strlen(at);
+    for (uint32_t character; at < end;) {
+        size_t byte = (size_t)(at - line->text) + 1;
+        if (!font_utf8_next(&at, end, &character))
+            return paper_fail(PAPER_BAD_TEXT, "the text is not UTF-8 at its byte %zu", byte);
     }
+    return PAPER_OK;
+}
+
+static enum paper_status line_set(struct line_setting *set)
+{
+    static const enum font_align aligns[] = {FONT_ALIGN_START, FONT_ALIGN_LEFT,
+                                             FONT_ALIGN_RIGHT, FONT_ALIGN_CENTER,
+                                             FONT_ALIGN_JUSTIFY};
+    const struct paper_line *line = set->line;
+    struct font_painter_def def = font_painter_def_default();
+    def.filter = line->filter ? line->filter : "box";
+    struct font_text_options options = {.features = line->features,
+                                        .language = line->language,
+                                        .letter_spacing_px = line->tracking_em * line->size_px,
+                                        .line_height = line->leading,
+                                        .width_px = line->width_px,
+                                        .align = aligns[line->align],
+                                        .right_to_left = line->right_to_left};
+    enum font_status status = font_face_open(line->font, 0, &set->face);
+    if (status != FONT_OK)
+        return pipeline_failed(status, PAPER_BAD_FONT);
+    status = font_shaper_create(set->face, &set->shaper);
+    if (status == FONT_OK)
+        status = font_painter_create(&def, &set->painter);
+    if (status == FONT_OK)
+        status = font_shaper_layout(set->shaper, line->text, strlen(line->text), line->size_px,
+                                    &options, &set->layout);
+    set->map = font_map_rotation(line->angle_deg);
+    return status == FONT_OK ? PAPER_OK : pipeline_failed(status, PAPER_BAD_ARGUMENT);
+}
+
+/* Whether anything but the font's sign for what it has not would be drawn. */
+static bool anything_found(const struct line_setting *set)
+{
+    bool found = false;
+    for (int i = 0; i < set->layout.glyphs_count && !found; i++) {
+        const struct font_placed *g = &set->layout.glyphs[i];
+        struct font_outline outline;
+        if (g->glyph && font_face_outline_raw(g->face, g->glyph, &outline) == FONT_OK) {
+            found = outline.segments_count > 0;
+            font_outline_finish(&outline);
+        }
+    }
+    return found;
+}
+
+/* Cuts off the rows and columns around that hold nothing: a filter's reach is more than what is left of it when
+ * rounded. false: there is no ink at all. */
+static bool screen_crop(struct paper_screen *s)
+{
+    int left = s->width_px, right = -1, top = s->height_px, bottom = -1;
+    for (int y = 0; y < s->height_px; y++) {
+        const uint8_t *row = s->gray + (size_t)y * (size_t)s->width_px;
+        int first = 0, last = s->width_px - 1;
+        while (first <= last && !row[first])
+            first++;
+        if (first > last)
+            continue;
+        while (!row[last])
+            last--;
+        left = first < left ? first : left;
+        right = last > right ? last : right;
+        top = top < y ? top : y;
+        bottom = y;
+    }
+    if (bottom < 0)
+        return false;
+    size_t width = (size_t)(right - left + 1), height = (size_t)(bottom - top + 1);
+    for (size_t y = 0; y < height; y++)
+        memmove(s->gray + y * width,
+                s->gray + ((size_t)top + y) * (size_t)s->width_px + (size_t)left, width);
+    uint8_t *less = realloc(s->gray, width * height);
+    s->gray = less ? less : s->gray;
+    s->origin_x_px -= left;
+    s->baseline_y_px -= top;
+    s->width_px = (int)width;
+    s->height_px = (int)height;
+    return true;
+}
+
+static enum paper_status line_draw(struct line_setting *set, struct paper_screen *screen)
+{
+    const struct paper_line *line = set->line;
+    struct font_box box;
+    struct font_point anchor = {-line->anchor * set->layout.width_px, 0};
+    double jacobian[4];
+    font_map_point(&set->map, anchor, &anchor, jacobian);
+    double x = line->x_px + anchor.x, y = line->y_px + anchor.y;
+    enum font_status status =
+        font_painter_measure(set->painter, &set->layout, &set->map, x, y, &box);
+    if (status != FONT_OK)
+        return pipeline_failed(status, PAPER_BAD_FONT);
+    double width = box.x1 - box.x0, height = box.y1 - box.y0;
+    double most = line->pixels_max > 0 ? line->pixels_max : screen_pixels_max;
+    if (width > SCREEN_SIDE_MAX || height > SCREEN_SIDE_MAX || width * height > most)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "the type would be %.0fx%.0f pixels, and %d a side and %.0f in all "
+                          "are the most; set it smaller",
+                          width, height, SCREEN_SIDE_MAX, most);
+    if (width > 0 && height > 0) {
+        *screen = (struct paper_screen){.width_px = (int)width,
+                                        .height_px = (int)height,
+                                        .origin_x_px = -(int)box.x0,
+                                        .baseline_y_px = -(int)box.y0};
+        screen->gray = calloc((size_t)screen->height_px, (size_t)screen->width_px);
+        if (!screen->gray)
+            return paper_fail(PAPER_NO_MEMORY, "no memory for type of %dx%d pixels",
+                              screen->width_px, screen->height_px);
+        struct font_cover cover = {screen->width_px, screen->height_px, screen->width_px,
+                                   screen->gray};
+        status = font_painter_cover(set->painter, &set->layout, &set->map,
+                                    x + screen->origin_x_px, y + screen->baseline_y_px, &cover);
+        if (status != FONT_OK)
+            return pipeline_failed(status, PAPER_BAD_FONT);
+    }
+    if (!screen->gray || !screen_crop(screen))
+        return paper_fail(PAPER_BAD_TEXT, "the text \"%.60s\" leaves no mark on the paper",
+                          line->text);
+    screen->advance_px = set->layout.width_px;
+    screen->lines_count = set->layout.lines_count;
+    screen->line_height_px = set->layout.line_height_px;
+    return PAPER_OK;
+}
+
+enum paper_status paper_line_screen(const struct paper_line *line, struct paper_screen *screen,
+                                    uint32_t *missing)
+{
+    struct line_setting set = {.line = line};
+    *screen = (struct paper_screen){0};
+    if (missing)
+        *missing = 0;
+    enum paper_status status = line_check(line);
     if (status == PAPER_OK)
-        status = line_render(set, line, screen);
-    if (status == PAPER_OK && missing)
-        *missing = set->missing;
+        status = line_set(&set);
+    if (status == PAPER_OK && set.layout.missing_count && !anything_found(&set))
+        status =
+            paper_fail(PAPER_BAD_TEXT,
+                       "no font has glyphs for \"%.60s\" (U+%04X is the first that is lacking)",
+                       line->text, (unsigned)set.layout.missing[0]);
+    if (status == PAPER_OK)
+        status = line_draw(&set, screen);
+    if (status == PAPER_OK && missing && set.layout.missing_count)
+        *missing = set.layout.missing[0];
     if (status != PAPER_OK)
         paper_screen_destroy(screen);
-
-    for (int i = 0; i < set->letters_count; i++)
-        FT_Done_Glyph(set->letters[i].glyph);
-    paper_kerning_destroy(&set->kerning);
-    if (set->library)
-        FT_Done_FreeType(set->library); /* takes the face with it */
-    free(set);
+    font_layout_finish(&set.layout);
+    font_painter_destroy(set.painter);
+    font_shaper_destroy(set.shaper);
+    font_face_close(set.face);
     return status;
 }
 

@@ -232,12 +232,69 @@ static void fine_masters_are_nearly_exact(void **state)
     font_outline_finish(&o);
 }
 
+/* A master written as a picture, retouched there and read again: the same ink but for what was retouched, and all below
+ * made of it. */
+static void masters_are_retouched_as_pictures(void **state)
+{
+    (void)state;
+    enum { MARGIN = 7 };
+    struct font_outline o;
+    struct font_levels *l;
+    const struct font_master *m;
+    const struct font_gray *gray;
+    struct font_levels_made made;
+    struct font_master read = {0};
+    outline_load("EBGaramond12-Italic", 'k', &o);
+    assert_font(font_levels_create(&o, 500, 24, "gaussian-fast", &l));
+    font_levels_use_master(l, true);
+    assert_font(font_levels_gray(l, 0, 0, &gray));
+    struct font_gray before = gray_copy(gray);
+    assert_font(font_levels_master(l, &m));
+    struct font_master_frame frame = {m->em_px,
+                                      m->left_px - MARGIN,
+                                      m->top_px - MARGIN,
+                                      m->width_px + 2 * MARGIN,
+                                      m->height_px + 2 * MARGIN,
+                                      m->advance_px};
+    uint8_t *picture = malloc((size_t)frame.width_px * (size_t)frame.height_px);
+    assert_non_null(picture);
+    font_master_to_picture(m, MARGIN, picture);
+    assert_font(font_master_from_picture(&read, &frame, picture));
+    assert_int_equal(font_master_differs(m, &read), 0);
+    assert_int_equal(font_master_ink(m), font_master_ink(&read));
+    assert_font(font_levels_master_set(l, &read));
+    assert_font(font_levels_gray(l, 0, 0, &gray));
+    assert_int_equal(gray_difference(gray, &before), 0);
+    /* Ink in the margin, beyond the master's own box. */
+    for (int r = 0; r < 40; r++)
+        memset(picture + (size_t)r * (size_t)frame.width_px, 20, 40);
+    assert_font(font_master_from_picture(&read, &frame, picture));
+    assert_true(font_master_at(&read, frame.left_px, frame.top_px));
+    assert_int_equal(font_master_differs(m, &read),
+                     font_master_ink(&read) - font_master_ink(m));
+    font_levels_use_master(l, false); /* edited: from the master all the same */
+    assert_font(font_levels_master_set(l, &read));
+    assert_font(font_levels_gray(l, 0, 0, &gray));
+    assert_true(gray->width_px >= before.width_px && gray->pixels[2 * gray->pitch + 2] > 50);
+    font_levels_made_get(l, &made);
+    assert_true(made.masters == 1 && made.rectangles == 3 && made.filters == 1);
+    /* What cannot be. */
+    frame.em_px = 0;
+    assert_int_equal(font_master_from_picture(&read, &frame, picture), FONT_BAD_ARGUMENT);
+    assert_int_equal(font_levels_master_set(l, &read), FONT_BAD_ARGUMENT);
+    free(before.pixels);
+    free(picture);
+    font_levels_destroy(l);
+    font_outline_finish(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masters_are_what_is_inside),
         cmocka_unit_test(rectangles_are_the_master),
         cmocka_unit_test(edits_flow_down_and_no_further),
+        cmocka_unit_test(masters_are_retouched_as_pictures),
         cmocka_unit_test(fine_masters_are_nearly_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

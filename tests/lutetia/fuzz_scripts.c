@@ -151,7 +151,7 @@ static void statement(struct source *s)
         "put",  "wash", "blot",    "resist",   "unresist", "dry",    "seal",     "layer",
         "mask", "at",   "total",   "air",      "frame",    "close",  "step",     "wash",
         "lift", "salt", "varnish", "splatter", "brush",    "stroke", "separate", "picture",
-        "undo", "redo", "to",      "moments",  "save",     "film"};
+        "undo", "redo", "to",      "moments",  "save",     "film",   "type"};
     unsigned kind = byte(s) % 10;
     say(s, "pcall(function() ");
     if (kind < 2) {

@@ -45,6 +45,12 @@ static const struct {
     {"text('a', {font='/etc/passwd'})", "font's name", 1, NULL, NULL},
     {"text('\\xff')", "UTF-8", 1, NULL, NULL},
     {"text('a', {font='no such font at all'})", "no such font", 1, NULL, NULL},
+    {"text('a', {filter='soft'})", "there is no filter", 1, NULL, NULL},
+    {"text('a', {width=-5})", "text width must be", 1, NULL, NULL},
+    {"text('a', {align='middle'})", "justify", 1, NULL, NULL},
+    {"text('a', {features='='})", "there is no feature", 1, NULL, NULL},
+    {"paper{}:type('a', {size=12}, {soot=1})", "no pigment 'soot'", 1, NULL, NULL},
+    {"paper{}:type('a', {sise=12}, {water=1})", "text has no 'sise'", 1, NULL, NULL},
     {"image('/etc/passwd')", "folder given", 1, NULL, NULL},
     {"image('../x.png')", "folder given", 1, NULL, NULL},
     {"image('none.png')", "none.png", 1, NULL, NULL},
@@ -151,6 +157,10 @@ static void a_script_makes_its_pictures(void **state)
         "assert(p.steps == 3)\n"
         "assert(p:total('water') + p:total('dried') == before[1])\n"
         "assert(p:total('cyan') == before[2] and p:total('spot') == before[3])\n"
+        "local long, high = p:type('a b', {size = 9.5, x = 4.25, y = 12.5, width = 8, angle = "
+        "3, "
+        "filter = 'cone'}, {cyan = 0.3})\n"
+        "assert(long >= 8 and high > 9.5 and p:total('cyan') > before[2])\n"
         "p:frame('a.png') p:frame('b.png', {layer = 'fixed pigment', pigment = 'cyan', bits = "
         "16})\n"
         "p:seal() assert(p:total('cyan') == 0)\n"

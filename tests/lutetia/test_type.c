@@ -76,6 +76,21 @@ static void type_is_set(void **state)
     unlink(path);
 }
 
+static void lines_are_broken_to_fit(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("lines.png");
+    static const char text[] = "a town in a marsh, in ink on wet paper";
+    struct child child = {.arguments = {"", "type", text, "--size", "20", "--width", "150",
+                                        "--align", "justify", "--statistics", "--margin", "0",
+                                        "-o", path}};
+    int width, height;
+    run(&child, 0, "");
+    assert_non_null(strstr(child.output, " 3 lines, 150.00 pixels wide"));
+    assert_true(ink_of(path, &width, &height) > 300 && width < 160 && height > 55);
+    unlink(path);
+}
+
 static void comparisons_are_shown(void **state)
 {
     (void)state;
@@ -110,6 +125,30 @@ static void fonts_and_filters_are_shown(void **state)
     run(&levels, 0, "");
     assert_non_null(strstr(levels.output, "rectangles: "));
     assert_true(ink_of(path, &width, &height) > 5000);
+    /* The master out, and in again: the same; filters from files. */
+    const char *master = scratch_path("master.png"), *words = scratch_path("filter.txt");
+    struct child out = {.arguments = {"", "font", "DejaVuSans", "--glyph", "B", "--em", "300",
+                                      "--master-out", master, "-o", path}};
+    run(&out, 0, "");
+    struct child in = {.arguments = {"", "font", "DejaVuSans", "--glyph", "B", "--em", "300",
+                                     "--master", master, "--merge", "2", "-o", path}};
+    run(&in, 0, "");
+    assert_non_null(strstr(in.output, "retouched: 0 pixels\nmerged: "));
+    struct child other = {.arguments = {"", "font", "DejaVuSans", "--glyph", "B", "--em", "310",
+                                        "--master", master, "-o", path}};
+    run(&other, 1, "with the same --em");
+    FILE *file = fopen(words, "w");
+    assert_non_null(file);
+    fputs("samples: 1.5\n1 0.9,\n0.3 0\n", file);
+    fclose(file);
+    char at[600];
+    snprintf(at, sizeof at, "@%s", words);
+    struct child from_file = {
+        .arguments = {"", "font", "--show-filter", "--filter", at, "-o", path}};
+    run(&from_file, 0, "");
+    assert_non_null(strstr(from_file.output, "samples:1.5,1,0.9,0.3,0: radius 1.5 pixels"));
+    unlink(words);
+    unlink(master);
     struct child filter = {
         .arguments = {"", "font", "--show-filter", "--filter", "cone:1.5", "-o", path}};
     run(&filter, 0, "");
@@ -122,7 +161,7 @@ static void wrong_lines_are_said(void **state)
 {
     (void)state;
     static const struct {
-        const char *arguments[6];
+        const char *arguments[8];
         int status;
         const char *says;
     } cases[] = {
@@ -141,6 +180,11 @@ static void wrong_lines_are_said(void **state)
         {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
         {{"type", "a", "--features", "="}, 1, "there is no feature"},
         {{"type", "a", "-o", "/nowhere/a.png"}, 1, "/nowhere"},
+        {{"type", "a", "--filter", "@/nowhere"}, 1, "/nowhere: "},
+        {{"type", "a", "--width", "-3"}, 2, "--width must be"},
+        {{"type", "a", "--align", "middle"}, 2, "--align must be"},
+        {{"font", "DejaVuSans", "--merge", "3"}, 2, "want a --glyph"},
+        {{"font", "DejaVuSans", "--glyph", "a", "--master", "/nowhere"}, 1, "/nowhere"},
         {{"font"}, 2, "give a font file"},
         {{"font", "DejaVuSans", "--glyph", "ab"}, 2, "--glyph must be one character"},
         {{"font", "DejaVuSans", "--glyph", "U+F0000"}, 1, "no glyph for U+F0000"},
@@ -164,9 +208,8 @@ static void wrong_lines_are_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(type_is_set),
-        cmocka_unit_test(comparisons_are_shown),
-        cmocka_unit_test(fonts_and_filters_are_shown),
+        cmocka_unit_test(type_is_set),           cmocka_unit_test(lines_are_broken_to_fit),
+        cmocka_unit_test(comparisons_are_shown), cmocka_unit_test(fonts_and_filters_are_shown),
         cmocka_unit_test(wrong_lines_are_said),
     };
     lutetia = getenv("LUTETIA");

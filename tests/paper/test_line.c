@@ -1,4 +1,5 @@
 /* test_line.c - lines of type: where letters stand, what is refused. */
+#include <face.h>
 #include <paper.h>
 
 #include <math.h>
@@ -155,12 +156,99 @@ static void wrong_sizes_are_refused(void **state)
     assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_BAD_ARGUMENT);
 }
 
+static double ink_of(const struct paper_screen *s)
+{
+    double ink = 0;
+    for (size_t i = 0; i < (size_t)s->width_px * (size_t)s->height_px; i++)
+        ink += s->gray[i];
+    return ink / 255;
+}
+
+/* Moved by parts of a fiber, turned, through another filter: as much ink, elsewhere. */
+static void type_is_placed_turned_and_filtered(void **state)
+{
+    (void)state;
+    struct paper_line line = {.text = "Paris", .font = FONT, .size_px = 31.5};
+    struct paper_screen plain = line_make(line.text, FONT, line.size_px), s;
+    double ink = ink_of(&plain);
+    static const struct {
+        double x_px, y_px, angle_deg, anchor;
+        const char *filter;
+    } cases[] = {{0.3, 0.7, 0, 0, NULL},
+                 {0, 0, 30, 0, NULL},
+                 {0, 0, 90, 0.5, NULL},
+                 {0, 0, 0, 1, "gaussian-fast"},
+                 {0.5, 0.5, 211, 0.25, "cone:2"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        line.x_px = cases[i].x_px;
+        line.y_px = cases[i].y_px;
+        line.angle_deg = cases[i].angle_deg;
+        line.anchor = cases[i].anchor;
+        line.filter = cases[i].filter;
+        assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_OK);
+        /* Letters that touch may share a little. */
+        if (fabs(ink_of(&s) / ink - 1) > 0.004)
+            fail_msg("case %zu: ink %g for %g", i, ink_of(&s), ink);
+        assert_true(fabs(s.advance_px - plain.advance_px) < 1e-9);
+        if (cases[i].angle_deg == 90) { /* reads upwards, its middle at the origin */
+            assert_true(s.height_px > 2 * s.width_px);
+            assert_true(abs(s.baseline_y_px - s.height_px / 2) < 4);
+        }
+        if (cases[i].anchor == 1)
+            assert_true(s.origin_x_px > s.advance_px - 3);
+        paper_screen_destroy(&s);
+    }
+    paper_screen_destroy(&plain);
+}
+
+static void type_is_set_in_columns(void **state)
+{
+    (void)state;
+    struct paper_line line = {.text = "a town in a marsh, in ink on wet paper",
+                              .font = FONT,
+                              .size_px = 20,
+                              .width_px = 150,
+                              .align = PAPER_ALIGN_JUSTIFY,
+                              .leading = 1.5};
+    struct paper_screen s;
+    assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_OK);
+    assert_true(s.lines_count >= 3 && s.line_height_px == 30 && s.advance_px == 150);
+    assert_true(s.width_px > 140 && s.width_px < 155);
+    assert_true(s.height_px > 30 * (s.lines_count - 1));
+    paper_screen_destroy(&s);
+    static const struct paper_line wrong[] = {
+        {.width_px = -1},   {.width_px = NAN},    {.angle_deg = INFINITY},
+        {.x_px = 3},        {.anchor = 2},        {.align = (enum paper_align)9},
+        {.filter = "soft"}, {.features = "="}, {.pixels_max = 100}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        line = wrong[i];
+        line.text = "Paris";
+        line.font = FONT;
+        line.size_px = 40;
+        assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_BAD_ARGUMENT);
+        assert_null(s.gray);
+    }
+}
+
+/* Another font has it: nothing is missing, and something is drawn for it. */
+static void what_a_font_lacks_comes_from_another(void **state)
+{
+    (void)state;
+    struct paper_line line = {
+        .text = "\xe2\x99\x9e", .font = "EBGaramond12-Italic", .size_px = 40}; /* a knight */
+    struct paper_screen s;
+    uint32_t missing = 1;
+    assert_int_equal(paper_line_screen(&line, &s, &missing), PAPER_OK);
+    assert_true(missing == 0 && ink_of(&s) > 100);
+    paper_screen_destroy(&s);
+}
+
 /* A damaged font is refused or set somehow; nothing worse. */
 static void damaged_fonts_do_no_harm(void **state)
 {
     (void)state;
     enum { MUTATIONS = 150 };
-    char *path = paper_font_find(FONT_GPOS), damaged[] = "/tmp/lutetia-font-XXXXXX";
+    char *path = font_face_find(FONT_GPOS, NULL), damaged[] = "/tmp/lutetia-font-XXXXXX";
     assert_non_null(path);
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -201,6 +289,9 @@ int main(void)
         cmocka_unit_test(empty_text_leaves_no_mark),
         cmocka_unit_test(wrong_fonts_are_named),
         cmocka_unit_test(wrong_sizes_are_refused),
+        cmocka_unit_test(type_is_placed_turned_and_filtered),
+        cmocka_unit_test(type_is_set_in_columns),
+        cmocka_unit_test(what_a_font_lacks_comes_from_another),
         cmocka_unit_test(damaged_fonts_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -433,20 +433,20 @@ void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_i
     EACH(floats(dest)[words(address)[i]] += floats(source)[i]);
 }
 
-void CM_spread_with_f_add_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
-                             unsigned int s, unsigned int e)
+/* Of doubles, along the first axis. */
+void CM_get_from_power_two_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
+                              unsigned int log2_distance, unsigned int direction,
+                              unsigned int len)
 {
-    (void)e;
-    int width = the()->width, height = the()->height;
-    if (axis != 0 || s != 52 || !the()->all)
+    size_t width = (size_t)the()->width, count = (size_t)the()->count;
+    size_t by = (width << log2_distance) % count;
+    double *moved = malloc(count * sizeof *moved);
+    if (axis != 0 || len != 64 || !the()->all || !moved)
         abort();
-    for (int x = 0; x < width; x++) {
-        double sum = 0;
-        for (int y = 0; y < height; y++)
-            sum += doubles(source)[y * width + x];
-        for (int y = 0; y < height; y++)
-            doubles(dest)[y * width + x] = sum;
-    }
+    for (size_t i = 0; i < count; i++)
+        moved[i] = doubles(source)[(direction == CM_upward ? i + by : i + count - by) % count];
+    memcpy(doubles(dest), moved, count * sizeof *moved);
+    free(moved);
 }
 
 void CM_f_gt_constant_1L(CM_field_id_t source, double value, unsigned int s, unsigned int e)
