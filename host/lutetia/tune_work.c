@@ -5,11 +5,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Of STENCIL: water, absorbency, pigment; the others have two. */
+enum { FIELDS = 3 };
+
 struct tune_work {
     enum tune_kind kind;
     struct machine *machine;
     int height;
-    uint32_t a, b; /* fields of floats */
+    uint32_t fields[FIELDS]; /* of floats */
     bool failed;
 };
 
@@ -18,7 +21,7 @@ static const struct kind {
     const char *name;
     int height, width, turns;
     bool apart; /* each turn is evaluated by itself */
-    bool (*turn)(struct machine *m, uint32_t a, uint32_t b);
+    bool (*turn)(struct machine *m, const uint32_t *fields);
 } kinds[TUNE_KINDS];
 
 static char error[1100];
@@ -46,39 +49,47 @@ static struct machine_value *field(struct machine *m, uint32_t id)
 }
 
 /* Stays between 0 and 1: x' = 3.5 x (1 - x), some times over. */
-static bool arithmetic_turn(struct machine *m, uint32_t a, uint32_t b)
+static bool arithmetic_turn(struct machine *m, const uint32_t *fields)
 {
-    struct machine_value *x = field(m, a), *y = field(m, b);
+    struct machine_value *x = field(m, fields[0]), *y = field(m, fields[1]);
     for (int i = 0; i < 12; i++) {
         struct machine_value *rest = machine_binary(m, MACHINE_FSUB, number(m, 1), x);
         rest = machine_binary(m, MACHINE_FMUL, rest, number(m, 3.5));
         x = machine_binary(m, MACHINE_FMUL, x, rest);
         x = machine_binary(m, MACHINE_FMAX, x, y);
     }
-    return machine_field_store(m, a, x, MACHINE_EVERYWHERE) == MACHINE_OK;
+    return machine_field_store(m, fields[0], x, MACHINE_EVERYWHERE) == MACHINE_OK;
 }
 
-static bool traffic_turn(struct machine *m, uint32_t a, uint32_t b)
+static bool traffic_turn(struct machine *m, const uint32_t *fields)
 {
-    struct machine_value *x = machine_binary(m, MACHINE_FSUB, field(m, b), field(m, a));
-    return machine_field_store(m, a, x, MACHINE_EVERYWHERE) == MACHINE_OK;
+    struct machine_value *x =
+        machine_binary(m, MACHINE_FSUB, field(m, fields[1]), field(m, fields[0]));
+    return machine_field_store(m, fields[0], x, MACHINE_EVERYWHERE) == MACHINE_OK;
 }
 
-/* What flows in across the face towards the lower neighbour flows out of that. */
-static bool stencil_turn(struct machine *m, uint32_t a, uint32_t b)
+/* What flows in across the face towards the lower neighbour flows out of that. wet: NULL, or what it goes with. */
+static bool spread(struct machine *m, uint32_t substance, uint32_t absorbency,
+                   struct machine_value *wet, int axis)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        struct machine_value *water = field(m, a), *in;
-        in = machine_binary(m, MACHINE_FSUB, machine_shift(m, water, axis, -1), water);
-        in = machine_binary(m, MACHINE_FMUL, in, field(m, b));
-        struct machine_value *out = machine_shift(m, in, axis, 1);
-        water = machine_binary(m, MACHINE_FADD, water, in);
-        water = machine_binary(m, MACHINE_FSUB, water, out);
-        water = machine_binary(m, MACHINE_FMIN, water, number(m, 1));
-        water = machine_binary(m, MACHINE_FMAX, water, number(m, 0));
-        if (machine_field_store(m, a, water, MACHINE_EVERYWHERE) != MACHINE_OK)
+    struct machine_value *x = field(m, substance), *in;
+    in = machine_binary(m, MACHINE_FSUB, machine_shift(m, x, axis, -1), x);
+    in = machine_binary(m, MACHINE_FMUL, in, field(m, absorbency));
+    if (wet)
+        in = machine_binary(m, MACHINE_FMUL, in, wet);
+    struct machine_value *out = machine_shift(m, in, axis, 1);
+    x = machine_binary(m, MACHINE_FSUB, machine_binary(m, MACHINE_FADD, x, in), out);
+    x = machine_binary(m, MACHINE_FMIN, x, number(m, 1));
+    x = machine_binary(m, MACHINE_FMAX, x, number(m, 0));
+    return machine_field_store(m, substance, x, MACHINE_EVERYWHERE) == MACHINE_OK;
+}
+
+static bool stencil_turn(struct machine *m, const uint32_t *fields)
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (!spread(m, fields[0], fields[1], NULL, axis) ||
+            !spread(m, fields[2], fields[1], field(m, fields[0]), axis))
             return false;
-    }
     return true;
 }
 
@@ -99,7 +110,7 @@ static void turn_again(const struct machine_call *call)
     if (machine_call_foreseen(w->machine, &known))
         return;
     machine_begin(w->machine);
-    if (kinds[w->kind].turn(w->machine, w->a, w->b)) {
+    if (kinds[w->kind].turn(w->machine, w->fields)) {
         machine_call_performed(w->machine);
     } else {
         w->failed = true;
@@ -162,17 +173,14 @@ struct tune_work *tune_work_create(enum tune_kind kind, int height,
     struct machine *m = w->machine;
     int set = machine_vpset_create(m, dimensions, 2);
     machine_vpset_select(m, set);
-    w->a = machine_field_allocate(m, set, 32, MACHINE_HEAP);
-    w->b = machine_field_allocate(m, set, 32, MACHINE_HEAP);
-    if (!w->a || !w->b) {
-        snprintf(error, sizeof error, "%s", machine_error(m));
-        tune_work_destroy(w);
-        return NULL;
-    }
-    if (!field_fill(m, w->a, tune_work_count(w), 1) ||
-        !field_fill(m, w->b, tune_work_count(w), 2)) {
-        tune_work_destroy(w);
-        return NULL;
+    for (uint32_t i = 0; i < FIELDS; i++) {
+        w->fields[i] = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+        if (!w->fields[i])
+            snprintf(error, sizeof error, "%s", machine_error(m));
+        if (!w->fields[i] || !field_fill(m, w->fields[i], tune_work_count(w), i + 1)) {
+            tune_work_destroy(w);
+            return NULL;
+        }
     }
     return w;
 }
@@ -204,7 +212,8 @@ double tune_work_run(struct tune_work *w)
 
 bool tune_work_read(struct tune_work *w, float *out)
 {
-    if (machine_field_download(w->machine, w->a, MACHINE_F32, out) == MACHINE_OK)
+    uint32_t last = w->fields[w->kind == TUNE_STENCIL ? FIELDS - 1 : 0];
+    if (machine_field_download(w->machine, last, MACHINE_F32, out) == MACHINE_OK)
         return true;
     snprintf(error, sizeof error, "%s", machine_error(w->machine));
     return false;

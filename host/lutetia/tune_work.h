@@ -26,10 +26,10 @@ struct tune_work *tune_work_create(enum tune_kind kind, int height,
 void tune_work_destroy(struct tune_work *w); /* takes NULL */
 /* Some turns of it, to the end: nanoseconds for each turn and processor. Negative: tune_work_error(). */
 double tune_work_run(struct tune_work *w);
-/* What it has come to: numbers that are the same for every tuning after as many runs. False: tune_work_error(). */
+/* What it has come to (of STENCIL, the pigment): numbers that are the same for every tuning after as many runs. False: tune_work_error(). */
 size_t tune_work_count(const struct tune_work *w);
 bool tune_work_read(struct tune_work *w, float *out);
-/* What the first field (seed 1) and the second (seed 2) begin with: numbers between 0 and 1 without a pattern. */
+/* What the first field (seed 1) and the others (seeds 2, 3) begin with: numbers between 0 and 1 without a pattern. */
 void tune_work_start(float *numbers, size_t count, uint32_t seed);
 const char *tune_work_error(void);
 

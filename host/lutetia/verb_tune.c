@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VALUES_MOST = 5, WARM_RUNS = 5, ROUNDS = 15, TRIED_MOST = 64 };
+enum { VALUES_MOST = 5, WARM_RUNS = 5, ROUNDS = 11, TRIED_MOST = 64 };
 
 /* As much faster than the usual one it must be: less may be chance. */
 #define CLEARLY 0.97
@@ -24,7 +24,7 @@ static const struct step {
     int values[VALUES_MOST + 1];
     bool works[TUNE_KINDS];
 } steps[] = {
-    {MACHINE_VECTOR, {16, 8, 4, 1}, {true, true, true}},
+    {MACHINE_VECTOR, {16, 8, 4}, {true, true, true}},
     {MACHINE_RUN, {4096, 1024, 256}, {false, true, true}},
     {MACHINE_STREAMS, {1, 0}, {[TUNE_TRAFFIC] = true}},
     {MACHINE_TURNS, {8, 4, 2, 1}, {[TUNE_STENCIL] = true}},

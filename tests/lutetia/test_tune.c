@@ -18,35 +18,40 @@ enum { HEIGHT = 40, WIDTH = 2048, COUNT = HEIGHT * WIDTH, RUNS = 3, TURNS = 32 }
 
 static float wanted[COUNT];
 
-static void spread(float *water, const float *absorbency, int axis)
+static void spread(float *x, const float *absorbency, const float *wet, int axis)
 {
     static float in[COUNT];
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            int lower = axis ? y * WIDTH + (x + WIDTH - 1) % WIDTH
-                             : (y + HEIGHT - 1) % HEIGHT * WIDTH + x;
-            int here = y * WIDTH + x;
-            in[here] = (water[lower] - water[here]) * absorbency[here];
+    for (int r = 0; r < HEIGHT; r++)
+        for (int c = 0; c < WIDTH; c++) {
+            int lower = axis ? r * WIDTH + (c + WIDTH - 1) % WIDTH
+                             : (r + HEIGHT - 1) % HEIGHT * WIDTH + c;
+            int here = r * WIDTH + c;
+            in[here] = (x[lower] - x[here]) * absorbency[here];
+            if (wet)
+                in[here] *= wet[here];
         }
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            int upper = axis ? y * WIDTH + (x + 1) % WIDTH : (y + 1) % HEIGHT * WIDTH + x;
-            int here = y * WIDTH + x;
-            float w = water[here] + in[here] - in[upper];
-            w = w < 1 ? w : 1;
-            water[here] = w > 0 ? w : 0;
+    for (int r = 0; r < HEIGHT; r++)
+        for (int c = 0; c < WIDTH; c++) {
+            int upper = axis ? r * WIDTH + (c + 1) % WIDTH : (r + 1) % HEIGHT * WIDTH + c;
+            int here = r * WIDTH + c;
+            float sum = x[here] + in[here] - in[upper];
+            sum = sum < 1 ? sum : 1;
+            x[here] = sum > 0 ? sum : 0;
         }
 }
 
 static int oracle(void **state)
 {
-    static float absorbency[COUNT];
+    static float water[COUNT], absorbency[COUNT];
     (void)state;
-    tune_work_start(wanted, COUNT, 1);
+    tune_work_start(water, COUNT, 1);
     tune_work_start(absorbency, COUNT, 2);
+    tune_work_start(wanted, COUNT, 3);
     for (int i = 0; i < RUNS * TURNS; i++)
-        for (int axis = 0; axis < 2; axis++)
-            spread(wanted, absorbency, axis);
+        for (int axis = 0; axis < 2; axis++) {
+            spread(water, absorbency, NULL, axis);
+            spread(wanted, absorbency, water, axis);
+        }
     return setenv("LUTETIA_BOX_AFTER", "0", 1);
 }
 

@@ -210,6 +210,7 @@ static int folder_make(void **state)
     const char *cache = getenv("XDG_CACHE_HOME");
     (void)state;
     snprintf(cache_before, sizeof cache_before, "%s", cache ? cache : "");
+    unsetenv("LUTETIA_TUNED");
     return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
 }
 

@@ -223,7 +223,7 @@ static void emit_observe(struct generator *g)
 static void emit_loop(struct generator *g, int turns)
 {
     int first = g->p->count;
-    uint32_t look_every = g->sheet ? 30 : draw(g, 3) ? 1 + draw(g, 5) : 1000;
+    uint32_t look_every = g->sheet ? 90 : draw(g, 3) ? 1 + draw(g, 5) : 1000;
     struct instruction look = {.row = ROW_CM_u_read_from_news_array_1L};
     bool can_look = draw_operand(g, 32, &look.a);
 
@@ -238,7 +238,7 @@ static void emit_loop(struct generator *g, int turns)
     g->pure = false;
     int count = g->p->count - first;
     for (int turn = 1; turn < turns; turn++) {
-        int odd = draw(g, g->sheet ? 200 : 40) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
+        int odd = draw(g, g->sheet ? 400 : 40) == 0 ? (int)draw(g, (uint32_t)count + 1) : -1;
         if (can_look && draw(g, 40) && (uint32_t)turn % look_every == 0)
             emit(g, &look);
         for (int k = 0; k < count; k++) {
@@ -294,7 +294,7 @@ void program_generate_loop(struct program *p, uint64_t seed, bool sheet)
 
     for (int n = 0; n < (sheet ? 2 : 6); n++)
         emit_row(&g);
-    emit_loop(&g, 30 + (int)draw(&g, 40));
+    emit_loop(&g, sheet ? 160 + (int)draw(&g, 80) : 30 + (int)draw(&g, 40));
     emit_row(&g);
     emit_observe(&g);
 }
