@@ -1,9 +1,9 @@
 -- techniques.lua - eight squares: a graded wash, splatter, salt, blotting, lifting, masking fluid, a brush that is loaded on both
 -- sides, and varnish.
 --
---     lutetia run examples/scripts/techniques.lua [scale=0.5] [steps=240]
+--     lutetia run examples/scripts/techniques.lua [scale=0.5] [steps=180]
 local scale = param("scale", 1)
-local steps = param("steps", 240)
+local steps = param("steps", 180)
 local side, gap = 165 * scale, 14 * scale
 local w, h = math.floor(4 * side + 5 * gap), math.floor(2 * (side + gap) + gap + 52 * scale)
 local p = paper{width = w, height = h, stock = "cold press", seed = 8, grain = math.max(1, 6 * scale),
@@ -33,7 +33,7 @@ p:splatter({x = mx, y = my, radius = 46 * scale, drops = 90, size = {math.max(0.
 p:splatter({x = mx - 50 * scale, y = my + 50 * scale, radius = 26 * scale, drops = 40, size = {math.max(0.1, 0.5 * scale), math.max(1, 3 * scale)}, angle = -45, thrown = 1.2, seed = 5}, {water = 0.5, [blue] = 1.2})
 p:step(steps // 4)
 mx, my = middle(3)
-p:salt{x = mx, y = my, radius = side, grains = 170, size = {math.max(0.2, 0.6 * scale), math.max(0.5, 1.5 * scale)}, strength = 1, reach = math.max(1.5, 7 * scale),
+p:salt{x = mx, y = my, radius = side, grains = 170, size = {math.max(0.2, 0.6 * scale), math.max(0.5, 1.5 * scale)}, strength = 0.6, reach = math.max(1.5, 7 * scale),
   mask = rect(mx - side * 0.42, my - side * 0.42, side * 0.84, side * 0.84), seed = 9}
 mx, my = middle(4)
 for i = 1, 5 do p:blot(ellipse(mx + (i - 3) * 24 * scale, my + (i % 2 * 2 - 1) * 22 * scale, 21 * scale, 13 * scale):soften(5 * scale), 0.85, 0.5) end

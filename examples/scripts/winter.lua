@@ -1,9 +1,9 @@
 -- winter.lua - a night in winter: a graded sky with salt in it, a moon in masking fluid, hills in glazes, firs with a bristle
 -- brush, grasses and splatter.
 --
---     lutetia run examples/scripts/winter.lua [scale=0.5] [steps=200]
+--     lutetia run examples/scripts/winter.lua [scale=0.5] [steps=140]
 local scale = param("scale", 1)
-local steps = param("steps", 200)
+local steps = param("steps", 140)
 local w, h = math.floor(800 * scale), math.floor(540 * scale)
 
 local p = paper{
