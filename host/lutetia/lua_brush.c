@@ -491,8 +491,8 @@ static int paper_stroke(lua_State *L)
         luaL_error(L, "stroke brush must be a brush of this paper (got one of another)");
     lua_pop(L, 1);
     d.stroke.number = brush->number;
-    d.stroke.pace = arg_number(L, 2, "stroke", "pace", 60, 0, 10000);
-    d.speed = arg_number(L, 2, "stroke", "speed", 20 * brush->width, 0.1, 1e6);
+    d.stroke.pace = arg_number(L, 2, "stroke", "pace", 30, 0, 10000);
+    d.speed = arg_number(L, 2, "stroke", "speed", 200 + 12 * brush->width, 0.1, 1e6);
     d.seconds = arg_number(L, 2, "stroke", "seconds", 0, 0, 1e5);
     arg_numbers(L, 2, "stroke", "tilt", d.tilt, 2, -1.5, 1.5);
     d.placing.x = arg_number(L, 2, "stroke", "x", 0, -PLACE_MAX, PLACE_MAX);

@@ -165,8 +165,6 @@ enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
             own->held[i] = CM_allocate_heap_field(D_BITS);
     }
     own->brush = *brush;
-    own->toward[0] = 1;
-    own->toward[1] = 0;
     /* what a stroke of the tuft's width and a full brush's reach takes, shared by its bristles */
     own->full = floor(fmin(brush->reach * brush->width * brush->load / brush->bristles, 1e6) *
                       PAPER_GRAINS);

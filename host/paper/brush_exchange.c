@@ -11,10 +11,10 @@
  *
  * the same part of water and of each pigment moves: given / w of the bristle's, at most 1 / places of it; taken / s of the fiber's, at
  * most 1 / sharers. Each is cut to whole grains, so neither side gives more than it has, whoever else is there, and the sums that
- * CM_send_with_f_add and the spread along a bristle's places make are exact in any order. */
+ * CM_send_with_f_add and the shifts along a bristle's places make are exact in any order. */
 #include "brush_internal.h"
 
-enum { D_S = 52, D_E = 11, GRAINS_BITS = 31 };
+enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 4 };
 #define D D_S, D_E
 
 /* of height: at full force a dry bristle touches what is higher than 1 - DRY_REACH; a full one touches all */
@@ -108,6 +108,19 @@ static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t he
     CM_f_min_2_1L(share, other, D);
 }
 
+/* held loses what all places of its bristle give: the rows are a ring, so after shifts by 8, 4, 2 and 1 each has the sum of
+ * all. */
+static void held_change(CM_field_id_t held, CM_field_id_t give, CM_field_id_t sum,
+                        CM_field_id_t other)
+{
+    CM_f_move_1L(sum, give, D);
+    for (int log2_distance = BRUSH_ROWS_LOG2 - 1; log2_distance >= 0; log2_distance--) {
+        CM_get_from_power_two_1L(other, sum, 0, (unsigned)log2_distance, CM_upward, D_BITS);
+        CM_f_add_2_1L(sum, other, D);
+    }
+    CM_f_subtract_2_1L(held, sum, D);
+}
+
 void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
                           const struct sheet_brush *brush)
 {
@@ -143,6 +156,8 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
         d_whole(b, other);
         CM_f_subtract_2_1L(change, other, D);
     }
+    for (int i = 0; i < substances; i++)
+        held_change(brush->held[i], b->give[i], b->t[3], b->t[4]);
     for (int i = 0; i < substances; i++) {
         CM_field_id_t dest = i == 0    ? surface ? p->surface_water : p->page.water
                              : surface ? p->surface[i - 1]
@@ -152,10 +167,9 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
         CM_logand_context_with_test();
         CM_send_with_f_add_1L(dest, b->address, b->sent, SHEET_F, CM_no_field);
         CM_set_context();
-        CM_spread_with_f_add_1L(other, b->give[i], 0, D);
-        CM_f_subtract_2_1L(brush->held[i], other, D);
     }
     CM_set_vp_set(p->page.vp_set);
     CM_set_context();
     sheet_wet_around_make(p);
+    CM_warm_boot(); /* so that what comes next begins like any other: a step needs no kernels of its own */
 }

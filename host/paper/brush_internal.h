@@ -44,7 +44,7 @@ struct sheet_brush {
     CM_field_id_t held[1 + PAPER_PIGMENTS_MAX];
     CM_field_id_t gives;
     double full;      /* grains of water in a full bristle */
-    double toward[2]; /* where it last went, a unit vector */
+    double toward[2]; /* where it goes, a unit vector; of the present stroke */
 };
 
 struct sheet_brushes {

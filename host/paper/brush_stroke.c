@@ -210,6 +210,8 @@ static void brush_go(struct going *g, double from, double to)
     double thick = fmax(PLACE_SPACING, g->own->brush.thickness);
     double dwell = length > thick ? seconds * thick / length : seconds;
     for (int done = 0; done < places;) {
+        if (g->sheet->due && g->sheet->due(g->sheet->due_context))
+            return;
         int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
         if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell))
             sheet_brush_exchange(g->sheet, g->sheet->brushes, g->own);
@@ -244,6 +246,8 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
                           PAPER_STROKE_STEPS_MAX, end - start, pace);
     int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
     struct going g = {.sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
+    g.own->toward[0] = 1; /* where it goes is known as soon as it does */
+    g.own->toward[1] = 0;
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         if (p->due && p->due(p->due_context)) {
             if (p->history) /* half a stroke is no operation: it is as if it had not been begun */
@@ -260,5 +264,8 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
                 status = paper_sheet_finish(p);
         }
     }
+    if (status == PAPER_OK && p->history && p->due && p->due(p->due_context))
+        return paper_fail(PAPER_MACHINE_FAILED,
+                          "stopped"); /* it may have ended in its last step */
     return status;
 }

@@ -4,7 +4,8 @@
 #include "sheet_internal.h"
 #include "techniques.h"
 
-#define DEEPENING 0.3
+#define DEEPENING 0.4
+#define DULLING 0.05 /* of all light: some is caught under the gloss */
 #define SHINE 0.35
 #define SHADE 0.25
 
@@ -65,10 +66,11 @@ void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3])
     f_most(slope, slope, 1.0);
     f_least(slope, slope, -1.0);
     for (int i = 0; i < 3; i++) {
-        /* c (1 - deepening v (1 - c)): white stays white */
+        /* c (1 - v (dulling + deepening (1 - c))) */
         f_from(part, 1.0, color[i]);
-        f_mul(part, part, p->varnish);
         f_times(part, part, -DEEPENING);
+        f_plus(part, part, -DULLING);
+        f_mul(part, part, p->varnish);
         f_plus(part, part, 1.0);
         f_mul(color[i], color[i], part);
         /* rising away from the light's side it shines, falling it is in shade */

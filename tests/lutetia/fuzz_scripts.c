@@ -89,10 +89,11 @@ static void mask(struct source *s, int depth)
 static void table(struct source *s, int depth)
 {
     static const char *const keys[] = {
-        "water",   "cyan",  "size",     "font", "x",     "y",       "align",
-        "show",    "layer", "low",      "high", "bits",  "gravity", "spread",
-        "tension", "film",  "humidity", "edge", "width", "height",  "stock",
-        "weight",  "white", "black",    "K",    "like",  "bogus"};
+        "water",    "cyan",     "size",  "font",   "x",       "y",      "align",   "show",
+        "layer",    "low",      "high",  "bits",   "gravity", "spread", "tension", "film",
+        "humidity", "edge",     "width", "height", "stock",   "weight", "white",   "black",
+        "K",        "like",     "bogus", "radius", "drops",   "grains", "seed",    "points",
+        "path",     "pressure", "from",  "to",     "into",    "mask",   "seconds"};
     say(s, "{");
     for (unsigned i = 0, count = byte(s) % 4; i < count; i++) {
         say(s, i ? ", " : "");
@@ -125,6 +126,12 @@ static void value(struct source *s, int depth)
                                         "p.mask",
                                         "paper",
                                         "coroutine.wrap(print)",
+                                        "B",
+                                        "{{1, 2}, {8, 7}}",
+                                        "{0.2, 0.9}",
+                                        "'M1 1Q5 5 9 2z'",
+                                        "{brush = B, pace = 0, points = {{2, 3}, {7, 5, 1}}}",
+                                        "picture(3, 2, function() return 1, 0, 0.5 end)",
                                         "setmetatable({}, {__index = error})",
                                         "string.rep('x', 3000)"};
     unsigned kind = byte(s) % 16;
@@ -141,14 +148,36 @@ static void value(struct source *s, int depth)
 static void statement(struct source *s)
 {
     static const char *const methods[] = {
-        "put",  "wash", "blot",    "resist", "unresist", "dry",   "seal", "layer",
-        "mask", "at",   "total",   "air",    "frame",    "close", "step", "undo",
-        "redo", "to",   "moments", "save",   "film",     "at"};
-    unsigned kind = byte(s) % 8;
+        "put",  "wash", "blot",    "resist",   "unresist", "dry",    "seal",     "layer",
+        "mask", "at",   "total",   "air",      "frame",    "close",  "step",     "wash",
+        "lift", "salt", "varnish", "splatter", "brush",    "stroke", "separate", "picture",
+        "undo", "redo", "to",      "moments",  "save",     "film",   "at"};
+    unsigned kind = byte(s) % 10;
     say(s, "pcall(function() ");
     if (kind < 2) {
         say(s, "M = ");
         mask(s, 0);
+    } else if (kind == 8) { /* the paper waits: a step is many kernels */
+        static const char *const ways[] = {
+            "points = ", "path = ", "way = ", "file = ", "svg = "};
+        say(s, "p:stroke{brush = B, pace = 0, ");
+        say(s, ONE_OF(s, ways));
+        value(s, 1);
+        say(s, ", pressure = ");
+        value(s, 1);
+        say(s, "}");
+    } else if (kind == 9) {
+        static const char *const calls[] = {"B:dip(",
+                                            "B:rinse(",
+                                            "B:wipe(",
+                                            "B:holds(",
+                                            "path(",
+                                            "svg(",
+                                            "p:brush{number = 1, width = "};
+        unsigned call = byte(s) % 7;
+        say(s, calls[call]);
+        value(s, 0);
+        say(s, call == 6 ? "}" : ")");
     } else {
         const char *method = ONE_OF(s, methods);
         say(s, "p:");
@@ -200,7 +229,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     s = (struct source){.at = bytes, .end = bytes + count};
     say(&s,
         "local M = rect(1, 1, 3, 3)\n"
-        "local p = paper{width = 12, height = 10, pigments = {'cyan'}, model = {'infused'}}\n");
+        "local p = paper{width = 12, height = 10, pigments = {'cyan'}, model = {'infused'}}\n"
+        "local B = p:brush{width = 3, bristles = 8}\n");
     for (int i = 0; i < STATEMENTS_MAX && s.at < s.end; i++)
         statement(&s);
     FILE *file = fopen(script, "wb");
@@ -208,7 +238,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         abort();
     char *arguments[] = {
         (char[]){"run"},      script,         (char[]){"-q"},        (char[]){"-o"}, folder,
-        (char[]){"--memory"}, (char[]){"64"}, (char[]){"--timeout"}, (char[]){"20"}, NULL};
+        (char[]){"--memory"}, (char[]){"64"}, (char[]){"--timeout"}, (char[]){"60"}, NULL};
     int status = verb_run(9, arguments);
     if (status != 0 && status != 1)
         abort();

@@ -30,7 +30,6 @@ static struct paper_sheet *sheet_make(void)
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = WIDTH;
     config.height = HEIGHT;
-    config.torus = true;
     config.stock.color_variation = 0;
     config.pigments_count = 2;
     config.pigments[0] = *paper_pigment_find("quinacridone rose");

@@ -433,20 +433,19 @@ void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_i
     EACH(floats(dest)[words(address)[i]] += floats(source)[i]);
 }
 
-void CM_spread_with_f_add_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
-                             unsigned int s, unsigned int e)
+/* Of fields of doubles, along axis 0 of a set whose height is a power of two. */
+void CM_get_from_power_two_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
+                              unsigned int log2_distance, unsigned int direction,
+                              unsigned int len)
 {
-    (void)e;
-    int width = the()->width, height = the()->height;
-    if (axis != 0 || s != 52 || !the()->all)
+    int width = the()->width, height = the()->height, distance = 1 << log2_distance;
+    double *shifted = malloc((size_t)the()->count * sizeof *shifted);
+    if (axis != 0 || len != 64 || direction != CM_upward || !the()->all || !shifted)
         abort();
-    for (int x = 0; x < width; x++) {
-        double sum = 0;
-        for (int y = 0; y < height; y++)
-            sum += doubles(source)[y * width + x];
-        for (int y = 0; y < height; y++)
-            doubles(dest)[y * width + x] = sum;
-    }
+    for (int i = 0; i < the()->count; i++)
+        shifted[i] = doubles(source)[(i / width + distance) % height * width + i % width];
+    memcpy(doubles(dest), shifted, (size_t)the()->count * sizeof *shifted);
+    free(shifted);
 }
 
 void CM_f_gt_constant_1L(CM_field_id_t source, double value, unsigned int s, unsigned int e)
