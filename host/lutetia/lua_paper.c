@@ -205,10 +205,27 @@ struct run_paper *paper_new(lua_State *L)
     return paper;
 }
 
-/* Each field, what replaces it, and what lies between steps. */
-double paper_bytes_needed(double width, double height, int pigments)
+/* Each field, what replaces it, and what lies between steps: about what 4096x4096 fibers with three pigments were
+ * seen to take. */
+static double bytes_needed(double width, double height, int pigments)
 {
-    return 2 * 4 * (20 + 5.0 * pigments) * width * height;
+    return 2 * 4 * (28 + 5.0 * pigments) * width * height;
+}
+
+void paper_room_take(lua_State *L, struct run_paper *paper, double width, double height,
+                     int pigments)
+{
+    double bytes = bytes_needed(width, height, pigments);
+    double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (bytes > there) {
+        char text[128];
+        snprintf(text, sizeof text,
+                 "a paper of %.0fx%.0f takes %.1f GB, and this machine has %.1f", width, height,
+                 bytes * 1e-9, there * 1e-9);
+        luaL_error(L, "not enough memory: %s", text);
+    }
+    run_memory_take(L, bytes, "a paper");
+    paper->bytes = bytes;
 }
 
 static void film(lua_State *L, struct run_paper *paper)
@@ -261,9 +278,7 @@ static int make_paper(lua_State *L)
     undo = 1e6 * arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
 
     struct run_paper *paper = paper_new(L);
-    double bytes = paper_bytes_needed(config.width, config.height, config.pigments_count);
-    run_memory_take(L, bytes, "a paper");
-    paper->bytes = bytes;
+    paper_room_take(L, paper, config.width, config.height, config.pigments_count);
     bool found = false;
     enum paper_status status = PAPER_OK;
     if (history)

@@ -18,8 +18,9 @@ struct run_paper {
 struct run_paper *paper_at(lua_State *L);
 /* Pushes one without a sheet. */
 struct run_paper *paper_new(lua_State *L);
-/* Of a sheet of that size, with what lies between its steps. */
-double paper_bytes_needed(double width, double height, int pigments);
+/* Counts what a sheet of that size takes; raises an error, before it is tried, where there is not so much. */
+void paper_room_take(lua_State *L, struct run_paper *paper, double width, double height,
+                     int pigments);
 
 /* Enters the paper's sheet among those that --save saves, and forgets it again. */
 void paper_keep(struct run_paper *paper);

@@ -159,10 +159,8 @@ static int paper_render(lua_State *L)
     double pace =
         lua_isnoneornil(L, 3) ? scale * scale : arg_at(L, 3, "render's pace", 1.0 / 4096, 4096);
     struct run_paper *made = paper_new(L);
-    double bytes = paper_bytes_needed(round(config->width * scale),
-                                      round(config->height * scale), config->pigments_count);
-    run_memory_take(L, bytes, "a paper");
-    made->bytes = bytes;
+    paper_room_take(L, made, round(config->width * scale), round(config->height * scale),
+                    config->pigments_count);
     paper_check(L, paper_history_render(paper->sheet, scale, pace, 0, &made->sheet));
     paper_keep(made);
     return 1;
@@ -212,9 +210,7 @@ int paper_load(lua_State *L)
     struct paper_sheet_config config;
     paper_check(L, paper_state_describe(*state, index, &config));
     struct run_paper *paper = paper_new(L);
-    double bytes = paper_bytes_needed(config.width, config.height, config.pigments_count);
-    run_memory_take(L, bytes, "a paper");
-    paper->bytes = bytes;
+    paper_room_take(L, paper, config.width, config.height, config.pigments_count);
     paper_check(L, paper_state_load(*state, index, false, 0, &paper->sheet));
     paper_keep(paper);
     return 1;

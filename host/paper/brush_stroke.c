@@ -264,5 +264,8 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
                 status = paper_sheet_finish(p);
         }
     }
+    if (status == PAPER_OK && p->history && p->due && p->due(p->due_context))
+        return paper_fail(PAPER_MACHINE_FAILED,
+                          "stopped"); /* it may have ended in its last step */
     return status;
 }

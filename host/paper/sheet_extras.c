@@ -1,6 +1,6 @@
 /* sheet_extras.c - what of a sheet is in none of its planes, as bytes: brushes, and what there may be on it.
  *
- * For each brush that there is: its number, its description, where it last went, and what its bristles hold. */
+ * For each brush that there is: its description, and what its bristles hold. */
 #include "brush_internal.h"
 #include "history_internal.h"
 
@@ -29,8 +29,6 @@ enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes 
         if (!brush)
             continue;
         event_encode(b, &p->config, SHEET_EVENT_BRUSH, brush);
-        for (int axis = 0; axis < 2; axis++)
-            event_put_double(b, p->brushes->brush[i].toward[axis]);
         for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK; j++) {
             double grains[PAPER_BRISTLES_MAX];
             status = paper_sheet_brush_read(p, i, j, grains);
@@ -64,16 +62,11 @@ static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader
         status = event_perform(p, SHEET_EVENT_BRUSH, brush);
     if (status == PAPER_OK) {
         const struct paper_brush *made = brush;
-        double toward[2] = {event_get_double(r), event_get_double(r)};
         for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK && !r->bad; j++) {
             double grains[PAPER_BRISTLES_MAX];
             for (int k = 0; k < made->bristles; k++)
                 grains[k] = event_get_double(r);
             status = paper_sheet_brush_write(p, made->number, j, grains);
-        }
-        for (int axis = 0; axis < 2; axis++) {
-            r->bad = r->bad || !(toward[axis] >= -1.001 && toward[axis] <= 1.001);
-            p->brushes->brush[made->number].toward[axis] = toward[axis];
         }
     }
     event_free(SHEET_EVENT_BRUSH, brush);

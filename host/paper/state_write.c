@@ -150,6 +150,7 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
 static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
                                        int count, bool *written)
 {
+    H5dont_atexit(); /* what could not be written, on a full disk, it would try again at exit, and fall */
     hid_t how = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     enum paper_status status = PAPER_OK;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);

@@ -69,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 /* Seeds, always the same: one change to one byte each, then several. */
 int main(int argc, char **argv)
 {
-    int files = argc > 1 ? atoi(argv[1]) : 400;
+    int files = argc > 1 ? atoi(argv[1]) : 200;
     uint8_t bytes[20] = {0};
     uint64_t state = 12;
     LLVMFuzzerInitialize(NULL, NULL);

@@ -433,20 +433,19 @@ void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_i
     EACH(floats(dest)[words(address)[i]] += floats(source)[i]);
 }
 
-/* Of doubles, along the first axis. */
+/* Of fields of doubles, along axis 0 of a set whose height is a power of two. */
 void CM_get_from_power_two_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
                               unsigned int log2_distance, unsigned int direction,
                               unsigned int len)
 {
-    size_t width = (size_t)the()->width, count = (size_t)the()->count;
-    size_t by = (width << log2_distance) % count;
-    double *moved = malloc(count * sizeof *moved);
-    if (axis != 0 || len != 64 || !the()->all || !moved)
+    int width = the()->width, height = the()->height, distance = 1 << log2_distance;
+    double *shifted = malloc((size_t)the()->count * sizeof *shifted);
+    if (axis != 0 || len != 64 || direction != CM_upward || !the()->all || !shifted)
         abort();
-    for (size_t i = 0; i < count; i++)
-        moved[i] = doubles(source)[(direction == CM_upward ? i + by : i + count - by) % count];
-    memcpy(doubles(dest), moved, count * sizeof *moved);
-    free(moved);
+    for (int i = 0; i < the()->count; i++)
+        shifted[i] = doubles(source)[(i / width + distance) % height * width + i % width];
+    memcpy(doubles(dest), shifted, (size_t)the()->count * sizeof *shifted);
+    free(shifted);
 }
 
 void CM_f_gt_constant_1L(CM_field_id_t source, double value, unsigned int s, unsigned int e)

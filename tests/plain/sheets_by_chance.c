@@ -247,7 +247,7 @@ static void set_look(uint64_t seed)
 
 int main(int argc, char **argv)
 {
-    long count = argc > 1 ? atol(argv[1]) : 1500;
+    long count = argc > 1 ? atol(argv[1]) : 1000;
     uint64_t seed = argc > 2 ? (uint64_t)atoll(argv[2]) : 1;
     for (long i = 0; i < count; i++)
         set_look(seed + (uint64_t)i);
