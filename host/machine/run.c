@@ -37,7 +37,7 @@ struct launch {
     struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
-    int strip_margin, strip_columns;
+    int strip_margin, strip_columns, strip_near;
     struct kernel_argument *arguments;
     int arguments_count;
 };
@@ -331,6 +331,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .strip_bytes = k.strip_bytes,
                                                        .strip_margin = k.strip_margin,
                                                        .strip_columns = k.strip_columns,
+                                                       .strip_near = k.strip_near,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
     k.arguments = NULL;
@@ -607,6 +608,10 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
     for (int a = 0; a < s->rank - 1; a++)
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
+    if (l->strip_bytes) {
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_columns);
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_near);
+    }
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)

@@ -525,7 +525,8 @@ static void pass_numbers(const struct strips *s, struct text *t, const struct em
 
 static void kernel_head(struct strips *s, struct text *t)
 {
-    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO, int D0");
+    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO, int D0, int "
+                "COLUMNS, int NEAR");
     int constant = 0;
     for (int i = 0; i < s->arguments_count; i++) {
         const struct kernel_argument *a = &s->arguments[i];
@@ -673,14 +674,17 @@ static void find_margin(struct strips *s)
     }
 }
 
-/* As many columns as leave the rings near, but not so few that what strips compute twice counts. */
+/* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as
+ * wide. */
 static int strip_columns(const struct strips *s, const struct device_shape *shape)
 {
     enum { LEAST = 128 };
-    int columns = shape->strip_columns;
+    int columns = shape->strip_columns, width = s->set->width;
     while (columns > LEAST && columns * s->memory > shape->near_bytes)
         columns = columns / 2 / s->vector * s->vector;
-    return columns;
+    int strips = (width + columns - 1) / columns;
+    columns = width / strips / s->vector * s->vector;
+    return columns ? columns : s->vector;
 }
 
 /* A row of a ring: as wide as a strip, of which the last takes what is left, too, and both margins. */
@@ -710,12 +714,10 @@ static void describe(const struct strips *s, const struct device_shape *shape,
                      (double)type_bytes(s->g->nodes[s->arguments[i].node].type);
     out->vector = shape->vector;
     out->strip_columns = strip_columns(s, shape);
-    int near = near_columns(s, out->strip_columns);
-    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)near;
-    snprintf(out->options, sizeof out->options,
-             "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d -DCOLUMNS=%d -DNEAR=%d", out->vector,
-             s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0, out->strip_columns,
-             near);
+    out->strip_near = near_columns(s, out->strip_columns);
+    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
+    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
+             out->vector, s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0);
 }
 
 static void strips_finish(struct strips *s)
