@@ -190,6 +190,11 @@ static void bands_join(void **state)
     struct font_map map = font_map_size(600, 1000);
     compare(&outline, &map, f->filter[0], 0.3, 0.6, &bytes, &exact);
     sums_check("600 px", &bytes, &exact);
+    /* Narrow, and higher than a band: its rows of sums lie closer together. */
+    struct font_difference tall_bytes = {0}, tall_exact = {0};
+    struct font_map tall = {FONT_AFFINE, {0.009, 0, 0, 0, -2.5, 0}};
+    compare(&outline, &tall, f->filter[0], 0.3, 0.6, &tall_bytes, &tall_exact);
+    sums_check("narrow and tall", &tall_bytes, &tall_exact);
     font_outline_finish(&outline);
 }
 
