@@ -29,8 +29,8 @@ struct font_edges_job {
 enum font_status font_edges_kernel_plain(const struct font_edges_job *job);
 enum font_status font_edges_kernel_avx2(const struct font_edges_job *job);
 enum font_status font_edges_kernel_avx512(const struct font_edges_job *job);
-/* The one that font_simd_use() chose. */
-extern enum font_status (*font_edges_kernel)(const struct font_edges_job *job);
+/* The one that font_simd_use() chose, or this thread. */
+enum font_status font_edges_kernel(const struct font_edges_job *job);
 
 /* How many nodes an edge needs and, where the most are not enough, on how many pieces of it. across, down: all the way it
  * goes along x and y, at its flattest. */

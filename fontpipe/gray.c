@@ -16,28 +16,41 @@
 
 typedef void gray_kernel(const struct font_gray_job *job);
 
+typedef enum font_status edges_kernel(const struct font_edges_job *job);
+
 static gray_kernel *kernel;
-enum font_status (*font_edges_kernel)(const struct font_edges_job *job);
+static edges_kernel *kernel_of_edges;
+static _Thread_local bool plain_here;
+
+void font_simd_plain_here(bool plain)
+{
+    plain_here = plain;
+}
+
+enum font_status font_edges_kernel(const struct font_edges_job *job)
+{
+    return plain_here ? font_edges_kernel_plain(job) : kernel_of_edges(job);
+}
 
 enum font_simd font_simd_use(enum font_simd most)
 {
     enum font_simd used = FONT_SIMD_PLAIN;
     kernel = font_gray_kernel_plain;
-    font_edges_kernel = font_edges_kernel_plain;
+    kernel_of_edges = font_edges_kernel_plain;
 #ifdef FONT_X86
     __builtin_cpu_init();
     if (most >= FONT_SIMD_AVX2 && __builtin_cpu_supports("avx2") &&
         __builtin_cpu_supports("fma")) {
         used = FONT_SIMD_AVX2;
         kernel = font_gray_kernel_avx2;
-        font_edges_kernel = font_edges_kernel_avx2;
+        kernel_of_edges = font_edges_kernel_avx2;
     }
     if (most >= FONT_SIMD_AVX512 && used == FONT_SIMD_AVX2 &&
         __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")) {
         used = FONT_SIMD_AVX512;
         kernel = font_gray_kernel_avx512;
-        font_edges_kernel = font_edges_kernel_avx512;
+        kernel_of_edges = font_edges_kernel_avx512;
     }
 #else
     (void)most;
@@ -183,7 +196,10 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
         job.rows = height - job.row < rows ? height - job.row : rows;
         job.out = gray->pixels + (size_t)job.row * (size_t)pitch;
         job.exact = exact ? gray->exact + (size_t)job.row * (size_t)pitch : NULL;
-        kernel(&job);
+        if (plain_here)
+            font_gray_kernel_plain(&job);
+        else
+            kernel(&job);
     }
     return FONT_OK;
 }

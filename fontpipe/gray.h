@@ -50,6 +50,9 @@ enum font_status font_gray_place(struct font_gray *gray, const struct font_edges
  * tests and measurements. Returns what will be used. Not while another thread draws. */
 enum font_simd { FONT_SIMD_PLAIN, FONT_SIMD_AVX2, FONT_SIMD_AVX512 };
 enum font_simd font_simd_use(enum font_simd most);
+/* On this thread the plain ones alone, whatever the processor has: the others round the last bit otherwise, and with these
+ * pictures are the same everywhere. */
+void font_simd_plain_here(bool plain);
 const char *font_simd_name(enum font_simd simd);
 
 #endif

@@ -186,15 +186,17 @@ enum paper_status paper_line_screen(const struct paper_line *line, struct paper_
     if (missing)
         *missing = 0;
     enum paper_status status = line_check(line);
+    font_simd_plain_here(true); /* a sheet is the same on every processor */
     if (status == PAPER_OK)
         status = line_set(&set);
     if (status == PAPER_OK && set.layout.missing_count && !anything_found(&set))
-        status =
-            paper_fail(PAPER_BAD_TEXT,
-                       "no font has glyphs for \"%.60s\" (U+%04X is the first that is lacking)",
-                       line->text, (unsigned)set.layout.missing[0]);
+        status = paper_fail(PAPER_BAD_TEXT,
+                            "there are no glyphs for \"%.60s\" in any font (U+%04X is the "
+                            "first that is lacking)",
+                            line->text, (unsigned)set.layout.missing[0]);
     if (status == PAPER_OK)
         status = line_draw(&set, screen);
+    font_simd_plain_here(false);
     if (status == PAPER_OK && missing && set.layout.missing_count)
         *missing = set.layout.missing[0];
     if (status != PAPER_OK)

@@ -190,6 +190,11 @@ static void bands_join(void **state)
     struct font_map map = font_map_size(600, 1000);
     compare(&outline, &map, f->filter[0], 0.3, 0.6, &bytes, &exact);
     sums_check("600 px", &bytes, &exact);
+    /* Narrow, and higher than a band: its rows of sums lie closer together. */
+    struct font_difference tall_bytes = {0}, tall_exact = {0};
+    struct font_map tall = {FONT_AFFINE, {0.009, 0, 0, 0, -2.5, 0}};
+    compare(&outline, &tall, f->filter[0], 0.3, 0.6, &tall_bytes, &tall_exact);
+    sums_check("narrow and tall", &tall_bytes, &tall_exact);
     font_outline_finish(&outline);
 }
 
@@ -300,6 +305,39 @@ static void nonsense_is_refused(void **state)
     font_gray_finish(&gray);
 }
 
+/* A thread that asks for the plain instructions has their bits, whatever the others use. */
+static void plain_here_is_plain(void **state)
+{
+    const struct fixture *f = *state;
+    struct font_gray gray[2] = {{0}};
+    struct font_edges edges[2] = {{0}};
+    for (int letter = 0; letter < LETTERS; letter += 7) {
+        struct font_outline outline;
+        struct font_map map = font_map_size(17.3, f->units[1]);
+        assert_font(font_face_outline(
+            f->face[1], font_face_glyph(f->face[1], 33 + (uint32_t)letter), &outline));
+        for (int way = 0; way < 2; way++) {
+            font_simd_use(way ? FONT_SIMD_AVX512 : FONT_SIMD_PLAIN);
+            font_simd_plain_here(way == 1);
+            assert_font(font_edges_build(&edges[way], &outline, &map, f->filter[0]));
+            assert_font(font_gray_draw_exact(&gray[way], &edges[way], f->filter[0], 0.3, 0.8));
+            font_simd_plain_here(false);
+        }
+        font_simd_use(FONT_SIMD_AVX512);
+        assert_true(gray[0].width_px == gray[1].width_px &&
+                    gray[0].height_px == gray[1].height_px);
+        for (int r = 0; r < gray[0].height_px; r++)
+            assert_memory_equal(gray[0].exact + r * gray[0].pitch,
+                                gray[1].exact + r * gray[1].pitch,
+                                sizeof(float) * (size_t)gray[0].width_px);
+        font_outline_finish(&outline);
+    }
+    for (int way = 0; way < 2; way++) {
+        font_edges_finish(&edges[way]);
+        font_gray_finish(&gray[way]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +348,7 @@ int main(void)
         cmocka_unit_test(gray_is_gold_with_other_filters),
         cmocka_unit_test(bands_join),
         cmocka_unit_test(instruction_sets_agree),
+        cmocka_unit_test(plain_here_is_plain),
         cmocka_unit_test(nonsense_is_refused),
     };
     return cmocka_run_group_tests(tests, fixture_make, fixture_destroy);

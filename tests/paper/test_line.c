@@ -217,8 +217,8 @@ static void type_is_set_in_columns(void **state)
     assert_true(s.height_px > 30 * (s.lines_count - 1));
     paper_screen_destroy(&s);
     static const struct paper_line wrong[] = {
-        {.width_px = -1},   {.width_px = NAN},    {.angle_deg = INFINITY},
-        {.x_px = 3},        {.anchor = 2},        {.align = (enum paper_align)9},
+        {.width_px = -1},   {.width_px = NAN}, {.angle_deg = INFINITY},
+        {.x_px = 3},        {.anchor = 2},     {.align = (enum paper_align)9},
         {.filter = "soft"}, {.features = "="}, {.pixels_max = 100}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         line = wrong[i];
