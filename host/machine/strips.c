@@ -240,7 +240,8 @@ static void collect_arguments(struct strips *s, const int *stores, int count)
 
 static void kernel_head(struct strips *s, struct text *t)
 {
-    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO, int D0");
+    text_put(t, "__kernel WHOLE_VECTORS void k(int W, int PITCH, int RUN, int PLOG2, int "
+                "RATIO, int D0");
     int constant = 0;
     for (int i = 0; i < s->arguments_count; i++) {
         const struct kernel_argument *a = &s->arguments[i];
@@ -327,7 +328,8 @@ static void kernel_text(struct strips *s, struct text *t)
                 "rows : y;\n}\n");
     for (int k = 0; k < s->stages_count; k++)
         if (s->stages[k].same == k)
-            text_put(t, "__attribute__((noinline)) void s%d%s\n", k, s->stages[k].text.data);
+            text_put(t, "__attribute__((noinline)) WHOLE_VECTORS void s%d%s\n", k,
+                     s->stages[k].text.data);
     kernel_head(s, t);
     text_put(t, "    for (int i = top + (%d); i < bottom + (%d); i++) {\n", begin, end);
     for (int k = 0; k < s->stages_count; k++)
