@@ -288,10 +288,9 @@ static struct device_shape shape_for(const struct machine *m, const struct plan_
     }
     if (arrays <= ARRAYS_MANY)
         return shape;
-    int most = RINGS_BYTES / (bytes + 1);
-    most = most < (int)set->width ? most : (int)set->width;
-    most = most / shape.vector * shape.vector;
-    shape.strip_columns = most > shape.strip_columns ? most : shape.strip_columns;
+    int width = (int)set->width, strips = width / (RINGS_BYTES / (bytes + 1) + 1);
+    int columns = width / (strips ? strips : 1) / shape.vector * shape.vector;
+    shape.strip_columns = columns > shape.strip_columns ? columns : shape.strip_columns;
     return shape;
 }
 
