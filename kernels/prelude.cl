@@ -12,6 +12,17 @@
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
+/* Compilers that tune for processors which slow down at wide vectors would make two halves of each, but for functions that
+ * say that they need them. */
+#if VECTOR == 16 && defined(__has_attribute)
+#if __has_attribute(min_vector_width)
+#define WHOLE_VECTORS __attribute__((min_vector_width(512)))
+#endif
+#endif
+#ifndef WHOLE_VECTORS
+#define WHOLE_VECTORS
+#endif
+
 #if VECTOR == 1
 typedef int VI;
 typedef uint VU;

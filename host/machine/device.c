@@ -161,7 +161,7 @@ static struct device_shape shape_usual(const struct device *d)
                                                         : 1,
                                  .byte_ns = 0.022,
                                  .near_byte_ns = 0.004,
-                                 .near_bytes = 256 << 10,
+                                 .near_bytes = 512 << 10,
                                  .launch_ns = 3000,
                                  .run_columns = 4096,
                                  .strip_columns = 1024,

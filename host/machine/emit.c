@@ -16,7 +16,8 @@
 
 static void header(struct emitter *e, struct text *t)
 {
-    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO");
+    text_put(t,
+             "__kernel WHOLE_VECTORS void k(int W, int PITCH, int RUN, int PLOG2, int RATIO");
     for (int a = 0; a < e->set->rank - 1; a++)
         text_put(t, ", int D%d", a);
     int input = 0, output = 0, constant = 0;

@@ -525,7 +525,8 @@ static void pass_numbers(const struct strips *s, struct text *t, const struct em
 
 static void kernel_head(struct strips *s, struct text *t)
 {
-    text_put(t, "__kernel void k(int W, int PITCH, int RUN, int PLOG2, int RATIO, int D0, int "
+    text_put(t, "__kernel WHOLE_VECTORS void k(int W, int PITCH, int RUN, int PLOG2, int "
+                "RATIO, int D0, int "
                 "COLUMNS, int NEAR");
     int constant = 0;
     for (int i = 0; i < s->arguments_count; i++) {
@@ -647,7 +648,8 @@ static void kernel_text(struct strips *s, struct text *t)
             text_put(t, "__attribute__((noinline)) int2 s%d_inside%s\n", k,
                      s->passes[k].span.data);
         if (s->passes[k].same == k)
-            text_put(t, "__attribute__((noinline)) void s%d%s\n", k, s->passes[k].text.data);
+            text_put(t, "__attribute__((noinline)) WHOLE_VECTORS void s%d%s\n", k,
+                     s->passes[k].text.data);
     }
     kernel_head(s, t);
     text_put(t, "    for (int i = top + (%d); i < bottom + (%d); i++) {\n", begin, end);
