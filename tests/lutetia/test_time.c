@@ -134,6 +134,7 @@ static void saved_runs_go_on(void **state)
     says("--resume");
     RUN("long.lua", 0, "-o", in_scratch("parts"), "--resume", saved);
     assert_true(same("whole/end.png", "parts/end.png"));
+    child.variables[0] = "LUTETIA_EAGER=1";
     RUN("long.lua", 0, "-o", in_scratch("again"), "--resume", saved, "--save", saved);
     assert_true(same("whole/end.png", "again/end.png"));
     assert_true(same("whole/five.png", "again/five.png"));
