@@ -573,7 +573,9 @@ void emit_number(struct text *t, const struct plan_graph *g, int node, int numbe
     text_put(t, ", %s a%d", name, number);
 }
 
-bool emit_streams(const struct vpset *set, int vector, double bytes)
+bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,
+                  double bytes)
 {
-    return vector > 1 && set->width % vector == 0 && bytes > (double)STREAM_BYTES;
+    return shape->streams && vector > 1 && set->width % vector == 0 &&
+           bytes > (double)STREAM_BYTES;
 }

@@ -94,6 +94,7 @@ void emit_number(struct text *t, const struct plan_graph *g, int node, int numbe
 const char *memory_kind(struct machine_type t);
 const char *memory_type(struct machine_type t);
 /* Stores that pass the caches by pay where the arrays, of so many bytes, do not fit anyway. */
-bool emit_streams(const struct vpset *set, int vector, double bytes);
+bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,
+                  double bytes);
 
 #endif

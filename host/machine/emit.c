@@ -104,7 +104,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->loads = e->loads;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
              out->vector, set->halo, wraps ? 1 : 0,
-             emit_streams(set, out->vector, bytes_touched(e)) ? 1 : 0);
+             emit_streams(shape, set, out->vector, bytes_touched(e)) ? 1 : 0);
     bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed &&
                 !e->pointers.failed && !e->constants.failed && !e->row_tests.failed &&
                 !e->column_tests.failed;

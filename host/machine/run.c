@@ -254,11 +254,13 @@ static bool too_many_arguments(const struct kernel_text *k)
     return bytes > 1024;
 }
 
-/* More arrays than a processor foresees at once are fetched ahead. */
+enum { ARRAYS_MANY = 16 }; /* more than a processor foresees at once */
+
+/* Those are fetched ahead. */
 static bool many_streams(const struct machine *m, const struct vpset *set,
                          const struct kernel_text *k)
 {
-    enum { ARRAYS_MANY = 16, FETCH_FROM_BYTES = 4 << 20 };
+    enum { FETCH_FROM_BYTES = 4 << 20 };
     int arrays = 0;
     for (int i = 0; i < k->arguments_count; i++)
         arrays += k->arguments[i].kind == ARGUMENT_INPUT;
@@ -292,8 +294,14 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     }
     if (m->watch)
         watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
-    if (m->dump_dir)
-        dump_text(m, m->dump_count++, ".cl", k.options, k.text);
+    if (m->dump_dir) {
+        char said[sizeof k.options + 40];
+        int n = snprintf(said, sizeof said, "%s", k.options);
+        if (k.strip_bytes)
+            snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns",
+                     k.strip_columns);
+        dump_text(m, m->dump_count++, ".cl", said, k.text);
+    }
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
     const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
@@ -303,9 +311,6 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};
-    char *streams = m->device.shape.streams ? NULL : strstr(k.options, "-DSTREAMS=1");
-    if (streams)
-        streams[strlen("-DSTREAMS=")] = '0';
     if (many_streams(m, &m->sets[set], &k))
         strcat(k.options, " -DAHEAD=128");
     bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
@@ -508,9 +513,10 @@ uint32_t plan_version(const struct machine *m, const struct plan *p)
     return plan_is_due(m, p) ? UINT32_MAX : p->version;
 }
 
+/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
 int plan_turns(const struct plan *p)
 {
-    return p->quality == BOXED ? p->turns_most : 1;
+    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
 }
 
 const int *plan_stored(const struct plan *p, int *count)
@@ -749,6 +755,8 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     } else if (!status) {
         status = m->status;
     }
+    if (status)
+        m->stores_evaluated = m->stores - 1; /* not yet */
     free(t.values);
     free(r.nodes);
     free(r.signature);

@@ -270,7 +270,7 @@ static bool suits(const struct strips *s)
         }
     }
     return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
-           s->set->dimensions[0] > 2 * rows;
+           s->set->dimensions[0] >= 2 * rows;
 }
 
 /* ---- a pass's functions ---- */
@@ -719,7 +719,8 @@ static void describe(const struct strips *s, const struct device_shape *shape,
     out->strip_near = near_columns(s, out->strip_columns);
     out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
-             out->vector, s->set->halo, emit_streams(s->set, out->vector, bytes) ? 1 : 0);
+             out->vector, s->set->halo,
+             emit_streams(shape, s->set, out->vector, bytes) ? 1 : 0);
 }
 
 static void strips_finish(struct strips *s)
