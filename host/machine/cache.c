@@ -34,11 +34,12 @@ bool machine_cache_folder(char *out, size_t size)
 
 void cache_folder_make(char *folder)
 {
-    for (char *slash = folder + 1; (slash = strchr(slash, '/')); slash++) {
-        *slash = 0;
-        mkdir(folder, 0700);
-        *slash = '/';
-    }
+    for (size_t i = 1; folder[0] && folder[i]; i++)
+        if (folder[i] == '/') {
+            folder[i] = 0;
+            mkdir(folder, 0700);
+            folder[i] = '/';
+        }
     mkdir(folder, 0700);
 }
 
