@@ -1,4 +1,4 @@
-/* strips.cl - rows in strips: what kernels by strips.c have besides the prelude.
+/* strips.cl - rows in strips: what kernels by strips_text.c have besides the prelude.
  *
  * Vectors lie where x is a multiple of VECTOR. At the ends of a row some lanes of them may be beyond its halos: what
  * is loaded there is never looked at (and is memory: see DEVICE_GUARD_BYTES), and nothing is stored there. */
@@ -7,12 +7,12 @@
 #define WHOLE (W % VECTOR ? W - VECTOR : W)
 
 /* Lane by lane, with their copies in the halos. */
-#define EDGES(kind, type)                                                                      \
-    __attribute__((noinline)) void edge_store_##kind(__global type *q, int i,                  \
-                                                     JOIN(type, VECTOR) v, int W)              \
+#define EDGES(kind)                                                                            \
+    __attribute__((noinline)) void edge_store_##kind(__global TYPE_##kind *q, int i,           \
+                                                     JOIN(TYPE_##kind, VECTOR) v, int W)       \
     {                                                                                          \
-        type t[VECTOR];                                                                        \
-        *(JOIN(type, _anywhere) *)t = v;                                                       \
+        TYPE_##kind t[VECTOR];                                                                 \
+        *(JOIN(TYPE_##kind, _anywhere) *)t = v;                                                \
         for (int l = 0; l < VECTOR && i + l < W; l++) {                                        \
             q[i + l] = t[l];                                                                   \
             if (i + l < HALO)                                                                  \

@@ -37,6 +37,11 @@ void text_put(struct text *t, const char *format, ...)
     }
 }
 
+bool text_same(const struct text *a, const struct text *b)
+{
+    return a->length == b->length && (!a->length || !memcmp(a->data, b->data, a->length));
+}
+
 const char *memory_kind(struct machine_type t)
 {
     if (t.kind == MACHINE_FLOAT)
@@ -56,27 +61,13 @@ const char *memory_type(struct machine_type t)
     return t.width <= 8 ? "uchar" : t.width <= 16 ? "ushort" : t.width <= 32 ? "uint" : "ulong";
 }
 
-static void *more(struct emitter *e, void *old, int *capacity, size_t size)
+void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed)
 {
-    int wanted = *capacity ? 2 * *capacity : 64;
-    void *new = realloc(old, (size_t)wanted * size);
-    if (!new) {
-        e->failed = true;
-        return old;
-    }
-    *capacity = wanted;
-    return new;
-}
-
-int emit_argument(struct emitter *e, int kind, int node, int size)
-{
-    if (e->arguments_count == e->arguments_capacity)
-        e->arguments = more(e, e->arguments, &e->arguments_capacity, sizeof *e->arguments);
-    if (e->failed)
-        return 0;
-    e->arguments[e->arguments_count] =
-        (struct kernel_argument){.kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
-    return e->arguments_count++;
+    if (to->count == to->capacity)
+        to->list = machine_more(to->list, &to->capacity, sizeof *to->list, failed);
+    if (!*failed)
+        to->list[to->count++] = (struct kernel_argument){
+            .kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
 }
 
 /* ---- rows and pointers ---- */
@@ -90,7 +81,8 @@ static int row_moved(struct emitter *e, int from, int axis, int distance)
         if (!memcmp(&e->row_offsets[i], &wanted, sizeof wanted))
             return i;
     if (e->rows_count == e->rows_capacity)
-        e->row_offsets = more(e, e->row_offsets, &e->rows_capacity, sizeof *e->row_offsets);
+        e->row_offsets =
+            machine_more(e->row_offsets, &e->rows_capacity, sizeof *e->row_offsets, &e->failed);
     if (e->failed)
         return 0;
     e->row_offsets[e->rows_count] = wanted;
@@ -112,7 +104,7 @@ int emit_row(struct emitter *e, int axis, int distance)
 static int input_of(struct emitter *e, int node)
 {
     if (!e->input_number[node]) {
-        emit_argument(e, ARGUMENT_INPUT, node, 0);
+        emit_argument(&e->arguments, ARGUMENT_INPUT, node, 0, &e->failed);
         e->input_number[node] = ++e->inputs;
     }
     return e->input_number[node] - 1;
@@ -124,8 +116,8 @@ static int pointer_of(struct emitter *e, int node, int row)
         if (e->seen_pointers[i].node == node && e->seen_pointers[i].row == row)
             return i;
     if (e->pointers_count == e->pointers_capacity)
-        e->seen_pointers =
-            more(e, e->seen_pointers, &e->pointers_capacity, sizeof *e->seen_pointers);
+        e->seen_pointers = machine_more(e->seen_pointers, &e->pointers_capacity,
+                                        sizeof *e->seen_pointers, &e->failed);
     if (e->failed)
         return 0;
     struct machine_type type = e->g->nodes[node].type;
@@ -162,7 +154,7 @@ static int variable_add(struct emitter *e, int node, int row, int dx, bool canon
 {
     if (e->variables_count == e->variables_capacity) {
         int capacity = (int)e->variables_capacity;
-        e->variables = more(e, e->variables, &capacity, sizeof *e->variables);
+        e->variables = machine_more(e->variables, &capacity, sizeof *e->variables, &e->failed);
         e->variables_capacity = (uint32_t)capacity;
     }
     if (e->failed)
@@ -185,14 +177,14 @@ static int constant_of(struct emitter *e, int node)
     case 'I':
     case 'U':
     case 'F':
-        emit_argument(e, ARGUMENT_CONSTANT, node, 4);
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 4, &e->failed);
         break;
     default:
-        emit_argument(e, ARGUMENT_CONSTANT, node, 8);
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 8, &e->failed);
         break;
     }
     if (spell_letter(t) == 'Q') {
-        emit_argument(e, ARGUMENT_SECOND, node, 8);
+        emit_argument(&e->arguments, ARGUMENT_SECOND, node, 8, &e->failed);
         text_put(&e->constants, "    const VQ k%d = q_of((VL)(a%d), (VL)(h%d));\n", k, k, k);
         e->wide = true;
     } else {
@@ -266,8 +258,8 @@ static void emit_generated(struct emitter *e, char *out, size_t size, const stru
     e->reach = reach > e->reach ? reach : e->reach;
     if (n->op == NODE_RANDOM) {
         int k = e->constants_count++;
-        emit_argument(e, ARGUMENT_CONSTANT, node, 8);
-        emit_argument(e, ARGUMENT_SECOND, node, 8);
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 8, &e->failed);
+        emit_argument(&e->arguments, ARGUMENT_SECOND, node, 8, &e->failed);
         text_put(&e->constants, "    /* draw: key a%d, limit h%d */\n", k, k);
         if (n->detail == 0)
             snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k,
@@ -339,7 +331,8 @@ static struct operand earlier_vector(struct emitter *e, int node, int back)
         i++;
     if (i == t->carried_count) {
         if (i == t->carried_capacity)
-            t->carried = more(e, t->carried, &t->carried_capacity, sizeof *t->carried);
+            t->carried =
+                machine_more(t->carried, &t->carried_capacity, sizeof *t->carried, &e->failed);
         if (e->failed)
             return named(0);
         t->carried[t->carried_count++] = (struct carried){.node = node};
@@ -546,31 +539,19 @@ void emit_axes(const struct emitter *e, struct text *t)
         text_put(t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
 }
 
-void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes)
-{
-    const char *body = e->body.data ? e->body.data : "";
-    if (boxes)
-        text_put(t, "    const int row_inside = 1%s;\n",
-                 e->row_tests.data ? e->row_tests.data : "");
-    text_put(t, "%s", head);
-    if (boxes)
-        text_put(
-            t,
-            "        if (row_inside%s) {\n#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        "
-            "continue;\n        }\n",
-            e->column_tests.data ? e->column_tests.data : "", body);
-    text_put(t, "#define BOX(e) (e)\n%s#undef BOX\n    }\n", body);
-}
-
-void emit_number(struct text *t, const struct plan_graph *g, int node, int number)
+void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
+                 int *count)
 {
     static const char letters[] = "IUFDLQ";
     static const char *const names[] = {"int", "uint", "float", "double", "ulong", "ulong"};
-    const char *name =
-        g->nodes[node].op == NODE_RANDOM
-            ? "ulong"
-            : names[strchr(letters, spell_letter(g->nodes[node].type)) - letters];
-    text_put(t, ", %s a%d", name, number);
+    const struct plan_node *n = &g->nodes[a->node];
+    if (a->kind == ARGUMENT_SECOND)
+        text_put(t, ", ulong h%d", *count - 1);
+    else if (n->op == NODE_RANDOM)
+        text_put(t, ", ulong a%d", (*count)++);
+    else
+        text_put(t, ", %s a%d", names[strchr(letters, spell_letter(n->type)) - letters],
+                 (*count)++);
 }
 
 bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,

@@ -1,4 +1,4 @@
-/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c and strips.c.
+/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c and strips_text.c.
  *
  * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last axis are columns,
  * along the others another row. */
@@ -14,6 +14,13 @@ struct text {
 };
 
 __attribute__((format(printf, 2, 3))) void text_put(struct text *t, const char *format, ...);
+
+bool text_same(const struct text *a, const struct text *b);
+
+struct arguments {
+    struct kernel_argument *list;
+    int count, capacity;
+};
 
 struct variable {
     int32_t node, row, dx;
@@ -59,8 +66,7 @@ struct emitter {
     struct pointer *seen_pointers;
     int pointers_count, pointers_capacity;
     int *input_number, *constant_number; /* of a node: + 1 */
-    struct kernel_argument *arguments;
-    int arguments_count, arguments_capacity;
+    struct arguments arguments;
     int inputs, constants_count, names;
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
@@ -82,13 +88,12 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
 
 /* The row at that distance along an axis from ours, which is row 0. */
 int emit_row(struct emitter *e, int axis, int distance);
-int emit_argument(struct emitter *e, int kind, int node, int size);
+void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed);
 /* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
 void emit_axes(const struct emitter *e, struct text *t);
-/* A loop with the body; head: what it begins with, which declares x. */
-void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes);
-/* How the kernel's argument for a number is declared, and that of its upper half. */
-void emit_number(struct text *t, const struct plan_graph *g, int node, int number);
+/* How a kernel's argument is declared that is a number, or its upper half; *count: numbers so far. */
+void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
+                 int *count);
 
 /* As the prelude calls a type in memory. */
 const char *memory_kind(struct machine_type t);

@@ -14,6 +14,23 @@
 #include "body.h"
 #include "kernels.h"
 
+/* A loop with the body; head: what it begins with, which declares x. */
+static void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes)
+{
+    const char *body = e->body.data ? e->body.data : "";
+    if (boxes)
+        text_put(t, "    const int row_inside = 1%s;\n",
+                 e->row_tests.data ? e->row_tests.data : "");
+    text_put(t, "%s", head);
+    if (boxes)
+        text_put(
+            t,
+            "        if (row_inside%s) {\n#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        "
+            "continue;\n        }\n",
+            e->column_tests.data ? e->column_tests.data : "", body);
+    text_put(t, "#define BOX(e) (e)\n%s#undef BOX\n    }\n", body);
+}
+
 static void header(struct emitter *e, struct text *t)
 {
     text_put(t,
@@ -21,17 +38,15 @@ static void header(struct emitter *e, struct text *t)
     for (int a = 0; a < e->set->rank - 1; a++)
         text_put(t, ", int D%d", a);
     int input = 0, output = 0, constant = 0;
-    for (int i = 0; i < e->arguments_count; i++) {
-        const struct kernel_argument *arg = &e->arguments[i];
+    for (int i = 0; i < e->arguments.count; i++) {
+        const struct kernel_argument *arg = &e->arguments.list[i];
         struct machine_type type = e->g->nodes[arg->node].type;
         if (arg->kind == ARGUMENT_INPUT)
             text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), input++);
         else if (arg->kind == ARGUMENT_OUTPUT)
             text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), output++);
-        else if (arg->kind == ARGUMENT_CONSTANT)
-            emit_number(t, e->g, arg->node, constant++);
         else
-            text_put(t, ", ulong h%d", constant - 1);
+            emit_number(t, e->g, arg, &constant);
     }
     text_put(t, ")\n{\n");
 }
@@ -46,10 +61,11 @@ void kernel_text_finish(struct kernel_text *k)
 static double bytes_touched(const struct emitter *e)
 {
     double bytes = 0;
-    for (int i = 0; i < e->arguments_count; i++)
-        if (e->arguments[i].kind == ARGUMENT_INPUT || e->arguments[i].kind == ARGUMENT_OUTPUT)
+    for (int i = 0; i < e->arguments.count; i++)
+        if (e->arguments.list[i].kind == ARGUMENT_INPUT ||
+            e->arguments.list[i].kind == ARGUMENT_OUTPUT)
             bytes += (double)(e->set->pitch * e->set->rows) *
-                     (double)type_bytes(e->g->nodes[e->arguments[i].node].type);
+                     (double)type_bytes(e->g->nodes[e->arguments.list[i].node].type);
     return bytes;
 }
 
@@ -65,7 +81,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     for (int i = 0; i < stores_count && !e->failed; i++) {
         struct operand v = emit_value(e, stores[i], 0, 0, true);
         struct machine_type type = g->nodes[stores[i]].type;
-        emit_argument(e, ARGUMENT_OUTPUT, stores[i], 0);
+        emit_argument(&e->arguments, ARGUMENT_OUTPUT, stores[i], 0, &e->failed);
         text_put(&e->pointers, "    __global %s *q%d = o%d + ((size_t)row * PITCH + HALO)%s;\n",
                  memory_type(type), i, i, type.width > 64 ? " * 2" : "");
         text_put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
@@ -97,8 +113,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
               out->has_boxes && g->boxes);
     text_put(&t, "}\n");
     out->text = t.data;
-    out->arguments = e->arguments;
-    out->arguments_count = e->arguments_count;
+    out->arguments = e->arguments.list;
+    out->arguments_count = e->arguments.count;
     out->ops = e->ops;
     out->cost = e->cost;
     out->loads = e->loads;

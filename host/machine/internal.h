@@ -3,16 +3,20 @@
  *   vpsets.c    VP sets: geometries and addresses                     (uses fields, slices, run)
  *   fields.c    fields and flags: which value is where                (uses simplify)
  *   simplify.c  makes values; the rules that keep the graph small     (uses graph)
+ *   places.c    ... neighbours', coordinates, random numbers          (uses graph)
  *   integers.c  makes integers' quotients, powers, shifts, counts     (uses simplify)
+ *   node_ops.c  what each operation is called, takes and costs        (a table)
  *   graph.c     nodes: hash-consing, reference counts, release        (uses device for buffers)
  *   plan.c      chooses what is stored and what is computed again     (pure; no OpenCL)
  *   body.c      the text of what a kernel computes                    (pure; no OpenCL)
  *   emit.c      the text of a kernel of rows                          (pure; no OpenCL)
- *   strips.c    ... of several stages, line by line                   (pure; no OpenCL)
+ *   strips_schedule.c  ... of several stages, line by line: which rows, when
+ *   strips_text.c      ... the text of it                             (pure; no OpenCL)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
- *   run.c       evaluation: targets, signature, plan, launch          (uses all of these)
+ *   run.c       evaluation: what to compute, and when                 (uses all of these)
+ *   plan_kernels.c  plans kept: their kernels, made, made better, run (uses plan, emit, device)
  *   replay.c    calls seen before: noted, and performed all at once   (uses run, states, loops)
  *   states.c    ... what fields and flags held then                   (uses graph)
  *   loops.c     ... which of them repeat, and how many turns at once  (uses run)
@@ -303,9 +307,11 @@ struct machine {
     uint64_t field_serial;
     uint64_t random_seed, random_draws;
 
-    /* run.c */
+    /* plan_kernels.c */
     struct plan **plans;
-    int plans_count, plans_size;
+    int plans_size;
+
+    /* run.c */
     uint32_t epoch; /* evaluations so far */
     uint32_t mark;
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
@@ -330,6 +336,8 @@ double machine_clock_s(void);
 /* Memory for what is small beside the fields: it is not expected to run out, and when it does there is no
  * state to return to. grown: twice as much room in an array; allocated: zeros. */
 void *machine_grown(void *old, int *capacity, size_t element);
+/* As grown, where there is such a state: then *failed, and the array is as it was. */
+void *machine_more(void *old, int *capacity, size_t element, bool *failed);
 void *machine_allocated(size_t count, size_t element);
 /* A hash of so many words, the same on every machine. */
 uint64_t machine_words_hash(const uint32_t *words, size_t count);
@@ -475,7 +483,7 @@ struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
     bool boxes;     /* write kernels that tell inside from outside: see body.c */
-    bool strips;    /* decided: all stages in one kernel, see strips.c */
+    bool strips;    /* decided: all stages in one kernel, see strips.h */
     bool no_strips; /* but not so */
     int turns_most; /* of a loop, in one kernel of strips; 1: that cannot be */
 };
@@ -530,7 +538,7 @@ struct kernel_text {
 bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);
-/* strips.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
+/* strips_text.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
 bool emit_strips(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);
@@ -544,6 +552,9 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **targe
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
 /* What became due at a store is done between instructions. */
 void run_flush_due(struct machine *m);
+void run_init(struct machine *m);
+
+/* plan_kernels.c */
 /* A plan, kept until the machine goes. version: another one where other kernels have been made for it;
  * UINT32_MAX while better ones are due, which run_evaluate() makes. stored: the nodes that get a buffer. */
 struct plan;
@@ -554,8 +565,7 @@ int plan_turns(const struct plan *p); /* how many of it may be cheaper in one ke
  * that are numbers. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
                              struct machine_value *const *nodes);
-void run_init(struct machine *m);
-void run_finish(struct machine *m);
+void plans_finish(struct machine *m);
 
 /* replay.c */
 bool replay_init(struct machine *m);

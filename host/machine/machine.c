@@ -30,12 +30,23 @@ double machine_clock_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void *machine_grown(void *old, int *capacity, size_t element)
+void *machine_more(void *old, int *capacity, size_t element, bool *failed)
 {
     int wanted = *capacity ? *capacity * 2 : 64;
     void *new = realloc(old, (size_t)wanted * element);
-    INVARIANT(new != NULL);
+    if (!new) {
+        *failed = true;
+        return old;
+    }
     *capacity = wanted;
+    return new;
+}
+
+void *machine_grown(void *old, int *capacity, size_t element)
+{
+    bool failed = false;
+    void *new = machine_more(old, capacity, element, &failed);
+    INVARIANT(!failed);
     return new;
 }
 
@@ -121,7 +132,7 @@ void machine_destroy(struct machine *m)
     replay_finish(m);
     fields_finish(m);
     vpsets_finish(m);
-    run_finish(m);
+    plans_finish(m);
     graph_finish(m);
     watch_close(m);
     device_close(m);

@@ -230,7 +230,7 @@ struct machine_explained_store {
     enum machine_cut why;
     struct machine_type type;
     const char *operation; /* that gave it, under the context or not */
-    bool in_ring; /* a few rows of it at a time, or a few vectors, and no array: see strips.c */
+    bool in_ring; /* a few rows of it at a time, or a few vectors, and no array: see strips.h */
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 

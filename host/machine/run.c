@@ -1,4 +1,4 @@
-/* run.c - evaluation: what to compute, the plan for it, the launches.
+/* run.c - evaluation: what to compute, and when.
  *
  * An evaluation has targets: the values asked for, and the content of every live field and flag
  * that is not
@@ -15,79 +15,29 @@
  * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from
  * then on whenever the trace of stores comes to the same place as then: once for each turn of a
  * loop, always at the same point. */
-#include "watch.h"
-
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-#include "kernels.h"
+#include "plan_kernels.h"
+#include "watch.h"
 
 enum { PENDING_MOST = 4096, PENDING_LOOP = 16384, HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
-
-/* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
-enum quality { QUICK, OPTIMISED, BOXED };
 
 #define TRACE_FACTOR                                                                           \
     0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power   \
                                           */
 
-struct launch {
-    cl_kernel kernel;
-    struct kernel_note *note; /* for those who watch; may be NULL */
-    int set, vector;
-    size_t strip_bytes; /* 0: not in strips */
-    int strip_margin, strip_columns, strip_near;
-    struct kernel_argument *arguments;
-    int arguments_count;
-};
-
-struct plan {
-    uint32_t *signature;
-    uint32_t signature_length;
-    uint64_t hash;
-    struct launch *launches;
-    int launches_count;
-    int *stored; /* nodes that get a buffer */
-    size_t *stored_bytes;
-    int stored_count;
-    uint32_t version;
-    uint64_t worked; /* processors it has run on, all runs together */
-    uint64_t work;   /* ... in one run */
-    enum quality quality;
-    bool could_be_optimised, could_be_boxed;
-    int turns_most;
-    struct plan *next;
-};
-
 /* ---- the nodes that are reached ---- */
-
-struct reach {
-    struct machine_value **nodes; /* inputs before users */
-    uint32_t *signature;
-    int count, capacity;
-    uint32_t length, signature_capacity;
-};
 
 static bool reach_room(struct reach *r)
 {
-    if (r->count == r->capacity) {
-        int capacity = r->capacity ? 2 * r->capacity : 512;
-        void *nodes = realloc(r->nodes, (size_t)capacity * sizeof *r->nodes);
-        if (!nodes)
-            return false;
-        r->nodes = nodes;
-        r->capacity = capacity;
-    }
-    if (r->length + 9 > r->signature_capacity) {
-        uint32_t capacity = r->signature_capacity ? 2 * r->signature_capacity : 4096;
-        void *signature = realloc(r->signature, (size_t)capacity * sizeof *r->signature);
-        if (!signature)
-            return false;
-        r->signature = signature;
-        r->signature_capacity = capacity;
-    }
-    return true;
+    bool failed = false;
+    if (r->count == r->capacity)
+        r->nodes = machine_more(r->nodes, &r->capacity, sizeof *r->nodes, &failed);
+    if (!failed && r->length + 9 > (uint32_t)r->signature_capacity)
+        r->signature =
+            machine_more(r->signature, &r->signature_capacity, sizeof *r->signature, &failed);
+    return !failed;
 }
 
 /* Depth first; HEIGHT_MOST bounds the recursion. */
@@ -127,23 +77,14 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
 
 /* ---- targets ---- */
 
-struct targets {
-    struct machine_value **values;
-    int count, capacity;
-};
-
 static bool targets_add(struct targets *t, struct machine_value *v)
 {
-    if (t->count == t->capacity) {
-        int capacity = t->capacity ? 2 * t->capacity : 64;
-        void *values = realloc(t->values, (size_t)capacity * sizeof *t->values);
-        if (!values)
-            return false;
-        t->values = values;
-        t->capacity = capacity;
-    }
-    t->values[t->count++] = v;
-    return true;
+    bool failed = false;
+    if (t->count == t->capacity)
+        t->values = machine_more(t->values, &t->capacity, sizeof *t->values, &failed);
+    if (!failed)
+        t->values[t->count++] = v;
+    return !failed;
 }
 
 static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
@@ -173,500 +114,12 @@ static bool targets_collect(struct machine *m, struct targets *t, bool all)
     return true;
 }
 
-/* ---- plans ---- */
-
-static void plan_free(struct plan *p)
-{
-    if (!p)
-        return;
-    for (int i = 0; i < p->launches_count; i++)
-        free(p->launches[i].arguments);
-    free(p->launches);
-    free(p->stored);
-    free(p->stored_bytes);
-    free(p->signature);
-    free(p);
-}
-
-void run_init(struct machine *m)
-{
-    m->trace_power = 1;
-    for (int i = 0; i < TRACE_LENGTH; i++)
-        m->trace_power *= TRACE_FACTOR;
-}
-
-void run_finish(struct machine *m)
-{
-    for (int i = 0; i < m->plans_size; i++)
-        for (struct plan *p = m->plans[i], *next; p; p = next) {
-            next = p->next;
-            plan_free(p);
-        }
-    free(m->plans);
-}
-
-static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
-                      const char *text)
-{
-    char path[600];
-    mkdir(m->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
-    FILE *f = fopen(path, "w");
-    if (!f)
-        return;
-    if (options)
-        fprintf(f, "/* %s */\n", options);
-    fputs(text, f);
-    fclose(f);
-}
-
-static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
-{
-    char path[600];
-    mkdir(m->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d.graph", m->dump_dir, number);
-    FILE *f = fopen(path, "w");
-    if (!f)
-        return;
-    for (int i = 0; i < g->count; i++) {
-        const struct plan_node *n = &g->nodes[i];
-        fprintf(f, "%4d %-14s %s%d", i, n->leaf ? "buffer" : node_ops[n->op].name,
-                n->type.kind == MACHINE_FLOAT ? "f" : "u", n->type.width);
-        if (n->op == NODE_SHIFT && !n->leaf)
-            fprintf(f, " axis %d by %d", n->axis, n->detail);
-        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
-            fprintf(f, " %d", n->in[k]);
-        if (!n->leaf && !n->constant)
-            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "",
-                    n->target ? ", asked for" : "");
-        fprintf(f, "\n");
-    }
-    fclose(f);
-}
-
-/* What a device is sure to take: 1024 bytes. Reserved: the fixed arguments and lengths of axes.
- */
-static bool too_many_arguments(const struct kernel_text *k)
-{
-    size_t bytes = (5 + MACHINE_AXES_MAX) * sizeof(cl_int);
-    for (int i = 0; i < k->arguments_count; i++)
-        bytes += k->arguments[i].size ? k->arguments[i].size : sizeof(cl_mem);
-    return bytes > 1024;
-}
-
-enum { ARRAYS_MANY = 16 }; /* more than a processor foresees at once */
-
-/* Those are fetched ahead. */
-static bool many_streams(const struct machine *m, const struct vpset *set,
-                         const struct kernel_text *k)
-{
-    enum { FETCH_FROM_BYTES = 4 << 20 };
-    int arrays = 0;
-    for (int i = 0; i < k->arguments_count; i++)
-        arrays += k->arguments[i].kind == ARGUMENT_INPUT;
-    return m->device.is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
-           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
-}
-
-static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
-                        const int *stores, int stores_count)
-{
-    int set = g->nodes[stores[0]].set;
-    struct kernel_text k;
-    double start = watch_clock(m);
-    if (g->strips
-            ? !emit_strips(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)
-            : !emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
-        return false;
-    }
-    if (g->strips && too_many_arguments(&k)) {
-        kernel_text_finish(&k);
-        return false; /* plan_make() does without */
-    }
-    if (stores_count > 1 && too_many_arguments(&k)) { /* two kernels, each with what it needs */
-        int half = stores_count / 2;
-        kernel_text_finish(&k);
-        if (m->watch)
-            watch_split(m);
-        return plan_kernel(m, p, g, stores, half) &&
-               plan_kernel(m, p, g, stores + half, stores_count - half);
-    }
-    if (m->watch)
-        watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
-    if (m->dump_dir) {
-        char said[sizeof k.options + 40];
-        int n = snprintf(said, sizeof said, "%s", k.options);
-        if (k.strip_bytes)
-            snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns",
-                     k.strip_columns);
-        dump_text(m, m->dump_count++, ".cl", said, k.text);
-    }
-    struct launch *launches =
-        realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
-                                       k.wide ? kernel_wide_cl : "",
-                                       k.soft ? kernel_soft_cl : "",
-                                       k.formats ? kernel_formats_cl : "",
-                                       k.math ? kernel_math_tables_cl : "",
-                                       k.math ? kernel_math_cl : "",
-                                       k.text};
-    if (many_streams(m, &m->sets[set], &k))
-        strcat(k.options, " -DAHEAD=128");
-    bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
-    if (quick)
-        strcat(k.options, " -cl-opt-disable");
-    cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
-    if (launches)
-        p->launches = launches;
-    p->could_be_optimised |= quick;
-    p->could_be_boxed |= k.has_boxes && !g->boxes;
-    p->work += m->sets[set].count;
-    if (!kernel) {
-        kernel_text_finish(&k);
-        return false;
-    }
-    const char *made = quick ? "quick" : g->boxes && k.has_boxes ? "boxed" : "optimised";
-    struct kernel_note *note =
-        m->watch ? watch_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
-    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
-                                                       .note = note,
-                                                       .set = set,
-                                                       .vector = k.vector,
-                                                       .strip_bytes = k.strip_bytes,
-                                                       .strip_margin = k.strip_margin,
-                                                       .strip_columns = k.strip_columns,
-                                                       .strip_near = k.strip_near,
-                                                       .arguments = k.arguments,
-                                                       .arguments_count = k.arguments_count};
-    k.arguments = NULL;
-    kernel_text_finish(&k);
-    return true;
-}
-
-static bool plan_graph_init(struct plan_graph *g, const struct reach *r,
-                            const struct targets *t)
-{
-    *g = (struct plan_graph){.nodes = calloc((size_t)r->count, sizeof *g->nodes),
-                             .count = r->count};
-    for (int i = 0; g->nodes && i < r->count; i++) {
-        const struct machine_value *v = r->nodes[i];
-        struct plan_node *n = &g->nodes[i];
-        *n = (struct plan_node){.op = v->buffer ? NODE_BUFFER : v->op,
-                                .type = v->type,
-                                .axis = v->axis,
-                                .generator = v->buffer ? GENERATOR_NONE : v->generator,
-                                .maybe_nan = v->maybe_nan,
-                                .leaf = v->buffer != NULL,
-                                .constant = v->op == NODE_CONSTANT && !v->buffer,
-                                .set = v->set,
-                                .detail = v->detail};
-        for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++)
-            n->in[k] = (int32_t)v->in[k]->local;
-    }
-    for (int i = 0; g->nodes && i < t->count; i++)
-        g->nodes[t->values[i]->local].target = true;
-    return g->nodes != NULL;
-}
-
-/* What is stored in that stage (-1: in all) and VP set; in stages' order. */
-static int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
-{
-    int count = 0;
-    for (int i = 0; i < g->count; i++)
-        if (g->nodes[i].stored && (stage < 0 || g->nodes[i].stage == stage) &&
-            g->nodes[i].set == set)
-            stores[count++] = i;
-    return count;
-}
-
-/* In strips, what only neighbours look at is in no array. */
-static void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
-                        const int *stores, int count)
-{
-    for (int i = 0; i < count; i++) {
-        const struct plan_node *n = &g->nodes[stores[i]];
-        if (g->strips && !n->target)
-            continue;
-        p->stored_bytes[p->stored_count] = observe_buffer_bytes(&m->sets[n->set], n->type);
-        p->stored[p->stored_count++] = stores[i];
-    }
-}
-
-static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_graph *g,
-                         int *stores)
-{
-    int last = 0;
-    uint64_t work = 0;
-    for (int i = 0; i < g->count; i++)
-        if (g->nodes[i].stored) {
-            last = g->nodes[i].stage > last ? g->nodes[i].stage : last;
-            work =
-                m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
-        }
-    if (p->quality == QUICK && work >= m->settings.optimise_after / 4)
-        p->quality = OPTIMISED;
-    for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
-        for (int set = 1; set < m->sets_count; set++) {
-            int count = plan_stores(g, stage, set, stores);
-            plan_arrays(m, p, g, stores, count);
-            if (count && !plan_kernel(m, p, g, stores, count))
-                return false;
-        }
-    return true;
-}
-
-static struct plan *plan_attempt(struct machine *m, const struct reach *r,
-                                 const struct targets *t, enum quality quality, bool *strips)
-{
-    struct plan_graph g;
-    struct plan *p = calloc(1, sizeof *p);
-    int *stores = calloc((size_t)r->count, sizeof *stores);
-    bool good = plan_graph_init(&g, r, t) && p && stores;
-    if (good) {
-        p->quality = quality;
-        p->stored = calloc((size_t)r->count, sizeof *p->stored);
-        p->stored_bytes = calloc((size_t)r->count, sizeof *p->stored_bytes);
-        good = p->stored && p->stored_bytes;
-    }
-    if (good) {
-        g.boxes = quality == BOXED;
-        g.no_strips = !*strips;
-        double start = watch_clock(m);
-        plan_choose(&g, m->sets, &m->device.shape);
-        if (m->watch)
-            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
-        *strips = g.strips;
-        p->turns_most = g.turns_most;
-        if (m->dump_dir)
-            dump_graph(m, m->dump_count, &g);
-        good = plan_kernels(m, p, &g, stores);
-    } else {
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
-    }
-    free(g.nodes);
-    free(stores);
-    if (!good) {
-        plan_free(p);
-        return NULL;
-    }
-    return p;
-}
-
-static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                              enum quality quality)
-{
-    bool strips = quality == BOXED || m->device.shape.always_strips;
-    struct plan *p = plan_attempt(m, r, t, quality, &strips);
-    if (p || !strips)
-        return p;
-    machine_error_clear(m); /* it cannot be done in strips */
-    strips = false;
-    return plan_attempt(m, r, t, quality, &strips);
-}
-
-/* How well a plan that has run on so many processors is to be made. */
-static enum quality quality_after(const struct machine *m, uint64_t worked)
-{
-    return worked >= m->settings.box_after        ? BOXED
-           : worked >= m->settings.optimise_after ? OPTIMISED
-                                                  : QUICK;
-}
-
-/* Better kernels would be worth it by now. */
-static bool plan_is_due(const struct machine *m, const struct plan *p)
-{
-    enum quality quality = quality_after(m, p->worked);
-    return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
-           (quality != BOXED || p->could_be_optimised || p->could_be_boxed);
-}
-
-/* The same plan with better kernels. What cannot be had is done without. */
-static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
-                         const struct targets *t)
-{
-    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked)), old = *p;
-    p->quality = BOXED; /* not again, unless it says so itself */
-    if (!better) {
-        machine_error_clear(m);
-        return;
-    }
-    *p = *better;
-    p->signature = old.signature;
-    p->signature_length = old.signature_length;
-    p->hash = old.hash;
-    p->worked = old.worked;
-    p->version = old.version + 1;
-    if (m->watch)
-        watch_improved(m);
-    p->next = old.next;
-    better->launches = old.launches;
-    better->launches_count = old.launches_count;
-    better->stored = old.stored;
-    better->stored_bytes = old.stored_bytes;
-    better->signature = NULL;
-    plan_free(better);
-}
-
-uint32_t plan_version(const struct machine *m, const struct plan *p)
-{
-    return plan_is_due(m, p) ? UINT32_MAX : p->version;
-}
-
-/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
-int plan_turns(const struct plan *p)
-{
-    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
-}
-
-const int *plan_stored(const struct plan *p, int *count)
-{
-    *count = p->stored_count;
-    return p->stored;
-}
-
-static struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
-{
-    uint64_t h = machine_words_hash(r->signature, r->length);
-    if (!m->plans) {
-        m->plans_size = 1024;
-        m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
-        if (!m->plans) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
-            return NULL;
-        }
-    }
-    struct plan **bucket = &m->plans[h & (uint64_t)(m->plans_size - 1)];
-    for (struct plan *p = *bucket; p; p = p->next)
-        if (p->hash == h && p->signature_length == r->length &&
-            !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)) {
-            if (plan_is_due(m, p))
-                plan_improve(m, p, r, t);
-            return p;
-        }
-    struct plan *p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0));
-    if (!p)
-        return NULL;
-    m->plans_built++;
-    p->signature = malloc(r->length * sizeof *p->signature);
-    if (!p->signature) {
-        plan_free(p);
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
-        return NULL;
-    }
-    memcpy(p->signature, r->signature, r->length * sizeof *p->signature);
-    p->signature_length = r->length;
-    p->hash = h;
-    p->next = *bucket;
-    *bucket = p;
-    return p;
-}
-
-/* ---- launches ---- */
-
-static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_value *v,
-                           const struct kernel_argument *a)
-{
-    uint64_t bits = a->kind == ARGUMENT_SECOND ? v->imm.hi : v->imm.lo;
-    if (a->size == 8)
-        return clSetKernelArg(kernel, at, 8, &bits);
-    uint32_t low = (uint32_t)bits;
-    if (v->type.kind == MACHINE_BITS && v->type.width == 1)
-        low = bits ? UINT32_MAX : 0;
-    return clSetKernelArg(kernel, at, 4, &low);
-}
-
-/* So many strips that all units of a CPU have some, and some more to make up for what is late; not so many that
- * what each computes besides its own rows counts. */
-static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
-                         size_t global[2], size_t *rows)
-{
-    size_t wanted = (size_t)m->device.shape.strips_each * (size_t)m->device.units,
-           least = 8 + 4 * (size_t)l->strip_margin;
-    global[0] = (size_t)(s->width / l->strip_columns);
-    global[0] = global[0] ? global[0] : 1;
-    size_t down = (wanted + global[0] - 1) / global[0];
-    *rows = ((size_t)s->rows + down - 1) / down;
-    *rows = *rows < least ? least : *rows;
-    global[1] = ((size_t)s->rows + *rows - 1) / *rows;
-}
-
-static enum machine_status launch(struct machine *m, const struct launch *l,
-                                  struct device_buffer *const *buffers,
-                                  struct machine_value *const *nodes)
-{
-    const struct vpset *s = &m->sets[l->set];
-    struct device_buffer *scratch = NULL;
-    size_t run = (size_t)m->device.shape.run_columns;
-    run = run < (size_t)l->vector ? (size_t)l->vector : run;
-    size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
-    if (l->strip_bytes) {
-        strips_count(m, l, s, global, &run);
-        scratch = device_buffer_get(m, global[0] * global[1] * l->strip_bytes);
-        if (!scratch)
-            return m->status;
-    }
-    cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->processors_log2,
-                       (cl_int)s->ratio};
-    cl_uint at = 0;
-    cl_int error = CL_SUCCESS;
-    for (int i = 0; i < 5; i++)
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
-    for (int a = 0; a < s->rank - 1; a++)
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
-    if (l->strip_bytes) {
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_columns);
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_near);
-    }
-    for (int i = 0; i < l->arguments_count; i++, at++) {
-        const struct kernel_argument *a = &l->arguments[i];
-        if (a->kind == ARGUMENT_SCRATCH)
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
-        else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
-            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
-        else
-            error |= set_constant(l->kernel, at, nodes[a->node], a);
-    }
-    if (m->watch)
-        watch_launch(m, l->note);
-    enum machine_status status =
-        device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
-    if (scratch)
-        device_buffer_unref(m, scratch); /* the queue is in order */
-    return status;
-}
-
-enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes)
-{
-    enum machine_status status = MACHINE_OK;
-    double start = watch_clock(m);
-    int count = 0;
-    for (; count < p->stored_count && !status; count++) {
-        struct device_buffer **b = &buffers[p->stored[count]];
-        *b = device_buffer_get(m, p->stored_bytes[count]);
-        if (!*b)
-            status = m->status;
-    }
-    for (int i = 0; i < p->launches_count && !status; i++)
-        status = launch(m, &p->launches[i], buffers, nodes);
-    p->worked += p->work;
-    device_flush(m);
-    if (m->watch)
-        watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
-    status = status ? status : device_pace(m);
-    for (int i = 0; i < count && status; i++) {
-        struct device_buffer **b = &buffers[p->stored[i]];
-        if (*b)
-            device_buffer_unref(m, *b);
-        *b = NULL;
-    }
-    return status;
-}
+/* ---- evaluation ---- */
 
 static enum machine_status execute(struct machine *m, struct plan *p, const struct reach *r,
                                    struct machine_value *const *wanted, int wanted_count)
 {
+    int count;
     struct device_buffer **buffers = calloc((size_t)r->count, sizeof *buffers);
     if (!buffers)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
@@ -674,23 +127,24 @@ static enum machine_status execute(struct machine *m, struct plan *p, const stru
         buffers[i] = r->nodes[i]->buffer;
     replay_evaluates(m, p, r->nodes, r->count, buffers);
     enum machine_status status = plan_run(m, p, buffers, r->nodes);
+    const int *stored = plan_stored(p, &count);
     /* Users first: a node whose inputs are let go may be the last to hold them. */
-    for (int i = p->stored_count - 1; i >= 0 && !status; i--) {
-        graph_ref(r->nodes[p->stored[i]]);
-        device_buffer_ref(buffers[p->stored[i]]);
+    for (int i = count - 1; i >= 0 && !status; i--) {
+        graph_ref(r->nodes[stored[i]]);
+        device_buffer_ref(buffers[stored[i]]);
     }
-    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
-        graph_materialised(m, r->nodes[p->stored[i]], buffers[p->stored[i]]);
-    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
-        graph_unref(m, r->nodes[p->stored[i]]);
+    for (int i = count - 1; i >= 0 && !status; i--)
+        graph_materialised(m, r->nodes[stored[i]], buffers[stored[i]]);
+    for (int i = count - 1; i >= 0 && !status; i--)
+        graph_unref(m, r->nodes[stored[i]]);
     if (status) {
         replay_failed(m);
     } else {
         m->epoch++;
         replay_evaluated(m, buffers, wanted, wanted_count);
     }
-    for (int i = p->stored_count - 1; i >= 0 && !status; i--)
-        device_buffer_unref(m, buffers[p->stored[i]]);
+    for (int i = count - 1; i >= 0 && !status; i--)
+        device_buffer_unref(m, buffers[stored[i]]);
     free(buffers);
     return status;
 }
@@ -746,8 +200,10 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
         watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
                    m->plans_built == built ? "true" : "false");
     if (p) {
+        int stored;
+        plan_stored(p, &stored);
         if (m->watch)
-            watch_reached(m, r.nodes, r.count, p->stored_count);
+            watch_reached(m, r.nodes, r.count, stored);
         status = execute(m, p, &r, wanted, count);
         if (m->watch)
             watch_evaluated(m, start, count > 0, t.count);
@@ -777,6 +233,13 @@ enum machine_status machine_settle(struct machine *m, struct machine_value **val
 }
 
 /* ---- when ---- */
+
+void run_init(struct machine *m)
+{
+    m->trace_power = 1;
+    for (int i = 0; i < TRACE_LENGTH; i++)
+        m->trace_power *= TRACE_FACTOR;
+}
 
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v)
 {

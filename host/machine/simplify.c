@@ -1,9 +1,9 @@
 /* simplify.c - makes values, and keeps the graph small while it does.
  *
- * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never
- * rearranged. No rule looks at the value of a number other than a bit's 0 or 1 (and widths of
- * 128 at most, and transcendental functions, fold where all operands are numbers), so that a program with other constants has
- * the same graph and the same kernels.
+ * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never rearranged. No rule looks at the
+ * value of a number other than a bit's 0 or 1, and whether a float is 0, or a factor 1 or more (widths of 128 at most, and
+ * transcendental functions, fold where all operands are numbers), so that a program with other constants has the same
+ * graph and the same kernels.
  *
  * The rules that matter: a store under context c is select(c, new, old), and
  *     select(c, new, select(c, x, old))       = select(c, new, old)
@@ -14,122 +14,6 @@
 #include "internal.h"
 
 #include <string.h>
-
-/* name, operands, cost, may be a NaN */
-const struct node_op_info node_ops[NODE_OP_COUNT] = {
-    [MACHINE_NOT] = {"NOT", 1, 1, 0},
-    [MACHINE_NEG] = {"NEG", 1, 2, 0},
-    [MACHINE_AND] = {"AND", 2, 1, 0},
-    [MACHINE_OR] = {"OR", 2, 1, 0},
-    [MACHINE_XOR] = {"XOR", 2, 1, 0},
-    [MACHINE_ADD] = {"ADD", 2, 2, 0},
-    [MACHINE_SUB] = {"SUB", 2, 2, 0},
-    [MACHINE_MUL] = {"MUL", 2, 3, 0},
-    [MACHINE_UMIN] = {"UMIN", 2, 2, 0},
-    [MACHINE_UMAX] = {"UMAX", 2, 2, 0},
-    [MACHINE_SMIN] = {"SMIN", 2, 3, 0},
-    [MACHINE_SMAX] = {"SMAX", 2, 3, 0},
-    [MACHINE_EQ] = {"EQ", 2, 1, 0},
-    [MACHINE_NE] = {"NE", 2, 1, 0},
-    [MACHINE_ULT] = {"ULT", 2, 1, 0},
-    [MACHINE_ULE] = {"ULE", 2, 1, 0},
-    [MACHINE_SLT] = {"SLT", 2, 2, 0},
-    [MACHINE_SLE] = {"SLE", 2, 2, 0},
-    [MACHINE_UDIV] = {"UDIV", 2, 24, 0},
-    [MACHINE_UCEIL] = {"UCEIL", 2, 28, 0},
-    [MACHINE_UROUND] = {"UROUND", 2, 32, 0},
-    [MACHINE_UREM] = {"UREM", 2, 28, 0},
-    [MACHINE_SDIV] = {"SDIV", 2, 34, 0},
-    [MACHINE_SFLOOR] = {"SFLOOR", 2, 40, 0},
-    [MACHINE_SCEIL] = {"SCEIL", 2, 40, 0},
-    [MACHINE_SROUND] = {"SROUND", 2, 44, 0},
-    [MACHINE_SREM] = {"SREM", 2, 38, 0},
-    [MACHINE_SMOD] = {"SMOD", 2, 40, 0},
-    [MACHINE_POW] = {"POW", 2, 80, 0},
-    [MACHINE_UPOW_BEYOND] = {"UPOW_BEYOND", 2, 120, 0},
-    [MACHINE_SPOW_BEYOND] = {"SPOW_BEYOND", 2, 140, 0},
-    [MACHINE_USHIFT] = {"USHIFT", 2, 10, 0},
-    [MACHINE_SSHIFT] = {"SSHIFT", 2, 12, 0},
-    [MACHINE_ROTATE] = {"ROTATE", 2, 6, 0},
-    [MACHINE_POPCOUNT] = {"POPCOUNT", 1, 4, 0},
-    [MACHINE_LENGTH] = {"LENGTH", 1, 4, 0},
-    [MACHINE_REVERSE] = {"REVERSE", 1, 20, 0},
-    [MACHINE_UNGRAY] = {"UNGRAY", 1, 12, 0},
-    [MACHINE_ISQRT] = {"ISQRT", 1, 24, 0},
-    [MACHINE_FNEG] = {"FNEG", 1, 1, 1},
-    [MACHINE_FABS] = {"FABS", 1, 1, 1},
-    [MACHINE_FSQRT] = {"FSQRT", 1, 8, 1},
-    [MACHINE_FFLOOR] = {"FFLOOR", 1, 2, 1},
-    [MACHINE_FCEIL] = {"FCEIL", 1, 2, 1},
-    [MACHINE_FTRUNC] = {"FTRUNC", 1, 2, 1},
-    [MACHINE_FROUND] = {"FROUND", 1, 2, 1},
-    [MACHINE_FADD] = {"FADD", 2, 1, 1},
-    [MACHINE_FSUB] = {"FSUB", 2, 1, 1},
-    [MACHINE_FMUL] = {"FMUL", 2, 1, 1},
-    [MACHINE_FDIV] = {"FDIV", 2, 6, 1},
-    [MACHINE_FMIN] = {"FMIN", 2, 1, 1},
-    [MACHINE_FMAX] = {"FMAX", 2, 1, 1},
-    [MACHINE_FEQ] = {"FEQ", 2, 1, 0},
-    [MACHINE_FNE] = {"FNE", 2, 1, 0},
-    [MACHINE_FLT] = {"FLT", 2, 1, 0},
-    [MACHINE_FLE] = {"FLE", 2, 1, 0},
-    [MACHINE_FGT] = {"FGT", 2, 1, 0},
-    [MACHINE_FGE] = {"FGE", 2, 1, 0},
-    [MACHINE_FEXP] = {"FEXP", 1, 60, 1},
-    [MACHINE_FLN] = {"FLN", 1, 60, 1},
-    [MACHINE_FLOG2] = {"FLOG2", 1, 60, 1},
-    [MACHINE_FLOG10] = {"FLOG10", 1, 60, 1},
-    [MACHINE_FSIN] = {"FSIN", 1, 80, 1},
-    [MACHINE_FCOS] = {"FCOS", 1, 80, 1},
-    [MACHINE_FTAN] = {"FTAN", 1, 100, 1},
-    [MACHINE_FASIN] = {"FASIN", 1, 90, 1},
-    [MACHINE_FACOS] = {"FACOS", 1, 90, 1},
-    [MACHINE_FATAN] = {"FATAN", 1, 80, 1},
-    [MACHINE_FSINH] = {"FSINH", 1, 100, 1},
-    [MACHINE_FCOSH] = {"FCOSH", 1, 100, 1},
-    [MACHINE_FTANH] = {"FTANH", 1, 100, 1},
-    [MACHINE_FASINH] = {"FASINH", 1, 100, 1},
-    [MACHINE_FACOSH] = {"FACOSH", 1, 100, 1},
-    [MACHINE_FATANH] = {"FATANH", 1, 100, 1},
-    [MACHINE_FATAN2] = {"FATAN2", 2, 90, 1},
-    [MACHINE_FPOW] = {"FPOW", 2, 120, 1},
-    [MACHINE_FMOD] = {"FMOD", 2, 100, 1},
-    [MACHINE_FREM] = {"FREM", 2, 100, 1},
-    [MACHINE_FSCALE] = {"FSCALE", 2, 40, 1},
-    [NODE_CONSTANT] = {"constant", 0, 0, 0},
-    [NODE_BUFFER] = {"buffer", 0, GENERATOR_NONE, 0},
-    [NODE_COORDINATE] = {"coordinate", 0, 2, 0},
-    [NODE_INDEX] = {"index", 0, 4, 0},
-    [NODE_SEND_ADDRESS] = {"send_address", 0, 8, 0},
-    [NODE_RANDOM] = {"random", 0, 40, 0},
-    [NODE_SELECT] = {"select", 3, 1, 0},
-    [NODE_SHIFT] = {"shift", 1, 0, 0},
-    [NODE_ZERO_EXTEND] = {"zero_extend", 1, 1, 0},
-    [NODE_SIGN_EXTEND] = {"sign_extend", 1, 2, 0},
-    [NODE_EXTRACT] = {"extract", 1, 2, 0},
-    [NODE_CONCAT] = {"concat", 2, 2, 0},
-    [NODE_REINTERPRET] = {"reinterpret", 1, 1, 0},
-    [NODE_U_TO_F] = {"u_to_f", 1, 2, 0},
-    [NODE_S_TO_F] = {"s_to_f", 1, 2, 0},
-    [NODE_F_TO_U] = {"f_to_u", 1, 6, 0},
-    [NODE_F_TO_S] = {"f_to_s", 1, 6, 0},
-    [NODE_F_TO_F] = {"f_to_f", 1, 2, 1},
-    [NODE_PACK] = {"pack", 1, 30, 0},
-    [NODE_UNPACK] = {"unpack", 1, 20, 0},
-    [NODE_OVERFLOW_UADD] = {"overflow_uadd", 2, 2, 0},
-    [NODE_OVERFLOW_USUB] = {"overflow_usub", 2, 2, 0},
-    [NODE_OVERFLOW_UMUL] = {"overflow_umul", 2, 8, 0},
-    [NODE_OVERFLOW_SADD] = {"overflow_sadd", 2, 4, 0},
-    [NODE_OVERFLOW_SSUB] = {"overflow_ssub", 2, 4, 0},
-    [NODE_OVERFLOW_SMUL] = {"overflow_smul", 2, 12, 0},
-    [NODE_OVERFLOW_SNEG] = {"overflow_sneg", 1, 2, 0},
-    [NODE_OVERFLOW_FADD] = {"overflow_fadd", 2, 5, 0},
-    [NODE_OVERFLOW_FSUB] = {"overflow_fsub", 2, 5, 0},
-    [NODE_OVERFLOW_FMUL] = {"overflow_fmul", 2, 5, 0},
-    [NODE_OVERFLOW_FDIV] = {"overflow_fdiv", 2, 10, 0},
-    [NODE_OVERFLOW_RESULT] = {"overflow_result", 2, 4, 0},
-    [NODE_SLICE] = {"slice", 1, GENERATOR_NONE, 0},
-};
 
 static const struct machine_type bit_type = {.kind = MACHINE_BITS, .width = 1};
 
@@ -462,10 +346,9 @@ struct machine_value *machine_select(struct machine *m, struct machine_value *co
 
 /* ---- arithmetic ---- */
 
-static bool fold_bits(enum machine_op op, int width, unsigned __int128 a, unsigned __int128 b,
+static bool fold_bits(enum machine_op op, unsigned __int128 a, unsigned __int128 b,
                       unsigned __int128 *out)
 {
-    (void)width;
     switch ((int)op) {
     case MACHINE_NOT:
         *out = ~a;
@@ -518,7 +401,7 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
     if (op_is_integer((int)op))
         return integer_value(m, op, a, NULL);
     unsigned __int128 folded;
-    if (is_number(a) && !is_float && fold_bits(op, a->type.width, wide(a->imm), 0, &folded))
+    if (is_number(a) && !is_float && fold_bits(op, wide(a->imm), 0, &folded))
         return number(m, a->type, narrow(folded));
     if (op == MACHINE_NOT && a->type.width == 1)
         return bit_not(m, a);
@@ -559,7 +442,7 @@ static struct machine_value *binary(struct machine *m, enum machine_op op,
                                                             : integer_value(m, op, a, b);
     unsigned __int128 folded;
     if (is_number(a) && is_number(b) && !is_float && !compares &&
-        fold_bits(op, a->type.width, wide(a->imm), wide(b->imm), &folded))
+        fold_bits(op, wide(a->imm), wide(b->imm), &folded))
         return number(m, a->type, narrow(folded));
     if (a->type.width == 1) { /* bits have rules of their own */
         switch ((int)op) {
@@ -761,110 +644,4 @@ struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a
         return bad(m, "a float becomes 1..128 bits");
     return build(m, is_signed ? NODE_F_TO_S : NODE_F_TO_U, MACHINE_UINT(width), 0, a, NULL,
                  NULL);
-}
-
-/* ---- where processors are ---- */
-
-struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis,
-                                    int distance)
-{
-    if (!a)
-        return NULL;
-    int set = a->set ? a->set : m->set_current;
-    const struct vpset *s = vpset_get(m, set);
-    if (!s)
-        return NULL;
-    if (axis < 0 || axis >= s->rank)
-        return bad(m, "there is no such axis");
-    int length = s->dimensions[axis];
-    distance %= length;
-    if (!a->buffer && a->op == NODE_SHIFT && a->axis == axis) {
-        distance = (distance + a->detail) % length;
-        a = a->in[0];
-    }
-    if (distance > length / 2)
-        distance -= length;
-    if (distance < -(length / 2))
-        distance += length;
-    if (distance == 0 || is_number(a))
-        return a;
-    if (!a->buffer && a->op == NODE_REINTERPRET) {
-        struct machine_value *moved = machine_shift(m, a->in[0], axis, distance);
-        return machine_reinterpret(m, moved, a->type);
-    }
-    struct machine_value key = {.op = NODE_SHIFT,
-                                .type = a->type,
-                                .axis = (uint8_t)axis,
-                                .set = (uint16_t)set,
-                                .detail = distance,
-                                .in = {a, NULL, NULL}};
-    return graph_node(m, &key);
-}
-
-static struct machine_value *generated(struct machine *m, int op, int axis, int detail,
-                                       int width, struct machine_scalar imm)
-{
-    const struct vpset *s = vpset_get(m, m->set_current);
-    if (!s)
-        return NULL;
-    if (!bits_type_ok(width))
-        return bad(m, "a value's width must be 1..128 bits");
-    if (axis < 0 || axis >= s->rank)
-        return bad(m, "there is no such axis");
-    struct machine_value key = {.op = (uint8_t)op,
-                                .type = MACHINE_UINT(width),
-                                .axis = (uint8_t)axis,
-                                .set = (uint16_t)m->set_current,
-                                .detail = detail,
-                                .imm = imm};
-    return graph_node(m, &key);
-}
-
-struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
-{
-    return generated(m, NODE_COORDINATE, axis, 0, width, (struct machine_scalar){0, 0});
-}
-
-struct machine_value *machine_self_address(struct machine *m, int width)
-{
-    if (machine_vpset_order(m, m->set_current) == MACHINE_SEND_ORDER)
-        return machine_self_index(m, width);
-    return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
-}
-
-struct machine_value *machine_self_index(struct machine *m, int width)
-{
-    return generated(m, NODE_INDEX, 0, 0, width, (struct machine_scalar){0, 0});
-}
-
-static uint64_t mix(uint64_t z)
-{
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-void machine_random_seed(struct machine *m, uint64_t seed)
-{
-    m->random_seed = seed;
-    m->random_draws = 0;
-}
-
-struct machine_value *machine_random(struct machine *m, int width, uint64_t limit)
-{
-    if (width > 64) {
-        struct machine_value *low = machine_random(m, 64, limit);
-        struct machine_value *high =
-            limit ? number(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
-                  : machine_random(m, width - 64, 0);
-        return machine_concat(m, low, high);
-    }
-    replay_impure(m);
-    uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
-    int fits32 = limit != 0 && limit <= UINT32_MAX;
-    return generated(m, NODE_RANDOM, 0,
-                     limit == 0 ? 0
-                     : fits32   ? 1
-                                : 2,
-                     width, (struct machine_scalar){key, limit});
 }

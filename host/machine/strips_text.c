@@ -1,292 +1,10 @@
-/* strips.c - the text of one kernel for several stages: a strip of columns, line by line.
- *
- * What one stage stores for the neighbours of the next need not exist as a whole: each work-item goes down
- * a strip, and each stage handles a row as soon as the rows that it looks at have been made.
- *
- *     i = row that the strip has come to
- *
- *     stage 0  at row i          reads arrays            keeps a
- *     stage 1  at row i - 1      reads arrays, a         keeps b, and writes an array
- *     stage 2  at row i - 3      reads a, b              writes an array
- *
- *     delay   how many rows a stage is behind: enough for the lowest row that it looks at
- *     above   how many rows above its strip a stage begins, since later ones look at those; below,
- *             left, right: likewise
- *
- * Stages that follow each other are *passes*: each pass is one loop over the columns of a row, VECTOR at a time.
- * What a stage of a pass has just computed others of the pass find in variables. Along the row a stage may be some
- * vectors ahead of those that look further on than it; what they want of earlier vectors stays in variables, too:
- *
- *     x                x + VECTOR
- *     [ c0_1        ][ v7        ]      v7: computed now, c0_1: v7 of the turn before
- *         [ wanted      ]               lanes of both, put together
- *
- * Other rows, and what other passes have made, are kept in *rings* of a few rows as wide as the strip, which stay
- * in the caches. So a value that several look at is computed once, and many steps of a stencil can go through the
- * caches at once; see Hegarty et al., "Darkroom" (SIGGRAPH 2014), for the same among image filters.
- *
- * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
- * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
- * stages together. Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold
- * anything, and nobody looks at them.
- *
- * Stages of which the same text comes again and again are turns of a loop, and each turn is a pass: a function,
- * which all turns with the same text share. */
+/* strips_text.c - the text of kernels in strips. See strips.h. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "body.h"
 #include "kernels.h"
 #include "spell.h"
-
-enum {
-    PASS_COST = 600
-}; /* of stages in one loop: with many more than there are registers for nothing is won */
-
-struct stage {
-    struct emitter e; /* of it alone: what it looks at */
-    int pass;
-    int delay, above, below, left, right;
-    int ahead; /* vectors */
-};
-
-struct output {
-    int node;
-    bool array; /* else its ring */
-};
-
-struct pass {
-    struct emitter e;
-    struct together together;
-    struct text text, span; /* of its functions, but for their names */
-    int same;               /* the first pass with that text */
-    int first, last;        /* stages */
-    int delay;              /* of the first of its rows */
-    int above, below;       /* rows */
-    int before, after;      /* columns, whole vectors */
-    struct output *outputs;
-    int outputs_count;
-};
-
-struct strips {
-    const struct plan_graph *g;
-    const struct vpset *set;
-    const int *stores;
-    int stores_count, vector;
-    struct stage *stages;
-    int stages_count;
-    struct pass *passes;
-    int passes_count;
-    int *down, *ahead; /* of stages: see struct together */
-    bool *bits_matter;
-    int *ring_rows; /* of a node: how many; 0: no ring */
-    int *ring_at;   /* of a node: where in the strip's memory, in bytes for each column */
-    int *number;    /* of a node that is a number, + 1; of an array that is read */
-    int memory;     /* of a strip, bytes for each column */
-    int margin;     /* columns of a ring on both sides of the strip's */
-    struct kernel_argument *arguments;
-    int arguments_count, arguments_capacity, constants_count;
-    bool failed;
-};
-
-static void add_argument(struct strips *s, int kind, int node, int size)
-{
-    if (s->arguments_count == s->arguments_capacity) {
-        int capacity = s->arguments_capacity ? 2 * s->arguments_capacity : 64;
-        void *new = realloc(s->arguments, (size_t)capacity * sizeof *s->arguments);
-        if (!new) {
-            s->failed = true;
-            return;
-        }
-        s->arguments = new;
-        s->arguments_capacity = capacity;
-    }
-    s->arguments[s->arguments_count++] =
-        (struct kernel_argument){.kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
-}
-
-/* Whose NaNs are looked at bit by bit when they have been kept for a later stage. In arrays all are canonical. */
-static void find_bits(struct strips *s)
-{
-    const struct plan_graph *g = s->g;
-    for (int i = g->count - 1; i >= 0; i--) {
-        const struct plan_node *n = &g->nodes[i];
-        bool bits =
-            n->op == NODE_REINTERPRET ||
-            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || s->bits_matter[i]));
-        for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
-            s->bits_matter[n->in[k]] = true;
-            if (n->instead[k] >= 0)
-                s->bits_matter[n->instead[k]] = true;
-        }
-    }
-}
-
-/* ---- which stages are one pass ---- */
-
-static bool text_same(const struct text *a, const struct text *b)
-{
-    return a->length == b->length && (!a->length || !memcmp(a->data, b->data, a->length));
-}
-
-/* Where stages are turns of a loop: of how many stages, and which stage the first of those begins with that are all
- * alike. The first and the last turns are not quite, since there is nothing before and after them. */
-struct turns {
-    int stages, begin; /* stages: 0: there are none */
-};
-
-static struct turns find_turns(const struct strips *s)
-{
-    struct turns best = {0, 0};
-    int best_length = s->stages_count / 3;
-    for (int turn = 1; 2 * turn < s->stages_count; turn++)
-        for (int k = turn, length = 0; k < s->stages_count; k++) {
-            bool same = text_same(&s->stages[k].e.body, &s->stages[k - turn].e.body);
-            length = same ? length + 1 : 0;
-            if (length > best_length && length >= turn) {
-                best_length = length;
-                best = (struct turns){turn, (k - length + 1) % turn};
-            }
-        }
-    return best;
-}
-
-static void make_passes(struct strips *s)
-{
-    struct turns turns = find_turns(s);
-    for (int k = 0, cost = 0, begun = 0; k < s->stages_count; k++) {
-        bool turn = turns.stages && k % turns.stages == turns.begin;
-        cost += s->stages[k].e.cost;
-        if (k == 0 || turn || (cost > PASS_COST && k > begun)) {
-            s->passes[s->passes_count++].first = begun = k;
-            cost = s->stages[k].e.cost;
-        }
-        s->stages[k].pass = s->passes_count - 1;
-        s->passes[s->passes_count - 1].last = k;
-    }
-}
-
-/* ---- which rows and columns ---- */
-
-/* Row offsets are modulo the height: the short way round. */
-static int short_way(const struct strips *s, int offset)
-{
-    int height = s->set->dimensions[0];
-    offset %= height;
-    return offset > height / 2      ? offset - height
-           : offset < -(height / 2) ? offset + height
-                                    : offset;
-}
-
-static int rows_down(const struct strips *s, const struct emitter *e, const struct pointer *p)
-{
-    return short_way(s, e->row_offsets[p->row].d[0]);
-}
-
-static int up_to_vectors(const struct strips *s, int columns)
-{
-    return columns > 0 ? (columns + s->vector - 1) / s->vector * s->vector : 0;
-}
-
-static void widen(int *have, int wanted)
-{
-    *have = wanted > *have ? wanted : *have;
-}
-
-static void schedule(struct strips *s)
-{
-    for (int k = 0; k < s->stages_count; k++) {
-        struct stage *to = &s->stages[k];
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
-            const struct plan_node *n = &s->g->nodes[p->node];
-            if (!n->leaf)
-                widen(&to->delay, s->stages[n->stage].delay + rows_down(s, &to->e, p));
-        }
-    }
-    for (int k = s->stages_count - 1; k >= 0; k--) {
-        struct stage *to = &s->stages[k];
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
-            const struct plan_node *n = &s->g->nodes[p->node];
-            if (n->leaf)
-                continue;
-            struct stage *from = &s->stages[n->stage];
-            int down = rows_down(s, &to->e, p), rows = to->delay - from->delay - down + 1;
-            widen(&from->above, to->above - down);
-            widen(&from->below, to->below + down);
-            widen(&from->left, to->left - p->low);
-            widen(&from->right, to->right + p->high);
-            if (from->pass == to->pass && rows == 1)
-                widen(&from->ahead, to->ahead + up_to_vectors(s, p->high) / s->vector);
-            else
-                widen(&s->ring_rows[p->node], rows);
-        }
-    }
-    for (int i = 0; i < s->passes_count; i++) {
-        struct pass *pass = &s->passes[i];
-        pass->delay = s->stages[pass->first].delay;
-        for (int k = pass->first; k <= pass->last; k++)
-            if (s->stages[k].delay < pass->delay)
-                pass->delay = s->stages[k].delay;
-        for (int k = pass->first; k <= pass->last; k++) {
-            const struct stage *stage = &s->stages[k];
-            int behind = stage->delay - pass->delay, columns = stage->ahead * s->vector;
-            s->down[k] = -behind;
-            s->ahead[k] = stage->ahead;
-            widen(&pass->above, stage->above - behind);
-            widen(&pass->below, stage->below + behind);
-            widen(&pass->before, up_to_vectors(s, stage->left + columns));
-            widen(&pass->after, up_to_vectors(s, stage->right - columns));
-        }
-    }
-}
-
-/* Rings of wide elements first, so that all are aligned. */
-static void lay_out(struct strips *s)
-{
-    for (int bytes = 8; bytes >= 1; bytes /= 2)
-        for (int i = 0; i < s->g->count; i++)
-            if (s->ring_rows[i] && (int)type_bytes(s->g->nodes[i].type) == bytes) {
-                s->ring_at[i] = s->memory;
-                s->memory += bytes * s->ring_rows[i];
-            }
-}
-
-/* Elements of up to 64 bits; what all stages together look at lies in the halos of arrays; and there are so many
- * rows that which one is meant is never in doubt. */
-static bool suits(const struct strips *s)
-{
-    int rows = 0;
-    for (int k = 0; k < s->stages_count; k++) {
-        const struct stage *stage = &s->stages[k];
-        if (stage->e.wide || stage->e.soft)
-            return false;
-        for (int i = 0; i < stage->e.pointers_count; i++) {
-            const struct pointer *p = &stage->e.seen_pointers[i];
-            if (stage->left - p->low > s->set->halo || stage->right + p->high > s->set->halo)
-                return false;
-            widen(&rows, abs(rows_down(s, &stage->e, p)) - s->down[k]);
-        }
-    }
-    return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
-           s->set->dimensions[0] >= 2 * rows;
-}
-
-/* ---- a pass's functions ---- */
-
-/* The values first, a stage alone: which passes there are, and which rings, follows from what all of them
- * look at. */
-static void stage_values(struct strips *s, int k)
-{
-    struct stage *stage = &s->stages[k];
-    emitter_init(&stage->e, s->g, s->set, k);
-    stage->e.bare = true;
-    for (int i = 0; i < s->stores_count && !stage->e.failed; i++)
-        if (s->g->nodes[s->stores[i]].stage == k)
-            emit_value(&stage->e, s->stores[i], 0, 0, true);
-    s->failed = s->failed || stage->e.failed;
-}
+#include "strips.h"
 
 static void pass_output(struct strips *s, struct pass *pass, int node, bool array)
 {
@@ -345,6 +63,13 @@ static bool has_boxes(const struct strips *s, const struct emitter *e)
     return s->g->boxes && (e->row_tests.data || e->column_tests.data);
 }
 
+static void numbers_text(const struct emitter *e, struct text *t)
+{
+    int count = 0;
+    for (int i = 0; i < e->arguments.count; i++)
+        emit_number(t, e->g, &e->arguments.list[i], &count);
+}
+
 /* Of which columns on, and up to which, whole vectors are inside all boxes, and stored whole. */
 static void span_text(struct strips *s, struct pass *pass)
 {
@@ -355,12 +80,7 @@ static void span_text(struct strips *s, struct pass *pass)
         if (pass->outputs[i].array)
             widen(&furthest, s->ahead[s->g->nodes[pass->outputs[i].node].stage] * s->vector);
     text_put(t, "(const int W, const int first, const int last");
-    int number = 0;
-    for (int i = 0; i < e->arguments_count; i++)
-        if (e->arguments[i].kind == ARGUMENT_CONSTANT)
-            emit_number(t, s->g, e->arguments[i].node, number++);
-        else
-            text_put(t, ", ulong h%d", number - 1);
+    numbers_text(e, t);
     text_put(t,
              ")\n{\n    int from = last + %d, to = from;\n"
              "    for (int x = first - %d; x < last + %d; x += VECTOR)\n"
@@ -411,7 +131,8 @@ static void prefetch_text(const struct strips *s, struct pass *pass, struct text
         bool newest = s->g->nodes[p->node].leaf;
         for (int k = 0; k < e->pointers_count; k++)
             newest = newest && (e->seen_pointers[k].node != p->node ||
-                                rows_down(s, e, &e->seen_pointers[k]) <= rows_down(s, e, p));
+                                strips_rows_down(s, e, &e->seen_pointers[k]) <=
+                                    strips_rows_down(s, e, p));
         if (newest)
             text_put(t, "        PREFETCH(p%d + PITCH + x + %d, 0);\n", i, p->high);
     }
@@ -438,12 +159,7 @@ static void pass_text(struct strips *s, struct pass *pass)
         text_put(t, ",\n    __global %s *%s q%d",
                  memory_type(s->g->nodes[pass->outputs[i].node].type),
                  pass->outputs[i].array ? "restrict" : "", i);
-    int number = 0;
-    for (int i = 0; i < e->arguments_count; i++)
-        if (e->arguments[i].kind == ARGUMENT_CONSTANT)
-            emit_number(t, s->g, e->arguments[i].node, number++);
-        else
-            text_put(t, ", ulong h%d", number - 1);
+    numbers_text(e, t);
     text_put(t, ")\n{\n    const int row = wrap(y, D0), r0 = row;\n");
     emit_axes(e, t);
     text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
@@ -495,32 +211,32 @@ static void collect_arguments(struct strips *s)
         for (int i = 0; i < e->pointers_count; i++) {
             int node = e->seen_pointers[i].node;
             if (s->g->nodes[node].leaf && !s->number[node]) {
-                add_argument(s, ARGUMENT_INPUT, node, 0);
+                emit_argument(&s->arguments, ARGUMENT_INPUT, node, 0, &s->failed);
                 s->number[node] = node + 1;
             }
         }
         bool fresh = false;
-        for (int i = 0; i < e->arguments_count; i++) {
-            const struct kernel_argument *a = &e->arguments[i];
+        for (int i = 0; i < e->arguments.count; i++) {
+            const struct kernel_argument *a = &e->arguments.list[i];
             if (a->kind == ARGUMENT_CONSTANT) {
                 fresh = !s->number[a->node];
                 s->number[a->node] = fresh ? ++s->constants_count : s->number[a->node];
             }
             if (fresh)
-                add_argument(s, a->kind, a->node, a->size);
+                emit_argument(&s->arguments, a->kind, a->node, a->size, &s->failed);
         }
     }
     for (int i = 0; i < s->stores_count; i++)
         if (s->g->nodes[s->stores[i]].target)
-            add_argument(s, ARGUMENT_OUTPUT, s->stores[i], 0);
-    add_argument(s, ARGUMENT_SCRATCH, 0, 0);
+            emit_argument(&s->arguments, ARGUMENT_OUTPUT, s->stores[i], 0, &s->failed);
+    emit_argument(&s->arguments, ARGUMENT_SCRATCH, 0, 0, &s->failed);
 }
 
 static void pass_numbers(const struct strips *s, struct text *t, const struct emitter *e)
 {
-    for (int i = 0; i < e->arguments_count; i++)
-        text_put(t, ", %c%d", e->arguments[i].kind == ARGUMENT_CONSTANT ? 'a' : 'h',
-                 s->number[e->arguments[i].node] - 1);
+    for (int i = 0; i < e->arguments.count; i++)
+        text_put(t, ", %c%d", e->arguments.list[i].kind == ARGUMENT_CONSTANT ? 'a' : 'h',
+                 s->number[e->arguments.list[i].node] - 1);
 }
 
 static void kernel_head(struct strips *s, struct text *t)
@@ -529,19 +245,16 @@ static void kernel_head(struct strips *s, struct text *t)
                 "RATIO, int D0, int "
                 "COLUMNS, int NEAR");
     int constant = 0;
-    for (int i = 0; i < s->arguments_count; i++) {
-        const struct kernel_argument *a = &s->arguments[i];
+    for (int i = 0; i < s->arguments.count; i++) {
+        const struct kernel_argument *a = &s->arguments.list[i];
         struct machine_type type = s->g->nodes[a->node].type;
         if (a->kind == ARGUMENT_INPUT)
             text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), a->node);
         else if (a->kind == ARGUMENT_OUTPUT)
             text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), a->node);
-        else if (a->kind == ARGUMENT_CONSTANT)
-            emit_number(t, s->g, a->node, constant++);
-        else if (a->kind == ARGUMENT_SECOND)
-            text_put(t, ", ulong h%d", constant - 1);
+        else if (a->kind == ARGUMENT_SCRATCH) text_put(t, ",\n    __global uchar *scratch");
         else
-            text_put(t, ",\n    __global uchar *scratch");
+            emit_number(t, s->g, a, &constant);
     }
     text_put(
         t,
@@ -594,7 +307,7 @@ static void pass_call(struct strips *s, struct text *t, int k)
              pass->delay, pass->above, pass->below, pass->same, k);
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
-        int down = rows_down(s, e, p);
+        int down = strips_rows_down(s, e, p);
         if (s->g->nodes[p->node].leaf)
             array_row(t, 'b', p->node, down);
         else
@@ -611,21 +324,17 @@ static void pass_call(struct strips *s, struct text *t, int k)
     text_put(t, ");\n        }\n");
 }
 
-/* What has lanes beyond a row's ends: each kind that arrays are of. */
+/* What has lanes beyond a row's ends: each kind that is stored. */
 static void edges_text(const struct strips *s, struct text *t)
 {
-    static const char *const kinds[][2] = {
-        {"bit", "uchar"}, {"u8", "uchar"},  {"u16", "ushort"}, {"u32", "uint"},
-        {"u64", "ulong"}, {"f32", "float"}, {"f64", "double"}};
+    static const char *const kinds[] = {"bit", "u8", "u16", "u32", "u64", "f32", "f64"};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         bool used = false;
-        for (int k = 0; k < s->arguments_count && !used; k++) {
-            int kind = s->arguments[k].kind;
-            used = (kind == ARGUMENT_INPUT || kind == ARGUMENT_OUTPUT) &&
-                   !strcmp(memory_kind(s->g->nodes[s->arguments[k].node].type), kinds[i][0]);
-        }
+        for (int k = 0; k < s->arguments.count && !used; k++)
+            used = s->arguments.list[k].kind == ARGUMENT_OUTPUT &&
+                   !strcmp(memory_kind(s->g->nodes[s->arguments.list[k].node].type), kinds[i]);
         if (used)
-            text_put(t, "EDGES(%s, %s)\n", kinds[i][0], kinds[i][1]);
+            text_put(t, "EDGES(%s)\n", kinds[i]);
     }
 }
 
@@ -658,44 +367,6 @@ static void kernel_text(struct strips *s, struct text *t)
     text_put(t, "    }\n}\n");
 }
 
-/* What passes read and write of a ring's row. */
-static void find_margin(struct strips *s)
-{
-    for (int k = 0; k < s->passes_count; k++) {
-        const struct pass *pass = &s->passes[k];
-        int low = 0, high = 0;
-        for (int i = 0; i < pass->e.pointers_count; i++) {
-            const struct pointer *p = &pass->e.seen_pointers[i];
-            low = p->low < low ? p->low : low;
-            widen(&high, p->high);
-        }
-        for (int i = pass->first; i <= pass->last; i++)
-            widen(&high, s->ahead[i] * s->vector);
-        widen(&s->margin, up_to_vectors(s, pass->before - low));
-        widen(&s->margin, up_to_vectors(s, pass->after + high + s->vector));
-    }
-}
-
-/* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as
- * wide. */
-static int strip_columns(const struct strips *s, const struct device_shape *shape)
-{
-    enum { LEAST = 128 };
-    int columns = shape->strip_columns, width = s->set->width;
-    while (columns > LEAST && columns * s->memory > shape->near_bytes)
-        columns = columns / 2 / s->vector * s->vector;
-    int strips = (width + columns - 1) / columns;
-    columns = width / strips / s->vector * s->vector;
-    return columns ? columns : s->vector;
-}
-
-/* A row of a ring: as wide as a strip, of which the last takes what is left, too, and both margins. */
-static int near_columns(const struct strips *s, int columns)
-{
-    columns = 2 * columns < s->set->width ? 2 * columns : s->set->width;
-    return (columns + 2 * s->margin + 15) / 16 * 16 + 16;
-}
-
 static void describe(const struct strips *s, const struct device_shape *shape,
                      struct kernel_text *out)
 {
@@ -710,13 +381,14 @@ static void describe(const struct strips *s, const struct device_shape *shape,
         out->loads += e->loads;
         widen(&out->strip_margin, s->passes[k].above + s->passes[k].below);
     }
-    for (int i = 0; i < s->arguments_count; i++)
-        if (s->arguments[i].kind == ARGUMENT_INPUT || s->arguments[i].kind == ARGUMENT_OUTPUT)
+    for (int i = 0; i < s->arguments.count; i++)
+        if (s->arguments.list[i].kind == ARGUMENT_INPUT ||
+            s->arguments.list[i].kind == ARGUMENT_OUTPUT)
             bytes += (double)(s->set->pitch * s->set->rows) *
-                     (double)type_bytes(s->g->nodes[s->arguments[i].node].type);
+                     (double)type_bytes(s->g->nodes[s->arguments.list[i].node].type);
     out->vector = shape->vector;
-    out->strip_columns = strip_columns(s, shape);
-    out->strip_near = near_columns(s, out->strip_columns);
+    out->strip_columns = strips_columns(s, shape);
+    out->strip_near = strips_near_columns(s, out->strip_columns);
     out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
              out->vector, s->set->halo,
@@ -727,11 +399,11 @@ static void strips_finish(struct strips *s)
 {
     for (int k = 0; s->stages && k < s->stages_count; k++) {
         emitter_finish(&s->stages[k].e);
-        free(s->stages[k].e.arguments);
+        free(s->stages[k].e.arguments.list);
     }
     for (int k = 0; s->passes && k < s->passes_count; k++) {
         emitter_finish(&s->passes[k].e);
-        free(s->passes[k].e.arguments);
+        free(s->passes[k].e.arguments.list);
         free(s->passes[k].together.carried);
         free(s->passes[k].text.data);
         free(s->passes[k].span.data);
@@ -767,24 +439,12 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
     s.number = calloc((size_t)g->count, sizeof *s.number);
     s.failed = !s.stages || !s.passes || !s.down || !s.ahead || !s.bits_matter ||
                !s.ring_rows || !s.ring_at || !s.number;
-    for (int k = 0; k < s.stages_count && !s.failed; k++)
-        stage_values(&s, k);
-    bool good = !s.failed;
-    if (good) {
-        find_bits(&s);
-        make_passes(&s);
-        schedule(&s);
-        lay_out(&s);
-        good = suits(&s);
-    }
+    bool good = !s.failed && strips_schedule(&s);
     for (int k = 0; k < s.passes_count && good; k++) {
         make_pass(&s, k);
         good = !s.failed;
     }
-    if (good) {
-        find_margin(&s);
-        good = s.margin * 8 <= DEVICE_GUARD_BYTES;
-    }
+    good = good && strips_find_margin(&s);
     if (good) {
         collect_arguments(&s);
         kernel_text(&s, &t);
@@ -793,11 +453,11 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
     }
     if (good) {
         out->text = t.data;
-        out->arguments = s.arguments;
-        out->arguments_count = s.arguments_count;
+        out->arguments = s.arguments.list;
+        out->arguments_count = s.arguments.count;
     } else {
         free(t.data);
-        free(s.arguments);
+        free(s.arguments.list);
     }
     strips_finish(&s);
     return good;

@@ -1,0 +1,113 @@
+/* places.c - values that follow from where a processor is: its neighbours' (shifts), its coordinates and addresses, and
+ * what is drawn for it at random. */
+#include "internal.h"
+
+static struct machine_value *bad(struct machine *m, const char *what)
+{
+    machine_fail(m, MACHINE_BAD_ARGUMENT, "%s", what);
+    return NULL;
+}
+
+struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis,
+                                    int distance)
+{
+    if (!a)
+        return NULL;
+    int set = a->set ? a->set : m->set_current;
+    const struct vpset *s = vpset_get(m, set);
+    if (!s)
+        return NULL;
+    if (axis < 0 || axis >= s->rank)
+        return bad(m, "there is no such axis");
+    int length = s->dimensions[axis];
+    distance %= length;
+    if (!a->buffer && a->op == NODE_SHIFT && a->axis == axis) {
+        distance = (distance + a->detail) % length;
+        a = a->in[0];
+    }
+    if (distance > length / 2)
+        distance -= length;
+    if (distance < -(length / 2))
+        distance += length;
+    if (distance == 0 || a->op == NODE_CONSTANT)
+        return a;
+    if (!a->buffer && a->op == NODE_REINTERPRET) {
+        struct machine_value *moved = machine_shift(m, a->in[0], axis, distance);
+        return machine_reinterpret(m, moved, a->type);
+    }
+    struct machine_value key = {.op = NODE_SHIFT,
+                                .type = a->type,
+                                .axis = (uint8_t)axis,
+                                .set = (uint16_t)set,
+                                .detail = distance,
+                                .in = {a, NULL, NULL}};
+    return graph_node(m, &key);
+}
+
+static struct machine_value *generated(struct machine *m, int op, int axis, int detail,
+                                       int width, struct machine_scalar imm)
+{
+    const struct vpset *s = vpset_get(m, m->set_current);
+    if (!s)
+        return NULL;
+    if (width < 1 || width > 128)
+        return bad(m, "a value's width must be 1..128 bits");
+    if (axis < 0 || axis >= s->rank)
+        return bad(m, "there is no such axis");
+    struct machine_value key = {.op = (uint8_t)op,
+                                .type = MACHINE_UINT(width),
+                                .axis = (uint8_t)axis,
+                                .set = (uint16_t)m->set_current,
+                                .detail = detail,
+                                .imm = imm};
+    return graph_node(m, &key);
+}
+
+struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
+{
+    return generated(m, NODE_COORDINATE, axis, 0, width, (struct machine_scalar){0, 0});
+}
+
+struct machine_value *machine_self_address(struct machine *m, int width)
+{
+    if (machine_vpset_order(m, m->set_current) == MACHINE_SEND_ORDER)
+        return machine_self_index(m, width);
+    return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
+}
+
+struct machine_value *machine_self_index(struct machine *m, int width)
+{
+    return generated(m, NODE_INDEX, 0, 0, width, (struct machine_scalar){0, 0});
+}
+
+static uint64_t mix(uint64_t z)
+{
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+void machine_random_seed(struct machine *m, uint64_t seed)
+{
+    m->random_seed = seed;
+    m->random_draws = 0;
+}
+
+struct machine_value *machine_random(struct machine *m, int width, uint64_t limit)
+{
+    if (width > 64) {
+        struct machine_value *low = machine_random(m, 64, limit);
+        struct machine_value *high =
+            limit ? machine_constant(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
+                  : machine_random(m, width - 64, 0);
+        return machine_concat(m, low, high);
+    }
+    replay_impure(m);
+    uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
+    int fits32 = limit != 0 && limit <= UINT32_MAX;
+    return generated(m, NODE_RANDOM, 0,
+                     limit == 0 ? 0
+                     : fits32   ? 1
+                                : 2,
+                     width, (struct machine_scalar){key, limit});
+}
