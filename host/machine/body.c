@@ -315,11 +315,11 @@ static struct operand named(int name)
 
 /* ---- what other stages have in variables ---- */
 
-static bool in_variables(const struct emitter *e, const struct plan_node *n, int row)
+static bool in_variables(const struct emitter *e, int node, int row)
 {
     const struct together *t = e->together;
-    return t && !n->leaf && n->stage >= t->first &&
-           e->row_offsets[row].d[0] == t->down[n->stage];
+    const struct plan_node *n = &e->g->nodes[node];
+    return t && !n->leaf && n->stage >= t->first && e->row_offsets[row].d[0] == t->down[node];
 }
 
 static struct operand earlier_vector(struct emitter *e, int node, int back)
@@ -342,16 +342,17 @@ static struct operand earlier_vector(struct emitter *e, int node, int back)
     return o;
 }
 
-/* The node's vector number `at` from x, of the row that its stage has come to. */
+/* The node's vector number `at` from x, of the row that it is computed in. */
 static struct operand vector_at(struct emitter *e, int node, int row, int at)
 {
     const struct plan_node *n = &e->g->nodes[node];
-    int ahead = e->together->ahead[n->stage];
-    if (at < ahead)
-        return earlier_vector(e, node, ahead - at);
+    int ahead = e->together->ahead[node];
+    int back = (ahead - at) * e->together->direction;
+    if (back > 0)
+        return earlier_vector(e, node, back);
     int name = variable_find(e, node, row, ahead * e->together->vector,
                              n->maybe_nan && e->together->bits_matter[node]);
-    e->failed = e->failed || at > ahead || name < 0;
+    e->failed = e->failed || back < 0 || name < 0;
     return named(name);
 }
 
@@ -404,7 +405,7 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     char expression[1200];
     const char *type = spell_container(n->type);
     e->wide = e->wide || type[1] == 'Q';
-    if (loads && in_variables(e, n, row)) {
+    if (loads && in_variables(e, node, row)) {
         if (emit_between(e, node, row, dx, &result, expression, sizeof expression))
             return result;
     } else if (loads) {

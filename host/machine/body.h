@@ -43,8 +43,9 @@ struct pointer {
  * the loop before, which are called c<number>_<how many before>. */
 struct together {
     int first;        /* stage: what earlier ones store is loaded */
-    const int *down;  /* of a stage: the row it has come to, from ours */
-    const int *ahead; /* of a stage: how many vectors it is ahead of x */
+    const int *down;  /* of a node that is stored: the row it is computed in, from ours */
+    const int *ahead; /* how many vectors further right than x; below 0: to the left */
+    int direction;    /* 1: x goes from left to right, -1: from right to left */
     int vector;
     const bool *bits_matter; /* of a node: somebody may look at the bits of a NaN in it */
     struct carried {

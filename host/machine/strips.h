@@ -38,10 +38,16 @@
 #include "body.h"
 
 struct stage {
-    struct emitter e; /* of it alone: what it looks at */
+    struct emitter e; /* of it alone */
     int pass;
+};
+
+/* Values that a stage stores, and that are computed together. */
+struct unit {
+    struct emitter e; /* of it alone: what it looks at */
+    int stage;
     int delay, above, below, left, right;
-    int ahead; /* vectors */
+    int ahead; /* vectors, the way that x goes */
 };
 
 struct output {
@@ -69,9 +75,13 @@ struct strips {
     int stores_count, vector;
     struct stage *stages;
     int stages_count;
+    struct unit *units; /* stage by stage */
+    int units_count;
+    int *unit; /* of a node that is stored */
     struct pass *passes;
     int passes_count;
-    int *down, *ahead; /* of stages: see struct together */
+    int downward, rightward; /* 1, or -1: rows from the lowest up, columns from right to left */
+    int *down, *ahead;       /* of nodes that are stored: see struct together */
     bool *bits_matter;
     int *ring_rows; /* of a node: how many; 0: no ring */
     int *ring_at;   /* of a node: where in the strip's memory, in bytes for each column */

@@ -1,5 +1,6 @@
 /* strips_schedule.c - kernels in strips: which stages are one pass, which rows and columns each of them handles, and
  * what is kept in rings. See strips.h. */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,86 @@ static void stage_values(struct strips *s, int k)
         if (s->g->nodes[s->stores[i]].stage == k)
             emit_value(&stage->e, s->stores[i], 0, 0, true);
     s->failed = s->failed || stage->e.failed;
+}
+
+/* What costs next to nothing to compute twice: it depends on where a processor is, and on nothing else. */
+static void find_places(const struct strips *s, bool *only_place)
+{
+    for (int i = 0; i < s->g->count; i++) {
+        const struct plan_node *n = &s->g->nodes[i];
+        only_place[i] = n->constant || (!n->leaf && !n->stored && n->op != NODE_RANDOM);
+        for (int k = 0; !n->constant && only_place[i] && k < node_ops[n->op].inputs; k++)
+            only_place[i] = only_place[n->in[k]];
+    }
+}
+
+struct marks {
+    const bool *only_place;
+    int *owner; /* of a node: the store that it was first wanted for, + 1 */
+    int *with;  /* of a store: one before it that it is computed together with, or itself */
+};
+
+static int root_of(const struct marks *m, int store)
+{
+    while (m->with[store] != store)
+        store = m->with[store];
+    return store;
+}
+
+/* Marks what the node is made of in its stage as that store's. What another wants, too, makes them one unit. */
+static void mark(const struct strips *s, const struct marks *m, int node, int stage, int store)
+{
+    const struct plan_node *n = &s->g->nodes[node];
+    if (m->only_place[node] || plan_loads(n, stage))
+        return;
+    if (m->owner[node]) {
+        int a = root_of(m, m->owner[node] - 1), b = root_of(m, store);
+        m->with[a > b ? a : b] = a > b ? b : a;
+        return;
+    }
+    m->owner[node] = store + 1;
+    for (int k = 0; k < node_ops[n->op].inputs; k++)
+        mark(s, m, plan_input(s->g, n, k, stage), stage, store);
+}
+
+static void units_of_stage(struct strips *s, const struct marks *m, int stage)
+{
+    memset(m->owner, 0, (size_t)s->g->count * sizeof *m->owner);
+    for (int i = 0; i < s->stores_count; i++) {
+        m->with[i] = i;
+        if (s->g->nodes[s->stores[i]].stage == stage)
+            mark(s, m, s->stores[i], stage, i);
+    }
+    for (int i = 0; i < s->stores_count && !s->failed; i++) {
+        int node = s->stores[i], root = root_of(m, i);
+        if (s->g->nodes[node].stage != stage)
+            continue;
+        if (root == i) {
+            s->unit[node] = s->units_count;
+            emitter_init(&s->units[s->units_count].e, s->g, s->set, stage);
+            s->units[s->units_count].e.bare = true;
+            s->units[s->units_count++].stage = stage;
+        }
+        struct unit *unit = &s->units[s->unit[s->stores[root]]];
+        s->unit[node] = s->unit[s->stores[root]];
+        emit_value(&unit->e, node, 0, 0, true);
+        s->failed = s->failed || unit->e.failed;
+    }
+}
+
+static void make_units(struct strips *s)
+{
+    bool *only_place = calloc((size_t)s->g->count, sizeof *only_place);
+    struct marks m = {only_place, calloc((size_t)s->g->count, sizeof *m.owner),
+                      calloc((size_t)s->stores_count, sizeof *m.with)};
+    s->failed = s->failed || !m.only_place || !m.owner || !m.with;
+    if (!s->failed)
+        find_places(s, only_place);
+    for (int k = 0; k < s->stages_count && !s->failed; k++)
+        units_of_stage(s, &m, k);
+    free(only_place);
+    free(m.owner);
+    free(m.with);
 }
 
 /* Whose NaNs are looked at bit by bit when they have been kept for a later stage. In arrays all are canonical. */
@@ -102,54 +183,103 @@ static int up_to_vectors(const struct strips *s, int columns)
     return columns > 0 ? (columns + s->vector - 1) / s->vector * s->vector : 0;
 }
 
-static void schedule(struct strips *s)
+/* How units are scheduled: 1 or -1 for the directions of rows and columns; aligned: all of a stage in the same row. */
+struct way {
+    int downward, rightward;
+    bool aligned;
+};
+
+static void find_delays(struct strips *s, bool aligned)
 {
-    for (int k = 0; k < s->stages_count; k++) {
-        struct stage *to = &s->stages[k];
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
-            const struct plan_node *n = &s->g->nodes[p->node];
-            if (!n->leaf)
-                widen(&to->delay, s->stages[n->stage].delay + strips_rows_down(s, &to->e, p));
+    for (int k = 0, stage = 0; k < s->units_count; k = stage) {
+        int most = 0;
+        for (; stage < s->units_count && s->units[stage].stage == s->units[k].stage; stage++) {
+            struct unit *to = &s->units[stage];
+            for (int i = 0; i < to->e.pointers_count; i++) {
+                const struct pointer *p = &to->e.seen_pointers[i];
+                if (!s->g->nodes[p->node].leaf)
+                    widen(&to->delay, s->units[s->unit[p->node]].delay +
+                                          strips_rows_down(s, &to->e, p) * s->downward);
+            }
+            widen(&most, to->delay);
         }
+        for (int i = k; i < stage && aligned; i++)
+            s->units[i].delay = most;
     }
-    for (int k = s->stages_count - 1; k >= 0; k--) {
-        struct stage *to = &s->stages[k];
+}
+
+/* That way; returns what strips keep then: bytes for each column, in rings and in vectors of earlier turns. */
+static int schedule(struct strips *s, struct way way)
+{
+    s->downward = way.downward;
+    s->rightward = way.rightward;
+    memset(s->ring_rows, 0, (size_t)s->g->count * sizeof *s->ring_rows);
+    for (int k = 0; k < s->units_count; k++) {
+        struct unit *to = &s->units[k];
+        to->delay = to->above = to->below = to->left = to->right = to->ahead = 0;
+    }
+    find_delays(s, way.aligned);
+    for (int k = s->units_count - 1; k >= 0; k--) {
+        struct unit *to = &s->units[k];
         for (int i = 0; i < to->e.pointers_count; i++) {
             const struct pointer *p = &to->e.seen_pointers[i];
-            const struct plan_node *n = &s->g->nodes[p->node];
-            if (n->leaf)
+            if (s->g->nodes[p->node].leaf)
                 continue;
-            struct stage *from = &s->stages[n->stage];
+            struct unit *from = &s->units[s->unit[p->node]];
             int down = strips_rows_down(s, &to->e, p),
-                rows = to->delay - from->delay - down + 1;
+                rows = to->delay - from->delay - down * s->downward + 1;
             widen(&from->above, to->above - down);
             widen(&from->below, to->below + down);
             widen(&from->left, to->left - p->low);
             widen(&from->right, to->right + p->high);
-            if (from->pass == to->pass && rows == 1)
-                widen(&from->ahead, to->ahead + up_to_vectors(s, p->high) / s->vector);
+            if (s->stages[from->stage].pass == s->stages[to->stage].pass && rows == 1)
+                widen(&from->ahead,
+                      to->ahead +
+                          up_to_vectors(s, s->rightward > 0 ? p->high : -p->low) / s->vector);
             else
                 widen(&s->ring_rows[p->node], rows);
         }
     }
     for (int i = 0; i < s->passes_count; i++) {
         struct pass *pass = &s->passes[i];
-        pass->delay = s->stages[pass->first].delay;
-        for (int k = pass->first; k <= pass->last; k++)
-            if (s->stages[k].delay < pass->delay)
-                pass->delay = s->stages[k].delay;
-        for (int k = pass->first; k <= pass->last; k++) {
-            const struct stage *stage = &s->stages[k];
-            int behind = stage->delay - pass->delay, columns = stage->ahead * s->vector;
-            s->down[k] = -behind;
-            s->ahead[k] = stage->ahead;
-            widen(&pass->above, stage->above - behind);
-            widen(&pass->below, stage->below + behind);
-            widen(&pass->before, up_to_vectors(s, stage->left + columns));
-            widen(&pass->after, up_to_vectors(s, stage->right - columns));
+        pass->above = pass->below = pass->before = pass->after = 0;
+        pass->delay = INT_MAX;
+        for (int k = 0; k < s->units_count; k++)
+            if (s->stages[s->units[k].stage].pass == i && s->units[k].delay < pass->delay)
+                pass->delay = s->units[k].delay;
+    }
+    int kept = 0;
+    for (int i = 0; i < s->stores_count; i++) {
+        int node = s->stores[i];
+        const struct unit *unit = &s->units[s->unit[node]];
+        struct pass *pass = &s->passes[s->stages[unit->stage].pass];
+        s->down[node] = (pass->delay - unit->delay) * s->downward;
+        s->ahead[node] = unit->ahead * s->rightward;
+        int columns = s->ahead[node] * s->vector;
+        widen(&pass->above, unit->above + s->down[node]);
+        widen(&pass->below, unit->below - s->down[node]);
+        widen(&pass->before, up_to_vectors(s, unit->left + columns));
+        widen(&pass->after, up_to_vectors(s, unit->right - columns));
+        kept += (s->ring_rows[node] + unit->ahead) * (int)type_bytes(s->g->nodes[node].type);
+    }
+    return kept;
+}
+
+/* What looks at rows above it and columns to the left of it, and is looked at by those below and to the right, keeps
+ * the least where rows are taken from the lowest up, and columns from right to left. */
+static void choose_way(struct strips *s)
+{
+    struct way best = {0};
+    int least = INT_MAX;
+    for (int i = 0; i < 8; i++) {
+        struct way way = {i & 4 ? -1 : 1, i & 2 ? -1 : 1, i & 1};
+        int kept = schedule(s, way);
+        if (kept < least) {
+            best = way;
+            least = kept;
         }
     }
+    schedule(s, best);
 }
 
 /* Rings of wide elements first, so that all are aligned. */
@@ -168,15 +298,17 @@ static void lay_out(struct strips *s)
 static bool suits(const struct strips *s)
 {
     int rows = 0;
-    for (int k = 0; k < s->stages_count; k++) {
-        const struct stage *stage = &s->stages[k];
-        if (stage->e.wide || stage->e.soft)
+    for (int k = 0; k < s->stages_count; k++)
+        if (s->stages[k].e.wide || s->stages[k].e.soft)
             return false;
-        for (int i = 0; i < stage->e.pointers_count; i++) {
-            const struct pointer *p = &stage->e.seen_pointers[i];
-            if (stage->left - p->low > s->set->halo || stage->right + p->high > s->set->halo)
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *unit = &s->units[k];
+        int behind = unit->delay - s->passes[s->stages[unit->stage].pass].delay;
+        for (int i = 0; i < unit->e.pointers_count; i++) {
+            const struct pointer *p = &unit->e.seen_pointers[i];
+            if (unit->left - p->low > s->set->halo || unit->right + p->high > s->set->halo)
                 return false;
-            widen(&rows, abs(strips_rows_down(s, &stage->e, p)) - s->down[k]);
+            widen(&rows, abs(strips_rows_down(s, &unit->e, p)) + behind);
         }
     }
     return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
@@ -187,11 +319,12 @@ bool strips_schedule(struct strips *s)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
         stage_values(s, k);
+    make_units(s);
     if (s->failed)
         return false;
     find_bits(s);
     make_passes(s);
-    schedule(s);
+    choose_way(s);
     lay_out(s);
     return suits(s);
 }
@@ -209,8 +342,12 @@ bool strips_find_margin(struct strips *s)
             low = p->low < low ? p->low : low;
             widen(&high, p->high);
         }
-        for (int i = pass->first; i <= pass->last; i++)
-            widen(&high, s->ahead[i] * s->vector);
+        for (int i = 0; i < s->stores_count; i++)
+            if (s->stages[s->g->nodes[s->stores[i]].stage].pass == k) {
+                int columns = s->ahead[s->stores[i]] * s->vector;
+                low = columns < low ? columns : low;
+                widen(&high, columns);
+            }
         widen(&s->margin, up_to_vectors(s, pass->before - low));
         widen(&s->margin, up_to_vectors(s, pass->after + high + s->vector));
     }

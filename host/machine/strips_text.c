@@ -10,14 +10,14 @@ static void pass_output(struct strips *s, struct pass *pass, int node, bool arra
 {
     struct emitter *e = &pass->e;
     const struct plan_node *n = &s->g->nodes[node];
-    int columns = s->ahead[n->stage] * s->vector;
-    struct operand v = emit_value(e, node, emit_row(e, 0, s->down[n->stage]), columns,
+    int columns = s->ahead[node] * s->vector;
+    struct operand v = emit_value(e, node, emit_row(e, 0, s->down[node]), columns,
                                   array || s->bits_matter[node]);
     if (array)
         text_put(&e->body,
                  "        if (own%d && x + %d >= first && x + %d < last)\n"
                  "            ROW_STORE(%s, q%d, x + %d, %s);\n",
-                 n->stage - pass->first, columns, columns, memory_kind(n->type),
+                 pass->outputs_count, columns, columns, memory_kind(n->type),
                  pass->outputs_count, columns, v.text);
     else
         text_put(&e->body, "        OUT_%s(q%d, x + %d, %s);\n", memory_kind(n->type),
@@ -37,6 +37,7 @@ static void pass_values(struct strips *s, struct pass *pass)
     pass->together = (struct together){.first = pass->first,
                                        .down = s->down,
                                        .ahead = s->ahead,
+                                       .direction = s->rightward,
                                        .vector = s->vector,
                                        .bits_matter = s->bits_matter};
     e->bare = true;
@@ -52,8 +53,8 @@ static void pass_values(struct strips *s, struct pass *pass)
             if (n->target)
                 pass_output(s, pass, node, true);
             if (!s->ring_rows[node] && !n->target) /* for variables only */
-                emit_value(e, node, emit_row(e, 0, s->down[e->stage]),
-                           s->ahead[e->stage] * s->vector, s->bits_matter[node]);
+                emit_value(e, node, emit_row(e, 0, s->down[node]), s->ahead[node] * s->vector,
+                           s->bits_matter[node]);
         }
     s->failed = s->failed || e->failed || e->body.failed;
 }
@@ -78,7 +79,7 @@ static void span_text(struct strips *s, struct pass *pass)
     int furthest = 0;
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
-            widen(&furthest, s->ahead[s->g->nodes[pass->outputs[i].node].stage] * s->vector);
+            widen(&furthest, s->ahead[pass->outputs[i].node] * s->vector);
     text_put(t, "(const int W, const int first, const int last");
     numbers_text(e, t);
     text_put(t,
@@ -113,10 +114,10 @@ static void carry(struct strips *s, struct pass *pass)
     struct emitter *e = &pass->e;
     carried_text(s, pass, &e->body, false);
     for (int i = 0; i < pass->together.carried_count; i++) {
-        int node = pass->together.carried[i].node, k = s->g->nodes[node].stage;
-        e->stage = k;
-        struct operand v = emit_value(e, node, emit_row(e, 0, s->down[k]),
-                                      s->ahead[k] * s->vector, s->bits_matter[node]);
+        int node = pass->together.carried[i].node;
+        e->stage = s->g->nodes[node].stage;
+        struct operand v = emit_value(e, node, emit_row(e, 0, s->down[node]),
+                                      s->ahead[node] * s->vector, s->bits_matter[node]);
         text_put(&e->body, "        c%d_1 = %s;\n", i, v.text);
     }
 }
@@ -126,20 +127,24 @@ static void carry(struct strips *s, struct pass *pass)
 static void prefetch_text(const struct strips *s, struct pass *pass, struct text *t)
 {
     const struct emitter *e = &pass->e;
+    char next = s->downward > 0 ? '+' : '-';
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
         bool newest = s->g->nodes[p->node].leaf;
         for (int k = 0; k < e->pointers_count; k++)
-            newest = newest && (e->seen_pointers[k].node != p->node ||
-                                strips_rows_down(s, e, &e->seen_pointers[k]) <=
-                                    strips_rows_down(s, e, p));
+            newest =
+                newest &&
+                (e->seen_pointers[k].node != p->node ||
+                 (strips_rows_down(s, e, &e->seen_pointers[k]) - strips_rows_down(s, e, p)) *
+                         s->downward <=
+                     0);
         if (newest)
-            text_put(t, "        PREFETCH(p%d + PITCH + x + %d, 0);\n", i, p->high);
+            text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next, p->high);
     }
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
-            text_put(t, "        PREFETCH(q%d + PITCH + x + %d, 1);\n", i,
-                     s->ahead[s->g->nodes[pass->outputs[i].node].stage] * s->vector);
+            text_put(t, "        PREFETCH(q%d %c PITCH + x + %d, 1);\n", i, next,
+                     s->ahead[pass->outputs[i].node] * s->vector);
 }
 
 static void pass_text(struct strips *s, struct pass *pass)
@@ -164,14 +169,19 @@ static void pass_text(struct strips *s, struct pass *pass)
     emit_axes(e, t);
     text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
              e->constants.data ? e->constants.data : "");
-    for (int k = pass->first; k <= pass->last; k++)
-        text_put(t, "    const bool own%d = y + (%d) >= top && y + (%d) < bottom;\n",
-                 k - pass->first, s->down[k], s->down[k]);
+    for (int i = 0; i < pass->outputs_count; i++)
+        if (pass->outputs[i].array)
+            text_put(t, "    const bool own%d = y + (%d) >= top && y + (%d) < bottom;\n", i,
+                     s->down[pass->outputs[i].node], s->down[pass->outputs[i].node]);
     carried_text(s, pass, t, true);
+    text_put(t, "    const int row_inside = 1%s;\n",
+             boxes && e->row_tests.data ? e->row_tests.data : "");
     text_put(t,
-             "    const int row_inside = 1%s;\n    for (int x = first - %d; x < last + %d; x "
-             "+= VECTOR) {\n",
-             boxes && e->row_tests.data ? e->row_tests.data : "", pass->before, pass->after);
+             s->rightward > 0
+                 ? "    for (int x = first - %d; x < last + %d; x += VECTOR) {\n"
+                 : "    for (int x = (last + %2$d - 1) & -VECTOR; x >= first - %1$d; x -= "
+                   "VECTOR) {\n",
+             pass->before, pass->after);
     prefetch_text(s, pass, t);
     if (boxes)
         text_put(t,
@@ -252,7 +262,8 @@ static void kernel_head(struct strips *s, struct text *t)
             text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), a->node);
         else if (a->kind == ARGUMENT_OUTPUT)
             text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), a->node);
-        else if (a->kind == ARGUMENT_SCRATCH) text_put(t, ",\n    __global uchar *scratch");
+        else if (a->kind == ARGUMENT_SCRATCH)
+            text_put(t, ",\n    __global uchar *scratch");
         else
             emit_number(t, s->g, a, &constant);
     }
@@ -300,11 +311,11 @@ static void pass_call(struct strips *s, struct text *t, int k)
     const struct pass *pass = &s->passes[k];
     const struct emitter *e = &pass->e;
     text_put(t,
-             "        {\n            const int y = i - %d;\n"
+             "        {\n            const int y = i %c %d;\n"
              "            if (y >= top - %d && y < bottom + %d)\n"
              "                s%d(W, PITCH, PLOG2, RATIO, D0, y, top, bottom, first, last, "
              "inside%d",
-             pass->delay, pass->above, pass->below, pass->same, k);
+             s->downward > 0 ? '-' : '+', pass->delay, pass->above, pass->below, pass->same, k);
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
         int down = strips_rows_down(s, e, p);
@@ -314,7 +325,7 @@ static void pass_call(struct strips *s, struct text *t, int k)
             ring_row(s, t, p->node, down);
     }
     for (int i = 0; i < pass->outputs_count; i++) {
-        int node = pass->outputs[i].node, down = s->down[s->g->nodes[node].stage];
+        int node = pass->outputs[i].node, down = s->down[node];
         if (pass->outputs[i].array)
             array_row(t, 'o', node, down);
         else
@@ -341,12 +352,12 @@ static void edges_text(const struct strips *s, struct text *t)
 static void kernel_text(struct strips *s, struct text *t)
 {
     bool integers = false;
-    int begin = 0, end = 0;
+    int above = 0, below = 0; /* rows, of i */
     for (int k = 0; k < s->passes_count; k++) {
         const struct pass *pass = &s->passes[k];
         integers = integers || pass->e.integers;
-        begin = pass->delay - pass->above < begin ? pass->delay - pass->above : begin;
-        widen(&end, pass->delay + pass->below);
+        widen(&above, pass->above - pass->delay * s->downward);
+        widen(&below, pass->below + pass->delay * s->downward);
     }
     if (integers)
         text_put(t, "%s", kernel_integers_cl);
@@ -361,7 +372,10 @@ static void kernel_text(struct strips *s, struct text *t)
                      s->passes[k].text.data);
     }
     kernel_head(s, t);
-    text_put(t, "    for (int i = top + (%d); i < bottom + (%d); i++) {\n", begin, end);
+    text_put(t,
+             s->downward > 0 ? "    for (int i = top - %d; i < bottom + %d; i++) {\n"
+                             : "    for (int i = bottom + %2$d - 1; i >= top - %1$d; i--) {\n",
+             above, below);
     for (int k = 0; k < s->passes_count; k++)
         pass_call(s, t, k);
     text_put(t, "    }\n}\n");
@@ -401,6 +415,10 @@ static void strips_finish(struct strips *s)
         emitter_finish(&s->stages[k].e);
         free(s->stages[k].e.arguments.list);
     }
+    for (int k = 0; s->units && k < s->units_count; k++) {
+        emitter_finish(&s->units[k].e);
+        free(s->units[k].e.arguments.list);
+    }
     for (int k = 0; s->passes && k < s->passes_count; k++) {
         emitter_finish(&s->passes[k].e);
         free(s->passes[k].e.arguments.list);
@@ -410,6 +428,8 @@ static void strips_finish(struct strips *s)
         free(s->passes[k].outputs);
     }
     free(s->stages);
+    free(s->units);
+    free(s->unit);
     free(s->passes);
     free(s->down);
     free(s->ahead);
@@ -431,14 +451,16 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
         widen(&s.stages_count, g->nodes[stores[i]].stage + 1);
     s.stages = calloc((size_t)s.stages_count, sizeof *s.stages);
     s.passes = calloc((size_t)s.stages_count, sizeof *s.passes);
-    s.down = calloc((size_t)s.stages_count, sizeof *s.down);
-    s.ahead = calloc((size_t)s.stages_count, sizeof *s.ahead);
+    s.units = calloc((size_t)count, sizeof *s.units);
+    s.unit = calloc((size_t)g->count, sizeof *s.unit);
+    s.down = calloc((size_t)g->count, sizeof *s.down);
+    s.ahead = calloc((size_t)g->count, sizeof *s.ahead);
     s.bits_matter = calloc((size_t)g->count, sizeof *s.bits_matter);
     s.ring_rows = calloc((size_t)g->count, sizeof *s.ring_rows);
     s.ring_at = calloc((size_t)g->count, sizeof *s.ring_at);
     s.number = calloc((size_t)g->count, sizeof *s.number);
-    s.failed = !s.stages || !s.passes || !s.down || !s.ahead || !s.bits_matter ||
-               !s.ring_rows || !s.ring_at || !s.number;
+    s.failed = !s.stages || !s.units || !s.unit || !s.passes || !s.down || !s.ahead ||
+               !s.bits_matter || !s.ring_rows || !s.ring_at || !s.number;
     bool good = !s.failed && strips_schedule(&s);
     for (int k = 0; k < s.passes_count && good; k++) {
         make_pass(&s, k);
