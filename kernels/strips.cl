@@ -39,6 +39,16 @@
             OUT_##kind(q, -VECTOR, v);                                                         \
     } while (0)
 
+#ifdef ABOVE
+/* Rows around strips, which are written in place: see borders.cl. */
+#define BORDERS (get_global_size(1) * (ABOVE + BELOW))
+inline size_t border_row(int y, int top, int bottom)
+{
+    return get_global_id(1) * (ABOVE + BELOW) +
+           (size_t)((y < top ? y - top : y - bottom) + ABOVE);
+}
+#endif
+
 inline int ring(int y, int rows)
 {
     y %= rows;

@@ -55,6 +55,7 @@ void kernel_text_finish(struct kernel_text *k)
 {
     free(k->text);
     free(k->arguments);
+    free(k->in_place.pairs);
     memset(k, 0, sizeof *k);
 }
 

@@ -205,7 +205,7 @@ struct settings {
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
     uint64_t knob[MACHINE_KNOBS];
-    uint64_t strips, scatter;
+    uint64_t strips, in_place, scatter;
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
     uint64_t verbose; /* says on the standard error what is wrong with it */
@@ -325,6 +325,7 @@ struct machine {
     bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
+    uint64_t kernels_in_place;
     uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
     double busy_s;
 };
@@ -506,13 +507,28 @@ static inline int plan_input(const struct plan_graph *g, const struct plan_node 
                : n->in[k];
 }
 
+/* Which arrays that a kernel stores may take the place of which that it reads: see strips.h. */
+enum { BORDERS_MOST = 16 };
+struct in_place {
+    int leaves[BORDERS_MOST]; /* nodes whose borders can be copied */
+    int leaves_count;
+    struct {
+        int output, leaf; /* nodes */
+        int border;       /* of the leaf, in leaves */
+    } * pairs;
+    int pairs_count, pairs_capacity;
+    int above, below; /* rows of a border */
+    int bytes;        /* of an element of each leaf, all together */
+};
+
 /* emit.c */
 enum kernel_argument_kind {
     ARGUMENT_INPUT,
     ARGUMENT_OUTPUT,
     ARGUMENT_CONSTANT,
     ARGUMENT_SECOND,
-    ARGUMENT_SCRATCH /* of strips */
+    ARGUMENT_BORDERS, /* of strips: which arrays are written in place */
+    ARGUMENT_SCRATCH  /* of strips */
 };
 struct kernel_argument {
     uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
@@ -532,6 +548,7 @@ struct kernel_text {
     int strip_margin;   /* rows that each computes besides its own */
     int strip_columns;  /* of all but the last, which has what is left, too */
     int strip_near;     /* columns of a ring's row */
+    struct in_place in_place;
     int cost; /* node_cost() of these operations, and of coordinates and random numbers */
 };
 /* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
@@ -562,9 +579,10 @@ uint32_t plan_version(const struct machine *m, const struct plan *p);
 const int *plan_stored(const struct plan *p, int *count);
 int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
- * that are numbers. On failure none is put. */
+ * that are numbers. dies (may be NULL): whose buffers nobody will look at afterwards if these are the only references:
+ * what is stored may take their place. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes);
+                             struct machine_value *const *nodes, const bool *dies);
 void plans_finish(struct machine *m);
 
 /* replay.c */

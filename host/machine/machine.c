@@ -188,6 +188,7 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                   .plans_built = m->plans_built,
                                   .kernels_built = m->device.kernels_built,
                                   .kernels_run = m->device.kernels_run,
+                                  .kernels_in_place = m->kernels_in_place,
                                   .bytes_held = m->device.held_bytes,
                                   .busy_s = m->busy_s};
 }

@@ -200,6 +200,8 @@ struct machine_stats {
     uint64_t plans_built;    /* evaluations whose shape had not been seen */
     uint64_t kernels_built;  /* compiled, or loaded from the disk cache */
     uint64_t kernels_run;
+    uint64_t
+        kernels_in_place; /* of these: wrote new values where old ones had been that nobody wanted any more */
     uint64_t bytes_held; /* device memory in use by values */
     double busy_s;       /* time in which the front end waited for the device */
 };

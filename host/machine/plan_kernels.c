@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "call.h"
 #include "kernels.h"
 #include "watch.h"
 
@@ -20,6 +21,7 @@ struct launch {
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
     int strip_margin, strip_columns, strip_near;
+    struct in_place in_place;
     struct kernel_argument *arguments;
     int arguments_count;
 };
@@ -48,8 +50,10 @@ static void plan_free(struct plan *p)
 {
     if (!p)
         return;
-    for (int i = 0; i < p->launches_count; i++)
+    for (int i = 0; i < p->launches_count; i++) {
         free(p->launches[i].arguments);
+        free(p->launches[i].in_place.pairs);
+    }
     free(p->launches);
     free(p->stored);
     free(p->stored_bytes);
@@ -203,9 +207,11 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .strip_margin = k.strip_margin,
                                                        .strip_columns = k.strip_columns,
                                                        .strip_near = k.strip_near,
+                                                       .in_place = k.in_place,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
     k.arguments = NULL;
+    k.in_place.pairs = NULL;
     kernel_text_finish(&k);
     return true;
 }
@@ -459,9 +465,60 @@ static void strips_count(const struct machine *m, const struct launch *l, const 
     global[1] = ((size_t)s->rows + *rows - 1) / *rows;
 }
 
+/* Puts the buffers of what is in no need of them any more where they will be written. Returns which borders it takes,
+ * a bit each. */
+static uint32_t take_places(const struct machine *m, const struct plan *p,
+                            struct device_buffer **buffers, const bool *dies)
+{
+    const struct launch *l = &p->launches[0];
+    size_t global[2], rows;
+    uint32_t which = 0;
+    if (!dies || p->launches_count != 1 || !l->in_place.pairs_count || !m->settings.in_place)
+        return 0;
+    strips_count(m, l, &m->sets[l->set], global, &rows);
+    for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {
+        int output = l->in_place.pairs[i].output, leaf = l->in_place.pairs[i].leaf;
+        uint32_t bit = UINT32_C(1) << l->in_place.pairs[i].border;
+        if (buffers[output] || which & bit || !dies[leaf] || buffers[leaf]->refs != 1)
+            continue;
+        buffers[output] = buffers[leaf];
+        device_buffer_ref(buffers[output]);
+        which |= bit;
+    }
+    return which;
+}
+
+static enum machine_status copy_borders(struct machine *m, const struct launch *l,
+                                        uint32_t which, const size_t global[2], size_t rows,
+                                        const struct device_buffer *to,
+                                        struct device_buffer *const *buffers)
+{
+    const struct vpset *s = &m->sets[l->set];
+    const struct in_place *in = &l->in_place;
+    struct kernel_call c = call_begin(m, kernel_borders_cl, "", "borders");
+    uint64_t bytes = 0;
+    for (int i = 0; i < in->leaves_count; i++)
+        bytes |= (uint64_t)(buffers[in->leaves[i]]->bytes / (s->pitch * (size_t)s->rows))
+                 << 4 * i;
+    call_uint(&c, s->pitch);
+    call_int(&c, (int)s->rows);
+    call_int(&c, (int)rows);
+    call_int(&c, in->above);
+    call_int(&c, in->below);
+    call_uint(&c, which);
+    call_ulong(&c, bytes);
+    call_ulong(&c, global[0] * global[1] * l->strip_bytes);
+    call_buffer(&c, to);
+    for (int i = 0; i < BORDERS_MOST; i++)
+        call_buffer(&c, buffers[in->leaves[i < in->leaves_count ? i : 0]]);
+    return call_start_3d(&c, m, (size_t)(in->above + in->below), global[1],
+                         (size_t)in->leaves_count, "a kernel cannot be started");
+}
+
+/* in_place: which borders are needed: see take_places(). */
 static enum machine_status launch(struct machine *m, const struct launch *l,
                                   struct device_buffer *const *buffers,
-                                  struct machine_value *const *nodes)
+                                  struct machine_value *const *nodes, uint32_t in_place)
 {
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
@@ -470,9 +527,18 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);
-        scratch = device_buffer_get(m, global[0] * global[1] * l->strip_bytes);
+        size_t borders = (size_t)(l->in_place.above + l->in_place.below) * s->pitch *
+                         (size_t)l->in_place.bytes;
+        scratch = device_buffer_get(m, global[0] * global[1] *
+                                           (l->strip_bytes + (in_place ? borders : 0)));
         if (!scratch)
             return m->status;
+        enum machine_status status =
+            in_place ? copy_borders(m, l, in_place, global, run, scratch, buffers) : MACHINE_OK;
+        if (status) {
+            device_buffer_unref(m, scratch);
+            return status;
+        }
     }
     cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->processors_log2,
                        (cl_int)s->ratio};
@@ -490,6 +556,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
+        else if (a->kind == ARGUMENT_BORDERS)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_uint), &in_place);
         else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
             error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
         else
@@ -505,25 +573,29 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
 }
 
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes)
+                             struct machine_value *const *nodes, const bool *dies)
 {
     enum machine_status status = MACHINE_OK;
     double start = watch_clock(m);
-    int count = 0;
-    for (; count < p->stored_count && !status; count++) {
-        struct device_buffer **b = &buffers[p->stored[count]];
-        *b = device_buffer_get(m, p->stored_bytes[count]);
+    for (int i = 0; i < p->stored_count; i++)
+        buffers[p->stored[i]] = NULL;
+    uint32_t in_place = take_places(m, p, buffers, dies);
+    for (int i = 0; i < p->stored_count && !status; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (!*b)
+            *b = device_buffer_get(m, p->stored_bytes[i]);
         if (!*b)
             status = m->status;
     }
     for (int i = 0; i < p->launches_count && !status; i++)
-        status = launch(m, &p->launches[i], buffers, nodes);
+        status = launch(m, &p->launches[i], buffers, nodes, in_place);
+    m->kernels_in_place += in_place && !status;
     p->worked += p->work;
     device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
     status = status ? status : device_pace(m);
-    for (int i = 0; i < count && status; i++) {
+    for (int i = 0; i < p->stored_count && status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
         if (*b)
             device_buffer_unref(m, *b);

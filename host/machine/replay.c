@@ -60,6 +60,7 @@ static void deed_finish(struct machine *m, struct deed *d)
     free(d->from);
     free(d->values);
     free(d->next);
+    free(d->dies);
     *d = (struct deed){.plan = NULL};
 }
 
@@ -116,8 +117,8 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
         buffers[i] = d->from[i] >= 0 ? s->buffers[d->from[i]]
                      : d->values[i]  ? d->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, d->plan, buffers,
-                 d->values)) /* it is going to be tried, and said, once more */
+    if (plan_run(m, d->plan, buffers, d->values,
+                 d->dies)) /* it is going to be tried, and said, once more */
         return false;
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];
@@ -458,6 +459,12 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
         if (w->buffers[k]->mark != m->mark)
             return false;
         next[k] = (int32_t)w->buffers[k]->number;
+    }
+    e->deed.dies = machine_allocated((size_t)e->deed.nodes_count, sizeof *e->deed.dies);
+    for (int i = 0; i < e->deed.nodes_count; i++) {
+        e->deed.dies[i] = e->deed.from[i] >= 0;
+        for (int k = 0; k < w->buffers_count && e->deed.dies[i]; k++)
+            e->deed.dies[i] = next[k] != e->deed.from[i];
     }
     e->to = to;
     e->calls = machine_allocated((size_t)e->calls_count, sizeof *e->calls);

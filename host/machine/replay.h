@@ -18,6 +18,7 @@ struct deed {
     int nodes_count;               /* of the plan's signature */
     int32_t *from;                 /* each node's buffer in the first state; -1: none */
     struct machine_value **values; /* each node that is a number, or keeps its own buffer */
+    bool *dies;                    /* each node: its buffer is in no later state */
     int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
 };
 

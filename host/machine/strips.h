@@ -25,6 +25,10 @@
  * in the caches. So a value that several look at is computed once, and many steps of a stencil can go through the
  * caches at once; see Hegarty et al., "Darkroom" (SIGGRAPH 2014), for the same among image filters.
  *
+ * Where strips are as wide as rows, an array may take the memory of one that is read and that nobody wants any more:
+ * each of its rows is written after the last time that the strip reads what was there. What strips read of each
+ * other's rows, their *borders*, is copied before; see borders.cl.
+ *
  * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
  * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
  * stages together. Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold
@@ -45,7 +49,7 @@ struct stage {
 /* Values that a stage stores, and that are computed together. */
 struct unit {
     struct emitter e; /* of it alone: what it looks at */
-    int stage;
+    int stage, stores;
     int delay, above, below, left, right;
     int ahead; /* vectors, the way that x goes */
 };
@@ -87,7 +91,8 @@ struct strips {
     int *ring_at;   /* of a node: where in the strip's memory, in bytes for each column */
     int *number;    /* of a node that is a number, + 1; of an array that is read */
     int memory;     /* of a strip, bytes for each column */
-    int margin;     /* columns of a ring on both sides of the strip's */
+    struct in_place in_place;
+    int margin; /* columns of a ring on both sides of the strip's */
     struct arguments arguments;
     int constants_count;
     bool failed;

@@ -85,6 +85,7 @@ static void units_of_stage(struct strips *s, const struct marks *m, int stage)
         }
         struct unit *unit = &s->units[s->unit[s->stores[root]]];
         s->unit[node] = s->unit[s->stores[root]];
+        unit->stores++;
         emit_value(&unit->e, node, 0, 0, true);
         s->failed = s->failed || unit->e.failed;
     }
@@ -315,6 +316,90 @@ static bool suits(const struct strips *s)
            s->set->dimensions[0] >= 2 * rows;
 }
 
+/* ---- what can be written in place ---- */
+
+/* Each row of the leaf must have been read for the last time when that of the output is written; or be read in that row
+ * by the output alone, each element where it is stored. */
+static bool may_replace(const struct strips *s, int output, int leaf)
+{
+    const struct unit *out = &s->units[s->unit[output]];
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *u = &s->units[k];
+        for (int i = 0; i < u->e.pointers_count; i++) {
+            const struct pointer *p = &u->e.seen_pointers[i];
+            if (p->node != leaf)
+                continue;
+            int late = u->delay - strips_rows_down(s, &u->e, p) * s->downward - out->delay;
+            bool there =
+                u == out && u->stores == 1 && !p->low && !p->high && !u->left && !u->right;
+            if (late > 0 || (late == 0 && !there))
+                return false;
+        }
+    }
+    return true;
+}
+
+static int border_add(struct in_place *in, int leaf)
+{
+    for (int i = 0; i < in->leaves_count; i++)
+        if (in->leaves[i] == leaf)
+            return i;
+    if (in->leaves_count == BORDERS_MOST)
+        return -1;
+    in->leaves[in->leaves_count] = leaf;
+    return in->leaves_count++;
+}
+
+static void pair_add(struct strips *s, int output, int leaf)
+{
+    struct in_place *in = &s->in_place;
+    int border = border_add(in, leaf);
+    if (border < 0)
+        return;
+    if (in->pairs_count == in->pairs_capacity)
+        in->pairs = machine_more(in->pairs, &in->pairs_capacity, sizeof *in->pairs, &s->failed);
+    if (s->failed)
+        return;
+    in->pairs[in->pairs_count].output = output;
+    in->pairs[in->pairs_count].leaf = leaf;
+    in->pairs[in->pairs_count++].border = border;
+}
+
+static bool is_read(const struct strips *s, int leaf)
+{
+    for (int k = 0; k < s->units_count; k++)
+        for (int i = 0; i < s->units[k].e.pointers_count; i++)
+            if (s->units[k].e.seen_pointers[i].node == leaf)
+                return true;
+    return false;
+}
+
+static void find_pairs(struct strips *s)
+{
+    struct in_place *in = &s->in_place;
+    for (int leaf = 0; leaf < s->g->count && !s->failed; leaf++) {
+        const struct plan_node *n = &s->g->nodes[leaf];
+        for (int i = 0; n->leaf && is_read(s, leaf) && i < s->stores_count; i++) {
+            const struct plan_node *to = &s->g->nodes[s->stores[i]];
+            if (to->target && type_bytes(to->type) == type_bytes(n->type) &&
+                may_replace(s, s->stores[i], leaf))
+                pair_add(s, s->stores[i], leaf);
+        }
+    }
+    for (int k = 0; k < s->units_count; k++) { /* all rows that its pass goes through */
+        const struct unit *u = &s->units[k];
+        const struct pass *pass = &s->passes[s->stages[u->stage].pass];
+        int own = (pass->delay - u->delay) * s->downward;
+        for (int i = 0; i < u->e.pointers_count; i++) {
+            int down = own + strips_rows_down(s, &u->e, &u->e.seen_pointers[i]);
+            widen(&in->above, pass->above - down);
+            widen(&in->below, pass->below + down);
+        }
+    }
+    for (int i = 0; i < in->leaves_count; i++)
+        in->bytes += (int)type_bytes(s->g->nodes[in->leaves[i]].type);
+}
+
 bool strips_schedule(struct strips *s)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
@@ -326,7 +411,10 @@ bool strips_schedule(struct strips *s)
     make_passes(s);
     choose_way(s);
     lay_out(s);
-    return suits(s);
+    if (!suits(s))
+        return false;
+    find_pairs(s);
+    return !s->failed;
 }
 
 /* ---- how wide ---- */

@@ -6,6 +6,23 @@
 #include "spell.h"
 #include "strips.h"
 
+/* -1: it has none. */
+static int border_of(const struct strips *s, int node)
+{
+    for (int i = 0; i < s->in_place.leaves_count; i++)
+        if (s->in_place.leaves[i] == node)
+            return i;
+    return -1;
+}
+
+static bool in_places(const struct strips *s, int output)
+{
+    for (int i = 0; i < s->in_place.pairs_count; i++)
+        if (s->in_place.pairs[i].output == output)
+            return true;
+    return false;
+}
+
 static void pass_output(struct strips *s, struct pass *pass, int node, bool array)
 {
     struct emitter *e = &pass->e;
@@ -159,11 +176,17 @@ static void pass_text(struct strips *s, struct pass *pass)
     for (int i = 0; i < e->pointers_count; i++)
         text_put(t, ",\n    const __global %s *%s p%d",
                  memory_type(s->g->nodes[e->seen_pointers[i].node].type),
-                 s->g->nodes[e->seen_pointers[i].node].leaf ? "restrict" : "", i);
+                 s->g->nodes[e->seen_pointers[i].node].leaf &&
+                         border_of(s, e->seen_pointers[i].node) < 0
+                     ? "restrict"
+                     : "",
+                 i);
     for (int i = 0; i < pass->outputs_count; i++)
         text_put(t, ",\n    __global %s *%s q%d",
                  memory_type(s->g->nodes[pass->outputs[i].node].type),
-                 pass->outputs[i].array ? "restrict" : "", i);
+                 pass->outputs[i].array && !in_places(s, pass->outputs[i].node) ? "restrict"
+                                                                                : "",
+                 i);
     numbers_text(e, t);
     text_put(t, ")\n{\n    const int row = wrap(y, D0), r0 = row;\n");
     emit_axes(e, t);
@@ -239,6 +262,8 @@ static void collect_arguments(struct strips *s)
     for (int i = 0; i < s->stores_count; i++)
         if (s->g->nodes[s->stores[i]].target)
             emit_argument(&s->arguments, ARGUMENT_OUTPUT, s->stores[i], 0, &s->failed);
+    if (s->in_place.pairs_count)
+        emit_argument(&s->arguments, ARGUMENT_BORDERS, 0, 4, &s->failed);
     emit_argument(&s->arguments, ARGUMENT_SCRATCH, 0, 0, &s->failed);
 }
 
@@ -259,9 +284,13 @@ static void kernel_head(struct strips *s, struct text *t)
         const struct kernel_argument *a = &s->arguments.list[i];
         struct machine_type type = s->g->nodes[a->node].type;
         if (a->kind == ARGUMENT_INPUT)
-            text_put(t, ",\n    const __global %s *restrict b%d", memory_type(type), a->node);
+            text_put(t, ",\n    const __global %s *%s b%d", memory_type(type),
+                     border_of(s, a->node) < 0 ? "restrict" : "", a->node);
         else if (a->kind == ARGUMENT_OUTPUT)
-            text_put(t, ",\n    __global %s *restrict o%d", memory_type(type), a->node);
+            text_put(t, ",\n    __global %s *%s o%d", memory_type(type),
+                     in_places(s, a->node) ? "" : "restrict", a->node);
+        else if (a->kind == ARGUMENT_BORDERS)
+            text_put(t, ",\n    uint borders");
         else if (a->kind == ARGUMENT_SCRATCH)
             text_put(t, ",\n    __global uchar *scratch");
         else
@@ -277,6 +306,11 @@ static void kernel_head(struct strips *s, struct text *t)
         "    __global uchar *const near = scratch + (get_global_id(1) * get_global_size(0) +\n"
         "        get_global_id(0)) * (size_t)(NEAR * %d);\n",
         s->memory + 8);
+    if (s->in_place.pairs_count)
+        text_put(t,
+                 "    const __global uchar *const around = scratch + get_global_size(1) * "
+                 "get_global_size(0) *\n        (size_t)(NEAR * %d);\n",
+                 s->memory + 8);
     for (int i = 0; i < s->g->count; i++)
         if (s->ring_rows[i])
             text_put(t, "    __global %s *const n%d = (__global %s *)(near + NEAR * %d);\n",
@@ -306,6 +340,22 @@ static void array_row(struct text *t, char letter, int node, int down)
              node, down);
 }
 
+/* One that may be written in place. */
+static void bordered_row(const struct strips *s, struct text *t, int border, int down)
+{
+    const struct in_place *in = &s->in_place;
+    int node = in->leaves[border], before = 0;
+    for (int i = 0; i < border; i++)
+        before += (int)type_bytes(s->g->nodes[in->leaves[i]].type);
+    const char *type = memory_type(s->g->nodes[node].type);
+    text_put(t,
+             ",\n                (borders >> %d & 1 && (y + (%d) < top || y + (%d) >= bottom)"
+             "\n                    ? (const __global %s *)(around + (size_t)PITCH * %d * "
+             "BORDERS) +\n                          border_row(y + (%d), top, bottom) * PITCH"
+             "\n                    : b%d + (size_t)wrap(y + (%d), D0) * PITCH) + HALO",
+             border, down, down, type, before, down, node, down);
+}
+
 static void pass_call(struct strips *s, struct text *t, int k)
 {
     const struct pass *pass = &s->passes[k];
@@ -319,7 +369,10 @@ static void pass_call(struct strips *s, struct text *t, int k)
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
         int down = strips_rows_down(s, e, p);
-        if (s->g->nodes[p->node].leaf)
+        int border = border_of(s, p->node);
+        if (border >= 0)
+            bordered_row(s, t, border, down);
+        else if (s->g->nodes[p->node].leaf)
             array_row(t, 'b', p->node, down);
         else
             ring_row(s, t, p->node, down);
@@ -361,6 +414,9 @@ static void kernel_text(struct strips *s, struct text *t)
     }
     if (integers)
         text_put(t, "%s", kernel_integers_cl);
+    if (s->in_place.pairs_count)
+        text_put(t, "#define ABOVE %d\n#define BELOW %d\n", s->in_place.above,
+                 s->in_place.below);
     text_put(t, "%s", kernel_strips_cl);
     edges_text(s, t);
     for (int k = 0; k < s->passes_count; k++) {
@@ -402,6 +458,7 @@ static void describe(const struct strips *s, const struct device_shape *shape,
                      (double)type_bytes(s->g->nodes[s->arguments.list[i].node].type);
     out->vector = shape->vector;
     out->strip_columns = strips_columns(s, shape);
+    out->in_place = s->in_place;
     out->strip_near = strips_near_columns(s, out->strip_columns);
     out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
     snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
@@ -480,6 +537,8 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
     } else {
         free(t.data);
         free(s.arguments.list);
+        free(s.in_place.pairs);
+        out->in_place.pairs = NULL;
     }
     strips_finish(&s);
     return good;
