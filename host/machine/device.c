@@ -164,7 +164,7 @@ static struct device_shape shape_usual(const struct device *d)
                                  .near_bytes = 512 << 10,
                                  .launch_ns = 3000,
                                  .run_columns = 4096,
-                                 .strip_columns = 1024,
+                                 .strip_columns = 4096,
                                  .strips_each = 3,
                                  .turns = 8,
                                  .streams = true};

@@ -49,7 +49,7 @@ struct stage {
 /* Values that a stage stores, and that are computed together. */
 struct unit {
     struct emitter e; /* of it alone: what it looks at */
-    int stage, stores;
+    int stage;
     int delay, above, below, left, right;
     int ahead; /* vectors, the way that x goes */
 };

@@ -85,7 +85,6 @@ static void units_of_stage(struct strips *s, const struct marks *m, int stage)
         }
         struct unit *unit = &s->units[s->unit[s->stores[root]]];
         s->unit[node] = s->unit[s->stores[root]];
-        unit->stores++;
         emit_value(&unit->e, node, 0, 0, true);
         s->failed = s->failed || unit->e.failed;
     }
@@ -318,9 +317,34 @@ static bool suits(const struct strips *s)
 
 /* ---- what can be written in place ---- */
 
+/* Whether the leaf is among what the node is made of in its stage; seen: nodes that have been asked. */
+static bool made_of(const struct strips *s, int node, int leaf, int stage, bool *seen)
+{
+    const struct plan_node *n = &s->g->nodes[node];
+    if (seen[node] || n->constant || plan_loads(n, stage))
+        return node == leaf;
+    seen[node] = true;
+    for (int k = 0; k < node_ops[n->op].inputs; k++)
+        if (made_of(s, plan_input(s->g, n, k, stage), leaf, stage, seen))
+            return true;
+    return false;
+}
+
+/* Whether nothing else of its unit is made of the leaf. */
+static bool alone_reads(struct strips *s, int output, int leaf)
+{
+    bool *seen = calloc((size_t)s->g->count, sizeof *seen), alone = seen != NULL;
+    s->failed = s->failed || !seen;
+    for (int i = 0; alone && i < s->stores_count; i++)
+        if (s->unit[s->stores[i]] == s->unit[output] && s->stores[i] != output)
+            alone = !made_of(s, s->stores[i], leaf, s->g->nodes[output].stage, seen);
+    free(seen);
+    return alone;
+}
+
 /* Each row of the leaf must have been read for the last time when that of the output is written; or be read in that row
  * by the output alone, each element where it is stored. */
-static bool may_replace(const struct strips *s, int output, int leaf)
+static bool may_replace(struct strips *s, int output, int leaf)
 {
     const struct unit *out = &s->units[s->unit[output]];
     for (int k = 0; k < s->units_count; k++) {
@@ -330,9 +354,8 @@ static bool may_replace(const struct strips *s, int output, int leaf)
             if (p->node != leaf)
                 continue;
             int late = u->delay - strips_rows_down(s, &u->e, p) * s->downward - out->delay;
-            bool there =
-                u == out && u->stores == 1 && !p->low && !p->high && !u->left && !u->right;
-            if (late > 0 || (late == 0 && !there))
+            bool there = u == out && !p->low && !p->high && !u->left && !u->right;
+            if (late > 0 || (late == 0 && !(there && alone_reads(s, output, leaf))))
                 return false;
         }
     }
