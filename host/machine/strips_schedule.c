@@ -265,23 +265,6 @@ static int schedule(struct strips *s, struct way way)
     return kept;
 }
 
-/* What looks at rows above it and columns to the left of it, and is looked at by those below and to the right, keeps
- * the least where rows are taken from the lowest up, and columns from right to left. */
-static void choose_way(struct strips *s)
-{
-    struct way best = {0};
-    int least = INT_MAX;
-    for (int i = 0; i < 8; i++) {
-        struct way way = {i & 4 ? -1 : 1, i & 2 ? -1 : 1, i & 1};
-        int kept = schedule(s, way);
-        if (kept < least) {
-            best = way;
-            least = kept;
-        }
-    }
-    schedule(s, best);
-}
-
 /* Rings of wide elements first, so that all are aligned. */
 static void lay_out(struct strips *s)
 {
@@ -317,34 +300,9 @@ static bool suits(const struct strips *s)
 
 /* ---- what can be written in place ---- */
 
-/* Whether the leaf is among what the node is made of in its stage; seen: nodes that have been asked. */
-static bool made_of(const struct strips *s, int node, int leaf, int stage, bool *seen)
-{
-    const struct plan_node *n = &s->g->nodes[node];
-    if (seen[node] || n->constant || plan_loads(n, stage))
-        return node == leaf;
-    seen[node] = true;
-    for (int k = 0; k < node_ops[n->op].inputs; k++)
-        if (made_of(s, plan_input(s->g, n, k, stage), leaf, stage, seen))
-            return true;
-    return false;
-}
-
-/* Whether nothing else of its unit is made of the leaf. */
-static bool alone_reads(struct strips *s, int output, int leaf)
-{
-    bool *seen = calloc((size_t)s->g->count, sizeof *seen), alone = seen != NULL;
-    s->failed = s->failed || !seen;
-    for (int i = 0; alone && i < s->stores_count; i++)
-        if (s->unit[s->stores[i]] == s->unit[output] && s->stores[i] != output)
-            alone = !made_of(s, s->stores[i], leaf, s->g->nodes[output].stage, seen);
-    free(seen);
-    return alone;
-}
-
 /* Each row of the leaf must have been read for the last time when that of the output is written; or be read in that row
- * by the output alone, each element where it is stored. */
-static bool may_replace(struct strips *s, int output, int leaf)
+ * by the output's unit alone, each element where it is stored: a unit stores when it has computed all. */
+static bool may_replace(const struct strips *s, int output, int leaf)
 {
     const struct unit *out = &s->units[s->unit[output]];
     for (int k = 0; k < s->units_count; k++) {
@@ -355,7 +313,7 @@ static bool may_replace(struct strips *s, int output, int leaf)
                 continue;
             int late = u->delay - strips_rows_down(s, &u->e, p) * s->downward - out->delay;
             bool there = u == out && !p->low && !p->high && !u->left && !u->right;
-            if (late > 0 || (late == 0 && !(there && alone_reads(s, output, leaf))))
+            if (late > 0 || (late == 0 && !there))
                 return false;
         }
     }
@@ -400,6 +358,7 @@ static bool is_read(const struct strips *s, int leaf)
 static void find_pairs(struct strips *s)
 {
     struct in_place *in = &s->in_place;
+    in->leaves_count = in->pairs_count = in->above = in->below = in->bytes = 0;
     for (int leaf = 0; leaf < s->g->count && !s->failed; leaf++) {
         const struct plan_node *n = &s->g->nodes[leaf];
         for (int i = 0; n->leaf && is_read(s, leaf) && i < s->stores_count; i++) {
@@ -423,6 +382,29 @@ static void find_pairs(struct strips *s)
         in->bytes += (int)type_bytes(s->g->nodes[in->leaves[i]].type);
 }
 
+/* ---- which way ---- */
+
+/* What looks at rows above it and columns to the left of it, and is looked at by those below and to the right, keeps
+ * the least where rows are taken from the lowest up, and columns from right to left. Among ways that keep as little
+ * the one is taken where most can be written in place. */
+static void choose_way(struct strips *s)
+{
+    struct way best = {0};
+    int least = INT_MAX, most = 0;
+    for (int i = 0; i < 8 && !s->failed; i++) {
+        struct way way = {i & 4 ? -1 : 1, i & 2 ? -1 : 1, i & 1};
+        int kept = schedule(s, way);
+        find_pairs(s);
+        if (kept < least || (kept == least && s->in_place.pairs_count > most)) {
+            best = way;
+            least = kept;
+            most = s->in_place.pairs_count;
+        }
+    }
+    schedule(s, best);
+    find_pairs(s);
+}
+
 bool strips_schedule(struct strips *s)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
@@ -434,10 +416,7 @@ bool strips_schedule(struct strips *s)
     make_passes(s);
     choose_way(s);
     lay_out(s);
-    if (!suits(s))
-        return false;
-    find_pairs(s);
-    return !s->failed;
+    return !s->failed && suits(s);
 }
 
 /* ---- how wide ---- */

@@ -59,20 +59,22 @@ static void pass_values(struct strips *s, struct pass *pass)
                                        .bits_matter = s->bits_matter};
     e->bare = true;
     e->together = &pass->together;
-    for (e->stage = pass->first; e->stage <= pass->last && !e->failed; e->stage++)
+    for (e->stage = pass->first; e->stage <= pass->last && !e->failed; e->stage++) {
+        for (int i = 0; i < s->stores_count && !e->failed; i++) {
+            int node = s->stores[i];
+            if (s->g->nodes[node].stage == e->stage)
+                emit_value(e, node, emit_row(e, 0, s->down[node]), s->ahead[node] * s->vector,
+                           s->g->nodes[node].target || s->bits_matter[node]);
+        }
         for (int i = 0; i < s->stores_count && !e->failed; i++) {
             int node = s->stores[i];
             const struct plan_node *n = &s->g->nodes[node];
-            if (n->stage != e->stage)
-                continue;
-            if (s->ring_rows[node])
+            if (n->stage == e->stage && s->ring_rows[node])
                 pass_output(s, pass, node, false);
-            if (n->target)
+            if (n->stage == e->stage && n->target)
                 pass_output(s, pass, node, true);
-            if (!s->ring_rows[node] && !n->target) /* for variables only */
-                emit_value(e, node, emit_row(e, 0, s->down[node]), s->ahead[node] * s->vector,
-                           s->bits_matter[node]);
         }
+    }
     s->failed = s->failed || e->failed || e->body.failed;
 }
 

@@ -14,7 +14,7 @@
 
 #include "machine.h"
 
-enum { HIGH = 12, WIDE = 64, CELLS = HIGH * WIDE };
+enum { HIGH = 96, WIDE = 64, CELLS = HIGH * WIDE };
 
 struct sheet {
     CM_field_id_t cell, flow, neighbour;
@@ -198,6 +198,53 @@ static void many_turns_are_one_kernel(void **state)
     }
 }
 
+static uint64_t in_place(void)
+{
+    struct machine_stats now;
+    machine_stats_get(paris_machine(), &now);
+    return now.kernels_in_place;
+}
+
+/* Strips of whole rows, one below the other, write where they read; but not while somebody has the old values. */
+static void what_nobody_wants_is_written_over(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    uint64_t before = in_place();
+    for (int i = 0; i < 150; i++) {
+        turn(&s, 7);
+        turn_wanted(&s, 7);
+        if (i % 13 < 3)
+            expect(&s);
+    }
+    expect(&s);
+    assert_true(in_place() - before >= 20);
+    CM_field_id_t kept = CM_allocate_heap_field(32);
+    static uint32_t wanted[CELLS], got[CELLS];
+    for (int i = 0; i < 60; i++) {
+        CM_u_move_1L(kept, s.cell, 32);
+        memcpy(wanted, s.wanted, sizeof wanted);
+        turn(&s, 9);
+        turn_wanted(&s, 9);
+        if (i % 5 == 0) {
+            machine_begin(paris_machine());
+            assert_int_equal(
+                machine_field_download(paris_machine(), kept, MACHINE_UINT(32), got), 0);
+            assert_memory_equal(got, wanted, sizeof got);
+            expect(&s);
+        }
+    }
+    expect(&s);
+}
+
+static int forced_whole_rows(void **state)
+{
+    (void)state;
+    unsetenv("LUTETIA_COLUMNS");
+    return paris_reset(NULL) ? 0 : -1;
+}
+
 static int forced(void **state)
 {
     static const char *const names[][2] = {
@@ -220,6 +267,8 @@ int main(void)
         cmocka_unit_test_setup(many_turns_are_one_kernel, forced),
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
+        cmocka_unit_test_setup(what_nobody_wants_is_written_over, forced_whole_rows),
+        cmocka_unit_test(what_comes_between_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
