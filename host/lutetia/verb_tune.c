@@ -28,7 +28,7 @@ static const struct step {
     {MACHINE_RUN, {4096, 1024, 256}, {false, true, true}},
     {MACHINE_STREAMS, {1, 0}, {[TUNE_TRAFFIC] = true}},
     {MACHINE_TURNS, {8, 4, 2, 1}, {[TUNE_STENCIL] = true}},
-    {MACHINE_COLUMNS, {1024, 512, 256, 128}, {[TUNE_STENCIL] = true}},
+    {MACHINE_COLUMNS, {4096, 1024, 512, 256}, {[TUNE_STENCIL] = true}},
     {MACHINE_STRIPS_EACH, {3, 1, 2, 4, 6}, {[TUNE_STENCIL] = true}},
 };
 

@@ -3,7 +3,7 @@
  * What one stage stores for the neighbours of the next need not exist as a whole: each work-item goes down
  * a strip, and each stage handles a row as soon as the rows that it looks at have been made.
  *
- *     i = row that the strip has come to
+ *     i = row that the strip has come to, here from the highest down
  *
  *     stage 0  at row i          reads arrays            keeps a
  *     stage 1  at row i - 1      reads arrays, a         keeps b, and writes an array
@@ -20,6 +20,9 @@
  *     x                x + VECTOR
  *     [ c0_1        ][ v7        ]      v7: computed now, c0_1: v7 of the turn before
  *         [ wanted      ]               lanes of both, put together
+ *
+ * Rows are taken from the lowest up, or from the highest down, columns from right to left, or from left to right:
+ * whichever way round keeps least. Of one stage, what is computed together is a *unit*, which has a delay of its own.
  *
  * Other rows, and what other passes have made, are kept in *rings* of a few rows as wide as the strip, which stay
  * in the caches. So a value that several look at is computed once, and many steps of a stencil can go through the
