@@ -63,16 +63,15 @@ struct runner {
     struct sheet *sheet;
 };
 
+static void listing_take(const void *listing)
+{
+    listing_step(listing);
+}
+
 /* which: steps between two looks at it. */
 static bool listing_steps(struct sheet *s, int which, int steps_count)
 {
-    bool ok = true;
-    for (int i = 1; ok && i <= steps_count; i++) {
-        listing_step(&s->listing);
-        if (i % which == 0 || i == steps_count)
-            ok = bench_machine_said(machine_flush(paris_machine()));
-    }
-    return ok && bench_machine_said(machine_finish(paris_machine()));
+    return bench_machine_steps(listing_take, &s->listing, steps_count, which);
 }
 
 static bool hand_steps(struct sheet *s, int which, int steps_count)
@@ -478,7 +477,7 @@ static bool front_end_measure(struct bench_report *r)
         listing_step(&s.listing);
         ok = bench_machine_said(machine_flush(paris_machine()));
         seconds[i] = bench_thread_s() - start;
-        ok = ok && bench_machine_said(machine_finish(paris_machine()));
+        ok = ok && bench_machine_finished();
     }
     if (ok)
         bench_report_add(r, "front end", "listing", bench_sample_of(seconds, FRONT_END_STEPS),

@@ -320,12 +320,10 @@ static bool case_run(struct fonts *f, const char *of_case, double size_px,
         if (ways[i].slow || font_simd_use(ways[i].simd) != ways[i].simd)
             continue;
         works[count] = (struct work){f, &ways[i]};
-        contenders[count] = (struct bench_contender){
-
-            .what = ways[i].what,
-            .ready = f->page ? NULL : way_ready,
-            .work = way_work,
-            .context = &works[count]};
+        contenders[count] = (struct bench_contender){.what = ways[i].what,
+                                                     .ready = f->page ? NULL : way_ready,
+                                                     .work = way_work,
+                                                     .context = &works[count]};
         count++;
     }
     contenders[count++] =

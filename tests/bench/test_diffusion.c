@@ -31,17 +31,6 @@ static const struct {
 
 enum { SHEETS_COUNT = sizeof sheets / sizeof *sheets };
 
-static void scene_make(int n, struct diffusion_scene *s)
-{
-    const int *rim = sheets[n].rim;
-
-    assert_true(diffusion_scene_init(s, sheets[n].width, sheets[n].height));
-    s->x0 = rim[0];
-    s->y0 = rim[1];
-    s->x1 = s->width - rim[2];
-    s->y1 = s->height - rim[3];
-}
-
 static void openmp_agrees(void **state)
 {
     (void)state;
@@ -49,7 +38,7 @@ static void openmp_agrees(void **state)
         struct diffusion_scene s;
         struct oracle o;
 
-        scene_make(n, &s);
+        oracle_scene_init(&s, sheets[n].width, sheets[n].height, sheets[n].rim);
         oracle_init(&o, &s);
         oracle_steps(&o, STEPS);
         float *mine = malloc((size_t)s.width * (size_t)s.height * sizeof *mine);
@@ -74,7 +63,7 @@ static void hand_agrees(enum diffusion_shape shape, const char *what)
         struct diffusion_scene s;
         struct oracle o;
 
-        scene_make(n, &s);
+        oracle_scene_init(&s, sheets[n].width, sheets[n].height, sheets[n].rim);
         bool off_edges = s.x0 > 0 && s.y0 > 0 && s.x1 < s.width && s.y1 < s.height;
         if (shape == DIFFUSION_IN_PLACE && !off_edges) { /* it does not wrap */
             diffusion_scene_finish(&s);
@@ -121,7 +110,7 @@ static void hand_unknown_device_fails(void **state)
     struct diffusion_scene s;
 
     (void)state;
-    scene_make(0, &s);
+    oracle_scene_init(&s, sheets[0].width, sheets[0].height, sheets[0].rim);
     assert_null(diffusion_hand_create(&s, "no such device", DIFFUSION_SHAPE_BEST));
     assert_non_null(strstr(bench_error(), "no such device"));
     diffusion_scene_finish(&s);
