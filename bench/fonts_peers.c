@@ -11,6 +11,16 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+static bool room(void **memory, size_t *have, size_t bytes)
+{
+    if (bytes <= *have)
+        return true;
+    free(*memory);
+    *memory = malloc(bytes);
+    *have = *memory ? bytes : 0;
+    return *memory != NULL;
+}
+
 /* ---- FreeType ---- */
 
 struct peer_freetype {
@@ -91,13 +101,8 @@ bool peer_freetype_raster(struct peer_freetype *p, int slot, struct font_gray *g
     int width = (int)((box.xMax + 63) >> 6) - left,
         height = (int)((box.yMax + 63) >> 6) - bottom;
     size_t size = (size_t)width * (size_t)height;
-    if (size > p->pixels_size) {
-        free(p->pixels);
-        p->pixels = malloc(size);
-        p->pixels_size = p->pixels ? size : 0;
-        if (!p->pixels)
-            return false;
-    }
+    if (!room((void **)&p->pixels, &p->pixels_size, size))
+        return false;
     FT_Bitmap bitmap = {.rows = (unsigned)height,
                         .width = (unsigned)width,
                         .pitch = width,
@@ -145,16 +150,6 @@ void peer_direct_destroy(struct peer_direct *p)
     free(p->pixels);
     free(p->weights);
     free(p);
-}
-
-static bool room(void **memory, size_t *have, size_t bytes)
-{
-    if (bytes <= *have)
-        return true;
-    free(*memory);
-    *memory = malloc(bytes);
-    *have = *memory ? bytes : 0;
-    return *memory != NULL;
 }
 
 bool peer_direct_draw(struct peer_direct *p, const struct font_master *m, double size_px,

@@ -35,7 +35,7 @@ struct kind {
     double traffic_bytes; /* of a cell and step, at least */
     void (*start)(unsigned char *cells, size_t count);
     void (*allocate)(struct grid *g);
-    void (*step)(const struct grid *g);
+    void (*step)(const void *grid);
     bool (*create)(struct grid *g, const unsigned char *cells);
     void (*openmp_steps)(struct grid_openmp *g, int steps_count);
     void (*openmp_read)(const struct grid *g, unsigned char *out);
@@ -70,8 +70,9 @@ static void life_allocate(struct grid *g)
     life_paris_allocate(&g->life, g->width, g->height);
 }
 
-static void life_step(const struct grid *g)
+static void life_step(const void *grid)
 {
+    const struct grid *g = grid;
     life_paris_step(&g->life);
 }
 
@@ -108,8 +109,9 @@ static void heat_allocate(struct grid *g)
     heat_paris_allocate(&g->heat, g->width, g->height);
 }
 
-static void heat_step(const struct grid *g)
+static void heat_step(const void *grid)
 {
+    const struct grid *g = grid;
     heat_paris_step(&g->heat);
 }
 
@@ -133,13 +135,7 @@ static grid_field heat_field(const struct grid *g)
 
 static bool paris_steps(const struct turn *t, int steps_count)
 {
-    bool ok = true;
-    for (int i = 1; ok && i <= steps_count; i++) {
-        t->kind->step(t->grid);
-        if (i % t->steps_between == 0 || i == steps_count)
-            ok = bench_machine_said(machine_flush(paris_machine()));
-    }
-    return ok && bench_machine_said(machine_finish(paris_machine()));
+    return bench_machine_steps(t->kind->step, t->grid, steps_count, t->steps_between);
 }
 
 static bool paris_ready(void *context)

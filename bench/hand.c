@@ -51,7 +51,7 @@ static enum diffusion_shape shape_best(const struct diffusion_scene *s)
 static bool program_build(struct diffusion_hand *h)
 {
     const struct diffusion_scene *s = &h->scene;
-    const char *source = kernel_diffusion_per_axis_cl;
+    const char *sources[] = {kernel_diffusion_vectors_cl, kernel_diffusion_per_axis_cl};
     char options[512];
     cl_int error;
     double bytes = 9.0 * sizeof(float) * s->width * s->height;
@@ -60,7 +60,7 @@ static bool program_build(struct diffusion_hand *h)
              "-DSTREAM_PAST_CACHES=%d",
              s->width, s->height, h->pitch, h->plane, s->x0, s->y0, s->x1, s->y1,
              bytes > (double)last_cache_bytes());
-    h->program = bench_opencl_build(&h->cl, &source, 1, options);
+    h->program = bench_opencl_build(&h->cl, sources, 2, options);
     if (!h->program)
         return false;
     static const char *const names[][2] = {

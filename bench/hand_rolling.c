@@ -49,9 +49,9 @@ static bool run(struct diffusion_rolling *r, cl_kernel kernel, int items_count,
 
 static bool kernel_build(struct diffusion_rolling *r, bool relaxed)
 {
-    const char *sources[] = {kernel_diffusion_rolling_cl, r->in_place
-                                                              ? kernel_diffusion_single_pass_cl
-                                                              : kernel_diffusion_time_tiled_cl};
+    const char *sources[] = {
+        kernel_diffusion_vectors_cl, kernel_diffusion_rolling_cl, kernel_diffusion_row_cl,
+        r->in_place ? kernel_diffusion_single_pass_cl : kernel_diffusion_time_tiled_cl};
     char options[64];
     cl_int error;
     /* Only a sheet of which both copies stay in the last cache is not written past it. */
@@ -60,7 +60,7 @@ static bool kernel_build(struct diffusion_rolling *r, bool relaxed)
     snprintf(options, sizeof options, "-DRISES=%d -DRELAXED=%d -DPAST=%d -DABSORBENCY=%d",
              r->scene.gravity >= 1.0f, relaxed, bytes > 0.75 * (double)cache_bytes,
              r->layout.absorbency);
-    r->program = bench_opencl_build(&r->cl, sources, 2, options);
+    r->program = bench_opencl_build(&r->cl, sources, 4, options);
     if (!r->program)
         return false;
     r->kernel = clCreateKernel(

@@ -20,8 +20,9 @@ struct bench_sample {
     double median, min;
 };
 
-double bench_now_s(void);    /* monotonic */
-double bench_thread_s(void); /* processor time of the calling thread */
+double bench_now_s(void);     /* monotonic */
+double bench_thread_s(void);  /* processor time of the calling thread */
+double bench_process_s(void); /* of all of them */
 
 /* Does the work once and waits until it is done. False stops the measurement: bench_error() is
  * set. */

@@ -30,3 +30,15 @@ bool bench_machine_finished(void)
 {
     return bench_machine_said(machine_finish(paris_machine()));
 }
+
+bool bench_machine_steps(void (*step)(const void *of), const void *of, int steps_count,
+                         int between)
+{
+    bool ok = true;
+    for (int i = 1; ok && i <= steps_count; i++) {
+        step(of);
+        if (i % between == 0 || i == steps_count)
+            ok = bench_machine_said(machine_flush(paris_machine()));
+    }
+    return ok && bench_machine_finished();
+}

@@ -16,6 +16,9 @@ int bench_machine_start(struct bench_report *r, struct bench_options *o, bool se
                         char **argv);
 /* Errors: false, with what the machine says. */
 bool bench_machine_said(enum machine_status status);
+/* Takes steps, hands over what they are after each `between` and after the last, and waits. Errors: false. */
+bool bench_machine_steps(void (*step)(const void *of), const void *of, int steps_count,
+                         int between);
 /* All that was asked for has been computed. Errors: false. */
 bool bench_machine_finished(void);
 

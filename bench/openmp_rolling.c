@@ -16,6 +16,10 @@ typedef float vector __attribute__((vector_size(64), may_alias));
 typedef float vector_anywhere __attribute__((vector_size(64), aligned(4), may_alias));
 
 #define INLINE static inline __attribute__((always_inline))
+#define LANES ROLLING_LANES
+#define LOAD(at) (*(const vector *)(at))
+#define LOAD_ANY(at) (*(const vector_anywhere *)(at))
+#define STORE(at, v) (*(vector *)(at) = (v))
 
 struct diffusion_openmp_rolling {
     struct diffusion_scene scene; /* its arrays are not ours */
@@ -27,27 +31,14 @@ struct diffusion_openmp_rolling {
 
 /* ---- vectors ---- */
 
-INLINE vector load(const float *at)
-{
-    return *(const vector *)at;
-}
-
-INLINE vector load_any(const float *at)
-{
-    return *(const vector_anywhere *)at;
-}
-
-INLINE void store(float *at, vector v)
-{
-    *(vector *)at = v;
-}
-
 INLINE vector all_lanes(float x)
 {
     return (vector){x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x};
 }
 
 #ifdef __AVX512F__
+#define STORE_PAST(at, v) _mm512_stream_ps(at, (__m512)(v))
+
 INLINE vector least(vector a, vector b)
 {
     return (vector)_mm512_min_ps((__m512)a, (__m512)b);
@@ -64,16 +55,13 @@ INLINE vector further(vector a, vector b)
     return (vector)_mm512_alignr_epi32((__m512i)b, (__m512i)a, 1);
 }
 
-INLINE void store_past(float *at, vector v)
-{
-    _mm512_stream_ps(at, (__m512)v);
-}
-
 INLINE void stores_settle(void)
 {
     _mm_sfence();
 }
 #else
+#define STORE_PAST STORE
+
 INLINE vector least(vector a, vector b)
 {
     for (int i = 0; i < ROLLING_LANES; i++)
@@ -94,11 +82,6 @@ INLINE vector further(vector a, vector b)
                     a[9], a[10], a[11], a[12], a[13], a[14], a[15], b[0]};
 }
 
-INLINE void store_past(float *at, vector v)
-{
-    store(at, v);
-}
-
 INLINE void stores_settle(void)
 {
 }
@@ -117,13 +100,13 @@ struct rows { /* of the four fields: that of field i begins at first + i * apart
 };
 
 INLINE vector flow_in(vector lower, vector here, vector absorbency, vector water, int i,
-                      const struct constants *c, bool rises)
+                      struct constants c)
 {
     vector t = (lower - here) * absorbency;
     if (i)
-        t = t * water * c->weight[i - 1];
-    vector along = t * c->gravity, against = t / c->gravity;
-    return rises ? greatest(along, against) : least(along, against);
+        t = t * water * c.weight[i - 1];
+    vector along = t * c.gravity, against = t / c.gravity;
+    return c.rises ? greatest(along, against) : least(along, against);
 }
 
 INLINE vector moved(vector amount, vector in, vector out)
@@ -133,82 +116,34 @@ INLINE vector moved(vector amount, vector in, vector out)
     return greatest(least(t, all_lanes(1.0f)), all_lanes(0.0f));
 }
 
-enum row_kind {
-    ROW_FIRST, /* of a walk: along x only, there is no row before it */
-    ROW_INNER,
-    ROW_EDGE /* the row above it, y - 1, is outside the rectangle and does not change */
-};
+#define __global
+#include "../kernels/diffusion_row.cl"
 
-/* As the kernel's: columns x0..x1-1, from right to left. */
-INLINE void row_inline(enum row_kind kind, bool past, bool rises, struct rows old,
-                       const float *upper_absorbency, const float *absorbency,
-                       struct rows along, struct rows flow, struct rows out, int x0, int x1,
-                       const struct constants *constants, vector carry[4])
+/* row() with all that does not change in it known when it is compiled. */
+static void row_of_kind(enum row_kind kind, bool past, struct rows old,
+                        const float *upper_absorbency, const float *absorbency,
+                        struct rows along, struct rows flow, struct rows out, int x0, int x1,
+                        const struct constants *c, vector carry[4])
 {
-    const struct constants c = *constants;
-    vector carry0 = carry[0], carry1 = carry[1], carry2 = carry[2], carry3 = carry[3];
-/* A macro, so that what is carried stays in registers. */
-#define FIELD(i, carried)                                                                      \
-    {                                                                                          \
-        vector upper = load(old.first + (i)*old.apart + x);                                    \
-        if (kind != ROW_EDGE) {                                                                \
-            vector lower = load_any(old.first + (i)*old.apart + x - 1);                        \
-            vector in = flow_in(lower, upper, a, water_x, i, &c, rises);                       \
-            upper = moved(upper, in, further(in, carried));                                    \
-            carried = in;                                                                      \
-            if ((i) == 0)                                                                      \
-                water_x = upper;                                                               \
-        }                                                                                      \
-        if (kind != ROW_FIRST) {                                                               \
-            vector here = load(along.first + (i)*along.apart + x);                             \
-            vector in = flow_in(upper, here, b, water_y, i, &c, rises);                        \
-            here = moved(here, in, load(flow.first + (i)*flow.apart + x));                     \
-            store(flow.first + (i)*flow.apart + x, in);                                        \
-            if ((i) == 0)                                                                      \
-                water_y = here;                                                                \
-            if (past)                                                                          \
-                store_past(out.first + (i)*out.apart + x, here);                               \
-            else                                                                               \
-                store(out.first + (i)*out.apart + x, here);                                    \
-        }                                                                                      \
-        store(along.first + (i)*along.apart + x, upper);                                       \
-    }
-    for (ptrdiff_t x = x1 - ROLLING_LANES; x >= x0; x -= ROLLING_LANES) {
-        vector a = load(upper_absorbency + x), b = load(absorbency + x);
-        vector water_x = {0}, water_y = {0};
-        FIELD(0, carry0)
-        FIELD(1, carry1)
-        FIELD(2, carry2)
-        FIELD(3, carry3)
-    }
-#undef FIELD
-    carry[0] = carry0;
-    carry[1] = carry1;
-    carry[2] = carry2;
-    carry[3] = carry3;
-}
-
-static void row(enum row_kind kind, bool past, struct rows old, const float *upper_absorbency,
-                const float *absorbency, struct rows along, struct rows flow, struct rows out,
-                int x0, int x1, const struct constants *c, vector carry[4])
-{
-#define ROW(kind, past, rises)                                                                 \
-    row_inline(kind, past, rises, old, upper_absorbency, absorbency, along, flow, out, x0, x1, \
-               c, carry)
+    struct constants rising = *c, falling = *c;
+    rising.rises = true;
+    falling.rises = false;
+#define ROW(kind, past, known)                                                                 \
+    row(kind, past, old, upper_absorbency, absorbency, along, flow, out, x0, x1, known, carry)
     if (!c->rises && kind == ROW_FIRST)
-        ROW(ROW_FIRST, false, false);
+        ROW(ROW_FIRST, false, falling);
     else if (!c->rises && kind == ROW_EDGE)
-        ROW(ROW_EDGE, false, false);
+        ROW(ROW_EDGE, false, falling);
     else if (!c->rises)
-        ROW(ROW_INNER, false, false);
+        ROW(ROW_INNER, false, falling);
     else if (kind == ROW_FIRST)
-        ROW(ROW_FIRST, false, true);
+        ROW(ROW_FIRST, false, rising);
     else if (kind == ROW_EDGE)
-        ROW(ROW_EDGE, false, true);
+        ROW(ROW_EDGE, false, rising);
     else if (past)
-        ROW(ROW_INNER, true, true);
+        ROW(ROW_INNER, true, rising);
     else
-        ROW(ROW_INNER, false, true);
+        ROW(ROW_INNER, false, rising);
 #undef ROW
 }
 
@@ -259,14 +194,14 @@ static void tile_row(const struct diffusion_openmp_rolling *o, const struct tile
         old = theirs;
     }
     if (!to_sheet) {
-        row(kind, false, old, a, b, along, flow, out, m->left, m->right, c, carry);
+        row_of_kind(kind, false, old, a, b, along, flow, out, m->left, m->right, c, carry);
         return;
     }
-    row(kind, false, old, a, b, along, flow, out, m->xb, m->right, c, carry);
+    row_of_kind(kind, false, old, a, b, along, flow, out, m->xb, m->right, c, carry);
     out = (struct rows){o->memory + (size_t)(DIFFUSION_FIELDS_COUNT - o->now) * l->plane + k +
                             l->pitch,
                         l->plane};
-    row(kind, true, old, a, b, along, flow, out, m->xa, m->xb, c, carry);
+    row_of_kind(kind, true, old, a, b, along, flow, out, m->xa, m->xb, c, carry);
 }
 
 static void tile_steps(const struct diffusion_openmp_rolling *o, const struct rolling_tiling *t,

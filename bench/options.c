@@ -12,6 +12,8 @@ static void usage_print(const struct bench_options *o, FILE *out)
     fprintf(out, "usage: lutetia bench %s", o->name);
     if (o->sizes_count)
         fprintf(out, " [--sizes %s]", shape);
+    if (o->thorough_does)
+        fputs(" [--thorough]", out);
     fputs(" [--repeat N] [--json FILE] [--plot FILE]\n\n", out);
     if (o->sizes_count) {
         char option[32];
@@ -21,6 +23,8 @@ static void usage_print(const struct bench_options *o, FILE *out)
             fprintf(out, i ? ",%d" : "%d", o->sizes[i][0]);
         fputs(")\n", out);
     }
+    if (o->thorough_does)
+        fprintf(out, "  --thorough         %s\n", o->thorough_does);
     fprintf(out,
             "  --repeat N         counted runs of each, %d or more (%d)\n"
             "  --json FILE        write the rows there, too\n"
@@ -61,6 +65,11 @@ static bool sizes_parse(struct bench_options *o, const char *text)
 static bool options_parse(struct bench_options *o, int argc, char **argv)
 {
     for (int i = 1; i < argc; i += 2) {
+        if (o->thorough_does && !strcmp(argv[i], "--thorough")) {
+            o->thorough = true;
+            i--;
+            continue;
+        }
         const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL;
         bool sizes = o->sizes_count && !strcmp(name, "--sizes");
         bool repeat = !strcmp(name, "--repeat"), json = !strcmp(name, "--json");

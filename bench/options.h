@@ -21,6 +21,8 @@ struct bench_options {
     bool lines;                                 /* sizes are one number, not two */
     int size_least, size_most;                  /* of a side, or of a line */
     int repeat_least, repeat_count;
+    const char *thorough_does; /* --thorough, in a line; NULL: no such option */
+    bool thorough;
     const char *json_path, *plot_path; /* NULL: none */
 };
 

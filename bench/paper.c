@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "options.h"
+#include "of_machine.h"
 #include "paper_scene.h"
 #include "paris_internal.h"
 
@@ -164,13 +164,9 @@ int bench_paper_main(int argc, char **argv)
                                     .size_most = 4096,
                                     .repeat_least = 5,
                                     .repeat_count = 11};
-    char device[256];
-    int status = bench_options_parse(&options, argc, argv);
+    int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
-    setenv("LUTETIA_BOX_AFTER", "0", 0); /* what a long run settles to, from the first step */
-    snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
-    bench_report_init(&report, "paper", bench_threads_count(), device);
     struct bench_copy *copy = bench_copy_create(COPY_BYTES);
     bool ok = copy != NULL;
     for (int i = 0; ok && i < options.sizes_count; i++)

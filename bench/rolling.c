@@ -15,6 +15,8 @@ enum {
     TUNE_ROUNDS_MOST = 12
 };
 static const double TUNE_S = 0.7; /* no further round after that */
+/* What took so much longer than the fastest in its first round is not run again. */
+static const double TUNE_HOPE = 1.3;
 
 static size_t round_up(size_t n, size_t unit)
 {
@@ -138,19 +140,23 @@ bool rolling_tune(const struct rolling_layout *l, int threads_count,
                   struct rolling_tiling *best)
 {
     struct rolling_tiling list[32];
-    double least[32];
+    double least[32], least_of_all = 0;
     int count = candidates_list(l, threads_count, list, 32);
     const double begun = bench_now_s();
     for (int round = 0; round < TUNE_ROUNDS_LEAST ||
                         (round < TUNE_ROUNDS_MOST && bench_now_s() - begun < TUNE_S);
          round++)
         for (int i = 0; i < count; i++) {
+            if (round && least[i] > TUNE_HOPE * least_of_all)
+                continue;
             double start = bench_now_s();
             if (!run(context, &list[i]))
                 return false;
             double seconds = (bench_now_s() - start) / list[i].steps_count;
             if (!round || seconds < least[i])
                 least[i] = seconds;
+            if (least_of_all == 0 || seconds < least_of_all)
+                least_of_all = seconds;
         }
     *best = (struct rolling_tiling){8, 1, threads_count};
     rolling_tiling_clamp(best, l);

@@ -92,19 +92,15 @@ enum font_status font_atlas_create(const struct font_atlas_def *def, struct font
     return FONT_OK;
 }
 
-static uint32_t key_hash(const struct key *key)
+static uint32_t bucket_of(const struct key *key)
 {
-    const unsigned char *bytes = (const unsigned char *)key;
-    uint32_t hash = 2166136261u;
-    for (size_t i = 0; i < sizeof *key; i++)
-        hash = (hash ^ bytes[i]) * 16777619u;
-    return (hash ^ hash >> 15) % BUCKETS;
+    return font_hash(key, sizeof *key) % BUCKETS;
 }
 
 static void shelf_empty(struct font_atlas *a, struct shelf *s)
 {
     while (s->entries) {
-        struct entry *e = s->entries, **at = &a->buckets[key_hash(&e->key)];
+        struct entry *e = s->entries, **at = &a->buckets[bucket_of(&e->key)];
         s->entries = e->on_shelf;
         while (*at != e)
             at = &(*at)->next;
@@ -338,7 +334,7 @@ static void pixels_put(struct font_atlas *a, const struct font_gray *g, const st
 
 static struct entry *entry_find(const struct font_atlas *a, const struct key *key)
 {
-    for (struct entry *e = a->buckets[key_hash(key)]; e; e = e->next)
+    for (struct entry *e = a->buckets[bucket_of(key)]; e; e = e->next)
         if (memcmp(&e->key, key, sizeof *key) == 0)
             return e;
     return NULL;
@@ -364,7 +360,7 @@ static enum font_status entry_make(struct font_atlas *a, const struct key *key,
         s->page, s->end_x, s->y, gray->width_px, gray->height_px, gray->left_px, gray->top_px};
     e->on_shelf = s->entries;
     s->entries = e;
-    struct entry **bucket = &a->buckets[key_hash(key)];
+    struct entry **bucket = &a->buckets[bucket_of(key)];
     e->next = *bucket;
     *bucket = e;
     if (gray->width_px) {

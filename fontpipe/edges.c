@@ -86,21 +86,6 @@ static void line_put(struct font_edges *e, double x0, double x1, double y)
     e->line_y[i] = (float)y;
 }
 
-enum font_status font_edges_line_add(struct font_edges *e, double x0, double x1, double y)
-{
-    enum font_status status = font_lines_reserve(e, 1);
-    if (status != FONT_OK)
-        return status;
-    bool first = e->x0 > e->x1 || (e->nodes_count == 0 && e->lines_count == 0);
-    line_put(e, x0, x1, y);
-    float left = (float)fmin(x0, x1), right = (float)fmax(x0, x1), at = (float)y;
-    e->x0 = first ? left : fminf(e->x0, left);
-    e->x1 = first ? right : fmaxf(e->x1, right);
-    e->y0 = first ? at : fminf(e->y0, at);
-    e->y1 = first ? at : fmaxf(e->y1, at);
-    return FONT_OK;
-}
-
 float font_gauss_at_single[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
 float font_gauss_weight_single[FONT_NODES_MAX + 1][8] __attribute__((aligned(32)));
 

@@ -67,10 +67,6 @@ void font_edges_finish(struct font_edges *e);
 enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
                                   const struct font_map *map, const struct font_filter *filter);
 
-/* Edges of a shape that is given as rectangles' sides: adds the horizontal line y from x0 to x1, with ink below if
- * x1 > x0. Errors: NO_MEMORY, TOO_LARGE. */
-enum font_status font_edges_line_add(struct font_edges *e, double x0, double x1, double y);
-
 /* Pixels that a picture's side may have, and how far from the origin it may be. */
 enum { FONT_SIDE_MAX = 32768, FONT_EDGES_MAX = 40000000 };
 

@@ -42,6 +42,12 @@ struct span_end {
     int change;
 };
 
+/* A piece of a strip across which the filling changes. */
+struct bound {
+    const struct piece *piece;
+    bool entering;
+};
+
 struct work {
     struct piece *pieces;
     double *levels;
@@ -50,9 +56,10 @@ struct work {
     struct span_end *ends;
     int *active;
     double *middles; /* of the active ones */
+    struct bound *bounds;
     int pieces_count, pieces_capacity, levels_count, levels_capacity;
     int portions_count, portions_capacity, flat_count, flat_capacity;
-    int ends_count, ends_capacity, active_capacity, middles_capacity;
+    int ends_count, ends_capacity, active_capacity, middles_capacity, bounds_capacity;
     int crossings;
     double grid; /* heights are multiples of it, so that what is all but equal is equal */
 };
@@ -62,22 +69,24 @@ static double height(const struct work *w, double y)
     return rint(y / w->grid) * w->grid;
 }
 
-static double piece_x(const struct piece *p, double y)
+/* What changes evenly along a piece, `low` at y0 and `high` at y1. */
+static double piece_between(const struct piece *p, double y, double low, double high)
 {
     if (y <= p->y0)
-        return p->x0;
+        return low;
     if (y >= p->y1)
-        return p->x1;
-    return p->x0 + (p->x1 - p->x0) * ((y - p->y0) / (p->y1 - p->y0));
+        return high;
+    return low + (high - low) * ((y - p->y0) / (p->y1 - p->y0));
+}
+
+static double piece_x(const struct piece *p, double y)
+{
+    return piece_between(p, y, p->x0, p->x1);
 }
 
 static double piece_t(const struct piece *p, double y)
 {
-    if (y <= p->y0)
-        return p->t0;
-    if (y >= p->y1)
-        return p->t1;
-    return p->t0 + (p->t1 - p->t0) * ((y - p->y0) / (p->y1 - p->y0));
+    return piece_between(p, y, p->t0, p->t1);
 }
 
 static enum font_status no_memory(void)
@@ -175,7 +184,9 @@ static enum font_status crossings_find(struct work *w)
     if (!font_array_reserve((void **)&w->active, &w->active_capacity, w->pieces_count + 1,
                             sizeof *w->active) ||
         !font_array_reserve((void **)&w->middles, &w->middles_capacity, w->pieces_count + 1,
-                            sizeof *w->middles))
+                            sizeof *w->middles) ||
+        !font_array_reserve((void **)&w->bounds, &w->bounds_capacity, w->pieces_count + 1,
+                            sizeof *w->bounds))
         return no_memory();
     for (int i = 0; i < w->pieces_count; i++) {
         const struct piece *p = &w->pieces[i];
@@ -261,8 +272,7 @@ static enum font_status level_close(struct work *w, double y)
     return FONT_OK;
 }
 
-/* One strip: sorts the active pieces by their middle; returns the windings met in *least and *most and, where
- * `boundary`, keeps the portions and the spans' ends at `at` with the sign. */
+/* Sorts the active pieces by their middles. */
 static void strip_sort(struct work *w, int active_count, double low, double high)
 {
     double middle = low + (high - low) / 2;
@@ -280,38 +290,31 @@ static void strip_sort(struct work *w, int active_count, double low, double high
     }
 }
 
-static enum font_status strip_ends(struct work *w, int active_count, double y, int sign,
-                                   enum font_fill rule)
+/* Closes the level at the strip's foot, and keeps what bounds it: portions, and the spans' ends at its head. */
+static enum font_status strip_bound(struct work *w, int active_count, double low, double high,
+                                    enum font_fill rule)
 {
-    int winding = 0;
-    for (int i = 0; i < active_count; i++) {
+    int winding = 0, bounds_count = 0;
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < active_count && status == FONT_OK; i++) {
         const struct piece *p = &w->pieces[w->active[i]];
         bool before = filled(winding, rule), after;
         winding += p->direction;
         after = filled(winding, rule);
-        enum font_status status =
-            before == after ? FONT_OK : end_add(w, piece_x(p, y), after ? sign : -sign);
-        if (status != FONT_OK)
-            return status;
+        if (before == after)
+            continue;
+        w->bounds[bounds_count++] = (struct bound){p, after};
+        status = end_add(w, piece_x(p, low), after ? -1 : 1);
     }
-    return FONT_OK;
-}
-
-static enum font_status strip_portions(struct work *w, int active_count, double low,
-                                       double high, enum font_fill rule)
-{
-    int winding = 0;
-    for (int i = 0; i < active_count; i++) {
-        const struct piece *p = &w->pieces[w->active[i]];
-        bool before = filled(winding, rule), after;
-        winding += p->direction;
-        after = filled(winding, rule);
-        enum font_status status =
-            before == after ? FONT_OK : portion_add(w, p, low, high, after);
-        if (status != FONT_OK)
-            return status;
+    if (status == FONT_OK)
+        status = level_close(w, low);
+    for (int i = 0; i < bounds_count && status == FONT_OK; i++) {
+        const struct bound *b = &w->bounds[i];
+        status = portion_add(w, b->piece, low, high, b->entering);
+        if (status == FONT_OK)
+            status = end_add(w, piece_x(b->piece, high), b->entering ? 1 : -1);
     }
-    return FONT_OK;
+    return status;
 }
 
 /* Goes through the strips: the windings met, and with `boundary` portions and horizontal lines. */
@@ -339,13 +342,7 @@ static enum font_status strips_pass(struct work *w, enum font_fill rule, bool bo
             return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
         strip_sort(w, active_count, low, high);
         if (boundary) {
-            status = strip_ends(w, active_count, low, -1, rule);
-            if (status == FONT_OK)
-                status = level_close(w, low);
-            if (status == FONT_OK)
-                status = strip_portions(w, active_count, low, high, rule);
-            if (status == FONT_OK)
-                status = strip_ends(w, active_count, high, 1, rule);
+            status = strip_bound(w, active_count, low, high, rule);
         } else {
             int winding = 0;
             for (int i = 0; i < active_count; i++) {
@@ -479,5 +476,6 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     free(w.ends);
     free(w.active);
     free(w.middles);
+    free(w.bounds);
     return status;
 }

@@ -152,9 +152,28 @@ enum font_status font_levels_rectangles_merge(struct font_levels *l, int slack, 
     enum font_status status = font_levels_rectangles(l, &rectangles);
     if (status != FONT_OK)
         return status;
-    int count = font_rectangles_merge(&l->rectangles, slack);
+    int before = rectangles->count;
+    struct font_rectangles rows = {0};
+    const struct font_master *master;
+    if (!l->rectangles_edited) { /* alike ones, though there are more of them, may merge to fewer */
+        status = font_levels_master(l, &master);
+        if (status == FONT_OK)
+            status = font_rectangles_make_rows(&rows, master);
+        if (status != FONT_OK) {
+            font_rectangles_finish(&rows);
+            return status;
+        }
+        font_rectangles_merge(&rows, slack);
+    }
+    font_rectangles_merge(&l->rectangles, slack);
+    if (!l->rectangles_edited && rows.count < l->rectangles.count) {
+        struct font_rectangles more = l->rectangles;
+        l->rectangles = rows;
+        rows = more;
+    }
+    font_rectangles_finish(&rows);
     if (gone)
-        *gone = count;
+        *gone = before - l->rectangles.count;
     below_forget(l, RECTANGLES);
     l->rectangles_edited = true;
     return FONT_OK;

@@ -73,14 +73,18 @@ struct font_rectangles {
     int count, capacity;
     int em_px;
     double advance_px;
+    bool columns; /* cut along columns, not along rows */
 };
 
 void font_rectangles_finish(struct font_rectangles *r);
-/* Runs of black that are the same in rows that follow each other are one rectangle; none overlap.
- * Errors: NO_MEMORY. */
+/* Runs of black that are the same in rows that follow each other are one rectangle; or in columns, where that makes fewer.
+ * None overlap. Errors: NO_MEMORY. */
 enum font_status font_rectangles_make(struct font_rectangles *r, const struct font_master *m);
-/* Joins rectangles that follow each other and whose sides differ by at most `slack` master pixels, into one with their
- * mean sides: fewer, and not quite the same ink. Returns how many are gone. */
+/* In rows alone: more, but those that follow each other are alike, as merging wants them. */
+enum font_status font_rectangles_make_rows(struct font_rectangles *r,
+                                           const struct font_master *m);
+/* Joins rectangles that follow each other, down the rows or along the columns as they were cut, and whose sides differ by at
+ * most `slack` master pixels, into one with their mean sides: fewer, and not quite the same ink. Returns how many are gone. */
 int font_rectangles_merge(struct font_rectangles *r, int slack);
 /* The rectangles' sides at a size: two lines each. Errors: as font_edges_build(). */
 enum font_status font_rectangles_edges(const struct font_rectangles *r, double size_px,

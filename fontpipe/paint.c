@@ -122,18 +122,14 @@ static void entry_use(struct font_painter *p, struct entry *e)
         p->oldest = e;
 }
 
-static uint32_t key_hash(const struct key *key)
+static uint32_t bucket_of(const struct key *key)
 {
-    const unsigned char *bytes = (const unsigned char *)key;
-    uint32_t hash = 2166136261u;
-    for (size_t i = 0; i < sizeof *key; i++)
-        hash = (hash ^ bytes[i]) * 16777619u;
-    return (hash ^ hash >> 15) % BUCKETS;
+    return font_hash(key, sizeof *key) % BUCKETS;
 }
 
 static void entry_free(struct font_painter *p, struct entry *e)
 {
-    struct entry **at = &p->buckets[key_hash(&e->key)];
+    struct entry **at = &p->buckets[bucket_of(&e->key)];
     while (*at != e)
         at = &(*at)->next;
     *at = e->next;
@@ -169,7 +165,7 @@ void font_painter_stats_get(const struct font_painter *p, struct font_painter_st
 
 static struct entry *entry_find(struct font_painter *p, const struct key *key)
 {
-    for (struct entry *e = p->buckets[key_hash(key)]; e; e = e->next)
+    for (struct entry *e = p->buckets[bucket_of(key)]; e; e = e->next)
         if (memcmp(&e->key, key, sizeof *key) == 0) {
             entry_unlink(p, e);
             entry_use(p, e);
@@ -185,7 +181,7 @@ static struct entry *entry_make(struct font_painter *p, const struct key *key)
     if (!e)
         return NULL;
     e->key = *key;
-    struct entry **bucket = &p->buckets[key_hash(key)];
+    struct entry **bucket = &p->buckets[bucket_of(key)];
     e->next = *bucket;
     *bucket = e;
     entry_use(p, e);
@@ -308,19 +304,33 @@ static inline uint8_t mixed(const struct font_painter *p, uint8_t below, float i
     return p->to_number[(int)(sqrtf(light) * TO_NUMBER + 0.5f)];
 }
 
+/* The part of a glyph's rows and columns that is on a picture; and where on it (0, 0) of the glyph lies. */
+struct window {
+    int left, top, column, columns_end, row, rows_end;
+};
+
+static struct window window_of(const struct font_gray *gray, int x, int y, int width,
+                               int height)
+{
+    struct window w = {.left = x + gray->left_px, .top = y + gray->top_px};
+    if (!gray->pixels)
+        return w;
+    w.column = w.left < 0 ? -w.left : 0;
+    w.row = w.top < 0 ? -w.top : 0;
+    w.columns_end = width - w.left < gray->width_px ? width - w.left : gray->width_px;
+    w.rows_end = height - w.top < gray->height_px ? height - w.top : gray->height_px;
+    return w;
+}
+
 static void gray_blend(const struct font_painter *p, const struct font_gray *gray, int x, int y,
                        int channel, const float ink[3], struct font_picture *to)
 {
-    if (!gray->pixels)
-        return;
-    int left = x + gray->left_px, top = y + gray->top_px;
-    int c0 = left < 0 ? -left : 0, r0 = top < 0 ? -top : 0;
-    int c1 = to->width_px - left < gray->width_px ? to->width_px - left : gray->width_px;
-    int r1 = to->height_px - top < gray->height_px ? to->height_px - top : gray->height_px;
-    for (int r = r0; r < r1; r++) {
+    const struct window w = window_of(gray, x, y, to->width_px, to->height_px);
+    for (int r = w.row; r < w.rows_end; r++) {
         const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
-        uint8_t *row = to->rgb + (size_t)(top + r) * (size_t)to->pitch + 3 * (ptrdiff_t)left;
-        for (int c = c0; c < c1; c++) {
+        uint8_t *row =
+            to->rgb + (size_t)(w.top + r) * (size_t)to->pitch + 3 * (ptrdiff_t)w.left;
+        for (int c = w.column; c < w.columns_end; c++) {
             if (!from[c])
                 continue;
             float cover = (float)from[c] * (1 / 255.0f);
@@ -332,16 +342,11 @@ static void gray_blend(const struct font_painter *p, const struct font_gray *gra
 
 static void gray_cover(const struct font_gray *gray, int x, int y, struct font_cover *to)
 {
-    if (!gray->pixels)
-        return;
-    int left = x + gray->left_px, top = y + gray->top_px;
-    int c0 = left < 0 ? -left : 0, r0 = top < 0 ? -top : 0;
-    int c1 = to->width_px - left < gray->width_px ? to->width_px - left : gray->width_px;
-    int r1 = to->height_px - top < gray->height_px ? to->height_px - top : gray->height_px;
-    for (int r = r0; r < r1; r++) {
+    const struct window w = window_of(gray, x, y, to->width_px, to->height_px);
+    for (int r = w.row; r < w.rows_end; r++) {
         const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
-        uint8_t *row = to->gray + (size_t)(top + r) * (size_t)to->pitch + (ptrdiff_t)left;
-        for (int c = c0; c < c1; c++) {
+        uint8_t *row = to->gray + (size_t)(w.top + r) * (size_t)to->pitch + (ptrdiff_t)w.left;
+        for (int c = w.column; c < w.columns_end; c++) {
             int rest = 255 - row[c];
             row[c] = (uint8_t)(row[c] + (rest * from[c] + 127) / 255);
         }

@@ -2,7 +2,6 @@
 #include "internal.h"
 
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -37,4 +36,13 @@ bool font_array_reserve(void **array, int *capacity, int count, size_t element_b
     *array = grown;
     *capacity = (int)wanted;
     return true;
+}
+
+uint32_t font_hash(const void *key, size_t bytes_count)
+{
+    const unsigned char *bytes = key;
+    uint32_t hash = 2166136261u;
+    for (size_t i = 0; i < bytes_count; i++)
+        hash = (hash ^ bytes[i]) * 16777619u;
+    return hash ^ hash >> 15;
 }

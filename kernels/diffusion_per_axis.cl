@@ -1,5 +1,5 @@
 /* diffusion_per_axis.cl - the diffusion step by hand, one kernel an axis: what generated
- * kernels are measured against.
+ * kernels are measured against; after diffusion_vectors.cl.
  *
  * Sixteen fibers are a vector. A sheet is nine planes of one buffer, PLANE floats apart:
  *
@@ -19,25 +19,15 @@
  *
  * Context: the rectangle X0 <= x < X1, Y0 <= y < Y1 is the bounds of the loops; only the first
  * and the last vector of a row are masked. Flows into fibers outside it are 0. gravity > 0. */
-#pragma OPENCL FP_CONTRACT OFF
 
 /* WIDTH, HEIGHT, PITCH, PLANE, X0, Y0, X1, Y1 are given when it is built. */
 #define MARGIN 16
 #define ABSORBENCY 8
-#define LANES (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define EACH_LANE (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 
 #define AT(plane, k) (sheet + (long)(plane)*PLANE + MARGIN + (k))
-#define LOAD(plane, k) (*(const __global float16 *)AT(plane, k)) /* k a multiple of 16 */
-/* In one load, which vload16 of some devices is not. */
-typedef float16 float16_anywhere __attribute__((aligned(4)));
-#define LOAD_ANY(plane, k) (*(const __global float16_anywhere *)AT(plane, k))
-#define STORE(plane, k, v) (*(__global float16 *)AT(plane, k) = (v))
-#if defined(__has_builtin) && STREAM_PAST_CACHES
-#if __has_builtin(__builtin_nontemporal_store)
-#define STORE_PAST(plane, k, v) __builtin_nontemporal_store(v, (__global float16 *)AT(plane, k))
-#endif
-#endif
-#ifndef STORE_PAST
+#if !STREAM_PAST_CACHES
+#undef STORE_PAST
 #define STORE_PAST STORE
 #endif
 
@@ -55,28 +45,14 @@ struct constants {
     __global float *sheet, int from, int to, float gravity, float weight0, float weight1,      \
         float weight2
 
-static inline float16 gravitate(float16 flow, float gravity)
+static inline vector gravitate(vector flow, float gravity)
 {
-    return flow > (float16)(0.0f) ? flow * gravity : flow / gravity;
+    return flow > (vector)(0.0f) ? flow * gravity : flow / gravity;
 }
 
-static inline float16 gradient(float16 lower, float16 here, float16 absorbency)
+static inline vector gradient(vector lower, vector here, vector absorbency)
 {
     return (lower - here) * absorbency;
-}
-
-static inline float16 moved(float16 amount, float16 in, float16 out)
-{
-    float16 t = amount + in;
-    t = t - out;
-    t = t < (float16)(1.0f) ? t : (float16)(1.0f);
-    return t > (float16)(0.0f) ? t : (float16)(0.0f);
-}
-
-/* Lanes 1..15 of a, then lane 0 of b: what lies one fiber further on. */
-static inline float16 further(float16 a, float16 b)
-{
-    return (float16)(a.s123, a.s4567, a.s89ab, a.scdef, b.s0);
 }
 
 /* Which fibers of a row take part; x up to a margin past the row's end, where the row begins
@@ -91,22 +67,23 @@ static inline int16 active(int16 x)
 
 /* Flows into fibers k.. and into fibers k + step.., and the water of both, from old values. */
 struct flows {
-    float16 here, next;
+    vector here, next;
 };
 
 static inline struct flows water_flows(__global const float *sheet, int from, long lower,
                                        long k, long upper, long second, float gravity,
                                        int16 next_active, int16 second_active, bool masked,
-                                       float16 *water, float16 *next_water)
+                                       vector *water, vector *next_water)
 {
-    float16 here = LOAD(from, k), next = LOAD_ANY(from, upper);
-    float16 in = gravitate(gradient(LOAD_ANY(from, lower), here, LOAD(ABSORBENCY, k)), gravity);
-    float16 out = gravitate(gradient(here, next, LOAD_ANY(ABSORBENCY, upper)), gravity);
-    float16 beyond = gravitate(
-        gradient(next, LOAD_ANY(from, second), LOAD_ANY(ABSORBENCY, second)), gravity);
+    vector here = LOAD(AT(from, k)), next = LOAD_ANY(AT(from, upper));
+    vector in =
+        gravitate(gradient(LOAD_ANY(AT(from, lower)), here, LOAD(AT(ABSORBENCY, k))), gravity);
+    vector out = gravitate(gradient(here, next, LOAD_ANY(AT(ABSORBENCY, upper))), gravity);
+    vector beyond = gravitate(
+        gradient(next, LOAD_ANY(AT(from, second)), LOAD_ANY(AT(ABSORBENCY, second))), gravity);
     if (masked) {
-        out = next_active ? out : (float16)(0.0f);
-        beyond = second_active ? beyond : (float16)(0.0f);
+        out = next_active ? out : (vector)(0.0f);
+        beyond = second_active ? beyond : (vector)(0.0f);
     }
     *water = moved(here, in, out);
     *next_water = moved(next, out, beyond);
@@ -119,23 +96,24 @@ static inline void vector_stream(__global float *sheet, int from, int to, struct
                                  long lower, long k, long upper, long second, int16 here_active,
                                  int16 next_active, int16 second_active, bool masked)
 {
-    float16 water, next_water;
-    float16 absorbency = LOAD(ABSORBENCY, k), next_absorbency = LOAD_ANY(ABSORBENCY, upper);
+    vector water, next_water;
+    vector absorbency = LOAD(AT(ABSORBENCY, k)),
+           next_absorbency = LOAD_ANY(AT(ABSORBENCY, upper));
     water_flows(sheet, from, lower, k, upper, second, c.gravity, next_active, second_active,
                 masked, &water, &next_water);
-    STORE_PAST(to, k, masked ? (here_active ? water : LOAD(from, k)) : water);
+    STORE_PAST(AT(to, k), masked ? (here_active ? water : LOAD(AT(from, k))) : water);
 #pragma unroll
     for (int i = 0; i < 3; i++) {
-        float16 here = LOAD(from + 1 + i, k), next = LOAD_ANY(from + 1 + i, upper);
-        float16 in =
-            gradient(LOAD_ANY(from + 1 + i, lower), here, absorbency) * water * c.weight[i];
-        float16 out = gradient(here, next, next_absorbency) * next_water * c.weight[i];
+        vector here = LOAD(AT(from + 1 + i, k)), next = LOAD_ANY(AT(from + 1 + i, upper));
+        vector in =
+            gradient(LOAD_ANY(AT(from + 1 + i, lower)), here, absorbency) * water * c.weight[i];
+        vector out = gradient(here, next, next_absorbency) * next_water * c.weight[i];
         in = gravitate(in, c.gravity);
         out = gravitate(out, c.gravity);
         if (masked)
-            out = next_active ? out : (float16)(0.0f);
-        float16 pigment = moved(here, in, out);
-        STORE_PAST(to + 1 + i, k, masked ? (here_active ? pigment : here) : pigment);
+            out = next_active ? out : (vector)(0.0f);
+        vector pigment = moved(here, in, out);
+        STORE_PAST(AT(to + 1 + i, k), masked ? (here_active ? pigment : here) : pigment);
     }
 }
 
@@ -166,8 +144,8 @@ __kernel void diffusion_x_streaming(SHEET_AND_CONSTANTS)
             if (x >= X0 && x + 17 < X1)
                 vector_stream(sheet, from, to, c, k - 1, k, k + 1, k + 2, 0, 0, 0, false);
             else
-                vector_stream(sheet, from, to, c, k - 1, k, k + 1, k + 2, active(x + LANES),
-                              active(x + 1 + LANES), active(x + 2 + LANES), true);
+                vector_stream(sheet, from, to, c, k - 1, k, k + 1, k + 2, active(x + EACH_LANE),
+                              active(x + 1 + EACH_LANE), active(x + 2 + EACH_LANE), true);
         }
     }
 }
@@ -184,7 +162,7 @@ __kernel void diffusion_y_streaming(SHEET_AND_CONSTANTS)
                 vector_stream(sheet, from, to, c, lower + x, row + x, (long)next * PITCH + x,
                               (long)second * PITCH + x, 0, 0, 0, false);
             } else {
-                int16 here_active = active(x + LANES);
+                int16 here_active = active(x + EACH_LANE);
                 vector_stream(sheet, from, to, c, lower + x, row + x, (long)next * PITCH + x,
                               (long)second * PITCH + x, here_active,
                               next_on ? here_active : (int16)(0),
@@ -198,25 +176,25 @@ __kernel void diffusion_y_streaming(SHEET_AND_CONSTANTS)
 
 /* One vector: the flows into it are left in flow[], which held those into the fibers beyond. */
 static inline void vector_in_place(__global float *sheet, struct constants c, long lower,
-                                   long k, float16 out[4], float16 flow[4], bool along_row,
+                                   long k, vector out[4], vector flow[4], bool along_row,
                                    int16 here_active, bool masked)
 {
-    float16 absorbency = LOAD(ABSORBENCY, k), water = 0.0f;
+    vector absorbency = LOAD(AT(ABSORBENCY, k)), water = 0.0f;
 #pragma unroll
     for (int i = 0; i < 4; i++) {
-        float16 here = LOAD(i, k);
-        float16 in = gradient(LOAD_ANY(i, lower), here, absorbency);
+        vector here = LOAD(AT(i, k));
+        vector in = gradient(LOAD_ANY(AT(i, lower)), here, absorbency);
         if (i)
             in = in * water * c.weight[i - 1];
         in = gravitate(in, c.gravity);
         if (masked)
-            in = here_active ? in : (float16)(0.0f);
-        float16 now = moved(here, in, along_row ? further(in, out[i]) : out[i]);
+            in = here_active ? in : (vector)(0.0f);
+        vector now = moved(here, in, along_row ? further(in, out[i]) : out[i]);
         if (masked)
             now = here_active ? now : here;
         if (i == 0)
             water = now;
-        STORE(i, k, now);
+        STORE(AT(i, k), now);
         flow[i] = in;
     }
 }
@@ -225,14 +203,15 @@ __kernel void diffusion_x_in_place(SHEET_AND_CONSTANTS)
 {
     struct constants c = CONSTANTS;
     for (int y = first_row(); y < end_row(); y++) {
-        float16 flow[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+        vector flow[4] = {0.0f, 0.0f, 0.0f, 0.0f};
         long row = (long)y * PITCH;
         for (int x = (X1 - 1) / 16 * 16; x >= X0 / 16 * 16; x -= 16) {
             long k = row + x;
             if (x >= X0 && x + 16 <= X1)
                 vector_in_place(sheet, c, k - 1, k, flow, flow, true, 0, false);
             else
-                vector_in_place(sheet, c, k - 1, k, flow, flow, true, active(x + LANES), true);
+                vector_in_place(sheet, c, k - 1, k, flow, flow, true, active(x + EACH_LANE),
+                                true);
         }
     }
 }
@@ -243,7 +222,7 @@ __kernel void diffusion_x_in_place(SHEET_AND_CONSTANTS)
 __kernel void diffusion_y_in_place(SHEET_AND_CONSTANTS)
 {
     struct constants c = CONSTANTS;
-    float16 flow[STRIP / 16][4];
+    vector flow[STRIP / 16][4];
     int begin = get_global_id(1) * STRIP, end = min(begin + STRIP, (X1 + 15) / 16 * 16);
     begin = max(begin, X0 / 16 * 16);
     for (int i = 0; i < STRIP / 16; i++)
@@ -252,12 +231,13 @@ __kernel void diffusion_y_in_place(SHEET_AND_CONSTANTS)
     for (int y = Y1 - 1; y >= Y0; y--) {
         long row = (long)y * PITCH;
         for (int x = begin; x < end; x += 16) {
-            float16 *f = flow[x % STRIP / 16];
+            vector *f = flow[x % STRIP / 16];
             long k = row + x;
             if (x >= X0 && x + 16 <= X1)
                 vector_in_place(sheet, c, k - PITCH, k, f, f, false, 0, false);
             else
-                vector_in_place(sheet, c, k - PITCH, k, f, f, false, active(x + LANES), true);
+                vector_in_place(sheet, c, k - PITCH, k, f, f, false, active(x + EACH_LANE),
+                                true);
         }
     }
 }

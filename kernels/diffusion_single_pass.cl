@@ -1,4 +1,4 @@
-/* diffusion_single_pass.cl - one step in one pass, in place; after diffusion_rolling.cl.
+/* diffusion_single_pass.cl - one step in one pass, in place; after diffusion_row.cl.
  *
  * A work-item has a band of rows and walks it from its last row to its first: what it reads is
  * still old. Its scratch is twelve rows: four that have gone along x, four of flows, four that
@@ -61,12 +61,12 @@ __kernel void diffusion_single_pass(__global float *sheet, __global float *scrat
     next_edges += LANES;
     for (int i = 0; i < 4; i++)
         for (int x = 0; x < columns; x += LANES)
-            STORE(flow.first + i * flow.apart + x, (float16)(0.0f));
+            STORE(flow.first + i * flow.apart + x, (vector)(0.0f));
     for (int y = last + 1; y >= ya; y--) {
         __global float *upper = sheet + origin + (y - 1) * pitch;
         __global const float *a = upper + ABSORBENCY * plane, *b = a + pitch;
         struct rows old = rows_at(upper, plane), out = rows_at(upper + pitch, plane);
-        float16 carry[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+        vector carry[4] = {0.0f, 0.0f, 0.0f, 0.0f};
         if (y > yb)
             old = edge_at(edges, pitch, band + 1, y - 1 - yb);
         else if (y == ya && y > 0)

@@ -1,4 +1,4 @@
-/* diffusion_time_tiled.cl - several steps in one pass; after diffusion_rolling.cl.
+/* diffusion_time_tiled.cl - several steps in one pass; after diffusion_row.cl.
  *
  * A work-item has a strip of columns and a band of rows, and a rim around it. Its scratch is
  * twelve rows for each step: four that have gone along x, four of flows, and the four that it
@@ -20,7 +20,7 @@ __kernel void diffusion_time_tiled(__global float *sheet, __global float *scratc
     __global float *own = scratch + tile * scratch_floats;
 
     for (long i = 0; i < scratch_floats; i += LANES)
-        STORE(own + i, (float16)(0.0f));
+        STORE(own + i, (vector)(0.0f));
     own += LANES - left;
     /* Step s has row yb + steps_count - turn + s in hand. */
     for (int turn = -1; turn <= yb - ya + 2 * steps_count - 1; turn++)
@@ -37,7 +37,7 @@ __kernel void diffusion_time_tiled(__global float *sheet, __global float *scratc
             struct rows along = rows_at(mine, row_floats);
             struct rows flow = rows_at(mine + 4 * row_floats, row_floats);
             struct rows out = rows_at(mine + 8 * row_floats, row_floats);
-            float16 carry[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+            vector carry[4] = {0.0f, 0.0f, 0.0f, 0.0f};
             int x1 = right;
             if (s > 0 && y > 0) { /* the step before has just left it */
                 struct rows handed = rows_at(mine - 4 * row_floats, row_floats);

@@ -35,4 +35,9 @@ int type_compare(const char *verb, const char *path, const struct font_layout *l
                  const struct font_map *map, const char *filter, double x_px, double y_px,
                  int zoom);
 
+/* type_gl.c: the text by OpenGL, as on a display, in place of the white picture. */
+int type_gl(const char *verb, const struct font_layout *layout, const struct font_map *map,
+            const char *filter, double darken_px, double x_px, double y_px, const double ink[3],
+            struct display_image *image);
+
 #endif

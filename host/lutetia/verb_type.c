@@ -15,7 +15,7 @@ struct type {
     double margin_px, width_px;
     struct option_list corners;
     int face, zoom;
-    bool stripes, to_left, no_fallback, compare, statistics;
+    bool stripes, to_left, no_fallback, compare, gl, statistics;
 };
 
 /* -1 if there is no such word. */
@@ -81,6 +81,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         {"compare", 0, OPTION_FLAG, NULL, "beside FreeType and the exact gray, enlarged",
          &t->compare, 0, 0, 0},
         {"zoom", 0, OPTION_INTEGER, "N", "how much --compare enlarges (8)", &t->zoom, 1, 64, 0},
+        {"gl", 0, OPTION_FLAG, NULL, "drawn by OpenGL, without a window, as on a display",
+         &t->gl, 0, 0, 0},
         {"statistics", 0, OPTION_FLAG, NULL, "says what was drawn and kept", &t->statistics, 0,
          0, 0},
         {0}};
@@ -109,6 +111,9 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     t->text = words.words[0];
     if (t->corners.count > 1)
         return fail_usage("type", "--corners can be given once");
+    if (t->gl && (t->corners.count || t->gamma != 0 || t->stripes || t->compare))
+        return fail_usage("type",
+                          "--gl goes without --corners, --gamma, --stripes and --compare");
     if (t->warp && strcmp(t->warp, "projective") != 0 && strcmp(t->warp, "bilinear") != 0)
         return fail_usage("type", "--warp must be projective or bilinear (got '%.60s')",
                           t->warp);
@@ -198,8 +203,12 @@ static int type_draw(const struct type *t, struct font_painter *painter,
     int status = type_image_create("type", ceil(x + box.x1 + t->margin_px + 1),
                                    ceil(y + box.y1 + t->margin_px + 1), &image);
     struct font_picture picture = type_picture(&image);
-    if (status == EXIT_SUCCESS && font_painter_layout(painter, layout, map, x + t->place[0],
-                                                      y + t->place[1], &picture) != FONT_OK)
+    if (status == EXIT_SUCCESS && t->gl)
+        status = type_gl("type", layout, map, t->filter, t->darken_px, x + t->place[0],
+                         y + t->place[1], t->ink, &image);
+    else if (status == EXIT_SUCCESS &&
+             font_painter_layout(painter, layout, map, x + t->place[0], y + t->place[1],
+                                 &picture) != FONT_OK)
         status = fail_font("type");
     if (status == EXIT_SUCCESS)
         status = type_image_write("type", t->out_path, &image);

@@ -10,6 +10,15 @@
 
 #include "diffusion_oracle.h"
 
+void oracle_scene_init(struct diffusion_scene *s, int width, int height, const int rim[4])
+{
+    assert_true(diffusion_scene_init(s, width, height));
+    s->x0 = rim[0];
+    s->y0 = rim[1];
+    s->x1 = s->width - rim[2];
+    s->y1 = s->height - rim[3];
+}
+
 static size_t neighbour(const struct diffusion_scene *s, int x, int y, int axis, int distance)
 {
     if (axis == 0)

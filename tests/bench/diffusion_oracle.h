@@ -10,6 +10,9 @@ struct oracle {
     float *field[DIFFUSION_FIELDS_COUNT], *inflow, *inward, *outward;
 };
 
+/* A scene; rim: the rectangle's distance from each edge: left, top, right, bottom. */
+void oracle_scene_init(struct diffusion_scene *s, int width, int height, const int rim[4]);
+
 /* s: borrowed until oracle_finish. */
 void oracle_init(struct oracle *o, const struct diffusion_scene *s);
 void oracle_steps(struct oracle *o, int steps_count);

@@ -50,6 +50,25 @@ static void sizes_are_read(void **state)
     assert_int_equal(o.sizes[0][1], 1);
 }
 
+static void thorough_is_a_word_alone(void **state)
+{
+    struct bench_options o = defaults();
+
+    (void)state;
+    assert_int_equal(parse(&o, 2, "--thorough", ""), 2); /* nothing to be thorough in */
+    o.thorough_does = "all";
+    assert_int_equal(parse(&o, 1, "", ""), -1);
+    assert_false(o.thorough);
+    assert_int_equal(parse(&o, 2, "--thorough", ""), -1);
+    assert_true(o.thorough);
+    o.thorough = false;
+    char name[] = "test", first[] = "--repeat", value[] = "12", second[] = "--thorough",
+         third[] = "--sizes", sides[] = "9";
+    char *argv[] = {name, first, value, second, third, sides, NULL};
+    assert_int_equal(bench_options_parse(&o, 6, argv), -1);
+    assert_true(o.thorough && o.repeat_count == 12 && o.sizes[0][0] == 9);
+}
+
 static void bad_options_are_told(void **state)
 {
     static const struct {
@@ -137,9 +156,8 @@ static void plot_to_nowhere_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_are_read),
-        cmocka_unit_test(bad_options_are_told),
-        cmocka_unit_test(bars_are_as_long_as_values),
+        cmocka_unit_test(sizes_are_read),          cmocka_unit_test(thorough_is_a_word_alone),
+        cmocka_unit_test(bad_options_are_told),    cmocka_unit_test(bars_are_as_long_as_values),
         cmocka_unit_test(plot_to_nowhere_says_so),
     };
 

@@ -44,13 +44,7 @@ enum { CASES_COUNT = sizeof cases / sizeof *cases };
 
 static void scene_make(int n, struct diffusion_scene *s)
 {
-    const int *rim = cases[n].rim;
-
-    assert_true(diffusion_scene_init(s, cases[n].width, cases[n].height));
-    s->x0 = rim[0];
-    s->y0 = rim[1];
-    s->x1 = s->width - rim[2];
-    s->y1 = s->height - rim[3];
+    oracle_scene_init(s, cases[n].width, cases[n].height, cases[n].rim);
     s->gravity = cases[n].gravity;
     for (int k = 0; k < s->width * s->height; k += 7) /* dry places, and full ones */
         s->field[k / 7 % DIFFUSION_FIELDS_COUNT][k] = k % 3 ? 0.0f : 1.0f;

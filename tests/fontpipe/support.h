@@ -4,6 +4,7 @@
 
 #include <face.h>
 #include <filter.h>
+#include <text.h>
 
 /* clang-format off */
 #include <setjmp.h>
@@ -27,6 +28,13 @@ static inline struct font_face *face_open(const char *name)
     struct font_face *face;
     assert_font(font_face_open(name, 0, &face));
     return face;
+}
+
+static inline struct font_shaper *shaper_make(struct font_face *face)
+{
+    struct font_shaper *shaper;
+    assert_font(font_shaper_create(face, &shaper));
+    return shaper;
 }
 
 static inline struct font_filter *filter_make(const char *name)

@@ -112,6 +112,72 @@ static struct font_gray gray_copy(const struct font_gray *g)
     return copy;
 }
 
+/* Rectangles that a plain look at each pixel finds: a row's run begins one where there is no such run above it. */
+static int cuts_count(const struct font_master *m, bool columns)
+{
+    int count = 0, along = columns ? m->height_px : m->width_px,
+        across = columns ? m->width_px : m->height_px;
+#define BLACK(i, k)                                                                            \
+    (columns ? font_master_at(m, m->left_px + (k), m->top_px + (i))                            \
+             : font_master_at(m, m->left_px + (i), m->top_px + (k)))
+    for (int k = 0; k < across; k++)
+        for (int i = 0, end; i < along; i = end + 1) {
+            bool same = !BLACK(i - 1, k - 1);
+            for (end = i; end < along && BLACK(end, k); end++)
+                same = same && BLACK(end, k - 1);
+            count += end > i && !(same && !BLACK(end, k - 1));
+        }
+#undef BLACK
+    return count;
+}
+
+/* Rows or columns, whichever are fewer; of noise in blocks, over word boundaries and odd sizes. */
+static void masters_are_cut_the_better_way(void **state)
+{
+    (void)state;
+    uint32_t random = 20260;
+    struct font_rectangles r = {0};
+    int ways[2] = {0, 0};
+    for (int n = 0; n < 200; n++) {
+        int width = 1 + (int)(random_next(&random) % 200),
+            height = 1 + (int)(random_next(&random) % 60);
+        struct font_master m = {.em_px = 100,
+                                .left_px = -7,
+                                .top_px = 5,
+                                .width_px = width,
+                                .height_px = height,
+                                .row_words = (width + 63) / 64};
+        size_t bytes = (size_t)m.row_words * (size_t)height * sizeof *m.bits;
+        m.bits = calloc(1, bytes);
+        uint64_t *once = calloc(1, bytes);
+        assert_true(m.bits && once);
+        for (int i = 0; i < 20; i++)
+            font_master_fill(&m, (int)(random_next(&random) % (uint32_t)width) - 7,
+                             (int)(random_next(&random) % (uint32_t)height) + 5,
+                             1 + (int)(random_next(&random) % 70),
+                             1 + (int)(random_next(&random) % 20), random_next(&random) % 3);
+        assert_font(font_rectangles_make(&r, &m));
+        int rows = cuts_count(&m, false), columns = cuts_count(&m, true);
+        assert_int_equal(r.count, columns < rows ? columns : rows);
+        assert_int_equal(r.columns, columns < rows);
+        ways[r.columns]++;
+        long area = 0;
+        struct font_master covered = m;
+        covered.bits = once;
+        for (int i = 0; i < r.count; i++) {
+            struct font_rectangle q = r.items[i];
+            area += (long)(q.x1 - q.x0) * (q.y1 - q.y0);
+            font_master_fill(&covered, q.x0, q.y0, q.x1 - q.x0, q.y1 - q.y0, true);
+        }
+        assert_int_equal(area, font_master_ink(&m));
+        assert_memory_equal(once, m.bits, bytes);
+        free(once);
+        font_master_finish(&m);
+    }
+    assert_true(ways[0] > 20 && ways[1] > 20);
+    font_rectangles_finish(&r);
+}
+
 static void edits_flow_down_and_no_further(void **state)
 {
     (void)state;
@@ -293,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masters_are_what_is_inside),
         cmocka_unit_test(rectangles_are_the_master),
+        cmocka_unit_test(masters_are_cut_the_better_way),
         cmocka_unit_test(edits_flow_down_and_no_further),
         cmocka_unit_test(masters_are_retouched_as_pictures),
         cmocka_unit_test(fine_masters_are_nearly_exact),

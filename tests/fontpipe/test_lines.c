@@ -20,7 +20,7 @@ struct fixture {
 static void begin(struct fixture *f, const char *font)
 {
     *f = (struct fixture){.face = face_open(font)};
-    assert_font(font_shaper_create(f->face, &f->shaper));
+    f->shaper = shaper_make(f->face);
 }
 
 static const struct font_layout *set(struct fixture *f, const char *text,

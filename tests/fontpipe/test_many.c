@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <many.h>
+#include <master.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -90,7 +91,9 @@ static void what_cannot_be_is_said(void **state)
     struct font_many_job job = {font_many_edges(many, &edges), 0, 0};
     assert_font(font_many_draw(many, &job, 1, &grays)); /* no ink, no picture */
     assert_int_equal(grays[0].width_px, 0);
-    assert_font(font_edges_line_add(&wide, 0, 3000, 0));
+    struct font_rectangle beam = {0, 0, 3000, 1};
+    assert_font(font_rectangles_edges(
+        &(struct font_rectangles){.items = &beam, .count = 1, .em_px = 1}, 1, &wide));
     job.edges = font_many_edges(many, &wide);
     assert_int_equal(font_many_draw(many, &job, 1, &grays), FONT_TOO_LARGE);
     font_edges_finish(&wide);

@@ -54,16 +54,14 @@ static void letters_kern_and_join(void **state)
 {
     (void)state;
     struct font_face *face = face_open("EBGaramond12-Regular");
-    struct font_shaper *s;
-    assert_font(font_shaper_create(face, &s));
+    struct font_shaper *s = shaper_make(face);
     struct font_text_options plain = {.features = "kern=0,liga=0"};
     struct font_layout kerned = layout_make(s, "AVAT", NULL);
     struct font_layout unkerned = layout_make(s, "AVAT", &plain);
     assert_int_equal(kerned.glyphs_count, 4);
     assert_true(kerned.width_px < unkerned.width_px - 1);
     struct font_face *sans = face_open("DejaVuSans");
-    struct font_shaper *joiner;
-    assert_font(font_shaper_create(sans, &joiner));
+    struct font_shaper *joiner = shaper_make(sans);
     struct font_layout joined = layout_make(joiner, "fi", NULL);
     struct font_layout apart = layout_make(joiner, "fi", &plain);
     assert_int_equal(joined.glyphs_count, 1);
@@ -93,8 +91,7 @@ static void type_1_fonts_kern_too(void **state)
 {
     (void)state;
     struct font_face *face = face_open("NimbusSans-Regular.t1");
-    struct font_shaper *s;
-    assert_font(font_shaper_create(face, &s));
+    struct font_shaper *s = shaper_make(face);
     struct font_layout l = layout_make(s, "Paris", NULL);
     assert_true(l.glyphs_count == 5 && l.width_px > 30 && l.missing_count == 0);
     font_layout_finish(&l);
@@ -107,8 +104,7 @@ static void right_to_left_is_turned(void **state)
 {
     (void)state;
     struct font_face *face = face_open("DejaVuSans");
-    struct font_shaper *s;
-    assert_font(font_shaper_create(face, &s));
+    struct font_shaper *s = shaper_make(face);
     struct font_layout l = layout_make(s, "a \xd7\x90\xd7\x91\xd7\x92 b", NULL);
     assert_int_equal(l.glyphs_count, 7);
     static const int clusters[] = {0, 1, 6, 4, 2, 8, 9};
@@ -137,8 +133,7 @@ static void what_the_face_has_not_is_found_or_said(void **state)
 {
     (void)state;
     struct font_face *face = face_open("EBGaramond12-Italic");
-    struct font_shaper *s;
-    assert_font(font_shaper_create(face, &s));
+    struct font_shaper *s = shaper_make(face);
     const char *text = "a\xe2\x99\x9e\xf3\xb0\x80\x80"; /* a knight, and one of nobody's */
     struct font_layout l = layout_make(s, text, NULL);
     assert_int_equal(l.glyphs_count, 3);
@@ -160,9 +155,8 @@ static void nonsense_is_refused(void **state)
 {
     (void)state;
     struct font_face *face = face_open("DejaVuSans");
-    struct font_shaper *s;
+    struct font_shaper *s = shaper_make(face);
     struct font_layout l;
-    assert_font(font_shaper_create(face, &s));
     static const double sizes[] = {0, -1, NAN, INFINITY, 1e9};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         assert_int_equal(font_shaper_layout(s, "a", 1, sizes[i], NULL, &l), FONT_BAD_ARGUMENT);
@@ -195,7 +189,7 @@ struct paint_fixture {
 static void paint_begin(struct paint_fixture *f, const char *text)
 {
     f->face = face_open("DejaVuSans");
-    assert_font(font_shaper_create(f->face, &f->shaper));
+    f->shaper = shaper_make(f->face);
     assert_font(font_shaper_layout(f->shaper, text, strlen(text), 14, NULL, &f->layout));
     for (int i = 0; i < 2; i++) {
         memset(f->pixels[i], 255, sizeof f->pixels[i]);

@@ -55,6 +55,12 @@ static void type_is_set(void **state)
     run(&plain, 0, "");
     double upright = ink_of(path, &width, &height);
     assert_true(upright > 100 && width > 60 && width < 100 && height > 30 && height < 60);
+    int gl_width, gl_height;
+    struct child by_gl = {
+        .arguments = {"", "type", "Paris", "--size", "24.5", "--gl", "-o", path}};
+    run(&by_gl, 0, "");
+    assert_true(fabs(ink_of(path, &gl_width, &gl_height) / upright - 1) < 0.01);
+    assert_true(gl_width == width && gl_height == height);
     struct child turned = {.arguments = {"", "type", "Paris", "--size", "24.5", "--rotate",
                                          "90", "--gamma", "1", "-o", path}};
     run(&turned, 0, "");
@@ -177,6 +183,7 @@ static void wrong_lines_are_said(void **state)
         {{"type", "a", "--axes", "wght=700"}, 1, "has no axis"},
         {{"type", "a", "--filter", "soft"}, 1, "there is no filter"},
         {{"type", "a", "--warp", "round"}, 2, "--warp must be"},
+        {{"type", "a", "--gl", "--stripes"}, 2, "--gl goes without"},
         {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
         {{"type", "a", "--features", "="}, 1, "there is no feature"},
         {{"type", "a", "-o", "/nowhere/a.png"}, 1, "/nowhere"},

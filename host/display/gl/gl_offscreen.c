@@ -1,0 +1,180 @@
+/* gl_offscreen.c - see gl_offscreen.h.
+ *
+ * libEGL stays loaded: the driver keeps things to the end of the process. */
+#include "gl_offscreen.h"
+#include "display_internal.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EGL_FUNCTIONS(X)                                                                       \
+    X(EGLBoolean, Initialize, (EGLDisplay, EGLint *, EGLint *))                                \
+    X(EGLBoolean, BindAPI, (EGLenum))                                                          \
+    X(EGLContext, CreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint *))          \
+    X(EGLBoolean, MakeCurrent, (EGLDisplay, EGLSurface, EGLSurface, EGLContext))               \
+    X(EGLBoolean, DestroyContext, (EGLDisplay, EGLContext))                                    \
+    X(EGLDisplay, GetPlatformDisplayEXT, (EGLenum, void *, const EGLint *))
+
+#define GL_FUNCTIONS(X)                                                                        \
+    X(void, BindFramebuffer, (GLenum, GLuint))                                                 \
+    X(void, BindRenderbuffer, (GLenum, GLuint))                                                \
+    X(GLenum, CheckFramebufferStatus, (GLenum))                                                \
+    X(void, Clear, (GLbitfield))                                                               \
+    X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                  \
+    X(void, DeleteFramebuffers, (GLsizei, const GLuint *))                                     \
+    X(void, DeleteRenderbuffers, (GLsizei, const GLuint *))                                    \
+    X(void, FramebufferRenderbuffer, (GLenum, GLenum, GLenum, GLuint))                         \
+    X(void, GenFramebuffers, (GLsizei, GLuint *))                                              \
+    X(void, GenRenderbuffers, (GLsizei, GLuint *))                                             \
+    X(void, PixelStorei, (GLenum, GLint))                                                      \
+    X(void, ReadPixels, (GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *))              \
+    X(void, RenderbufferStorage, (GLenum, GLenum, GLsizei, GLsizei))                           \
+    X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
+
+struct functions {
+#define MEMBER(result, name, parameters) result(*name) parameters;
+    EGL_FUNCTIONS(MEMBER)
+    GL_FUNCTIONS(MEMBER)
+};
+
+struct gl_offscreen {
+    struct functions f;
+    int width_px, height_px;
+    EGLDisplay display;
+    EGLContext context;
+    GLuint framebuffer, colors;
+};
+
+typedef void (*function)(void);
+
+function gl_offscreen_function(const char *name)
+{
+    static function (*find)(const char *);
+    if (!find) {
+        void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
+        void *symbol = library ? dlsym(library, "eglGetProcAddress") : NULL;
+        if (!symbol)
+            return NULL;
+        memcpy(&find, &symbol, sizeof find);
+    }
+    return find(name);
+}
+
+static bool functions_find(struct functions *f)
+{
+    bool all = true;
+#define FIND(prefix, result, name, parameters)                                                 \
+    f->name = (result(*) parameters)gl_offscreen_function(prefix #name);                       \
+    all = all && f->name;
+#define FIND_EGL(result, name, parameters) FIND("egl", result, name, parameters)
+#define FIND_GL(result, name, parameters) FIND("gl", result, name, parameters)
+    EGL_FUNCTIONS(FIND_EGL)
+    GL_FUNCTIONS(FIND_GL)
+    return all;
+}
+
+static bool context_make(struct gl_offscreen *s)
+{
+    static const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT, EGL_NONE};
+    s->display =
+        s->f.GetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (!s->display || !s->f.Initialize(s->display, NULL, NULL) ||
+        !s->f.BindAPI(EGL_OPENGL_API))
+        return false;
+    s->context = s->f.CreateContext(s->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
+    return s->context &&
+           s->f.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
+}
+
+static bool framebuffer_make(struct gl_offscreen *s)
+{
+    const struct functions *f = &s->f;
+    f->GenFramebuffers(1, &s->framebuffer);
+    f->GenRenderbuffers(1, &s->colors);
+    f->BindFramebuffer(GL_FRAMEBUFFER, s->framebuffer);
+    f->BindRenderbuffer(GL_RENDERBUFFER, s->colors);
+    f->RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, s->width_px, s->height_px);
+    f->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                               s->colors);
+    if (f->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return false;
+    f->Viewport(0, 0, s->width_px, s->height_px);
+    gl_offscreen_clear(s, (const double[]){0, 0, 0});
+    return true;
+}
+
+enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_offscreen **out)
+{
+    enum display_status status = DISPLAY_OK;
+    *out = NULL;
+    if (width_px < 1 || height_px < 1 || width_px > GL_OFFSCREEN_SIDE_MAX ||
+        height_px > GL_OFFSCREEN_SIDE_MAX)
+        return display_fail(DISPLAY_BAD_ARGUMENT,
+                            "a picture drawn by OpenGL has 1..%d pixels a side (got %dx%d)",
+                            GL_OFFSCREEN_SIDE_MAX, width_px, height_px);
+    struct gl_offscreen *s = calloc(1, sizeof *s);
+    if (!s)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory to draw with OpenGL");
+    s->width_px = width_px;
+    s->height_px = height_px;
+    if (!functions_find(&s->f))
+        status = display_fail(DISPLAY_NO_WINDOW,
+                              "no OpenGL without a window: libEGL.so.1 is missing or old; "
+                              "install libegl1 and libgl1-mesa-dri");
+    else if (!context_make(s))
+        status = display_fail(
+            DISPLAY_NO_WINDOW,
+            "no OpenGL 3 without a window: EGL has no driver for it; install libgl1-mesa-dri");
+    else if (!framebuffer_make(s))
+        status = display_fail(DISPLAY_NO_MEMORY,
+                              "OpenGL has no memory for a picture of %dx%d pixels", width_px,
+                              height_px);
+    if (status == DISPLAY_OK)
+        *out = s;
+    else
+        gl_offscreen_destroy(s);
+    return status;
+}
+
+void gl_offscreen_destroy(struct gl_offscreen *s)
+{
+    if (!s)
+        return;
+    if (s->framebuffer)
+        s->f.DeleteFramebuffers(1, &s->framebuffer);
+    if (s->colors)
+        s->f.DeleteRenderbuffers(1, &s->colors);
+    if (s->context) {
+        s->f.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        s->f.DestroyContext(s->display, s->context);
+    }
+    free(s);
+}
+
+void gl_offscreen_clear(struct gl_offscreen *s, const double color[3])
+{
+    s->f.ClearColor((float)color[0], (float)color[1], (float)color[2], 1);
+    s->f.Clear(GL_COLOR_BUFFER_BIT);
+}
+
+enum display_status gl_offscreen_read(struct gl_offscreen *s, struct display_image *image)
+{
+    *image = (struct display_image){
+        .width_px = s->width_px, .height_px = s->height_px, .channels = 3};
+    enum display_status status = display_image_create(image);
+    if (status != DISPLAY_OK)
+        return status;
+    s->f.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    for (int y = 0; y < s->height_px; y++) /* OpenGL's rows begin at the bottom */
+        s->f.ReadPixels(0, s->height_px - 1 - y, s->width_px, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                        image->pixels + (size_t)y * (size_t)s->width_px * 3);
+    return DISPLAY_OK;
+}

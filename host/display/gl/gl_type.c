@@ -1,0 +1,249 @@
+/* gl_type.c - see gl_type.h. A page of the atlas is a texture of coverage; a vertex is given in pixels and turned to the
+ * viewport here, so there are no matrices, and quads of all pages go through one pass for each page. */
+#include "gl_type.h"
+#include "display_internal.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+enum { QUADS = 1024, PAGES_MAX = 64 };
+
+#define GL_FUNCTIONS(X)                                                                        \
+    X(void, Begin, (GLenum))                                                                   \
+    X(void, BindTexture, (GLenum, GLuint))                                                     \
+    X(void, BlendFunc, (GLenum, GLenum))                                                       \
+    X(void, Color3f, (GLfloat, GLfloat, GLfloat))                                              \
+    X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
+    X(void, Disable, (GLenum))                                                                 \
+    X(void, Enable, (GLenum))                                                                  \
+    X(void, End, (void))                                                                       \
+    X(void, GenTextures, (GLsizei, GLuint *))                                                  \
+    X(GLenum, GetError, (void))                                                                \
+    X(void, GetIntegerv, (GLenum, GLint *))                                                    \
+    X(void, PixelStorei, (GLenum, GLint))                                                      \
+    X(void, TexCoord2f, (GLfloat, GLfloat))                                                    \
+    X(void, TexEnvi, (GLenum, GLenum, GLint))                                                  \
+    X(void, TexImage2D,                                                                        \
+      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
+    X(void, TexParameteri, (GLenum, GLenum, GLint))                                            \
+    X(void, TexSubImage2D,                                                                     \
+      (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
+    X(void, Vertex2f, (GLfloat, GLfloat))
+
+struct gl {
+#define MEMBER(result, name, parameters) result(*name) parameters;
+    GL_FUNCTIONS(MEMBER)
+    /* NULL before OpenGL 3: numbers are mixed */
+    void (*GetFramebufferAttachmentParameteriv)(GLenum, GLenum, GLenum, GLint *);
+};
+
+struct gl_type {
+    struct gl gl;
+    struct font_atlas *atlas;
+    struct font_atlas_def def;
+    GLuint textures[PAGES_MAX];
+    int textures_count;
+    int width_px, height_px; /* of the viewport */
+    bool light;              /* it is encoded as sRGB */
+    struct font_quad quads[QUADS];
+};
+
+struct gl_type_def gl_type_def_default(void)
+{
+    return (struct gl_type_def){.atlas = font_atlas_def_default()};
+}
+
+static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
+{
+    bool all = true;
+    GLint major = 0;
+#define FIND(result, name, parameters)                                                         \
+    gl->name = (result(*) parameters)function("gl" #name);                                     \
+    all = all && gl->name;
+    GL_FUNCTIONS(FIND)
+    if (!all)
+        return false;
+    gl->GetFramebufferAttachmentParameteriv = (void (*)(
+        GLenum, GLenum, GLenum, GLint *))function("glGetFramebufferAttachmentParameteriv");
+    gl->GetIntegerv(GL_MAJOR_VERSION,
+                    &major); /* a driver may name functions that it does not have */
+    if (gl->GetError() != GL_NO_ERROR || major < 3)
+        gl->GetFramebufferAttachmentParameteriv = NULL;
+    return true;
+}
+
+static enum display_status fail_font(enum font_status status)
+{
+    return display_fail(status == FONT_NO_MEMORY ? DISPLAY_NO_MEMORY : DISPLAY_BAD_ARGUMENT,
+                        "%s", font_error());
+}
+
+enum display_status gl_type_create(const struct gl_type_def *def, struct gl_type **out)
+{
+    GLint side_max = 0;
+    *out = NULL;
+    struct gl_type *t = calloc(1, sizeof *t);
+    if (!t)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory for type on a display");
+    t->def = def->atlas;
+    t->def.filter = NULL;
+    enum display_status status = DISPLAY_OK;
+    if (!def->function || !functions_find(&t->gl, def->function))
+        status = display_fail(DISPLAY_NO_WINDOW, "no type: this display has no OpenGL 2.1");
+    if (status == DISPLAY_OK) {
+        t->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &side_max);
+        if (t->def.width_px > side_max || t->def.height_px > side_max)
+            status =
+                display_fail(DISPLAY_BAD_ARGUMENT,
+                             "a page of %dx%d pixels is too large for this display: %d a side",
+                             t->def.width_px, t->def.height_px, (int)side_max);
+    }
+    if (status == DISPLAY_OK) {
+        enum font_status made = font_atlas_create(&def->atlas, &t->atlas);
+        status = made == FONT_OK ? DISPLAY_OK : fail_font(made);
+    }
+    if (status == DISPLAY_OK)
+        *out = t;
+    else
+        gl_type_destroy(t);
+    return status;
+}
+
+void gl_type_destroy(struct gl_type *t)
+{
+    if (!t)
+        return;
+    if (t->textures_count)
+        t->gl.DeleteTextures(t->textures_count, t->textures);
+    font_atlas_destroy(t->atlas);
+    free(t);
+}
+
+struct font_atlas *gl_type_atlas(struct gl_type *t)
+{
+    return t->atlas;
+}
+
+/* ---- a frame ---- */
+
+void gl_type_begin(struct gl_type *t, int width_px, int height_px)
+{
+    const struct gl *gl = &t->gl;
+    GLint encoding = 0, bound = 0;
+    t->width_px = width_px;
+    t->height_px = height_px;
+    if (gl->GetFramebufferAttachmentParameteriv) {
+        gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+        gl->GetFramebufferAttachmentParameteriv(
+            GL_DRAW_FRAMEBUFFER, bound ? GL_COLOR_ATTACHMENT0 : GL_BACK_LEFT,
+            GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING, &encoding);
+        if (gl->GetError() != GL_NO_ERROR)
+            encoding = 0;
+    }
+    t->light = encoding == GL_SRGB;
+    font_atlas_begin(t->atlas);
+}
+
+/* What is new on the atlas's pages. */
+static enum display_status textures_update(struct gl_type *t)
+{
+    const struct gl *gl = &t->gl;
+    struct font_atlas_box box;
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int page = 0; page < font_atlas_pages(t->atlas); page++) {
+        if (page == t->textures_count) {
+            gl->GenTextures(1, &t->textures[t->textures_count++]);
+            gl->BindTexture(GL_TEXTURE_2D, t->textures[page]);
+            gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+            gl->TexImage2D(GL_TEXTURE_2D, 0, GL_ALPHA8, t->def.width_px, t->def.height_px, 0,
+                           GL_ALPHA, GL_UNSIGNED_BYTE, font_atlas_pixels(t->atlas, page));
+            while (font_atlas_dirty(t->atlas, page, &box))
+                ;
+        }
+        gl->BindTexture(GL_TEXTURE_2D, t->textures[page]);
+        gl->PixelStorei(GL_UNPACK_ROW_LENGTH, t->def.width_px);
+        while (font_atlas_dirty(t->atlas, page, &box))
+            gl->TexSubImage2D(GL_TEXTURE_2D, 0, box.x, box.y, box.width, box.height, GL_ALPHA,
+                              GL_UNSIGNED_BYTE,
+                              font_atlas_pixels(t->atlas, page) +
+                                  (size_t)box.y * (size_t)t->def.width_px + (size_t)box.x);
+        gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    }
+    return gl->GetError() == GL_NO_ERROR
+               ? DISPLAY_OK
+               : display_fail(DISPLAY_NO_MEMORY,
+                              "the display has no memory for pages of %dx%d pixels",
+                              t->def.width_px, t->def.height_px);
+}
+
+static void corner(const struct gl_type *t, float x, float y, float u, float v)
+{
+    t->gl.TexCoord2f(u, v);
+    t->gl.Vertex2f(2 * x / (float)t->width_px - 1, 1 - 2 * y / (float)t->height_px);
+}
+
+static void quads_draw(const struct gl_type *t, int count)
+{
+    for (int page = 0; page < t->textures_count; page++) {
+        t->gl.BindTexture(GL_TEXTURE_2D, t->textures[page]);
+        t->gl.Begin(GL_QUADS);
+        for (int i = 0; i < count; i++) {
+            const struct font_quad *q = &t->quads[i];
+            if (q->page != page)
+                continue;
+            corner(t, q->x0, q->y0, q->u0, q->v0);
+            corner(t, q->x1, q->y0, q->u1, q->v0);
+            corner(t, q->x1, q->y1, q->u1, q->v1);
+            corner(t, q->x0, q->y1, q->u0, q->v1);
+        }
+        t->gl.End();
+    }
+}
+
+static void state_set(const struct gl_type *t, const double ink[3])
+{
+    const struct gl *gl = &t->gl;
+    float color[3];
+    for (int i = 0; i < 3; i++)
+        color[i] = (float)(t->light ? font_light(ink[i], 0) : ink[i]);
+    gl->Enable(GL_TEXTURE_2D);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+    if (t->light)
+        gl->Enable(GL_FRAMEBUFFER_SRGB);
+    gl->Color3f(color[0], color[1], color[2]);
+}
+
+enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
+                                 const struct font_map *map, double x_px, double y_px,
+                                 const double ink[3])
+{
+    enum display_status status = DISPLAY_OK;
+    bool emptied = false; /* nothing has been asked of the atlas since */
+    int first = 0;
+    state_set(t, ink);
+    while (status == DISPLAY_OK && first < layout->glyphs_count) {
+        int count = 0;
+        enum font_status placed = font_atlas_layout(t->atlas, layout, map, x_px, y_px, t->quads,
+                                                    QUADS, &first, &count);
+        if (placed != FONT_OK && (placed != FONT_FULL || (emptied && !count))) {
+            status = fail_font(placed);
+            break;
+        }
+        status = textures_update(t);
+        if (status == DISPLAY_OK)
+            quads_draw(t, count);
+        emptied = placed == FONT_FULL;
+        if (emptied) /* what has been drawn may go */
+            font_atlas_begin(t->atlas);
+    }
+    t->gl.Disable(GL_BLEND);
+    t->gl.Disable(GL_TEXTURE_2D);
+    if (t->light)
+        t->gl.Disable(GL_FRAMEBUFFER_SRGB);
+    return status;
+}

@@ -1,0 +1,52 @@
+/* gl_type.h - text on a display, by OpenGL: glyphs of fontpipe's atlas as textures on rectangles.
+ *
+ *     struct gl_type *type;
+ *     struct gl_type_def def = gl_type_def_default();
+ *     def.function = glfwGetProcAddress;                    // or gl_offscreen_function
+ *     if (gl_type_create(&def, &type) != DISPLAY_OK)
+ *         die(display_error());
+ *     gl_type_begin(type, width_px, height_px);             // a frame, the context being current
+ *     gl_type_draw(type, &layout, NULL, 20, 40, ink);
+ *     gl_type_draw(type, &another, &map, 0, 0, red);
+ *     gl_type_destroy(type);
+ *
+ * Pixels of the text are those of the picture: y goes down, and a glyph lies on whole pixels, its place between them being
+ * one of the atlas's. What the atlas has drawn anew is copied into the textures; all else stays there from frame to
+ * frame. Where a framebuffer is encoded as sRGB, coverage mixes light (as font_painter_layout() does), else numbers.
+ *
+ * OpenGL 2.1 is enough. Blending, the texture that is bound, the colour and the alignment of what is unpacked are left
+ * changed.
+ *
+ * Errors. What fontpipe says is passed on as BAD_ARGUMENT, its text in display_error().
+ * Threads. That of the context, which must be the same, and current, in all calls. */
+#ifndef LUTETIA_GL_TYPE_H
+#define LUTETIA_GL_TYPE_H
+
+#include <atlas.h>
+
+#include "display.h"
+
+struct gl_type_def {
+    void (*(*function)(const char *name))(void); /* of OpenGL */
+    struct font_atlas_def atlas;
+};
+struct gl_type_def gl_type_def_default(void);
+
+struct gl_type;
+/* Errors: BAD_ARGUMENT, NO_WINDOW (no OpenGL 2.1), NO_MEMORY. */
+enum display_status gl_type_create(const struct gl_type_def *def, struct gl_type **out);
+void gl_type_destroy(struct gl_type *type); /* NULL is fine */
+
+/* A new frame: the size of the viewport, which is the picture's. */
+void gl_type_begin(struct gl_type *type, int width_px, int height_px);
+
+/* A layout with its origin at (x_px, y_px), through an affine map (NULL: as it is). ink: 0..1, as numbers of sRGB.
+ * Errors: BAD_ARGUMENT (a map that is not affine, a glyph larger than a page, a place out of range), NO_MEMORY; part of
+ * the text may then have been drawn. */
+enum display_status gl_type_draw(struct gl_type *type, const struct font_layout *layout,
+                                 const struct font_map *map, double x_px, double y_px,
+                                 const double ink[3]);
+
+struct font_atlas *gl_type_atlas(struct gl_type *type); /* for its statistics */
+
+#endif

@@ -1,0 +1,189 @@
+/* test_gl_type.c - type drawn by OpenGL without a window: pixel by pixel what the painter draws. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <gl_offscreen.h>
+#include <gl_type.h>
+
+enum { WIDTH = 300, HEIGHT = 120 };
+
+static const char text[] = "Wet Fonts, (x) & \"y\"\nQuay 9: jumping";
+static const double ink[3] = {0.1, 0.2, 0.55}, paper[3] = {1, 0.9, 0.6};
+
+struct stage {
+    struct font_face *face;
+    struct font_shaper *shaper;
+    struct font_layout layout;
+    struct gl_offscreen *screen;
+    struct gl_type *type;
+};
+
+#define assert_display(call)                                                                   \
+    do {                                                                                       \
+        if ((call) != DISPLAY_OK)                                                              \
+            fail_msg("%s: %s", #call, display_error());                                        \
+    } while (0)
+
+static void stage_open(struct stage *s, double size_px, const struct font_atlas_def *atlas)
+{
+    struct gl_type_def def = gl_type_def_default();
+    def.function = gl_offscreen_function;
+    if (atlas)
+        def.atlas = *atlas;
+    *s = (struct stage){0};
+    assert_int_equal(font_face_open("DejaVuSans", 0, &s->face), FONT_OK);
+    assert_int_equal(font_shaper_create(s->face, &s->shaper), FONT_OK);
+    assert_int_equal(
+        font_shaper_layout(s->shaper, text, strlen(text), size_px, NULL, &s->layout), FONT_OK);
+    assert_display(gl_offscreen_create(WIDTH, HEIGHT, &s->screen));
+    assert_display(gl_type_create(&def, &s->type));
+    gl_offscreen_clear(s->screen, paper);
+}
+
+static void stage_close(struct stage *s)
+{
+    gl_type_destroy(s->type);
+    gl_offscreen_destroy(s->screen);
+    font_layout_finish(&s->layout);
+    font_shaper_destroy(s->shaper);
+    font_face_close(s->face);
+}
+
+/* The same by the painter, at as many places between pixels. */
+static struct display_image painted(const struct stage *s, const struct font_map *map, double x,
+                                    double y, int places)
+{
+    struct display_image image = {.width_px = WIDTH, .height_px = HEIGHT, .channels = 3};
+    struct font_painter_def def = font_painter_def_default();
+    struct font_painter *painter;
+    assert_display(display_image_create(&image));
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++)
+        image.pixels[i] = (uint8_t)(255 * paper[i % 3] + 0.5);
+    memcpy(def.ink, ink, sizeof ink);
+    def.places = places;
+    assert_int_equal(font_painter_create(&def, &painter), FONT_OK);
+    struct font_picture picture = {
+        .rgb = image.pixels, .width_px = WIDTH, .height_px = HEIGHT, .pitch = 3 * WIDTH};
+    assert_int_equal(font_painter_layout(painter, &s->layout, map, x, y, &picture), FONT_OK);
+    font_painter_destroy(painter);
+    return image;
+}
+
+/* Light is mixed in both; a byte may round the other way. Returns how many pixels have ink. */
+static int compare(const struct stage *s, struct display_image *wanted)
+{
+    struct display_image drawn;
+    int inked = 0;
+    assert_display(gl_offscreen_read(s->screen, &drawn));
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) {
+        int difference = abs(drawn.pixels[i] - wanted->pixels[i]);
+        if (difference > 2)
+            fail_msg("column %d, row %d, channel %d: %d, the painter has %d", i / 3 % WIDTH,
+                     i / 3 / WIDTH, i % 3, drawn.pixels[i], wanted->pixels[i]);
+        inked += i % 3 == 0 && wanted->pixels[i] < 200;
+    }
+    display_image_destroy(&drawn);
+    display_image_destroy(wanted);
+    return inked;
+}
+
+static void text_is_as_painted(void **state)
+{
+    (void)state;
+    struct stage s;
+    struct font_atlas_def atlas = font_atlas_def_default();
+    atlas.places_x = atlas.places_y = 4;
+    stage_open(&s, 21.5, &atlas);
+    /* Twice: the second frame draws nothing anew. */
+    for (int frame = 0; frame < 2; frame++) {
+        gl_offscreen_clear(s.screen, paper);
+        gl_type_begin(s.type, WIDTH, HEIGHT);
+        assert_display(gl_type_draw(s.type, &s.layout, NULL, 10.3, 40.6, ink));
+    }
+    struct font_atlas_stats stats;
+    font_atlas_stats_get(gl_type_atlas(s.type), &stats);
+    assert_true(stats.drawn > 10 && stats.hits >= stats.drawn);
+    struct display_image wanted = painted(&s, NULL, 10.3, 40.6, 4);
+    assert_true(compare(&s, &wanted) > 1000);
+    stage_close(&s);
+}
+
+/* Turned, and partly beyond the picture's edges. */
+static void text_turns(void **state)
+{
+    (void)state;
+    struct stage s;
+    struct font_atlas_def atlas = font_atlas_def_default();
+    atlas.places_x = atlas.places_y = 8;
+    stage_open(&s, 30, &atlas);
+    struct font_map map = {.kind = FONT_AFFINE, .m = {0.94, 0.34, 0, -0.34, 0.94, 0, 0, 0, 1}};
+    gl_type_begin(s.type, WIDTH, HEIGHT);
+    assert_display(gl_type_draw(s.type, &s.layout, &map, -12.2, 80.1, ink));
+    struct display_image wanted = painted(&s, &map, -12.2, 80.1, 8);
+    assert_true(compare(&s, &wanted) > 1000);
+    stage_close(&s);
+}
+
+/* One page that cannot hold all of it: what has been drawn makes room. */
+static void small_atlases_do(void **state)
+{
+    (void)state;
+    struct stage s;
+    struct font_atlas_def atlas = font_atlas_def_default();
+    atlas.places_x = atlas.places_y = 4;
+    atlas.width_px = atlas.height_px = 64;
+    atlas.pages_max = 1;
+    stage_open(&s, 28, &atlas);
+    gl_type_begin(s.type, WIDTH, HEIGHT);
+    for (int i = 0; i < 4; i++) { /* the second finds it full */
+        gl_offscreen_clear(s.screen, paper);
+        assert_display(gl_type_draw(s.type, &s.layout, NULL, 5, 40, ink));
+    }
+    struct font_atlas_stats stats;
+    font_atlas_stats_get(gl_type_atlas(s.type), &stats);
+    assert_true(stats.shelves_emptied > 0);
+    struct display_image wanted = painted(&s, NULL, 5, 40, 4);
+    assert_true(compare(&s, &wanted) > 1000);
+    stage_close(&s);
+}
+
+static void what_cannot_be_is_said(void **state)
+{
+    (void)state;
+    struct stage s;
+    struct font_atlas_def atlas = font_atlas_def_default();
+    struct gl_offscreen *none;
+    struct gl_type *no_type;
+    atlas.width_px = atlas.height_px = 64;
+    stage_open(&s, 200, &atlas);
+    gl_type_begin(s.type, WIDTH, HEIGHT);
+    assert_int_equal(gl_type_draw(s.type, &s.layout, NULL, 5, 40, ink), DISPLAY_BAD_ARGUMENT);
+    assert_true(strlen(display_error()) > 0);
+    struct font_map bent = {.kind = FONT_PROJECTIVE, .m = {1, 0, 0, 0, 1, 0, 1e-3, 0, 1}};
+    assert_int_equal(gl_type_draw(s.type, &s.layout, &bent, 5, 40, ink), DISPLAY_BAD_ARGUMENT);
+    stage_close(&s);
+    assert_int_equal(gl_offscreen_create(0, 10, &none), DISPLAY_BAD_ARGUMENT);
+    assert_int_equal(gl_offscreen_create(10, 100000, &none), DISPLAY_BAD_ARGUMENT);
+    assert_null(none);
+    struct gl_type_def def = gl_type_def_default();
+    assert_int_equal(gl_type_create(&def, &no_type), DISPLAY_NO_WINDOW);
+    assert_null(no_type);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_is_as_painted),
+        cmocka_unit_test(text_turns),
+        cmocka_unit_test(small_atlases_do),
+        cmocka_unit_test(what_cannot_be_is_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
