@@ -229,7 +229,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
         status = paper_sheet_create(&config, &p);
     if (status == PAPER_BAD_ARGUMENT)
         status = damaged("the description of the sheet");
-    if (status == PAPER_OK && sheet_air_check(p, &air) != PAPER_OK)
+    if (status == PAPER_OK && event_check(p, SHEET_EVENT_AIR, &air) != PAPER_OK)
         status = damaged("the air");
     if (status == PAPER_OK)
         status = paper_history_begin(p, budget_bytes);

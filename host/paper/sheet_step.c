@@ -58,41 +58,6 @@ struct paper_air paper_air_default(void)
     };
 }
 
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
-
-enum paper_status sheet_air_check(const struct paper_sheet *p, const void *arguments)
-{
-    (void)p;
-    const struct paper_air *a = arguments;
-    const struct {
-        const char *name;
-        double value, low, high;
-    } rows[] = {{"gravity along x", a->gravity[0], -1, 1},
-                {"gravity along y", a->gravity[1], -1, 1},
-                {"seep along x", a->seep[0], -1, 1},
-                {"seep along y", a->seep[1], -1, 1},
-                {"spread", a->spread, 0, 1},
-                {"tension", a->tension, 0, 0.1},
-                {"relief", a->relief, 0, 1},
-                {"film", a->film, 0.001, 1},
-                {"pinning", a->pinning, 0, 2},
-                {"damp", a->damp, 0, 1},
-                {"absorption", a->absorption, 0, 4},
-                {"carry", a->carry, 0, 1},
-                {"humidity", a->humidity, 0, 1},
-                {"edge", a->edge, 0, 200},
-                {"edge_width", a->edge_width, 1, 32},
-                {"settling", a->settling, 0, 10}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!within(rows[i].value, rows[i].low, rows[i].high))
-            return paper_fail(PAPER_BAD_ARGUMENT, "%s must be %g..%g (got %g)", rows[i].name,
-                              rows[i].low, rows[i].high, rows[i].value);
-    return paper_weather_check(&a->thesis);
-}
-
 enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air *air)
 {
     return sheet_event(p, SHEET_EVENT_AIR, air);
@@ -267,8 +232,7 @@ static void evaporate(struct paper_sheet *p)
 
 /* ---- between fibers ---- */
 
-/* room = 1 to 0 as a fiber fills up. Uses t[15]. */
-static void room_make(struct paper_sheet *p, CM_field_id_t room)
+void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
 {
     CM_field_id_t fields[3];
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
@@ -576,7 +540,7 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         settle(p);
     if (p->air.humidity > 0)
         evaporate(p);
-    room_make(p, room);
+    sheet_room_make(p, room);
     if (sheet_has(p, PAPER_PART_SURFACE))
         flow_surface(p, room);
     flow_infused(p, room);

@@ -6,6 +6,7 @@
 #include <techniques.h>
 
 #include "sample.h"
+#include "sheets.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -39,14 +40,9 @@ static void check(enum paper_status status)
 
 static struct paper_sheet *sheet_new(double budget_bytes)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
+    struct paper_sheet_config config =
+        sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
-    config.width = WIDTH;
-    config.height = HEIGHT;
-    config.parts = PAPER_PARTS_ALL;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("quinacridone rose");
-    config.pigments[1] = *paper_pigment_find("french ultramarine");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     if (budget_bytes >= 0)

@@ -5,6 +5,8 @@
 #include <paper.h>
 #include <state.h>
 
+#include "../sheets.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,13 +40,9 @@ static inline void sample_paint(struct paper_sheet *sheet, int turns)
 
 static inline struct paper_sheet *sample_sheet(uint64_t seed)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = SAMPLE_WIDTH;
-    config.height = SAMPLE_HEIGHT;
+    struct paper_sheet_config config =
+        sheet_of_two(SAMPLE_WIDTH, SAMPLE_HEIGHT, "burnt umber", "phthalo green");
     config.seed = seed;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("burnt umber");
-    config.pigments[1] = *paper_pigment_find("phthalo green");
     struct paper_sheet *sheet;
     sample_check(paper_sheet_create(&config, &sheet));
     sample_check(paper_history_begin(sheet, 1e6));
