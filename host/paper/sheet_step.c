@@ -27,7 +27,7 @@
  *
  * Sources: Small 1991 (displacement by gravity, tension, spreading; absorption; evaporation); Curtis et al. 1997 (wet area, edge
  * darkening, transfer of pigment, capacities). */
-#include "event.h"
+#include "history_internal.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -65,7 +65,7 @@ enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air 
 
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
 {
-    return &p->air;
+    return history_air(p);
 }
 
 /* Says that what is 0 or more is a number: a comparison with one, where the machine would look for a NaN before it stores

@@ -24,18 +24,23 @@ static inline void sample_check(enum paper_status status)
     abort();
 }
 
-static inline void sample_paint(struct paper_sheet *sheet, int turns)
+/* Something is put on, and `steps` steps. */
+static inline void sample_turn(struct paper_sheet *sheet, int turn, int steps)
 {
     uint8_t gray[5 * 4];
-    for (int i = 0; i < turns; i++) {
-        memset(gray, 255 - 20 * i, sizeof gray);
-        struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
-        paper_history_mark(sheet);
-        sample_check(
-            paper_sheet_put(sheet, &screen, 3 + i, 2 + i, (double[]){1, 0.2 * i, 0.3}));
-        for (int step = 0; step < 3; step++)
-            sample_check(paper_sheet_step(sheet));
-    }
+    memset(gray, 255 - 20 * turn, sizeof gray);
+    struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
+    paper_history_mark(sheet);
+    sample_check(
+        paper_sheet_put(sheet, &screen, 3 + turn, 2 + turn, (double[]){1, 0.2 * turn, 0.3}));
+    for (int step = 0; step < steps; step++)
+        sample_check(paper_sheet_step(sheet));
+}
+
+static inline void sample_paint(struct paper_sheet *sheet, int turns)
+{
+    for (int i = 0; i < turns; i++)
+        sample_turn(sheet, i, 3);
 }
 
 static inline struct paper_sheet *sample_sheet(uint64_t seed)
