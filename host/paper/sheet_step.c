@@ -516,6 +516,14 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
     }
 }
 
+/* What is left in them is a value like any other: the machine would have to be able to tell it, keep for that what it is
+ * made of, and store what it cannot have as an expression (one array of 23 with six pigments). */
+static void temporaries_clear(struct paper_sheet *p)
+{
+    for (int i = 0; i < SHEET_TEMPORARIES; i++)
+        f_set(p->t[i], 0.0);
+}
+
 enum paper_status paper_sheet_step(struct paper_sheet *p)
 {
     return sheet_event(p, SHEET_EVENT_STEP, NULL);
@@ -546,5 +554,6 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
     flow_infused(p, room);
     if (p->salted)
         sheet_salt_step(p);
+    temporaries_clear(p);
     return paper_leave(&p->page);
 }
