@@ -8,13 +8,28 @@ local w, h = math.floor(640 * scale), math.floor(480 * scale)
 
 -- The picture: balls on a table, with one light, its sky, and shadows.
 local balls = {
-  {x = 0.36, y = 0.58, r = 0.235, color = {0.95, 0.50, 0.08}},
-  {x = 0.66, y = 0.62, r = 0.195, color = {0.98, 0.62, 0.10}},
+  {x = 0.36, y = 0.58, r = 0.235, color = {0.95, 0.50, 0.08}, pores = 0.11},
+  {x = 0.66, y = 0.62, r = 0.195, color = {0.98, 0.62, 0.10}, pores = 0.09},
   {x = 0.545, y = 0.735, r = 0.125, color = {0.36, 0.14, 0.38}},
 }
 local light = {-0.55, -0.68, 0.48}
 local ratio = w / h
 local function clamp(v) return v < 0 and 0 or v > 1 and 1 or v end
+-- Pores of a peel: one somewhere in each square of its skin. Waves instead, however mixed, are seen as waves.
+local pores = {}
+for i = 0, 64 * 64 - 1 do pores[i] = {math.random(), math.random(), 0.25 + 0.3 * math.random()} end
+local function pitted(u, v, n)
+  local a, b = math.atan(u, n) * 19, math.asin(clamp(0.5 + v / 2) * 2 - 1) * 19
+  local i, j, depth = math.floor(a), math.floor(b), 0
+  for y = j - 1, j + 1 do
+    for x = i - 1, i + 1 do
+      local pore = pores[(y % 64) * 64 + x % 64]
+      local dx, dy = x + pore[1] - a, y + pore[2] - b
+      depth = math.max(depth, 1 - (dx * dx + dy * dy) / (pore[3] * pore[3]))
+    end
+  end
+  return depth
+end
 local function shade(px, py)
   local x, y = px / w, py / h
   local best, bz
@@ -31,7 +46,7 @@ local function shade(px, py)
     local direct = lit > 0 and lit or 0
     local shine = math.max(0, 2 * lit * n - light[3]) ^ 26
     local bounce = math.max(0, v) * 0.20
-    local peel = 1 + 0.05 * math.sin(u * 61 + 3 * math.sin(v * 37)) * math.sin(v * 53)
+    local peel = ball.pores and 1.03 - ball.pores * pitted(u, v, n) or 1
     local out = {}
     for c = 1, 3 do
       out[c] = clamp((ball.color[c] * (0.20 + 0.92 * direct) + bounce * ({0.55, 0.40, 0.30})[c]) * peel + 0.75 * shine)

@@ -125,11 +125,16 @@ static bool gray_write(struct film *film, const char *what, long number,
 
 bool film_step(struct film *film, int paper, struct paper_sheet *sheet)
 {
-    if (!film_on(film) || paper != film->paper || paper_history_following(sheet) > 0)
+    if (!film_on(film) || paper != film->paper)
         return !film->failed;
     long time = paper_sheet_now(sheet);
-    if (film->failed || time % film->every != 0 ||
-        (film->frames > 0 && time == film->last_time))
+    bool repeats = paper_history_following(sheet) > 0;
+    /* the last frame that is there is that of the moment at which the run was saved */
+    bool there = repeats || (film->filmed_before && time == paper_history_resumed(sheet));
+    film->filmed_before = repeats;
+    if (there)
+        film->after = time + 1;
+    if (there || film->failed || time % film->every != 0 || time + 1 == film->after)
         return !film->failed;
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     uint16_t *rgb = malloc(3 * sizeof *rgb * (size_t)config->width * (size_t)config->height);
@@ -148,8 +153,7 @@ bool film_step(struct film *film, int paper, struct paper_sheet *sheet)
                gray_write(film, "mask", time / film->every, sheet, PAPER_LAYER_RESIST,
                           PAPER_LAYER_RESIST, 1);
     free(rgb);
-    film->frames += done;
-    film->last_time = time;
+    film->after = time + 1;
     return done;
 }
 

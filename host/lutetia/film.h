@@ -17,7 +17,9 @@ struct film {
     /* its own */
     struct video *file;
     int width, height; /* of the video */
-    long frames, last_time;
+    long after;        /* the last frame; its time and 1 */
+    bool
+        filmed_before; /* the sheet repeats what a run did that is resumed: its frames are there */
     bool failed;
     char error[400];
 };

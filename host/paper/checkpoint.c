@@ -44,7 +44,9 @@ static bool point_drop_least(struct sheet_history *h)
 {
     int least = -1;
     double least_worth = 0;
-    for (int i = 0; i < h->points_count - (h->pinned ? 1 : 0); i++) {
+    for (int i = 0; i < h->points_count; i++) {
+        if (h->points[i].pinned)
+            continue;
         long before = i > 0 ? h->points[i - 1].work : 0;
         long after = i + 1 < h->points_count ? h->points[i + 1].work : h->work;
         double worth =
@@ -69,6 +71,7 @@ void checkpoints_drop_after(struct sheet_history *h, struct position position)
 void checkpoints_free(struct sheet_history *h)
 {
     checkpoints_drop_after(h, (struct position){-1, 0});
+    checkpoint_saved_free(h);
 }
 
 const struct checkpoint *checkpoint_before(const struct sheet_history *h,
@@ -99,6 +102,16 @@ static int place_find(const struct sheet_history *h, struct position position)
     if (place > 0 && position_compare(h->points[place - 1].position, position) == 0)
         return -1;
     return place;
+}
+
+/* There must be room, and no checkpoint at its position. */
+static void point_insert(struct sheet_history *h, const struct checkpoint *point)
+{
+    int place = place_find(h, point->position);
+    memmove(&h->points[place + 1], &h->points[place],
+            (size_t)(h->points_count - place) * sizeof *h->points);
+    h->points[place] = *point;
+    h->points_count++;
 }
 
 /* Fills the point from the sheet, with what planes it shares with the one before; false: it could not be. */
@@ -150,11 +163,12 @@ void checkpoint_offer(struct paper_sheet *p, bool now)
         .position = h->at, .work = h->work, .air = p->air, .plane_bytes = plane_bytes(p)};
     if (!point_fill(p, &point, checkpoint_before(h, h->at)))
         return;
-    int place = place_find(h, h->at);
-    memmove(&h->points[place + 1], &h->points[place],
-            (size_t)(h->points_count - place) * sizeof *h->points);
-    h->points[place] = point;
-    h->points_count++;
+    point_insert(h, &point);
+}
+
+void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
+{
+    h->points[point - h->points].pinned = false;
 }
 
 /* ---- giving back ---- */
@@ -228,10 +242,10 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
     struct sheet_history *h = p->history;
     struct paper_plane planes[PAPER_PLANES_MAX];
     int count = paper_sheet_planes(p, planes);
-    struct checkpoint point = {
-        .position = {h->count, 0}, .air = *air, .plane_bytes = plane_bytes(p)};
-    for (int i = 0; i < h->count; i++)
-        point.work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
+    struct checkpoint *saved = malloc(sizeof *saved);
+    struct checkpoint point = {.air = *air, .plane_bytes = plane_bytes(p), .pinned = true};
+    if (!saved)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet");
     enum paper_status status = PAPER_OK;
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         point.planes[i] = plane_new(p);
@@ -251,9 +265,35 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
         status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet's brushes");
     if (status != PAPER_OK) {
         point_free(h, &point);
+        free(saved);
         return status;
     }
-    h->points[h->points_count++] = point;
-    h->pinned = true;
+    *saved = point;
+    h->saved = saved;
     return PAPER_OK;
+}
+
+void checkpoint_saved_place(struct sheet_history *h)
+{
+    int place = place_find(h, h->now);
+    if (!h->saved)
+        return;
+    /* somebody has looked there already, or all places are taken by what stays */
+    if (place < 0 || (h->points_count == CHECKPOINTS_MAX && !point_drop_least(h))) {
+        checkpoint_saved_free(h);
+        return;
+    }
+    h->saved->position = h->now;
+    h->saved->work = history_work(h, h->now);
+    point_insert(h, h->saved);
+    free(h->saved);
+    h->saved = NULL;
+}
+
+void checkpoint_saved_free(struct sheet_history *h)
+{
+    if (h->saved)
+        point_free(h, h->saved);
+    free(h->saved);
+    h->saved = NULL;
 }

@@ -1,8 +1,9 @@
 /* event.h - what is done to a sheet, as data: each operation is a row of one table.
  *
  * A public operation says sheet_event(p, SHEET_EVENT_PUT, &arguments).  The row of its kind says how the arguments are checked and
- * performed, and of what members their struct consists; from the members follow how it is kept as bytes (history.h), read
- * back from a file, and brought to another resolution.  So a new operation is a struct, its two functions and a row:
+ * performed, and of what members their struct consists (event_members.h); from the members follow their ranges, how it is kept as
+ * bytes (history.h), read back from a file, and brought to another resolution.  So a new operation is a struct, the rows of its
+ * members, its functions and a row:
  *
  *     struct event_salt { int grains_count; const double *grains; double strength; };
  *     enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct event_salt *salt)
@@ -18,6 +19,8 @@
 #include "paper_internal.h"
 #include "sheet.h"
 #include "techniques.h"
+
+struct members;
 
 enum sheet_event_kind {
     SHEET_EVENT_STEP,
@@ -39,25 +42,18 @@ enum sheet_event_kind {
     SHEET_EVENT_KINDS
 };
 
-/* Where: a screen with its upper left corner at x, y, or everywhere. */
-struct event_place {
-    bool everywhere;
-    int x, y;
-    struct paper_screen screen;
-};
-
 struct event_put {
-    struct event_place place;
+    struct paper_place place;
     double amount[1 + PAPER_PIGMENTS_MAX];
 };
 
 struct event_blot {
-    struct event_place place;
+    struct paper_place place;
     double part, lift;
 };
 
 struct event_resist {
-    struct event_place place;
+    struct paper_place place;
     bool on;
 };
 
@@ -73,10 +69,11 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
 enum paper_status sheet_ready(struct paper_sheet *p);
 
 const char *event_name(enum sheet_event_kind kind);
-/* Bytes of its arguments, of kinds that have only numbers, flags and text. */
-size_t event_size(enum sheet_event_kind kind);
 /* By name; -1: none. */
 int event_find(const char *name, size_t length);
+const struct members *event_members(enum sheet_event_kind kind);
+/* Arguments that are all 0, and theirs what they will point to. NULL: no memory. */
+void *event_blank(enum sheet_event_kind kind);
 enum paper_status event_check(const struct paper_sheet *p, enum sheet_event_kind kind,
                               const void *arguments);
 enum paper_status event_perform(struct paper_sheet *p, enum sheet_event_kind kind,
@@ -111,6 +108,8 @@ enum paper_status event_decode(const uint8_t *bytes, size_t count,
                                const struct paper_sheet_config *config,
                                enum sheet_event_kind kind, void **arguments);
 void event_free(enum sheet_event_kind kind, void *arguments);
+/* Bytes of its arguments, of kinds that have only numbers, flags and text. */
+size_t event_size(enum sheet_event_kind kind);
 
 void event_config_encode(struct event_bytes *b, const struct paper_sheet_config *config);
 enum paper_status event_config_decode(struct event_reader *r,
@@ -134,7 +133,6 @@ void event_config_scale(struct paper_sheet_config *config, const struct event_sc
 /* ---- the kinds' functions, each beside its operation ---- */
 
 enum paper_status sheet_step(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_air_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_put_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_put(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_blot_check(const struct paper_sheet *p, const void *arguments);

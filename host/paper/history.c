@@ -19,6 +19,7 @@ enum paper_status paper_history_begin(struct paper_sheet *p, double budget_bytes
         return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
     p->history->budget_bytes = budget_bytes;
     p->history->inserting_at = -1;
+    p->history->resumed = -1;
     return PAPER_OK;
 }
 
@@ -51,7 +52,7 @@ void paper_history_set_watch(struct paper_sheet *p, paper_history_watch watch, v
 
 /* ---- where it is ---- */
 
-static long time_of(const struct sheet_history *h, struct position position)
+long history_time(const struct sheet_history *h, struct position position)
 {
     long time = position.step;
     for (int i = 0; i < position.op; i++)
@@ -65,7 +66,7 @@ static struct position position_at(const struct sheet_history *h, long time,
 {
     struct position position = beginning;
     long passed = 0;
-    if (time < 0 || time > time_of(h, end))
+    if (time < 0 || time > history_time(h, end))
         return (struct position){-1, 0};
     while (position_compare(position, end) < 0) {
         int steps = h->ops[position.op].steps;
@@ -80,6 +81,14 @@ static struct position position_at(const struct sheet_history *h, long time,
     return position_compare(position, end) < 0 ? position : end;
 }
 
+long history_work(const struct sheet_history *h, struct position position)
+{
+    long work = position.step;
+    for (int i = 0; i < position.op; i++)
+        work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
+    return work;
+}
+
 int paper_history_done(const struct paper_sheet *p)
 {
     return p->history ? p->history->now.op + (p->history->now.step > 0) : 0;
@@ -88,18 +97,18 @@ int paper_history_done(const struct paper_sheet *p)
 int paper_history_undone(const struct paper_sheet *p)
 {
     const struct sheet_history *h = p->history;
-    return h && !h->following ? h->count - h->now.op : 0;
+    return h ? h->count - h->now.op : 0;
 }
 
 long paper_sheet_steps(const struct paper_sheet *p)
 {
-    return p->history ? time_of(p->history, p->history->now) : p->steps;
+    return p->history ? history_time(p->history, p->history->now) : p->steps;
 }
 
 long paper_sheet_now(const struct paper_sheet *p)
 {
     const struct sheet_history *h = p->history;
-    return h && h->performing ? time_of(h, h->now) + (p->steps - h->steps_before)
+    return h && h->performing ? history_time(h, h->now) + (p->steps - h->steps_before)
                               : paper_sheet_steps(p);
 }
 
@@ -109,19 +118,44 @@ bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_
     if (!h || number < 0 || number >= h->count)
         return false;
     *out = (struct paper_moment){.what = event_name(h->ops[number].kind),
-                                 .time = time_of(h, (struct position){number, 0}),
+                                 .time = history_time(h, (struct position){number, 0}),
                                  .steps = h->ops[number].steps};
     return true;
 }
 
 int paper_history_following(const struct paper_sheet *p)
 {
-    return p->history && p->history->following ? p->history->count - p->history->now.op : 0;
+    return p->history && p->history->following
+               ? p->history->notes.count - p->history->notes.repeated
+               : 0;
+}
+
+long paper_history_resumed(const struct paper_sheet *p)
+{
+    return p->history ? p->history->resumed : -1;
 }
 
 bool paper_history_diverged(const struct paper_sheet *p)
 {
     return p->history && p->history->diverged;
+}
+
+const struct paper_air *history_air(const struct paper_sheet *p)
+{
+    struct sheet_history *h = p->history;
+    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+        return &p->air;
+    h->air = paper_air_default();
+    for (int i = h->now.op - 1; i >= 0; i--) {
+        void *arguments = NULL;
+        if (h->ops[i].kind != SHEET_EVENT_AIR)
+            continue;
+        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+            h->air = *(const struct paper_air *)arguments;
+        event_free(SHEET_EVENT_AIR, arguments);
+        break;
+    }
+    return &h->air;
 }
 
 bool paper_history_brush(const struct paper_sheet *p, int number)
@@ -176,31 +210,14 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     return PAPER_OK;
 }
 
-/* True: the operation is the one that is expected, and is done already. */
-static bool foreseen(struct sheet_history *h, const struct operation *op)
-{
-    if (!h->following)
-        return false;
-    if (!operation_same(&h->ops[h->now.op], op)) {
-        h->following = false;
-        h->diverged = true;
-        return false;
-    }
-    if (op->kind != SHEET_EVENT_STEP || ++h->now.step == h->ops[h->now.op].steps)
-        h->now = (struct position){h->now.op + 1, 0};
-    h->following = h->now.op < h->count;
-    h->open =
-        !h->following && op->kind == SHEET_EVENT_STEP; /* it may have been saved amid steps */
-    return true;
-}
-
-/* Puts the operation, which has been performed, at the list's end. */
-static enum paper_status record(struct sheet_history *h, struct operation op)
+/* Puts the operation at the list's end; *joined: it belongs to the one before it now. */
+static enum paper_status record(struct sheet_history *h, struct operation op, bool *joined)
 {
     struct operation *last = h->count > 0 ? &h->ops[h->count - 1] : NULL;
     bool steps = op.kind == SHEET_EVENT_STEP;
-    if (steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
-        last->steps < INT32_MAX / 2 && h->count != h->inserting_at) {
+    *joined = steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
+              last->steps < INT32_MAX / 2 && h->count != h->inserting_at;
+    if (*joined) {
         /* what was its end is within it now */
         struct checkpoint *point = h->points_count ? &h->points[h->points_count - 1] : NULL;
         if (point && point->position.op == h->count)
@@ -212,8 +229,24 @@ static enum paper_status record(struct sheet_history *h, struct operation op)
             return status;
         h->open = steps;
     }
-    h->now = h->at = (struct position){h->count, 0};
+    h->now = (struct position){h->count, 0};
     return PAPER_OK;
+}
+
+/* A program that is run again did this before: it is listed, and computed if somebody looks. */
+static enum paper_status repeat(struct sheet_history *h, struct operation op)
+{
+    bool joined;
+    enum paper_status status = history_cut(h);
+    if (status == PAPER_OK)
+        status = record(h, op, &joined);
+    else
+        operation_free(&op);
+    if (status == PAPER_OK)
+        history_followed(h);
+    else
+        history_stray(h);
+    return status;
 }
 
 enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
@@ -232,10 +265,8 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
     status = operation_make(p, kind, arguments, &op);
     if (status != PAPER_OK)
         return status;
-    if (foreseen(h, &op)) {
-        operation_free(&op);
-        return PAPER_OK;
-    }
+    if (history_foreseen(h, (struct note){(int)kind, 0, op.digest}, &op.steps))
+        return repeat(h, op);
     status = history_cut(h);
     if (status == PAPER_OK)
         status = sheet_ready(p);
@@ -247,12 +278,19 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
         return status;
     }
     op.steps += (int)(p->steps - before);
-    status = record(h, op);
-    if (status == PAPER_OK)
-        checkpoint_offer(p, false);
-    else
+    bool joined;
+    status = record(h, op, &joined);
+    if (status != PAPER_OK) {
         h->at.op = -1;
-    return status;
+        return status;
+    }
+    h->at = h->now;
+    if (joined && h->notes.count > 0)
+        h->notes.at[h->notes.count - 1].number++;
+    else
+        notes_add(&h->notes, (struct note){(int)kind, op.steps, op.digest});
+    checkpoint_offer(p, false);
+    return PAPER_OK;
 }
 
 /* ---- computing again ---- */
@@ -261,7 +299,7 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
 static long steps_between(const struct sheet_history *h, struct position from,
                           struct position to)
 {
-    return time_of(h, to) - time_of(h, from);
+    return history_time(h, to) - history_time(h, from);
 }
 
 /* Brings the fields from `at` on to `now`. */
@@ -307,9 +345,9 @@ enum paper_status sheet_ready(struct paper_sheet *p)
         if (!point) {
             h->at = beginning;
             h->work = 0;
-        }
-        if (h->pinned && point == &h->points[h->points_count - 1])
-            h->pinned = false; /* reached */
+        } else
+            checkpoint_reached(h, point);
+        h->loaded = false;
     }
     return catch_up(p);
 }
@@ -323,7 +361,7 @@ static void move_to(struct paper_sheet *p, struct position position)
         checkpoint_offer(p, true); /* the way back */
     h->now = position;
     h->open = false;
-    h->following = false;
+    history_followed(h);
 }
 
 int paper_history_undo(struct paper_sheet *p, int count)
@@ -333,9 +371,11 @@ int paper_history_undo(struct paper_sheet *p, int count)
         return 0;
     int done = paper_history_done(p), least = h->inserting_at > 0 ? h->inserting_at : 0;
     count = count < done - least ? count : done - least;
-    if (count > 0)
-        move_to(p, (struct position){done - count, 0});
-    return count > 0 ? count : 0;
+    if (count <= 0)
+        return 0;
+    history_moved(h, NOTE_UNDO, count);
+    move_to(p, (struct position){done - count, 0});
+    return count;
 }
 
 int paper_history_redo(struct paper_sheet *p, int count)
@@ -345,8 +385,10 @@ int paper_history_redo(struct paper_sheet *p, int count)
         return 0;
     int left = paper_history_undone(p);
     count = count < left ? count : left;
-    if (count > 0)
-        move_to(p, (struct position){h->now.op + count, 0});
+    if (count <= 0)
+        return 0;
+    history_moved(h, NOTE_REDO, count);
+    move_to(p, (struct position){h->now.op + count, 0});
     return count;
 }
 
@@ -361,7 +403,7 @@ static enum paper_status time_check(const struct paper_sheet *p, long time, stru
     *position = position_at(h, time, end);
     if (position->op < 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "a time must be 0..%ld steps (got %ld)",
-                          time_of(h, end), time);
+                          history_time(h, end), time);
     return PAPER_OK;
 }
 
@@ -369,11 +411,13 @@ enum paper_status paper_history_seek(struct paper_sheet *p, long time)
 {
     struct position position, end = beginning;
     if (p->history)
-        end = p->history->following ? p->history->now : (struct position){p->history->count, 0};
+        end = (struct position){p->history->count, 0};
     enum paper_status status = time_check(p, time, end, &position);
-    if (status == PAPER_OK)
-        move_to(p, position);
-    return status;
+    if (status != PAPER_OK)
+        return status;
+    history_moved(p->history, NOTE_SEEK, time);
+    move_to(p, position);
+    return PAPER_OK;
 }
 
 /* ---- earlier ---- */
@@ -386,7 +430,6 @@ enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
     if (status != PAPER_OK)
         return status;
     struct sheet_history *h = p->history;
-    h->following = false;
     status = history_cut(h);
     if (status == PAPER_OK)
         status = history_split(h, position);
@@ -400,6 +443,7 @@ enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
         return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
     if (count)
         memcpy(tail, &h->ops[position.op], (size_t)count * sizeof *tail);
+    history_moved(h, NOTE_INSERT, time);
     h->tail = tail;
     h->tail_count = count;
     h->count = position.op;
@@ -409,6 +453,7 @@ enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
     checkpoints_drop_after(h, position);
     if (position_compare(h->at, position) > 0)
         h->at.op = -1;
+    history_followed(h);
     return PAPER_OK;
 }
 
@@ -417,6 +462,7 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     struct sheet_history *h = p->history;
     if (!h || h->inserting_at < 0)
         return PAPER_OK;
+    history_moved(h, NOTE_INSERT_END, keep);
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};
     enum paper_status status = history_cut(h); /* at a boundary: takes no memory */
@@ -433,5 +479,6 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     h->inserting_at = -1;
     h->now = (struct position){h->count, 0};
     h->open = false;
+    history_followed(h);
     return status;
 }

@@ -113,15 +113,17 @@ bool paper_sheet_config_same(const struct paper_sheet_config *a,
 /* Gives plane `number` of a saved state. */
 typedef enum paper_status (*paper_plane_source)(void *context, int number, void *words);
 
-/* Makes the sheet that was saved, with its history. With `follow` it begins as a fresh one, and operations that repeat
- * those saved are done already: a program that is run again computes nothing, unless it looks, until it comes to the
- * end of what was saved; where it does something else, it goes its own way from there.
+/* Makes the sheet that was saved, with its history. With `follow` it begins as a fresh one, and a program that does again what was
+ * done, also what it undid, redid and inserted, has nothing computed, unless it looks, until it comes to the end of what was
+ * saved; where it does something else, it goes its own way from there, and what it did up to there is computed.
  * Errors: BAD_FILE, NO_MEMORY, MACHINE_FAILED, and what the source says. Owns: the caller destroys *out. */
 enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool follow,
                                        double budget_bytes, paper_plane_source source,
                                        void *context, struct paper_sheet **out);
-/* Operations still expected, and whether the program has gone its own way. */
+/* What the program is still expected to do again, and the time at which it had done all (-1: not yet); whether it has gone its own
+ * way. */
 int paper_history_following(const struct paper_sheet *sheet);
+long paper_history_resumed(const struct paper_sheet *sheet);
 bool paper_history_diverged(const struct paper_sheet *sheet);
 
 #endif

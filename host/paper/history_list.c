@@ -37,6 +37,7 @@ enum paper_status operation_make(const struct paper_sheet *p, enum sheet_event_k
     uint8_t *fitted = b.count ? realloc(b.at, b.count) : b.at;
     op->bytes = fitted ? fitted : b.at;
     op->raw = op->stored = b.count;
+    op->digest = note_digest(op->bytes, op->raw);
     if (op->raw >= DEFLATE_FROM)
         operation_deflate(op);
     return PAPER_OK;
@@ -64,19 +65,13 @@ static const uint8_t *operation_bytes(const struct operation *op, uint8_t **made
     return NULL;
 }
 
-bool operation_same(const struct operation *a, const struct operation *b)
+uint64_t operation_digest(const struct operation *op)
 {
-    if (a->kind != b->kind || a->raw != b->raw)
-        return false;
-    if (a->kind == SHEET_EVENT_STEP || a->raw == 0)
-        return true;
-    uint8_t *made_a, *made_b;
-    const uint8_t *bytes_a = operation_bytes(a, &made_a),
-                  *bytes_b = operation_bytes(b, &made_b);
-    bool same = bytes_a && bytes_b && memcmp(bytes_a, bytes_b, a->raw) == 0;
-    free(made_a);
-    free(made_b);
-    return same;
+    uint8_t *made = NULL;
+    const uint8_t *bytes = op->raw ? operation_bytes(op, &made) : NULL;
+    uint64_t digest = note_digest(bytes, bytes ? op->raw : 0);
+    free(made);
+    return digest;
 }
 
 enum paper_status operation_arguments(const struct paper_sheet_config *config,
@@ -162,7 +157,6 @@ enum paper_status history_cut(struct sheet_history *h)
         operation_free(&h->ops[h->count]);
     }
     h->open = false;
-    h->pinned = false;
     checkpoints_drop_after(h, h->now);
     if (position_compare(h->at, h->now) > 0)
         h->at.op = -1;
@@ -177,6 +171,7 @@ void history_free(struct sheet_history *h)
         operation_free(&h->tail[i]);
     free(h->ops);
     free(h->tail);
+    notes_free(&h->notes);
     checkpoints_free(h);
     free(h);
 }

@@ -9,7 +9,9 @@
  *       sheet_extras_encode()
  *     operations: count                  4
  *       kind, steps, raw, stored         1, 4, 8, 8: lengths of the arguments, before and after deflating
- *       arguments                        stored bytes, event_encode() */
+ *       arguments                        stored bytes, event_encode()
+ *     notes: count                       4; if something was undone or inserted (history_notes.c)
+ *       what, number, digest             1, 8, 8 */
 #include "history_internal.h"
 #include "sheet_internal.h"
 
@@ -41,7 +43,7 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
         free(extras.at);
         return status;
     }
-    int ops_count = h->following ? h->now.op + (h->now.step > 0) : h->count;
+    int ops_count = h->count;
     event_put_bytes(&b, magic, sizeof magic);
     event_put_number(&b, RUN_VERSION, 4);
     event_config_encode(&b, &p->config);
@@ -67,6 +69,7 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
         event_put_number(&b, op->stored, 8);
         event_put_bytes(&b, op->bytes, op->stored);
     }
+    notes_encode(&b, h);
     if (b.short_of_memory) {
         free(b.at);
         return paper_fail(PAPER_NO_MEMORY, "no memory for a run of %d operations", ops_count);
@@ -202,12 +205,17 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
         if (status == PAPER_OK)
             status = operation_check(p, &h->ops[h->count - 1]);
     }
+    bool noted = status == PAPER_OK && r->at != r->end;
+    if (noted && !notes_decode(r, kinds, &h->notes))
+        status = paper_fail(PAPER_NO_MEMORY, "no memory for a run's notes");
     if (status != PAPER_OK)
         return status;
-    if (r->at != r->end || now_op > count ||
+    if (r->bad || r->at != r->end || now_op > count ||
         (now_step > 0 && (now_op == count || now_step >= (uint64_t)h->ops[now_op].steps)))
         return damaged("the list of operations");
     h->now = (struct position){(int)now_op, (int)now_step};
+    if (!noted && !notes_derive(h))
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a run's notes");
     return PAPER_OK;
 }
 
@@ -229,34 +237,35 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
         status = paper_sheet_create(&config, &p);
     if (status == PAPER_BAD_ARGUMENT)
         status = damaged("the description of the sheet");
-    if (status == PAPER_OK && sheet_air_check(p, &air) != PAPER_OK)
+    if (status == PAPER_OK && event_check(p, SHEET_EVENT_AIR, &air) != PAPER_OK)
         status = damaged("the air");
     if (status == PAPER_OK)
         status = paper_history_begin(p, budget_bytes);
     if (status == PAPER_OK)
         status = operations_read(&r, p, &extras);
-    if (status == PAPER_OK && follow)
-        status = history_cut(p->history);
     if (status != PAPER_OK)
         goto cleanup;
 
     struct sheet_history *h = p->history;
+    if (follow) { /* the program will do it all again */
+        h->now = (struct position){0, 0};
+        status = history_cut(h);
+    }
     double state_bytes = 4.0 * config.width * config.height * paper_sheet_planes(p, planes);
-    if (follow && state_bytes <= budget_bytes) {
+    if (status == PAPER_OK && follow && state_bytes <= budget_bytes) {
         status = checkpoint_pin(p, source, context, &air, &extras);
-    } else {
+    } else if (status == PAPER_OK) {
         status = planes_load(p, source, context);
         if (status == PAPER_OK)
             status = sheet_extras_decode(p, &extras);
-        h->at = h->now;
         p->air = air;
-        for (int i = 0; i < h->now.op; i++)
-            h->work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
-        h->work += h->now.step;
+        h->at = follow ? (struct position){-1, 0} : h->now;
+        h->work = follow ? 0 : history_work(h, h->now);
+        h->loaded = follow;
     }
     if (status == PAPER_OK && follow) {
-        h->now = (struct position){0, 0};
-        h->following = h->count > 0;
+        h->following = true;
+        history_followed(h); /* of a run in which nothing was done */
     }
 cleanup:
     if (status != PAPER_OK)

@@ -78,11 +78,6 @@ struct paper_config paper_config_default(void)
     };
 }
 
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
-
 static enum paper_status config_check(const struct paper_config *c)
 {
     if (c->width < PAPER_SIDE_MIN || c->width > PAPER_SIDE_MAX || c->height < PAPER_SIDE_MIN ||
@@ -90,14 +85,14 @@ static enum paper_status config_check(const struct paper_config *c)
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "paper must be %d..%d fibers wide and high (got %dx%d)",
                           PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->width, c->height);
-    if (!within(c->absorbency, 0, PAPER_ABSORBENCY_MAX))
+    if (!paper_within(c->absorbency, 0, PAPER_ABSORBENCY_MAX))
         return paper_fail(PAPER_BAD_ARGUMENT, "absorbency must be 0..%g (got %g)",
                           PAPER_ABSORBENCY_MAX, c->absorbency);
     for (int i = 0; i < 3; i++)
-        if (!within(c->color[i], 0, 1))
+        if (!paper_within(c->color[i], 0, 1))
             return paper_fail(PAPER_BAD_ARGUMENT, "the paper's colour must be 0..1 (got %g)",
                               c->color[i]);
-    if (!within(c->color_variation, 0, 1) || !within(c->absorbency_variation, 0, 1))
+    if (!paper_within(c->color_variation, 0, 1) || !paper_within(c->absorbency_variation, 0, 1))
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "fibers may differ by 0..1 (got %g in colour, %g in "
                           "absorbency)",

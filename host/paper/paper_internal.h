@@ -8,4 +8,9 @@
 enum paper_status paper_fail(enum paper_status status, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+static inline bool paper_within(double x, double low, double high)
+{
+    return x >= low && x <= high; /* false for NaN */
+}
+
 #endif

@@ -26,11 +26,6 @@
 #define DRAW 0.5         /* of water, for what is pushed of pigment */
 #define BRINE_LEAST 1e-5
 
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
-
 /* ---- strewing ---- */
 
 static double place_gray(const struct paper_place *place, double x, double y)
@@ -64,21 +59,10 @@ enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct paper_sal
 enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_salt *s = arguments;
-    const struct {
-        const char *name;
-        double value, low, high;
-    } rows[] = {{"x", s->x, -1e6, 1e6},
-                {"y", s->y, -1e6, 1e6},
-                {"radius", s->radius, 0, 1e5},
-                {"grains", s->grains, 1, 100000},
-                {"least size", s->size[0], 0.1, 50},
-                {"most size", s->size[1], s->size[0], 50},
-                {"strength", s->strength, 0, 4},
-                {"reach", s->reach, 1, 100}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!within(rows[i].value, rows[i].low, rows[i].high))
-            return paper_fail(PAPER_BAD_ARGUMENT, "salt's %s must be %g..%g (got %g)",
-                              rows[i].name, rows[i].low, rows[i].high, rows[i].value);
+    if (!(s->size[1] >= s->size[0]))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "salt's most size must be %g or more, its least (got %g)", s->size[0],
+                          s->size[1]);
     if (p->config.parts == 0)
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "the thesis's paper takes no salt; choose a paper with parts");
@@ -118,20 +102,6 @@ static void flow_through(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t f
     f_previous(arriving, flow, axis);
     f_add(q, q, arriving);
     f_sub(q, q, flow);
-}
-
-/* room = 1 to 0 as a fiber fills up; see sheet_step.c. */
-static void room_left(struct paper_sheet *p, CM_field_id_t room)
-{
-    CM_field_id_t fields[3];
-    f_copy(room, sheet_has(p, PAPER_PART_SURFACE) ? p->surface_water : p->page.water);
-    for (int i = 0; i < p->config.pigments_count; i++)
-        for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
-            f_add(room, room, fields[j]);
-    f_from(room, SHEET_LOAD_MAX * p->unit, room);
-    f_times(room, room, 2 / (SHEET_LOAD_MAX * p->unit));
-    f_least(room, room, 0.0);
-    f_most(room, room, 1.0);
 }
 
 /* Grains dissolve; brine spreads and fades. wet: 0..1. */
@@ -193,7 +163,7 @@ void sheet_salt_step(struct paper_sheet *p)
     f_times(wet, wet, 1 / (WET_FULL * p->unit));
     f_most(wet, wet, 1.0);
     brine_spread(p, wet);
-    room_left(p, room);
+    sheet_room_make(p, room);
     for (unsigned axis = 0; axis < 2; axis++) {
         f_next(other, p->brine, axis);
         f_sub(up[axis], p->brine, other);

@@ -1,15 +1,12 @@
 /* sheet.c - a sheet's life: its fields, its layers in and out, its totals. */
+#include "event_members.h"
 #include "history_internal.h"
 #include "sheet_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
 
 struct paper_sheet_config paper_sheet_config_default(void)
 {
@@ -24,52 +21,13 @@ struct paper_sheet_config paper_sheet_config_default(void)
 
 /* ---- checking ---- */
 
-struct bound {
-    const char *name;
-    double value, low, high;
-};
-
-static enum paper_status bounds_check(const char *what, const char *name,
-                                      const struct bound *rows, size_t count)
+/* Of what kind it is, and its name, go before what is wrong. */
+static enum paper_status named_check(const struct members *members, const void *of,
+                                     const char *what, const char *name)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!within(rows[i].value, rows[i].low, rows[i].high))
-            return paper_fail(PAPER_BAD_ARGUMENT, "%s%s%.*s's %s must be %g..%g (got %g)", what,
-                              *name ? " " : "", PAPER_NAME_MAX, name, rows[i].name, rows[i].low,
-                              rows[i].high, rows[i].value);
-    return PAPER_OK;
-}
-
-static enum paper_status pigment_check(const struct paper_pigment *g)
-{
-    const struct bound rows[] = {
-        {"weight along x", g->weight[0], 0, 1}, {"weight along y", g->weight[1], 0, 1},
-        {"density", g->density, 0, 1},          {"staining", g->staining, 0.5, 100},
-        {"granulation", g->granulation, 0, 1},  {"red absorption", g->k[0], 0, 100},
-        {"green absorption", g->k[1], 0, 100},  {"blue absorption", g->k[2], 0, 100},
-        {"red scattering", g->s[0], 0, 100},    {"green scattering", g->s[1], 0, 100},
-        {"blue scattering", g->s[2], 0, 100},   {"part of red", g->takes[0], -1, 1},
-        {"part of green", g->takes[1], -1, 1},  {"part of blue", g->takes[2], -1, 1}};
-    return bounds_check("pigment", g->name, rows, sizeof rows / sizeof *rows);
-}
-
-static enum paper_status stock_check(const struct paper_stock *s)
-{
-    const struct bound rows[] = {{"red", s->color[0], 0, 1},
-                                 {"green", s->color[1], 0, 1},
-                                 {"blue", s->color[2], 0, 1},
-                                 {"color_variation", s->color_variation, 0, 1},
-                                 {"absorbency", s->absorbency, 0, PAPER_ABSORBENCY_MAX},
-                                 {"absorbency_variation", s->absorbency_variation, 0, 1},
-                                 {"absorbency_along x", s->absorbency_along[0], 0, 1},
-                                 {"absorbency_along y", s->absorbency_along[1], 0, 1},
-                                 {"least capacity", s->capacity[0], 0.01, 1},
-                                 {"most capacity", s->capacity[1], 0.01, 1},
-                                 {"roughness", s->roughness, 0, 1},
-                                 {"grain", s->grain_px, 1, 64},
-                                 {"fiber length along x", s->fiber_length[0], 1, 64},
-                                 {"fiber length along y", s->fiber_length[1], 1, 64}};
-    return bounds_check("paper", s->name, rows, sizeof rows / sizeof *rows);
+    char whose[PAPER_NAME_MAX + 16];
+    snprintf(whose, sizeof whose, "%s%s%.*s's ", what, *name ? " " : "", PAPER_NAME_MAX, name);
+    return event_members_check(members, of, whose, "");
 }
 
 static enum paper_status config_check(const struct paper_sheet_config *c)
@@ -87,9 +45,11 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
                           PAPER_PIGMENTS_MAX, c->pigments_count);
     if (c->rule > PAPER_RULE_LUMINOUS)
         return paper_fail(PAPER_BAD_ARGUMENT, "there is no rule %d", (int)c->rule);
-    enum paper_status status = stock_check(&c->stock);
+    enum paper_status status =
+        named_check(&event_stock_members, &c->stock, "paper", c->stock.name);
     for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
-        status = pigment_check(&c->pigments[i]);
+        status = named_check(&event_pigment_members, &c->pigments[i], "pigment",
+                             c->pigments[i].name);
     return status;
 }
 
@@ -143,9 +103,7 @@ static void fields_make(struct paper_sheet *p)
 static enum paper_status amounts_clear(struct paper_sheet *p)
 {
     CM_field_id_t fields[5 + 3 * PAPER_PIGMENTS_MAX];
-    int count = 0, offset[2] = {0, 0}, start[2] = {0, 0},
-        axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->page.height, p->page.width};
+    int count = 0;
     fields[count++] = p->page.water;
     if (p->config.parts)
         fields[count++] = p->resist;
@@ -155,15 +113,14 @@ static enum paper_status amounts_clear(struct paper_sheet *p)
         fields[count++] = p->wet_around;
     for (int i = 0; i < p->config.pigments_count; i++)
         count += sheet_pigment_fields(p, i, fields + count);
-    float *zeros = calloc((size_t)size[0] * (size_t)size[1], sizeof *zeros);
+    float *zeros = calloc((size_t)p->page.width * (size_t)p->page.height, sizeof *zeros);
     if (!zeros)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", size[1], size[0]);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", p->page.width,
+                          p->page.height);
     for (int i = 0; i < count; i++)
-        CM_f_write_to_news_array_1L(zeros, offset, start, size, axes, fields[i], SHEET_F, 2,
-                                    size, CM_float_single);
+        f_array_write(p, fields[i], zeros);
     if (p->config.parts)
-        CM_u_write_to_news_array_1L(zeros, offset, start, size, axes, p->dried,
-                                    SHEET_DRIED_BITS, 2, size, CM_32_bit);
+        u_array_write(p, p->dried, SHEET_DRIED_BITS, zeros, CM_32_bit);
     free(zeros);
     return PAPER_OK;
 }
@@ -303,12 +260,6 @@ static enum paper_status layer_check(const struct paper_sheet *p, enum paper_lay
                       (int)layer, pigment, p->config.pigments_count);
 }
 
-static void news_size(const struct paper_sheet *p, int size[2])
-{
-    size[0] = p->page.height;
-    size[1] = p->page.width;
-}
-
 enum paper_status paper_sheet_layer_write(struct paper_sheet *p, enum paper_layer layer,
                                           int pigment, const float *values)
 {
@@ -356,12 +307,9 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
         double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
-    news_size(p, size);
     paper_enter(&p->page);
     CM_set_context();
-    CM_f_write_to_news_array_1L(cut, offset, start, size, axes, field, SHEET_F, 2, size,
-                                CM_float_single);
+    f_array_write(p, field, cut);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
@@ -382,16 +330,13 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *p, enum paper_layer
         status = sheet_ready(p);
     if (status != PAPER_OK)
         return status;
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X}, size[2];
-    news_size(p, size);
     paper_enter(&p->page);
     CM_set_context();
     if (layer == PAPER_LAYER_DRIED_WATER) {
         CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, SHEET_F);
         field = p->t[0];
     }
-    CM_f_read_from_news_array_1L(values, offset, start, size, axes, field, SHEET_F, 2, size,
-                                 CM_float_single);
+    f_array_read(p, values, field);
     status = paper_leave(&p->page);
     size_t count = (size_t)p->page.width * (size_t)p->page.height;
     if (layers[layer].amount && p->unit != 1)

@@ -15,32 +15,19 @@ static int clip(int64_t at, int length)
     return at < 0 ? 0 : at > length ? length : (int)at;
 }
 
-static enum paper_status place_check(const struct event_place *place)
+static enum paper_status place_check(const struct paper_place *place)
 {
-    const struct paper_screen *screen = &place->screen;
-    if (!place->everywhere && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
+    const struct paper_screen *screen = place->screen;
+    if (screen && (!screen->gray || screen->width_px < 1 || screen->height_px < 1))
         return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
     return PAPER_OK;
 }
 
-static struct event_place place_of(const struct paper_screen *screen, int x, int y)
+enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_place *place,
+                                   CM_field_id_t share)
 {
-    struct event_place place = {.everywhere = !screen, .x = x, .y = y};
-    if (screen)
-        place.screen = *screen;
-    return place;
-}
-
-static enum paper_status share_make(struct paper_sheet *p, const struct event_place *place,
-                                    CM_field_id_t share)
-{
-    return sheet_share_make(p, place->everywhere ? NULL : &place->screen, place->x, place->y,
-                            share);
-}
-
-enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_screen *screen,
-                                   int x, int y, CM_field_id_t share)
-{
+    const struct paper_screen *screen = place->screen;
+    int x = place->x, y = place->y;
     if (!screen) {
         f_set(share, 1.0);
         return PAPER_OK;
@@ -55,9 +42,7 @@ enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_scr
         memcpy(gray + (size_t)row * (size_t)width + x1,
                screen->gray + (size_t)(row - y) * (size_t)screen->width_px + (x1 - x),
                (size_t)(x2 - x1));
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {height, width};
-    CM_u_write_to_news_array_1L(gray, offset, start, size, axes, p->mask, 8, 2, size, CM_8_bit);
+    u_array_write(p, p->mask, 8, gray, CM_8_bit);
     CM_f_u_float_2_2L(share, p->mask, 8, SHEET_F);
     f_times(share, share, 1 / 255.0);
     free(gray);
@@ -105,7 +90,7 @@ void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part)
 enum paper_status paper_sheet_put(struct paper_sheet *p, const struct paper_screen *screen,
                                   int x, int y, const double *amount)
 {
-    struct event_put put = {.place = place_of(screen, x, y)};
+    struct event_put put = {.place = {screen, x, y}};
     for (int i = 0; i <= p->config.pigments_count; i++)
         put.amount[i] = amount[i];
     return sheet_event(p, SHEET_EVENT_PUT, &put);
@@ -129,7 +114,7 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2];
-    enum paper_status status = share_make(p, &put->place, share);
+    enum paper_status status = sheet_share_make(p, &put->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, part);
@@ -164,19 +149,13 @@ void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t sha
 enum paper_status paper_sheet_blot(struct paper_sheet *p, const struct paper_screen *screen,
                                    int x, int y, double part, double lift)
 {
-    return sheet_event(p, SHEET_EVENT_BLOT,
-                       &(struct event_blot){place_of(screen, x, y), part, lift});
+    return sheet_event(p, SHEET_EVENT_BLOT, &(struct event_blot){{screen, x, y}, part, lift});
 }
 
 enum paper_status sheet_blot_check(const struct paper_sheet *p, const void *arguments)
 {
     (void)p;
     const struct event_blot *blot = arguments;
-    double part = blot->part, lift = blot->lift;
-    if (!(part >= 0 && part <= 1 && lift >= 0 && lift <= 1))
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "blotting takes parts of 0..1 (got %g, and %g of what is fixed)",
-                          part, lift);
     return place_check(&blot->place);
 }
 
@@ -187,7 +166,7 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
-    enum paper_status status = share_make(p, &blot->place, share);
+    enum paper_status status = sheet_share_make(p, &blot->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, lost);
@@ -207,8 +186,7 @@ enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments)
 enum paper_status paper_sheet_resist(struct paper_sheet *p, const struct paper_screen *screen,
                                      int x, int y, bool on)
 {
-    return sheet_event(p, SHEET_EVENT_RESIST,
-                       &(struct event_resist){place_of(screen, x, y), on});
+    return sheet_event(p, SHEET_EVENT_RESIST, &(struct event_resist){{screen, x, y}, on});
 }
 
 enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *arguments)
@@ -228,7 +206,7 @@ enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[2];
-    enum paper_status status = share_make(p, &resist->place, share);
+    enum paper_status status = sheet_share_make(p, &resist->place, share);
     if (status != PAPER_OK)
         return status;
     if (resist->on) {

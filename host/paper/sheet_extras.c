@@ -59,6 +59,8 @@ static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader
         return PAPER_OK;
     enum paper_status status = event_decode(bytes, size, &p->config, SHEET_EVENT_BRUSH, &brush);
     if (status == PAPER_OK)
+        status = event_check(p, SHEET_EVENT_BRUSH, brush);
+    if (status == PAPER_OK)
         status = event_perform(p, SHEET_EVENT_BRUSH, brush);
     if (status == PAPER_OK) {
         const struct paper_brush *made = brush;

@@ -4,6 +4,7 @@
 
 #include "paper_page.h"
 #include "sheet.h"
+#include "techniques.h"
 
 enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
 
@@ -69,9 +70,9 @@ enum paper_status sheet_fresh_make(struct paper_sheet *p);
 void sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
-/* share = the screen's gray (NULL: 1) as 0..1; then 0 where there is resist. `open` is free. */
-enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_screen *screen,
-                                   int x, int y, CM_field_id_t share);
+/* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist. `open` is free. */
+enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_place *place,
+                                   CM_field_id_t share);
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open);
 /* q gets whole grains of part (the same field is free afterwards), up to what may be put in a fiber. Uses t[3]. */
 void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part);
@@ -79,6 +80,8 @@ void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part);
 void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
                        CM_field_id_t lost);
 
+/* room = 1 to 0 as a fiber fills up; see sheet_step.c. */
+void sheet_room_make(struct paper_sheet *p, CM_field_id_t room);
 /* Salt dissolves and pushes: a part of a step. Uses t[0..15]. */
 void sheet_salt_step(struct paper_sheet *p);
 /* Varnish over the colours. Uses t[0..3]. */
@@ -173,6 +176,40 @@ static inline void f_copy(CM_field_id_t d, CM_field_id_t a)
 static inline void f_set(CM_field_id_t d, double n)
 {
     CM_f_move_constant_1L(d, n, SHEET_F);
+}
+
+/* Whole sheets in and out: rows from the top; unsigned numbers of `bits`, of `type` in the array. */
+static inline void f_array_write(const struct paper_sheet *p, CM_field_id_t d,
+                                 const void *floats)
+{
+    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
+        size[2] = {p->page.height, p->page.width};
+    CM_f_write_to_news_array_1L(floats, zeros, zeros, size, axes, d, SHEET_F, 2, size,
+                                CM_float_single);
+}
+
+static inline void f_array_read(const struct paper_sheet *p, void *floats, CM_field_id_t a)
+{
+    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
+        size[2] = {p->page.height, p->page.width};
+    CM_f_read_from_news_array_1L(floats, zeros, zeros, size, axes, a, SHEET_F, 2, size,
+                                 CM_float_single);
+}
+
+static inline void u_array_write(const struct paper_sheet *p, CM_field_id_t d, unsigned bits,
+                                 const void *numbers, unsigned type)
+{
+    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
+        size[2] = {p->page.height, p->page.width};
+    CM_u_write_to_news_array_1L(numbers, zeros, zeros, size, axes, d, bits, 2, size, type);
+}
+
+static inline void u_array_read(const struct paper_sheet *p, void *numbers, CM_field_id_t a,
+                                unsigned bits, unsigned type)
+{
+    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
+        size[2] = {p->page.height, p->page.width};
+    CM_u_read_from_news_array_1L(numbers, zeros, zeros, size, axes, a, bits, 2, size, type);
 }
 
 /* d = the neighbour's whose coordinate is one greater (less) */

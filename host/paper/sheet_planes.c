@@ -97,33 +97,25 @@ enum paper_status paper_sheet_plane_read(struct paper_sheet *p, int number, void
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words)
 {
     bool whole;
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->page.height, p->page.width};
     CM_field_id_t field = plane_field(p, number, &whole);
     paper_enter(&p->page);
     CM_set_context();
     if (whole)
-        CM_u_read_from_news_array_1L(words, offset, start, size, axes, field, SHEET_DRIED_BITS,
-                                     2, size, CM_32_bit);
+        u_array_read(p, words, field, SHEET_DRIED_BITS, CM_32_bit);
     else
-        CM_f_read_from_news_array_1L(words, offset, start, size, axes, field, SHEET_F, 2, size,
-                                     CM_float_single);
+        f_array_read(p, words, field);
     return paper_leave(&p->page);
 }
 
 void sheet_plane_write(struct paper_sheet *p, int number, const void *words)
 {
     bool whole;
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->page.height, p->page.width};
     CM_field_id_t field = plane_field(p, number, &whole);
     CM_set_context();
     if (whole)
-        CM_u_write_to_news_array_1L(words, offset, start, size, axes, field, SHEET_DRIED_BITS,
-                                    2, size, CM_32_bit);
+        u_array_write(p, field, SHEET_DRIED_BITS, words, CM_32_bit);
     else
-        CM_f_write_to_news_array_1L(words, offset, start, size, axes, field, SHEET_F, 2, size,
-                                    CM_float_single);
+        f_array_write(p, field, words);
 }
 
 void sheet_planes_written(struct paper_sheet *p)

@@ -27,7 +27,7 @@
  *
  * Sources: Small 1991 (displacement by gravity, tension, spreading; absorption; evaporation); Curtis et al. 1997 (wet area, edge
  * darkening, transfer of pigment, capacities). */
-#include "event.h"
+#include "history_internal.h"
 #include "sheet_internal.h"
 
 #include <math.h>
@@ -58,41 +58,6 @@ struct paper_air paper_air_default(void)
     };
 }
 
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
-
-enum paper_status sheet_air_check(const struct paper_sheet *p, const void *arguments)
-{
-    (void)p;
-    const struct paper_air *a = arguments;
-    const struct {
-        const char *name;
-        double value, low, high;
-    } rows[] = {{"gravity along x", a->gravity[0], -1, 1},
-                {"gravity along y", a->gravity[1], -1, 1},
-                {"seep along x", a->seep[0], -1, 1},
-                {"seep along y", a->seep[1], -1, 1},
-                {"spread", a->spread, 0, 1},
-                {"tension", a->tension, 0, 0.1},
-                {"relief", a->relief, 0, 1},
-                {"film", a->film, 0.001, 1},
-                {"pinning", a->pinning, 0, 2},
-                {"damp", a->damp, 0, 1},
-                {"absorption", a->absorption, 0, 4},
-                {"carry", a->carry, 0, 1},
-                {"humidity", a->humidity, 0, 1},
-                {"edge", a->edge, 0, 200},
-                {"edge_width", a->edge_width, 1, 32},
-                {"settling", a->settling, 0, 10}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!within(rows[i].value, rows[i].low, rows[i].high))
-            return paper_fail(PAPER_BAD_ARGUMENT, "%s must be %g..%g (got %g)", rows[i].name,
-                              rows[i].low, rows[i].high, rows[i].value);
-    return paper_weather_check(&a->thesis);
-}
-
 enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air *air)
 {
     return sheet_event(p, SHEET_EVENT_AIR, air);
@@ -100,7 +65,7 @@ enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air 
 
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
 {
-    return &p->air;
+    return history_air(p);
 }
 
 /* Says that what is 0 or more is a number: a comparison with one, where the machine would look for a NaN before it stores
@@ -267,8 +232,7 @@ static void evaporate(struct paper_sheet *p)
 
 /* ---- between fibers ---- */
 
-/* room = 1 to 0 as a fiber fills up. Uses t[15]. */
-static void room_make(struct paper_sheet *p, CM_field_id_t room)
+void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
 {
     CM_field_id_t fields[3];
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
@@ -552,6 +516,14 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
     }
 }
 
+/* What is left in them is a value like any other: the machine would have to be able to tell it, keep for that what it is
+ * made of, and store what it cannot have as an expression (one array of 23 with six pigments). */
+static void temporaries_clear(struct paper_sheet *p)
+{
+    for (int i = 0; i < SHEET_TEMPORARIES; i++)
+        f_set(p->t[i], 0.0);
+}
+
 enum paper_status paper_sheet_step(struct paper_sheet *p)
 {
     return sheet_event(p, SHEET_EVENT_STEP, NULL);
@@ -576,11 +548,12 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         settle(p);
     if (p->air.humidity > 0)
         evaporate(p);
-    room_make(p, room);
+    sheet_room_make(p, room);
     if (sheet_has(p, PAPER_PART_SURFACE))
         flow_surface(p, room);
     flow_infused(p, room);
     if (p->salted)
         sheet_salt_step(p);
+    temporaries_clear(p);
     return paper_leave(&p->page);
 }

@@ -175,12 +175,9 @@ static enum paper_status shades_read(struct paper_sheet *p, int channels, const 
                                      uint16_t *one, uint16_t *rgb)
 {
     size_t count = (size_t)p->page.width * (size_t)p->page.height;
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->page.height, p->page.width};
     for (int channel = 0; channel < 3; channel++) {
         if (channel < channels)
-            CM_u_read_from_news_array_1L(one, offset, start, size, axes, p->shown[channel], 16,
-                                         2, size, CM_16_bit);
+            u_array_read(p, one, p->shown[channel], 16, CM_16_bit);
         for (size_t i = 0; i < count; i++)
             rgb[3 * i + (size_t)channel] = table[one[i]];
     }

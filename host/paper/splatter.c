@@ -1,5 +1,6 @@
 /* splatter.c - drops from a shaken brush. */
 #include "brush_internal.h"
+#include "event_members.h"
 #include "techniques.h"
 
 #include <math.h>
@@ -7,10 +8,17 @@
 
 #define PI 3.14159265358979323846
 
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
+static const struct member rows[] = {
+    MEMBER(paper_splatter, x, DOUBLE, 1, NOT, "x", -1e6, 1e6),
+    MEMBER(paper_splatter, y, DOUBLE, 1, NOT, "y", -1e6, 1e6),
+    MEMBER(paper_splatter, radius, DOUBLE, 1, NOT, "radius", 0, 1e5),
+    MEMBER(paper_splatter, toward, DOUBLE, 1, NOT, "direction", -1000, 1000),
+    MEMBER(paper_splatter, thrown, DOUBLE, 1, NOT, "throw", 0, 4),
+    MEMBER(paper_splatter, drops, INT, 1, NOT, "drops", 1, 100000),
+    MEMBER(paper_splatter, size[0], DOUBLE, 1, NOT, "least size", 0.1, 500),
+    MEMBER(paper_splatter, size[1], DOUBLE, 1, NOT, "most size", 0.1, 500),
+};
+static const struct members members = MEMBERS_OF(rows);
 
 struct drop {
     double x, y, radius, length; /* radius across; length: how much longer along */
@@ -66,31 +74,23 @@ static void drop_draw(const struct drop *d, struct paper_screen *screen)
 
 enum paper_status paper_sheet_splatter(struct paper_sheet *p, const struct paper_splatter *s)
 {
-    const struct {
-        const char *name;
-        double value, low, high;
-    } rows[] = {{"x", s->x, -1e6, 1e6},
-                {"y", s->y, -1e6, 1e6},
-                {"radius", s->radius, 0, 1e5},
-                {"direction", s->toward, -1000, 1000},
-                {"throw", s->thrown, 0, 4},
-                {"drops", s->drops, 1, 100000},
-                {"least size", s->size[0], 0.1, 500},
-                {"most size", s->size[1], s->size[0], 500}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (!within(rows[i].value, rows[i].low, rows[i].high))
-            return paper_fail(PAPER_BAD_ARGUMENT, "splatter's %s must be %g..%g (got %g)",
-                              rows[i].name, rows[i].low, rows[i].high, rows[i].value);
+    enum paper_status status = event_members_check(&members, s, "splatter's ", "");
+    if (status == PAPER_OK && !(s->size[1] >= s->size[0]))
+        status = paper_fail(PAPER_BAD_ARGUMENT,
+                            "splatter's most size must be %g or more, its least (got %g)",
+                            s->size[0], s->size[1]);
+    if (status != PAPER_OK)
+        return status;
     struct paper_screen screen = {.width_px = p->page.width, .height_px = p->page.height};
     screen.gray = calloc((size_t)screen.width_px, (size_t)screen.height_px);
     if (!screen.gray)
         return paper_fail(PAPER_NO_MEMORY, "no memory for splatter");
     for (int i = 0; i < s->drops; i++) {
         struct drop d = drop_make(s, i);
-        if (within(d.x, -1e7, 1e7) && within(d.y, -1e7, 1e7))
+        if (paper_within(d.x, -1e7, 1e7) && paper_within(d.y, -1e7, 1e7))
             drop_draw(&d, &screen);
     }
-    enum paper_status status = paper_sheet_put(p, &screen, 0, 0, s->amount);
+    status = paper_sheet_put(p, &screen, 0, 0, s->amount);
     free(screen.gray);
     return status;
 }

@@ -5,49 +5,32 @@
  * are straight between samples: a cubic would swing below 0. */
 #include "brush.h"
 
+#include "event_members.h"
 #include "paper_internal.h"
 
 #include <math.h>
-
-#define PLACE_MAX 1e6
-#define TIME_MAX 1e5
-#define TILT_MAX 1.5
-
-static bool within(double x, double low, double high)
-{
-    return x >= low && x <= high; /* false for NaN */
-}
+#include <stdio.h>
 
 enum paper_status paper_stroke_check(const struct paper_stroke *stroke)
 {
     if (stroke->samples_count < 1 || stroke->samples_count > PAPER_STROKE_SAMPLES_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "a stroke has 1..%d samples (got %d)",
                           PAPER_STROKE_SAMPLES_MAX, stroke->samples_count);
-    if (!within(stroke->pace, 0, 10000))
-        return paper_fail(PAPER_BAD_ARGUMENT, "a stroke's pace must be 0..10000 (got %g)",
-                          stroke->pace);
-    for (int i = 0; i < stroke->samples_count; i++) {
+    enum paper_status status =
+        event_members_check(&event_stroke_members, stroke, "a stroke's ", "");
+    for (int i = 0; i < stroke->samples_count && status == PAPER_OK; i++) {
         const struct paper_stroke_sample *s = &stroke->samples[i];
-        const struct {
-            const char *name;
-            double value, low, high;
-        } rows[] = {{"time", s->time_s, 0, TIME_MAX},
-                    {"x", s->x, -PLACE_MAX, PLACE_MAX},
-                    {"y", s->y, -PLACE_MAX, PLACE_MAX},
-                    {"pressure", s->pressure, 0, 1},
-                    {"tilt along x", s->tilt_x, -TILT_MAX, TILT_MAX},
-                    {"tilt along y", s->tilt_y, -TILT_MAX, TILT_MAX}};
-        for (size_t j = 0; j < sizeof rows / sizeof *rows; j++)
-            if (!within(rows[j].value, rows[j].low, rows[j].high))
-                return paper_fail(
-                    PAPER_BAD_ARGUMENT, "a stroke's %s must be %g..%g (got %g in sample %d)",
-                    rows[j].name, rows[j].low, rows[j].high, rows[j].value, i + 1);
+        char where[40];
+        snprintf(where, sizeof where, " in sample %d", i + 1);
+        status = event_members_check(&event_sample_members, s, "a stroke's ", where);
+        if (status != PAPER_OK)
+            break;
         if (i > 0 && !(s->time_s > stroke->samples[i - 1].time_s))
             return paper_fail(PAPER_BAD_ARGUMENT,
                               "a stroke's times must ascend (got %g after %g in sample %d)",
                               s->time_s, stroke->samples[i - 1].time_s, i + 1);
     }
-    return PAPER_OK;
+    return status;
 }
 
 /* Of x (axis 0) or y at sample i. */

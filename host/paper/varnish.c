@@ -17,13 +17,10 @@ enum paper_status paper_sheet_varnish(struct paper_sheet *p, const struct paper_
 enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_varnish *v = arguments;
-    if (!(v->amount >= 0 && v->amount <= 1))
-        return paper_fail(PAPER_BAD_ARGUMENT, "varnish must be 0..1 (got %g)", v->amount);
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1];
-    enum paper_status status =
-        sheet_share_make(p, v->place.screen, v->place.x, v->place.y, share);
+    enum paper_status status = sheet_share_make(p, &v->place, share);
     if (status != PAPER_OK)
         return status;
     f_times(share, share, v->amount);

@@ -45,11 +45,6 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_wash *w = arguments;
     enum paper_status status = PAPER_OK;
-    for (int i = 0; i < 2; i++)
-        if (!(fabs(w->from[i]) <= 1e6 && fabs(w->to[i]) <= 1e6))
-            return paper_fail(PAPER_BAD_ARGUMENT,
-                              "a wash's places must be -1e6..1e6 (got %g and %g)", w->from[i],
-                              w->to[i]);
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
         status = amount_check(p, i, w->amount[i]);
         if (status == PAPER_OK)
@@ -60,7 +55,7 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2], grade = p->t[4];
-    status = sheet_share_make(p, w->place.screen, w->place.x, w->place.y, share);
+    status = sheet_share_make(p, &w->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, part);
@@ -116,8 +111,6 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++)
         if (print->amount[i]) /* before anything is put */
             status = print_lay(p, print, i, whole);
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->page.height, p->page.width};
     CM_field_id_t open = p->t[1], part = p->t[2];
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
         if (!print->amount[i])
@@ -125,8 +118,7 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
         print_lay(p, print, i, whole);
         paper_enter(&p->page);
         CM_set_context();
-        CM_f_write_to_news_array_1L(whole, offset, start, size, axes, part, SHEET_F, 2, size,
-                                    CM_float_single);
+        f_array_write(p, part, whole);
         sheet_resist_heed(p, part, open);
         f_times(part, part, p->unit);
         sheet_amount_put(p, i, part);
@@ -145,14 +137,10 @@ enum paper_status paper_sheet_lift(struct paper_sheet *p, const struct paper_lif
 enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_lift *lift = arguments;
-    if (!(lift->part >= 0 && lift->part <= 1))
-        return paper_fail(PAPER_BAD_ARGUMENT, "lifting takes a part of 0..1 (got %g)",
-                          lift->part);
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], lost = p->t[2];
-    enum paper_status status =
-        sheet_share_make(p, lift->place.screen, lift->place.x, lift->place.y, share);
+    enum paper_status status = sheet_share_make(p, &lift->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, lost);

@@ -149,6 +149,57 @@ static void saved_runs_go_on(void **state)
     one_line("/proc/x.h5: cannot write");
 }
 
+/* Bytes of the file; the caller frees. */
+static char *read_all(const char *name, size_t *count)
+{
+    FILE *file = fopen(in_scratch(name), "rb");
+    char *bytes = malloc(1 << 20);
+    if (!file || !bytes)
+        fail_msg("%s: cannot read", name);
+    *count = fread(bytes, 1, 1 << 20, file);
+    fclose(file);
+    return bytes;
+}
+
+/* The film of a run, in two parts, one for each half of it; it goes back and forth before it is stopped and after. */
+static void films_go_on(void **state)
+{
+    (void)state;
+    char saved[600], video[600];
+    size_t count[3], header = 0;
+    char *film[3];
+    script_write("parts.lua",
+                 PAPER "p:air{gravity = {0.02, 0}} p:step(6) p:undo()\n"
+                       "p:air{humidity = 0.01} p:step(4)\n"
+                       "p:at(2, function(q) q:put(rect(12, 2, 5, 9), {water = 0.5}) end)\n"
+                       "if param('stop', false) then error('here') end\n"
+                       "p:step(3) p:undo(2) p:step(5) p:frame('parts.png')\n");
+    snprintf(saved, sizeof saved, "%s", in_scratch("parts.h5"));
+    static const char *const names[3] = {"film-all.y4m", "film-1.y4m", "film-2.y4m"};
+    for (int i = 0; i < 3; i++) {
+        snprintf(video, sizeof video, "%s", in_scratch(names[i]));
+        if (i == 0)
+            RUN("parts.lua", 0, "-o", in_scratch("all"), "--video", video, "--every", "2");
+        if (i == 1)
+            RUN("parts.lua", 1, "-o", in_scratch("two"), "--video", video, "--every", "2",
+                "--save", saved, "stop=true");
+        if (i == 2)
+            RUN("parts.lua", 0, "-o", in_scratch("two"), "--video", video, "--every", "2",
+                "--resume", saved);
+        film[i] = read_all(names[i], &count[i]);
+        assert_null(strstr(child.errors, "another way"));
+    }
+    assert_true(same("all/parts.png", "two/parts.png"));
+    while (film[0][header++] != '\n')
+        ;
+    assert_true(count[1] > header && count[2] > header);
+    assert_int_equal(count[0], count[1] + count[2] - header);
+    assert_memory_equal(film[0], film[1], count[1]);
+    assert_memory_equal(film[0] + count[1], film[2] + header, count[2] - header);
+    for (int i = 0; i < 3; i++)
+        free(film[i]);
+}
+
 static void films_are_made(void **state)
 {
     (void)state;
@@ -253,6 +304,7 @@ int main(void)
         cmocka_unit_test(scripts_go_back_and_forth),
         cmocka_unit_test(saved_runs_go_on),
         cmocka_unit_test(films_are_made),
+        cmocka_unit_test(films_go_on),
         cmocka_unit_test(sweeps_run_side_by_side),
         cmocka_unit_test(what_cannot_be_gets_one_line),
     };

@@ -2,6 +2,8 @@
 #include <brush.h>
 #include <paper.h>
 
+#include "sheets.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,12 +26,8 @@ static void check(enum paper_status status)
 /* Always two pigments, so that all tests have the same kernels. */
 static struct paper_sheet *sheet_make(void)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = WIDTH;
-    config.height = HEIGHT;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("quinacridone rose");
-    config.pigments[1] = *paper_pigment_find("phthalo green");
+    struct paper_sheet_config config =
+        sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;

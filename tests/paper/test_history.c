@@ -6,6 +6,7 @@
 #include <techniques.h>
 
 #include "sample.h"
+#include "sheets.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -39,14 +40,9 @@ static void check(enum paper_status status)
 
 static struct paper_sheet *sheet_new(double budget_bytes)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
+    struct paper_sheet_config config =
+        sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
-    config.width = WIDTH;
-    config.height = HEIGHT;
-    config.parts = PAPER_PARTS_ALL;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("quinacridone rose");
-    config.pigments[1] = *paper_pigment_find("french ultramarine");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     if (budget_bytes >= 0)
@@ -411,6 +407,110 @@ static void a_saved_run_goes_on(void **state)
     saved.bytes = NULL;
 }
 
+/* Back and forth before it was saved, and after: parts of a program that are told apart by their number. */
+static void wander(struct paper_sheet *sheet, int part)
+{
+    struct paper_air air = *paper_sheet_get_air(sheet);
+    switch (part) {
+    case 0:
+        air.gravity[0] = 0.02;
+        check(paper_sheet_air(sheet, &air));
+        box_put(sheet, 3, 3, 9, (double[]){1, 0.5, 0.2});
+        for (int i = 0; i < 9; i++)
+            step(sheet);
+        break;
+    case 1: /* what another air is made of must be known without a look */
+        air.humidity = 0.005;
+        check(paper_sheet_air(sheet, &air));
+        operate(sheet, 7);
+        assert_int_equal(paper_history_undo(sheet, 2), 2);
+        air = *paper_sheet_get_air(sheet);
+        assert_true(air.gravity[0] == 0.02 && air.humidity != 0.005);
+        for (int i = 0; i < 3; i++)
+            step(sheet);
+        break;
+    case 2:
+        box_put(sheet, 9, 6, 7, (double[]){0.6, 0, 0.4});
+        for (int i = 0; i < 5; i++)
+            step(sheet);
+        check(paper_history_seek(sheet, 4));
+        check(paper_history_seek(sheet, 15));
+        break;
+    case 3:
+        check(paper_history_insert_begin(sheet, 6));
+        box_put(sheet, 1, 9, 6, (double[]){0.7, 0.3, 0});
+        step(sheet);
+        assert_int_equal(paper_history_undo(sheet, 1), 1);
+        step(sheet);
+        check(paper_history_insert_end(sheet, true));
+        break;
+    case 4:
+        check(paper_history_insert_begin(sheet, 2));
+        check(paper_sheet_dry(sheet));
+        check(paper_history_insert_end(sheet, false));
+        for (int i = 0; i < 6; i++)
+            step(sheet);
+        break;
+    default:
+        assert_int_equal(paper_history_undo(sheet, 1), 1);
+    }
+}
+
+static bool count_steps(void *context, long done, long total)
+{
+    (void)done, (void)total;
+    ++*(long *)context;
+    return true;
+}
+
+static void a_saved_run_goes_on_where_much_was_undone(void **state)
+{
+    (void)state;
+    enum { PARTS = 6 };
+    static struct saved saved;
+    struct paper_sheet *whole, *sheet;
+    for (int kept = 1; kept <= PARTS; kept++) {
+        whole = sheet_new(0);
+        for (int part = 0; part < kept; part++)
+            wander(whole, part);
+        save(whole, &saved);
+        uint64_t middle = state_hash(whole);
+        int redo = paper_history_undone(whole);
+        for (int part = kept; part < PARTS; part++)
+            wander(whole, part);
+        uint64_t end = state_hash(whole);
+        paper_sheet_destroy(whole);
+        for (int way = 0; way < 4; way++) {
+            long computed = 0;
+            double budget = way & 1 ? 1e6 : 0;
+            check(paper_history_decode(saved.bytes, saved.count, true, budget, saved_give,
+                                       &saved, &sheet));
+            paper_history_set_watch(sheet, count_steps, &computed);
+            for (int part = 0; part < PARTS; part++) {
+                if (part == kept) {
+                    assert_int_equal(paper_history_following(sheet), 0);
+                    assert_int_equal(paper_history_undone(sheet), redo);
+                    if ((kept + way) % 3 == 0) { /* it is saved again there */
+                        save(sheet, &saved);
+                        assert_true(state_hash(sheet) == middle);
+                    }
+                    if (!(way & 2))
+                        assert_int_equal(computed, 0);
+                }
+                if ((way & 2) && part == 1)
+                    state_hash(sheet);
+                wander(sheet, part);
+            }
+            assert_false(paper_history_diverged(sheet));
+            if (state_hash(sheet) != end)
+                fail_msg("saved after part %d, way %d: it ended otherwise", kept, way);
+            paper_sheet_destroy(sheet);
+        }
+    }
+    free(saved.bytes);
+    saved.bytes = NULL;
+}
+
 /* Every byte of the run's beginning and many of the rest, changed; and every length. */
 static void damaged_runs_are_refused_or_harmless(void **state)
 {
@@ -419,6 +519,8 @@ static void damaged_runs_are_refused_or_harmless(void **state)
     struct paper_sheet *sheet = sheet_new(0);
     for (int i = 0; i < 12; i++)
         operate(sheet, (uint64_t)i + 300);
+    wander(sheet, 0);
+    wander(sheet, 1); /* the run has notes, too */
     save(sheet, &saved);
     paper_sheet_destroy(sheet);
     uint8_t *copy = malloc(saved.count);
@@ -557,6 +659,7 @@ int main(void)
         cmocka_unit_test(moments_are_found_while_paint_flows),
         cmocka_unit_test(what_is_inserted_comes_before_what_followed),
         cmocka_unit_test(a_saved_run_goes_on),
+        cmocka_unit_test(a_saved_run_goes_on_where_much_was_undone),
         cmocka_unit_test(damaged_runs_are_refused_or_harmless),
         cmocka_unit_test(another_resolution_is_the_same_picture),
         cmocka_unit_test(computing_again_can_be_stopped),

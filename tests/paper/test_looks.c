@@ -2,6 +2,8 @@
 #include <paper.h>
 #include <sheet.h>
 
+#include "sheets.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -36,12 +38,8 @@ static struct paper_air air_make(void)
 
 static struct paper_sheet *sheet_make(const char *stock, const struct paper_air *air)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = config.height = SIDE;
+    struct paper_sheet_config config = sheet_of_two(SIDE, SIDE, "phthalo green", "burnt umber");
     config.stock = *paper_stock_find(stock);
-    config.pigments_count = 2;
-    config.pigments[LIGHT] = *paper_pigment_find("phthalo green");
-    config.pigments[HEAVY] = *paper_pigment_find("burnt umber");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     check(paper_sheet_air(sheet, air));

@@ -4,6 +4,7 @@
 #include <techniques.h>
 
 #include "sample.h"
+#include "sheets.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -27,13 +28,9 @@ static void check(enum paper_status status)
 /* Always two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
 static struct paper_sheet *sheet_make(void)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = WIDTH;
-    config.height = HEIGHT;
+    struct paper_sheet_config config =
+        sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
     config.stock.color_variation = 0;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("quinacridone rose");
-    config.pigments[1] = *paper_pigment_find("phthalo green");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;

@@ -6,6 +6,7 @@
 #include <sheet.h>
 
 #include "../sample.h"
+#include "../sheets.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,14 +40,10 @@ static inline void scene_play(FILE *out)
     static uint8_t gray[11 * 9];
     static uint32_t words[SCENE_WIDTH * SCENE_HEIGHT];
     struct paper_plane planes[PAPER_PLANES_MAX];
-    struct paper_sheet_config config = paper_sheet_config_default();
-    uint64_t chance = 3;
+    struct paper_sheet_config config =
+        sheet_of_two(SCENE_WIDTH, SCENE_HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
-    config.width = SCENE_WIDTH;
-    config.height = SCENE_HEIGHT;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("quinacridone rose");
-    config.pigments[1] = *paper_pigment_find("french ultramarine");
+    uint64_t chance = 3;
     struct paper_sheet *sheet;
     scene_check(paper_sheet_create(&config, &sheet));
     scene_check(paper_history_begin(sheet, 0));

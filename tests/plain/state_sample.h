@@ -5,6 +5,8 @@
 #include <paper.h>
 #include <state.h>
 
+#include "../sheets.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,29 +24,30 @@ static inline void sample_check(enum paper_status status)
     abort();
 }
 
-static inline void sample_paint(struct paper_sheet *sheet, int turns)
+/* Something is put on, and `steps` steps. */
+static inline void sample_turn(struct paper_sheet *sheet, int turn, int steps)
 {
     uint8_t gray[5 * 4];
-    for (int i = 0; i < turns; i++) {
-        memset(gray, 255 - 20 * i, sizeof gray);
-        struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
-        paper_history_mark(sheet);
-        sample_check(
-            paper_sheet_put(sheet, &screen, 3 + i, 2 + i, (double[]){1, 0.2 * i, 0.3}));
-        for (int step = 0; step < 3; step++)
-            sample_check(paper_sheet_step(sheet));
-    }
+    memset(gray, 255 - 20 * turn, sizeof gray);
+    struct paper_screen screen = {.width_px = 5, .height_px = 4, .gray = gray};
+    paper_history_mark(sheet);
+    sample_check(
+        paper_sheet_put(sheet, &screen, 3 + turn, 2 + turn, (double[]){1, 0.2 * turn, 0.3}));
+    for (int step = 0; step < steps; step++)
+        sample_check(paper_sheet_step(sheet));
+}
+
+static inline void sample_paint(struct paper_sheet *sheet, int turns)
+{
+    for (int i = 0; i < turns; i++)
+        sample_turn(sheet, i, 3);
 }
 
 static inline struct paper_sheet *sample_sheet(uint64_t seed)
 {
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = SAMPLE_WIDTH;
-    config.height = SAMPLE_HEIGHT;
+    struct paper_sheet_config config =
+        sheet_of_two(SAMPLE_WIDTH, SAMPLE_HEIGHT, "burnt umber", "phthalo green");
     config.seed = seed;
-    config.pigments_count = 2;
-    config.pigments[0] = *paper_pigment_find("burnt umber");
-    config.pigments[1] = *paper_pigment_find("phthalo green");
     struct paper_sheet *sheet;
     sample_check(paper_sheet_create(&config, &sheet));
     sample_check(paper_history_begin(sheet, 1e6));

@@ -79,9 +79,8 @@ static void a_program_goes_on_where_it_was(void **state)
     snprintf(path, sizeof path, "%s", scratch_path("middle.h5"));
     struct paper_sheet *whole = sample_sheet(3), *half = sample_sheet(3), *back;
     sample_paint(whole, 6);
-    sample_paint(half, 4);
-    paper_history_undo(half, 1);
-    check(paper_sheet_step(half)); /* in the middle of three steps */
+    sample_paint(half, 3);
+    sample_turn(half, 3, 1); /* in the middle of three steps */
     check(paper_state_save(path, &(struct paper_state_sheet){1, half}, 1));
     struct paper_state *saved;
     check(paper_state_open(path, &saved));
