@@ -66,7 +66,7 @@ struct strips {
     const struct plan_graph *g;
     const struct vpset *set;
     const int *stores;
-    int stores_count, vector;
+    int stores_count, vector, lane;
     struct stage *stages;
     int stages_count;
     struct pass *passes;

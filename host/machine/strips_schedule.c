@@ -17,6 +17,7 @@ static void stage_values(struct strips *s, int k)
 {
     struct stage *stage = &s->stages[k];
     emitter_init(&stage->e, s->g, s->set, k);
+    stage->e.lane = s->lane;
     stage->e.bare = true;
     for (int i = 0; i < s->stores_count && !stage->e.failed; i++)
         if (s->g->nodes[s->stores[i]].stage == k)
@@ -179,8 +180,7 @@ static bool suits(const struct strips *s)
             widen(&rows, abs(strips_rows_down(s, &stage->e, p)) - s->down[k]);
         }
     }
-    return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
-           s->set->dimensions[0] >= 2 * rows;
+    return s->set->halo && s->set->width >= 2 * s->vector && s->set->dimensions[0] >= 2 * rows;
 }
 
 bool strips_schedule(struct strips *s)
@@ -231,5 +231,6 @@ int strips_columns(const struct strips *s, const struct device_shape *shape)
 int strips_near_columns(const struct strips *s, int columns)
 {
     columns = 2 * columns < s->set->width ? 2 * columns : s->set->width;
-    return (columns + 2 * s->margin + 15) / 16 * 16 + 16;
+    int vector = s->vector > 16 ? s->vector : 16;
+    return (columns + 2 * s->margin + vector - 1) / vector * vector + vector;
 }
