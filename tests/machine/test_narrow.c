@@ -74,6 +74,11 @@ static uint64_t moved(uint64_t n, int dy, int dx)
     return (uint64_t)((y + dy + ROWS) % ROWS * COLUMNS + (x + dx + COLUMNS) % COLUMNS);
 }
 
+static bool is_compare(enum machine_op op)
+{
+    return op >= MACHINE_EQ && op <= MACHINE_SLE;
+}
+
 static wide of_neighbour(const struct test_case *c, uint64_t n)
 {
     n = moved(n, c->dy, c->dx);
@@ -91,7 +96,7 @@ static wide made_of(const struct test_case *c, enum made made, int most, uint64_
     case CHOSEN:
         return a < 3 ? r : 1;
     case EXTENDED:
-        return (wide)wide_signed(r, c->width) & wide_mask(most);
+        return (wide)wide_signed(r, is_compare(c->op) ? 1 : c->width) & wide_mask(most);
     case PART:
         return r >> (c->width - 1);
     case PAIR:
@@ -165,11 +170,6 @@ static uint32_t upload(int width, int which)
     return field;
 }
 
-static bool is_compare(enum machine_op op)
-{
-    return op >= MACHINE_EQ && op <= MACHINE_SLE;
-}
-
 /* All operations on numbers of those widths in one evaluation, and what is made of them. */
 static void check(const int *widths, int widths_count, int most)
 {
@@ -187,12 +187,11 @@ static void check(const int *widths, int widths_count, int most)
 
         for (int k = i % 2; k < OPS; k += 2) { /* each operation on some of them */
             struct test_case c = {ops[k], w, k % 3 - 1, (k + i) % 5 - 2};
-            enum made made =
-                is_compare(ops[k]) && k % MADE != SUM ? PLAIN : (enum made)(k % MADE);
+            const enum made all = (enum made)((k / 2 + i) % MADE);
+            const bool of_bits = is_compare(ops[k]) || w < 4;
+            const enum made made = of_bits && all != SUM && all != EXTENDED ? PLAIN : all;
             struct machine_value *x, *r;
 
-            if (w < 4 && made != SUM)
-                made = PLAIN;
             machine_begin(machine);
             x = support_value(machine, a, MACHINE_UINT(w));
             r = ops[k] <= MACHINE_NEG
