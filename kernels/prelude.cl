@@ -193,7 +193,11 @@ inline VU column(int x, int W)
 #define TYPE_u64 ulong
 #define TYPE_f32 float
 #define TYPE_f64 double
+#if LANE < 32 /* memory has 0 or 1: nothing is compared */
+#define FROM_bit(v) AS_S(-CONVERT(UNSIGNED, v))
+#else
 #define FROM_bit(v) CMP_U(CONVERT(SIGNED, v) != (SIGNED)0)
+#endif
 #define FROM_u8(v) CONVERT(UNSIGNED, v)
 #define FROM_u16(v) CONVERT(UNSIGNED, v)
 #define FROM_u32(v) (v)
