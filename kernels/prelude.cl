@@ -5,16 +5,22 @@
  * bits 0 VF, VD  float, double                VQ      up to 128 bits Rows are PITCH elements
  * apart and begin and end with HALO columns that repeat the other end; so a neighbour is found
  * without a question. Where WRAPS is 1, or a kernel looks further than the halo, columns are
- * wrapped. */
+ * wrapped.
+ *
+ * A kernel of few short integers has narrow lanes: VI and VU of LANE bits, 8 or 16, and so many more of them. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
+#ifndef LANE
+#define LANE 32
+#endif
+
 /* Compilers that tune for processors which slow down at wide vectors would make two halves of each, but for functions that
  * say that they need them. */
-#if VECTOR == 16 && defined(__has_attribute)
+#if VECTOR * LANE == 512 && defined(__has_attribute)
 #if __has_attribute(min_vector_width)
 #define WHOLE_VECTORS __attribute__((min_vector_width(512)))
 #endif
@@ -23,6 +29,56 @@
 #define WHOLE_VECTORS
 #endif
 
+#if LANE <                                                                                     \
+    32 /* compilers for CPUs have longer vectors than OpenCL names; they do not convert by its functions */
+#if LANE == 8
+#define SIGNED char
+#define UNSIGNED uchar
+#else
+#define SIGNED short
+#define UNSIGNED ushort
+#endif
+#define LANES(type, bytes)                                                                     \
+    typedef type JOIN(type, _lanes) __attribute__((ext_vector_type(VECTOR)));                  \
+    typedef JOIN(type, _lanes) JOIN(type, _anywhere) __attribute__((aligned(bytes)))
+LANES(char, 1);
+LANES(uchar, 1);
+LANES(short, 2);
+LANES(ushort, 2);
+typedef JOIN(SIGNED, _lanes) VI;
+typedef JOIN(UNSIGNED, _lanes) VU;
+#define LANES_OF(type) JOIN(type, _lanes)
+#define CONVERT(type, v) __builtin_convertvector(v, LANES_OF(type))
+#define CMP_U(e) (e)
+#define SEL_U(m, a, b) ((m) ? (a) : (b))
+#define SEL_I(m, a, b) (((m) & (a)) | (~(m) & (b)))
+#define AS_U(v) __builtin_astype(v, VU)
+#define AS_S(v) __builtin_astype(v, VI)
+#define GET(type, p, i) (*(const __global JOIN(type, _anywhere) *)((p) + (i)))
+#define PUT(type, p, i, v) (*(__global JOIN(type, _anywhere) *)((p) + (i)) = (v))
+/* HALO lanes of many, from that one on. */
+#if HALO == 16
+#define PART(v, at)                                                                            \
+    __builtin_shufflevector(v, v, (at), (at) + 1, (at) + 2, (at) + 3, (at) + 4, (at) + 5,      \
+                            (at) + 6, (at) + 7, (at) + 8, (at) + 9, (at) + 10, (at) + 11,      \
+                            (at) + 12, (at) + 13, (at) + 14, (at) + 15)
+#elif HALO == 8
+#define PART(v, at)                                                                            \
+    __builtin_shufflevector(v, v, (at), (at) + 1, (at) + 2, (at) + 3, (at) + 4, (at) + 5,      \
+                            (at) + 6, (at) + 7)
+#else
+#define PART(v, at) __builtin_shufflevector(v, v, (at), (at) + 1, (at) + 2, (at) + 3)
+#endif
+#define PART_OUT(kind, p, i, part) JOIN(vstore, HALO)(part, 0, (p) + (i))
+#define FIRST_OUT(kind, p, i, v) PART_OUT(kind, p, i, PART(TO_##kind(v), 0))
+#define LAST_OUT(kind, p, i, v) PART_OUT(kind, p, i, PART(TO_##kind(v), VECTOR - HALO))
+#else
+#define SIGNED int
+#define UNSIGNED uint
+#define LANES_OF(type) JOIN(type, VECTOR)
+/* VECTOR == HALO */
+#define FIRST_OUT(kind, p, i, v) OUT_##kind(p, i, v)
+#define LAST_OUT(kind, p, i, v) OUT_##kind(p, i, v)
 #if VECTOR == 1
 typedef int VI;
 typedef uint VU;
@@ -45,7 +101,7 @@ typedef JOIN(ulong, VECTOR) VL;
 typedef JOIN(long, VECTOR) VM;
 typedef JOIN(float, VECTOR) VF;
 typedef JOIN(double, VECTOR) VD;
-#define CONVERT(type, v) JOIN(convert_##type, VECTOR)(v)
+#define CONVERT(type, v) JOIN(JOIN(convert_, type), VECTOR)(v)
 #define CMP_U(e) (e)
 #define CMP_L(e) CONVERT(int, e)
 #define SEL_U(m, a, b) ((m) ? (a) : (b))
@@ -83,6 +139,7 @@ ANYWHERE(double, 8);
 #else
 #define JOIN_AS(type, v) JOIN(as_##type, VECTOR)(v)
 #endif
+#endif /* LANE */
 
 /* ---- columns and rows ---- */
 
@@ -102,6 +159,7 @@ inline int wrap(int c, int length)
 #define AT(dx) (x + (dx))
 #endif
 
+#if LANE == 32
 inline VU column(int x, int W)
 {
 #if VECTOR == 1
@@ -113,6 +171,7 @@ inline VU column(int x, int W)
     return AS_U(c);
 #endif
 }
+#endif
 
 /* ---- memory ---- */
 
@@ -134,14 +193,18 @@ inline VU column(int x, int W)
 #define TYPE_u64 ulong
 #define TYPE_f32 float
 #define TYPE_f64 double
-#define FROM_bit(v) CMP_U(CONVERT(int, v) != 0)
-#define FROM_u8(v) CONVERT(uint, v)
-#define FROM_u16(v) CONVERT(uint, v)
+#if LANE < 32 /* memory has 0 or 1: nothing is compared */
+#define FROM_bit(v) AS_S(-CONVERT(UNSIGNED, v))
+#else
+#define FROM_bit(v) CMP_U(CONVERT(SIGNED, v) != (SIGNED)0)
+#endif
+#define FROM_u8(v) CONVERT(UNSIGNED, v)
+#define FROM_u16(v) CONVERT(UNSIGNED, v)
 #define FROM_u32(v) (v)
 #define FROM_u64(v) (v)
 #define FROM_f32(v) (v)
 #define FROM_f64(v) (v)
-#define TO_bit(v) CONVERT(uchar, (v)&1)
+#define TO_bit(v) CONVERT(uchar, (v) & (SIGNED)1)
 #define TO_u8(v) CONVERT(uchar, v)
 #define TO_u16(v) CONVERT(ushort, v)
 #define TO_u32(v) (v)
@@ -201,16 +264,18 @@ inline VU column(int x, int W)
         if (x >= W - HALO)                                                                     \
             OUT_##kind(p, x - W, v);                                                           \
     } while (0)
-#else /* VECTOR == HALO: the first vector is the right halo, the last one the left */
+#else /* the first HALO columns are the right halo, the last ones the left */
 #define STORE(kind, p, v)                                                                      \
     do {                                                                                       \
         PASS_##kind(p, x, v);                                                                  \
         if (x == 0)                                                                            \
-            OUT_##kind(p, W, v);                                                               \
+            FIRST_OUT(kind, p, W, v);                                                          \
         if (x == W - VECTOR)                                                                   \
-            OUT_##kind(p, -VECTOR, v);                                                         \
+            LAST_OUT(kind, p, -HALO, v);                                                       \
     } while (0)
 #endif
+
+#if LANE == 32 /* to the end */
 
 /* ---- NaN ---- */
 
@@ -281,3 +346,5 @@ inline VI s_product_overflows(VM product, int width)
     VM top = (VM)(((long)1 << (width - 1)) - 1);
     return CMP_L(product > top) | CMP_L(product < -top - 1L);
 }
+
+#endif

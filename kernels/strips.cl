@@ -9,7 +9,7 @@
 /* Lane by lane, with their copies in the halos. */
 #define EDGES(kind)                                                                            \
     __attribute__((noinline)) void edge_store_##kind(__global TYPE_##kind *q, int i,           \
-                                                     JOIN(TYPE_##kind, VECTOR) v, int W)       \
+                                                     LANES_OF(TYPE_##kind) v, int W)           \
     {                                                                                          \
         TYPE_##kind t[VECTOR];                                                                 \
         *(JOIN(TYPE_##kind, _anywhere) *)t = v;                                                \
@@ -29,14 +29,14 @@
             edge_store_##kind(q, i, TO_##kind(v), W);                                          \
     } while (0)
 
-/* In the middle of it. VECTOR == HALO: the first vector is the right halo, the last one the left. */
+/* In the middle of it. The first HALO columns are the right halo, the last ones the left. */
 #define STORE_INSIDE(kind, q, i, v)                                                            \
     do {                                                                                       \
         PASS_##kind(q, i, v);                                                                  \
         if ((i) == 0)                                                                          \
-            OUT_##kind(q, W, v);                                                               \
+            FIRST_OUT(kind, q, W, v);                                                          \
         if ((i) == W - VECTOR)                                                                 \
-            OUT_##kind(q, -VECTOR, v);                                                         \
+            LAST_OUT(kind, q, -HALO, v);                                                       \
     } while (0)
 
 #ifdef ABOVE

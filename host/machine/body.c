@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "narrow.h"
 #include "spell.h"
 
 enum { STREAM_BYTES = 48 << 20 };
@@ -361,11 +362,16 @@ static void spell_between(char *out, size_t size, const char *type, int lanes, i
                           const char *a, const char *b)
 {
     static const char digits[] = "0123456789abcdef";
-    size_t at = (size_t)snprintf(out, size, "(%s)(", type);
+    bool named = lanes <= 16; /* lanes have names */
+    size_t at = named ? (size_t)snprintf(out, size, "(%s)(", type)
+                      : (size_t)snprintf(out, size, "__builtin_shufflevector(%s, %s, ", a, b);
     for (int i = 0; i < lanes; i++) {
         int lane = from + i;
-        at += (size_t)snprintf(out + at, size - at, "%s%s.s%c", i ? ", " : "",
-                               lane < lanes ? a : b, digits[lane % lanes]);
+        if (named)
+            at += (size_t)snprintf(out + at, size - at, "%s%s.s%c", i ? ", " : "",
+                                   lane < lanes ? a : b, digits[lane % lanes]);
+        else
+            at += (size_t)snprintf(out + at, size - at, "%s%d", i ? ", " : "", lane);
     }
     snprintf(out + at, size - at, ")");
 }
@@ -442,7 +448,10 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         e->wide = e->wide || spell_letter(from) == 'Q';
         enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
         bool spelt = soft != SPELL_SOFT_NOT;
-        if (spelt)
+        if (e->lane < 32) {
+            narrow_spell(expression, sizeof expression, e->g, n, e->lane, a, b, in[2].text);
+            spelt = true;
+        } else if (spelt)
             ; /* by that */
         else if (n->op == NODE_SELECT)
             snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
@@ -503,7 +512,7 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
 bool emitter_init(struct emitter *e, const struct plan_graph *g, const struct vpset *set,
                   int stage)
 {
-    *e = (struct emitter){.g = g, .set = set, .stage = stage};
+    *e = (struct emitter){.g = g, .set = set, .stage = stage, .lane = 32};
     e->input_number = calloc((size_t)g->count, sizeof *e->input_number);
     e->constant_number = calloc((size_t)g->count, sizeof *e->constant_number);
     e->row_offsets = calloc(64, sizeof *e->row_offsets);
@@ -553,6 +562,15 @@ void emit_number(struct text *t, const struct plan_graph *g, const struct kernel
     else
         text_put(t, ", %s a%d", names[strchr(letters, spell_letter(n->type)) - letters],
                  (*count)++);
+}
+
+void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane)
+{
+    int n =
+        snprintf(k->options, sizeof k->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
+                 k->vector, halo, wraps, streams);
+    if (lane < 32)
+        snprintf(k->options + n, sizeof k->options - (size_t)n, " -DLANE=%d", lane);
 }
 
 bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,

@@ -69,6 +69,7 @@ struct emitter {
     int *input_number, *constant_number; /* of a node: + 1 */
     struct arguments arguments;
     int inputs, constants_count, names;
+    int lane;  /* bits: 32, or of narrow.c */
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
     bool bare;                 /* pointers are somebody else's: only which there are is noted */
@@ -95,6 +96,9 @@ void emit_axes(const struct emitter *e, struct text *t);
 /* How a kernel's argument is declared that is a number, or its upper half; *count: numbers so far. */
 void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
                  int *count);
+
+/* What the prelude is told. */
+void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane);
 
 /* As the prelude calls a type in memory. */
 const char *memory_kind(struct machine_type t);

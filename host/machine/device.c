@@ -188,6 +188,7 @@ static struct device_shape shape_of(const struct device *d, const struct setting
     if (d->is_cpu) {
         shape.vector = said(s, MACHINE_VECTOR, shape.vector);
         shape.halo = shape.vector > 1 ? shape.vector : 0;
+        shape.narrow = shape.vector > 1 && s->narrow;
         shape.op_ns = 0.064 / shape.vector;
     }
     return shape;

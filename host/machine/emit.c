@@ -13,6 +13,7 @@
 
 #include "body.h"
 #include "kernels.h"
+#include "narrow.h"
 
 /* A loop with the body; head: what it begins with, which declares x. */
 static void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes)
@@ -70,15 +71,16 @@ static double bytes_touched(const struct emitter *e)
     return bytes;
 }
 
-bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
-                 const struct vpset *set, const struct device_shape *shape,
-                 struct kernel_text *out)
+static bool rows_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                        const struct vpset *set, const struct device_shape *shape, int lane,
+                        struct kernel_text *out)
 {
     struct emitter *e = calloc(1, sizeof *e);
     memset(out, 0, sizeof *out);
     if (!e)
         return false;
     emitter_init(e, g, set, g->nodes[stores[0]].stage);
+    e->lane = lane;
     for (int i = 0; i < stores_count && !e->failed; i++) {
         struct operand v = emit_value(e, stores[i], 0, 0, true);
         struct machine_type type = g->nodes[stores[i]].type;
@@ -91,7 +93,7 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
     bool one =
         wraps || e->wide || e->soft || set->width < shape->vector || set->halo < shape->vector;
-    out->vector = one ? 1 : shape->vector;
+    out->vector = one ? 1 : shape->vector * 32 / lane;
     out->wraps = wraps;
     out->wide = e->wide;
     out->soft = e->soft;
@@ -119,9 +121,8 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     out->ops = e->ops;
     out->cost = e->cost;
     out->loads = e->loads;
-    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
-             out->vector, set->halo, wraps ? 1 : 0,
-             emit_streams(shape, set, out->vector, bytes_touched(e)) ? 1 : 0);
+    emit_options(out, set->halo, wraps, emit_streams(shape, set, out->vector, bytes_touched(e)),
+                 lane);
     bool good = !e->failed && !t.failed && !e->body.failed && !e->rows.failed &&
                 !e->pointers.failed && !e->constants.failed && !e->row_tests.failed &&
                 !e->column_tests.failed;
@@ -130,4 +131,21 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
     if (!good)
         kernel_text_finish(out);
     return good;
+}
+
+bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out)
+{
+    int lane = shape->narrow && set->halo
+                   ? narrow_lane(g, stores, stores_count, g->nodes[stores[0]].stage)
+                   : 32;
+    if (lane < 32 && set->width >= shape->vector * 32 / lane) {
+        if (!rows_kernel(g, stores, stores_count, set, shape, lane, out))
+            return false;
+        if (out->vector > 1)
+            return true;
+        kernel_text_finish(out);
+    }
+    return rows_kernel(g, stores, stores_count, set, shape, 32, out);
 }

@@ -12,6 +12,7 @@
  *   emit.c      the text of a kernel of rows                          (pure; no OpenCL)
  *   strips_schedule.c  ... of several stages, line by line: which rows, when
  *   strips_text.c      ... the text of it                             (pure; no OpenCL)
+ *   narrow.c    the text of operations in lanes of 8 or 16 bits       (pure)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
@@ -205,7 +206,7 @@ struct settings {
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
     uint64_t knob[MACHINE_KNOBS];
-    uint64_t strips, in_place, scatter;
+    uint64_t strips, in_place, scatter, narrow;
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
     uint64_t verbose; /* says on the standard error what is wrong with it */
@@ -225,6 +226,7 @@ struct device_shape {              /* what generated code should look like there
     int run_columns;               /* of a work-item: a multiple of the vector, but on a GPU */
     int strips_each;               /* for each unit */
     int turns;                     /* of a loop at once */
+    bool narrow;                   /* kernels may have lanes of 8 or 16 bits */
     bool streams;                  /* large arrays are stored past the caches */
     double launch_ns;              /* ... a launch */
 };

@@ -523,7 +523,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
     size_t run = (size_t)m->device.shape.run_columns;
-    run = run < (size_t)l->vector ? (size_t)l->vector : run;
+    run = (run + (size_t)l->vector - 1) / (size_t)l->vector * (size_t)l->vector;
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);

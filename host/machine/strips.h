@@ -79,7 +79,7 @@ struct strips {
     const struct plan_graph *g;
     const struct vpset *set;
     const int *stores;
-    int stores_count, vector;
+    int stores_count, vector, lane;
     struct stage *stages;
     int stages_count;
     struct unit *units; /* stage by stage */

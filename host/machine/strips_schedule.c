@@ -18,6 +18,7 @@ static void stage_values(struct strips *s, int k)
 {
     struct stage *stage = &s->stages[k];
     emitter_init(&stage->e, s->g, s->set, k);
+    stage->e.lane = s->lane;
     stage->e.bare = true;
     for (int i = 0; i < s->stores_count && !stage->e.failed; i++)
         if (s->g->nodes[s->stores[i]].stage == k)
@@ -80,6 +81,7 @@ static void units_of_stage(struct strips *s, const struct marks *m, int stage)
         if (root == i) {
             s->unit[node] = s->units_count;
             emitter_init(&s->units[s->units_count].e, s->g, s->set, stage);
+            s->units[s->units_count].e.lane = s->lane;
             s->units[s->units_count].e.bare = true;
             s->units[s->units_count++].stage = stage;
         }
@@ -294,8 +296,7 @@ static bool suits(const struct strips *s)
             widen(&rows, abs(strips_rows_down(s, &unit->e, p)) + behind);
         }
     }
-    return s->set->halo >= s->vector && s->set->width >= 2 * s->vector &&
-           s->set->dimensions[0] >= 2 * rows;
+    return s->set->halo && s->set->width >= 2 * s->vector && s->set->dimensions[0] >= 2 * rows;
 }
 
 /* ---- what can be written in place ---- */
@@ -458,5 +459,6 @@ int strips_columns(const struct strips *s, const struct device_shape *shape)
 int strips_near_columns(const struct strips *s, int columns)
 {
     columns = 2 * columns < s->set->width ? 2 * columns : s->set->width;
-    return (columns + 2 * s->margin + 15) / 16 * 16 + 16;
+    int vector = s->vector > 16 ? s->vector : 16;
+    return (columns + 2 * s->margin + vector - 1) / vector * vector + vector;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "kernels.h"
+#include "narrow.h"
 #include "spell.h"
 #include "strips.h"
 
@@ -46,6 +47,7 @@ static void pass_values(struct strips *s, struct pass *pass)
 {
     struct emitter *e = &pass->e;
     emitter_init(e, s->g, s->set, pass->first);
+    e->lane = s->lane;
     pass->outputs = calloc(2 * (size_t)s->stores_count, sizeof *pass->outputs);
     if (!pass->outputs || e->failed) {
         s->failed = true;
@@ -458,14 +460,13 @@ static void describe(const struct strips *s, const struct device_shape *shape,
             s->arguments.list[i].kind == ARGUMENT_OUTPUT)
             bytes += (double)(s->set->pitch * s->set->rows) *
                      (double)type_bytes(s->g->nodes[s->arguments.list[i].node].type);
-    out->vector = shape->vector;
+    out->vector = s->vector;
     out->strip_columns = strips_columns(s, shape);
     out->in_place = s->in_place;
     out->strip_near = strips_near_columns(s, out->strip_columns);
     out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
-    snprintf(out->options, sizeof out->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=0 -DSTREAMS=%d",
-             out->vector, s->set->halo,
-             emit_streams(shape, s->set, out->vector, bytes) ? 1 : 0);
+    emit_options(out, s->set->halo, false, emit_streams(shape, s->set, out->vector, bytes),
+                 s->lane);
 }
 
 static void strips_finish(struct strips *s)
@@ -498,12 +499,16 @@ static void strips_finish(struct strips *s)
     free(s->number);
 }
 
-bool emit_strips(const struct plan_graph *g, const int *stores, int count,
-                 const struct vpset *set, const struct device_shape *shape,
-                 struct kernel_text *out)
+static bool strips_kernel(const struct plan_graph *g, const int *stores, int count,
+                          const struct vpset *set, const struct device_shape *shape, int lane,
+                          struct kernel_text *out)
 {
-    struct strips s = {
-        .g = g, .set = set, .stores = stores, .stores_count = count, .vector = shape->vector};
+    struct strips s = {.g = g,
+                       .set = set,
+                       .stores = stores,
+                       .stores_count = count,
+                       .vector = shape->vector * 32 / lane,
+                       .lane = lane};
     struct text t = {0};
     memset(out, 0, sizeof *out);
     for (int i = 0; i < count; i++)
@@ -544,4 +549,13 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
     }
     strips_finish(&s);
     return good;
+}
+
+bool emit_strips(const struct plan_graph *g, const int *stores, int count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out)
+{
+    int lane = shape->narrow ? narrow_lane(g, stores, count, -1) : 32;
+    return (lane < 32 && strips_kernel(g, stores, count, set, shape, lane, out)) ||
+           strips_kernel(g, stores, count, set, shape, 32, out);
 }
