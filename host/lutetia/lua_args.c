@@ -155,6 +155,18 @@ void arg_keys(lua_State *L, int index, const char *what, const char *const *name
     }
 }
 
+long arg_count(lua_State *L, int index, const char *what, long fallback, long low, long high)
+{
+    char shown[64];
+    if (lua_isnoneornil(L, index))
+        return fallback;
+    lua_Number value = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : NAN;
+    if (!(value >= (lua_Number)low && value <= (lua_Number)high) || floor(value) != value)
+        luaL_error(L, "%s must be a whole number in %I..%I (got %s)", what, (LUAI_UACINT)low,
+                   (LUAI_UACINT)high, described(L, index, shown));
+    return (long)value;
+}
+
 double arg_at(lua_State *L, int index, const char *what, double low, double high)
 {
     lua_pushvalue(L, index);

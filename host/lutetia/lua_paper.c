@@ -626,7 +626,8 @@ static int paper_step(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
     struct run *run = paper->run;
-    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "step's count", 0, 1e6);
+    int count = (int)arg_count(L, 2, "step's count", 1, 0, 1000000);
+    run_words_check(L);
     bool expected = run->steps_expected > 0;
     long first = expected ? run->steps_done : 0;
     long total =
@@ -636,6 +637,7 @@ static int paper_step(lua_State *L)
         progress.began_s = run->began_s;
     paper_history_mark(paper->sheet);
     enum paper_status status = PAPER_OK;
+    run_at_work(true);
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         status = paper_sheet_step(paper->sheet);
         if (status == PAPER_OK)
@@ -649,6 +651,7 @@ static int paper_step(lua_State *L)
             break;
     }
     progress_end(&progress);
+    run_at_work(false);
     run_check(L);
     check(L, status);
     film(L, paper);

@@ -35,6 +35,7 @@ struct run {
     const char *words[RUN_WORDS_MAX]; /* key=value */
     bool asked[RUN_WORDS_MAX];
     int words_count;
+    bool words_checked;
     int pictures;
     int papers_made;
     struct paper_state_sheet kept[RUN_PAPERS_MAX]; /* papers that are open, by number */
@@ -62,6 +63,12 @@ void run_check(lua_State *L);
 void run_memory_take(lua_State *L, double bytes, const char *what);
 void run_memory_give(struct run *run, double bytes);
 
+/* While the paper is at work, which looks at the clock between its steps, --timeout's end waits longer: kernels may have to be
+ * compiled. */
+void run_at_work(bool at_work);
+/* Before the first step: a key=value that the script's text has nowhere is an error now, not when all is done. */
+void run_words_check(lua_State *L);
+
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *run_path(lua_State *L, const char *folder, const char *name, const char *what);
 
@@ -82,6 +89,8 @@ bool arg_numbers(lua_State *L, int index, const char *what, const char *name, do
 bool arg_color(lua_State *L, int index, const char *what, const char *name, double out[3]);
 /* Every key must be among the names (NULL-terminated). */
 void arg_keys(lua_State *L, int index, const char *what, const char *const *names);
+/* The whole number at an argument's index within bounds; missing is fallback. */
+long arg_count(lua_State *L, int index, const char *what, long fallback, long low, long high);
 /* The number at an argument's index within bounds. */
 double arg_at(lua_State *L, int index, const char *what, double low, double high);
 

@@ -17,6 +17,8 @@
  * loop, always at the same point. */
 #include "watch.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -205,13 +207,27 @@ void run_finish(struct machine *m)
     free(m->plans);
 }
 
-static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
-                      const char *text)
+/* NULL: it cannot be written. That is said once, and the program goes on without dumps. */
+static FILE *dump_open(struct machine *m, int number, const char *suffix)
 {
     char path[600];
     mkdir(m->dump_dir, 0777);
     snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
     FILE *f = fopen(path, "w");
+    if (!f) {
+        fprintf(stderr,
+                "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
+                strerror(errno));
+        free(m->dump_dir);
+        m->dump_dir = NULL;
+    }
+    return f;
+}
+
+static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
+                      const char *text)
+{
+    FILE *f = dump_open(m, number, suffix);
     if (!f)
         return;
     if (options)
@@ -222,10 +238,7 @@ static void dump_text(struct machine *m, int number, const char *suffix, const c
 
 static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
 {
-    char path[600];
-    mkdir(m->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d.graph", m->dump_dir, number);
-    FILE *f = fopen(path, "w");
+    FILE *f = dump_open(m, number, ".graph");
     if (!f)
         return;
     for (int i = 0; i < g->count; i++) {
