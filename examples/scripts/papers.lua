@@ -30,6 +30,6 @@ for i, stock in ipairs(stocks) do
   p:close()
 end
 
-local poster = paper{width = w, height = #stocks * h, model = "thesis"}
+local poster = paper{width = w, height = #stocks * h, model = {"infused"}}
 for layer, strips in pairs(colors) do poster:layer(layer, strips) end
 poster:frame("papers.png")
