@@ -172,3 +172,46 @@ double arg_at(lua_State *L, int index, const char *what, double low, double high
     lua_pushvalue(L, index);
     return number_pop(L, what, "", low, high);
 }
+
+/* The row of a NULL-ended list that the text is, or an error that lists them. */
+int arg_choice(lua_State *L, const char *what, const char *text, const char *const *names)
+{
+    luaL_Buffer list;
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], text) == 0)
+            return i;
+    luaL_buffinit(L, &list);
+    for (int i = 0; names[i]; i++) {
+        luaL_addstring(&list, i ? ", " : "");
+        luaL_addstring(&list, names[i]);
+    }
+    luaL_pushresult(&list);
+    return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
+}
+
+void arg_table(lua_State *L, int index)
+{
+    if (lua_isnoneornil(L, index)) {
+        lua_settop(L, index - 1);
+        lua_newtable(L);
+    }
+    lua_settop(L, index);
+    luaL_checktype(L, index, LUA_TTABLE);
+}
+
+void run_type_open(lua_State *L, const char *name, const luaL_Reg *methods, lua_CFunction gc)
+{
+    luaL_newmetatable(L, name);
+    if (methods) {
+        lua_newtable(L);
+        luaL_setfuncs(L, methods, 0);
+        lua_setfield(L, -2, "__index");
+    }
+    if (gc) {
+        lua_pushcfunction(L, gc);
+        lua_setfield(L, -2, "__gc");
+    }
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
+    lua_pop(L, 1);
+}

@@ -230,12 +230,7 @@ static int paper_film(lua_State *L)
     struct run_paper *paper = paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     struct film *film = &paper->run->film;
-    lua_settop(L, 2);
-    if (lua_isnil(L, 2)) {
-        lua_newtable(L);
-        lua_replace(L, 2);
-    }
-    luaL_checktype(L, 2, LUA_TTABLE);
+    arg_table(L, 2);
     arg_keys(L, 2, "film", keys);
     const char *show = arg_text(L, 2, "film", "show");
     if (show && strcmp(show, "color") != 0 && strcmp(show, "wet") != 0)
@@ -265,11 +260,6 @@ const luaL_Reg lua_time_methods[] = {{"undo", paper_undo}, {"redo", paper_redo},
 
 void lua_time_open(lua_State *L)
 {
-    luaL_newmetatable(L, state_type);
-    lua_pushcfunction(L, state_gc);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 1);
+    run_type_open(L, state_type, NULL, state_gc);
     lua_register(L, "expect", expect);
 }
