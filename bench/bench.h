@@ -17,5 +17,6 @@ int bench_heat_main(int argc, char **argv);
 int bench_paper_main(int argc, char **argv);
 int bench_paris_main(int argc, char **argv);
 int bench_fonts_main(int argc, char **argv);
+int bench_start_main(int argc, char **argv);
 
 #endif

@@ -282,6 +282,21 @@ static void json_report(FILE *f, const struct bench_report *r)
     fputs("]}\n", f);
 }
 
+bool bench_can_write(const char *path)
+{
+    char folder[4096];
+    bool there = access(path, F_OK) == 0;
+    snprintf(folder, sizeof folder, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (slash)
+        slash[slash == folder] = '\0';
+    return access(there   ? path
+                  : slash ? folder
+                          : ".",
+                  W_OK) == 0 ||
+           bench_fail("%s: cannot write: %s", path, strerror(errno));
+}
+
 bool bench_report_write(const struct bench_report *r, const char *path)
 {
     size_t length = strlen(path) + sizeof ".XXXXXX";

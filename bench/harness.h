@@ -84,6 +84,9 @@ bench_work bench_copy_work;
 /* GB/s, from the seconds of its turns; min is the best. */
 struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds);
 
+/* Whether the file can be written, or made, there: asked before a long measurement. Errors: false. */
+bool bench_can_write(const char *path);
+
 int bench_threads_count(void); /* that OpenMP uses; 1 without it */
 
 /* ---- errors ---- */

@@ -87,6 +87,8 @@ static bool options_parse(struct bench_options *o, int argc, char **argv)
                 return bench_fail("--repeat must be %d..%d (got \"%s\")", o->repeat_least,
                                   REPEAT_MAX, value);
         } else {
+            if (!bench_can_write(value))
+                return false;
             *(json ? &o->json_path : &o->plot_path) = value;
         }
     }
@@ -95,16 +97,14 @@ static bool options_parse(struct bench_options *o, int argc, char **argv)
 
 int bench_options_parse(struct bench_options *o, int argc, char **argv)
 {
-    const struct bench_options defaults = *o;
     for (int i = 1; i < argc; i++)
         if (!strcmp(argv[i], "--help") || !strcmp(argv[i], "-h")) {
-            usage_print(&defaults, stdout);
+            usage_print(o, stdout);
             return 0;
         }
     if (options_parse(o, argc, argv))
         return -1;
-    fprintf(stderr, "lutetia bench %s: %s\n", o->name, bench_error());
-    usage_print(&defaults, stderr);
+    fprintf(stderr, "lutetia bench %s: %s; --help lists the options\n", o->name, bench_error());
     return 2;
 }
 

@@ -7,8 +7,8 @@
  *
  * Shows: NEWS.  Nine neighbours are summed with four fetches: three cells above each other first, then
  * three such sums beside each other.  With the cell itself counted, a sum of 3 is life, and 4 changes
- * nothing: two comparisons that narrow the context.  At the end every cell is compared with a plain
- * loop's. */
+ * nothing: two comparisons that narrow the context.  The lights on the front of the machine show what
+ * lives (`lutetia leds ./life`).  At the end every cell is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,6 +118,7 @@ int main (argc, argv)
     CM_u_move_zero_1L (glow, GLOW);
     for (i = 0; i < generations; i++) {
         step (alive, glow, sum, side);
+        CM_latch_leds (alive);
         population = CM_global_count_bit (alive);
         if (population > most)
             most = population;

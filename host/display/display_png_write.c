@@ -77,6 +77,9 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
                  8 * image->bytes,
                  image->channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    /* A tenth of the usual settings' time for a tenth more bytes, on paper's grain; type takes no more. */
+    png_set_compression_level(png, 2);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     if (image->bytes == 2 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)

@@ -155,8 +155,63 @@ void arg_keys(lua_State *L, int index, const char *what, const char *const *name
     }
 }
 
+long arg_count(lua_State *L, int index, const char *what, long fallback, long low, long high)
+{
+    char shown[64];
+    if (lua_isnoneornil(L, index))
+        return fallback;
+    lua_Number value = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : NAN;
+    if (!(value >= (lua_Number)low && value <= (lua_Number)high) || floor(value) != value)
+        luaL_error(L, "%s must be a whole number in %I..%I (got %s)", what, (LUAI_UACINT)low,
+                   (LUAI_UACINT)high, described(L, index, shown));
+    return (long)value;
+}
+
 double arg_at(lua_State *L, int index, const char *what, double low, double high)
 {
     lua_pushvalue(L, index);
     return number_pop(L, what, "", low, high);
+}
+
+/* The row of a NULL-ended list that the text is, or an error that lists them. */
+int arg_choice(lua_State *L, const char *what, const char *text, const char *const *names)
+{
+    luaL_Buffer list;
+    for (int i = 0; names[i]; i++)
+        if (strcmp(names[i], text) == 0)
+            return i;
+    luaL_buffinit(L, &list);
+    for (int i = 0; names[i]; i++) {
+        luaL_addstring(&list, i ? ", " : "");
+        luaL_addstring(&list, names[i]);
+    }
+    luaL_pushresult(&list);
+    return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
+}
+
+void arg_table(lua_State *L, int index)
+{
+    if (lua_isnoneornil(L, index)) {
+        lua_settop(L, index - 1);
+        lua_newtable(L);
+    }
+    lua_settop(L, index);
+    luaL_checktype(L, index, LUA_TTABLE);
+}
+
+void run_type_open(lua_State *L, const char *name, const luaL_Reg *methods, lua_CFunction gc)
+{
+    luaL_newmetatable(L, name);
+    if (methods) {
+        lua_newtable(L);
+        luaL_setfuncs(L, methods, 0);
+        lua_setfield(L, -2, "__index");
+    }
+    if (gc) {
+        lua_pushcfunction(L, gc);
+        lua_setfield(L, -2, "__gc");
+    }
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
+    lua_pop(L, 1);
 }

@@ -578,17 +578,8 @@ void lua_brush_open(lua_State *L)
                                        {"wipe", brush_wipe},
                                        {"holds", brush_holds},
                                        {NULL, NULL}};
-    luaL_newmetatable(L, brush_type);
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    luaL_newmetatable(L, lines_type);
-    lua_pushcfunction(L, lines_gc);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 2);
+    run_type_open(L, brush_type, methods, NULL);
+    run_type_open(L, lines_type, NULL, lines_gc);
     lua_register(L, "path", make_path);
     lua_register(L, "svg", make_svg);
 }

@@ -35,6 +35,7 @@ struct run {
     const char *words[RUN_WORDS_MAX]; /* key=value */
     bool asked[RUN_WORDS_MAX];
     int words_count;
+    bool words_checked;
     int pictures;
     int papers_made;
     struct paper_state_sheet kept[RUN_PAPERS_MAX]; /* papers that are open, by number */
@@ -62,6 +63,12 @@ void run_check(lua_State *L);
 void run_memory_take(lua_State *L, double bytes, const char *what);
 void run_memory_give(struct run *run, double bytes);
 
+/* While the paper is at work, which looks at the clock between its steps, --timeout's end waits longer: kernels may have to be
+ * compiled. */
+void run_at_work(bool at_work);
+/* Before the first step: a key=value that the script's text has nowhere is an error now, not when all is done. */
+void run_words_check(lua_State *L);
+
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *run_path(lua_State *L, const char *folder, const char *name, const char *what);
 
@@ -80,8 +87,14 @@ bool arg_numbers(lua_State *L, int index, const char *what, const char *name, do
                  int count, double low, double high);
 /* "#rrggbb" or {r, g, b} in 0..1; false if missing. */
 bool arg_color(lua_State *L, int index, const char *what, const char *name, double out[3]);
+/* The row of a NULL-ended list that the text is, or an error that lists them. */
+int arg_choice(lua_State *L, const char *what, const char *text, const char *const *names);
+/* The last argument, a table; an empty one in its place where it is not there. */
+void arg_table(lua_State *L, int index);
 /* Every key must be among the names (NULL-terminated). */
 void arg_keys(lua_State *L, int index, const char *what, const char *const *names);
+/* The whole number at an argument's index within bounds; missing is fallback. */
+long arg_count(lua_State *L, int index, const char *what, long fallback, long low, long high);
 /* The number at an argument's index within bounds. */
 double arg_at(lua_State *L, int index, const char *what, double low, double high);
 
@@ -108,7 +121,10 @@ int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const
 void paper_memory_take(lua_State *L, int index, double bytes, const char *what);
 /* For paper_sheet_stop_when(), with the paper at index: films steps, and stops when time is up. */
 void paper_stop_when_due(lua_State *L, int index);
-extern const luaL_Reg lua_brush_methods[], lua_technique_methods[], lua_time_methods[];
+extern const luaL_Reg lua_brush_methods[], lua_technique_methods[], lua_time_methods[],
+    lua_look_methods[];
+/* Makes the metatable of a kind of userdata; methods and gc may be NULL. */
+void run_type_open(lua_State *L, const char *name, const luaL_Reg *methods, lua_CFunction gc);
 
 void lua_mask_open(lua_State *L);
 void lua_paper_open(lua_State *L);

@@ -173,6 +173,48 @@ static int param(lua_State *L)
     return 1;
 }
 
+/* The script's text; NULL where it cannot be read, or has zeros in it. */
+static char *script_text(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    size_t room = 0;
+    ssize_t length = file ? getdelim(&text, &room, '\0', file) : -1;
+    bool whole = length >= 0 && feof(file);
+    if (file)
+        fclose(file);
+    if (!whole) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+void run_words_check(lua_State *L)
+{
+    struct run *run = run_of(L);
+    bool all_asked = true;
+    for (int i = 0; i < run->words_count; i++)
+        all_asked = all_asked && run->asked[i];
+    if (run->words_checked || all_asked ||
+        run->trusted) /* trusted: it may be in another file */
+        return;
+    run->words_checked = true;
+    char *text = script_text(run->script), key[64] = "";
+    for (int i = 0; text && i < run->words_count && !*key; i++) {
+        char one[sizeof key];
+        size_t length = strcspn(run->words[i], "=");
+        if (run->asked[i] || length >= sizeof one)
+            continue;
+        snprintf(one, sizeof one, "%.*s", (int)length, run->words[i]);
+        if (!strstr(text, one))
+            strcpy(key, one);
+    }
+    free(text);
+    if (*key)
+        luaL_error(L, "the script asks for no '%s'", key);
+}
+
 /* Lua's order of text keys differs from run to run; pictures must not. */
 static const char prelude[] = "local type, next, sort, tostring, getmetatable = type, next, "
                               "table.sort, tostring, getmetatable\n"

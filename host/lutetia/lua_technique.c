@@ -15,16 +15,6 @@ static const char picture_type[] = "lutetia picture";
 enum { PLACE_MAX = 100000, SEED_MAX = 2147483647 };
 #define PI 3.14159265358979323846
 
-/* An empty table in the place of an argument that is not there. */
-static void table_or_empty(lua_State *L, int index)
-{
-    if (lua_isnoneornil(L, index)) {
-        lua_settop(L, index - 1);
-        lua_newtable(L);
-    }
-    luaL_checktype(L, index, LUA_TTABLE);
-}
-
 /* The mask in field "mask" of the table at index, kept on the stack; missing: everywhere. False: it covers nothing. */
 static bool place_read(lua_State *L, int index, const struct paper_sheet *sheet,
                        struct paper_screen *screen, struct paper_place *place)
@@ -166,7 +156,7 @@ static int paper_salt(lua_State *L)
     struct paper_sheet *sheet = paper_arg(L, 1);
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     struct paper_screen screen;
-    table_or_empty(L, 2);
+    arg_table(L, 2);
     arg_keys(L, 2, "salt", keys);
     struct paper_salt s = {.size = {0.7, 1.6}};
     s.x = arg_number(L, 2, "salt", "x", config->width / 2.0, -PLACE_MAX, PLACE_MAX);
@@ -363,8 +353,7 @@ static int paper_separate_picture(lua_State *L)
                                        "water",    "mask", NULL};
     struct paper_sheet *sheet = paper_arg(L, 1);
     const struct run_picture *picture = luaL_checkudata(L, 2, picture_type);
-    table_or_empty(L, 3);
-    lua_settop(L, 3);
+    arg_table(L, 3);
     arg_keys(L, 3, "separate", keys);
     struct paper_separation s = paper_separation_of(paper_sheet_get_config(sheet));
     struct paper_print print = {0};
@@ -428,13 +417,6 @@ const luaL_Reg lua_technique_methods[] = {{"wash", paper_wash},
 void lua_technique_open(lua_State *L)
 {
     static const luaL_Reg methods[] = {{"size", picture_size}, {NULL, NULL}};
-    luaL_newmetatable(L, picture_type);
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, picture_gc);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 1);
+    run_type_open(L, picture_type, methods, picture_gc);
     lua_register(L, "picture", make_picture);
 }

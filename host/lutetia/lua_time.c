@@ -11,6 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { TIME_MOST = 1000000000 };
+
 /* ---- what the run keeps ---- */
 
 /* While something is computed again. */
@@ -81,22 +83,24 @@ static void history_need(lua_State *L, const struct run_paper *paper)
         luaL_error(L, "this paper has no history: it was made with history = false");
 }
 
-static int paper_undo(lua_State *L)
+/* How many operations, as there were so many. */
+static int paper_go(lua_State *L, int (*go)(struct paper_sheet *sheet, int count),
+                    const char *what)
 {
     struct run_paper *paper = paper_at(L);
     history_need(L, paper);
-    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "undo's count", 0, 1e9);
-    lua_pushinteger(L, paper_history_undo(paper->sheet, count));
+    lua_pushinteger(L, go(paper->sheet, (int)arg_count(L, 2, what, 1, 0, TIME_MOST)));
     return 1;
+}
+
+static int paper_undo(lua_State *L)
+{
+    return paper_go(L, paper_history_undo, "undo's count");
 }
 
 static int paper_redo(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
-    history_need(L, paper);
-    int count = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "redo's count", 0, 1e9);
-    lua_pushinteger(L, paper_history_redo(paper->sheet, count));
-    return 1;
+    return paper_go(L, paper_history_redo, "redo's count");
 }
 
 /* paper:to(time) */
@@ -104,7 +108,8 @@ static int paper_to(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
     history_need(L, paper);
-    paper_check(L, paper_history_seek(paper->sheet, (long)arg_at(L, 2, "a time", 0, 1e9)));
+    paper_check(L,
+                paper_history_seek(paper->sheet, arg_count(L, 2, "a time", 0, 0, TIME_MOST)));
     return 0;
 }
 
@@ -136,7 +141,7 @@ int paper_at_time(lua_State *L)
 {
     struct run_paper *paper = paper_at(L);
     history_need(L, paper);
-    long time = (long)arg_at(L, 2, "a time", 0, 1e9);
+    long time = arg_count(L, 2, "a time", 0, 0, TIME_MOST);
     luaL_checktype(L, 3, LUA_TFUNCTION);
     lua_settop(L, 3);
     paper_check(L, paper_history_insert_begin(paper->sheet, time));
@@ -194,7 +199,7 @@ int paper_load(lua_State *L)
 {
     struct run *run = run_of(L);
     const char *name = luaL_checkstring(L, 1);
-    int number = lua_isnoneornil(L, 2) ? 1 : (int)arg_at(L, 2, "a paper's number", 1, 1e9);
+    long number = arg_count(L, 2, "a paper's number", 1, 1, TIME_MOST);
     const char *path = run_path(L, run->in_folder, name, "a saved paper");
     if (access(path, F_OK) != 0) /* what was saved by a script is where it writes */
         path = run_path(L, run->out_folder, name, "a saved paper");
@@ -206,7 +211,7 @@ int paper_load(lua_State *L)
     while (index < count && paper_state_number(*state, index) != number)
         index++;
     if (index == count)
-        luaL_error(L, "%s has no paper %d", path, number);
+        luaL_error(L, "%s has no paper %d", path, (int)number);
     struct paper_sheet_config config;
     paper_check(L, paper_state_describe(*state, index, &config));
     struct run_paper *paper = paper_new(L);
@@ -225,12 +230,7 @@ static int paper_film(lua_State *L)
     struct run_paper *paper = paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     struct film *film = &paper->run->film;
-    lua_settop(L, 2);
-    if (lua_isnil(L, 2)) {
-        lua_newtable(L);
-        lua_replace(L, 2);
-    }
-    luaL_checktype(L, 2, LUA_TTABLE);
+    arg_table(L, 2);
     arg_keys(L, 2, "film", keys);
     const char *show = arg_text(L, 2, "film", "show");
     if (show && strcmp(show, "color") != 0 && strcmp(show, "wet") != 0)
@@ -249,7 +249,7 @@ static int paper_film(lua_State *L)
 /* expect(steps): how many the whole script takes, for the estimate of the time left. */
 static int expect(lua_State *L)
 {
-    run_of(L)->steps_expected = (long)arg_at(L, 1, "steps expected", 0, 1e9);
+    run_of(L)->steps_expected = arg_count(L, 1, "steps expected", 0, 0, TIME_MOST);
     return 0;
 }
 
@@ -260,11 +260,6 @@ const luaL_Reg lua_time_methods[] = {{"undo", paper_undo}, {"redo", paper_redo},
 
 void lua_time_open(lua_State *L)
 {
-    luaL_newmetatable(L, state_type);
-    lua_pushcfunction(L, state_gc);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 1);
+    run_type_open(L, state_type, NULL, state_gc);
     lua_register(L, "expect", expect);
 }

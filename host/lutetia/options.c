@@ -97,7 +97,7 @@ static bool value_take(const struct option_row *row, const char *text)
 
 static bool value_wrong(const char *verb, const struct option_row *row, const char *text)
 {
-    char range[80] = "";
+    char range[80] = "", count[32] = "";
     const char *shape = "must be";
     switch (row->kind) {
     case OPTION_FLAG:
@@ -113,6 +113,8 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
     case OPTION_LIST:
         break;
     }
+    if (row->count > 0 && strstr(row->value, "..")) /* X,Y,.. does not say how many */
+        snprintf(count, sizeof count, "%d numbers ", row->count);
     snprintf(range, sizeof range, "%.10g..%.10g", row->least, row->most);
     if (row->kind == OPTION_INTEGER || row->kind == OPTION_NUMBER)
         fail_usage(verb, "--%s %s %s (got '%.*s')", row->name, shape, range, SHOWN_MAX, text);
@@ -120,7 +122,7 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
              ((struct option_list *)row->target)->count == OPTION_LIST_MAX)
         fail_usage(verb, "--%s can be given %d times", row->name, OPTION_LIST_MAX);
     else
-        fail_usage(verb, "--%s %s %s with each in %s (got '%.*s')", row->name, shape,
+        fail_usage(verb, "--%s %s %s%s with each in %s (got '%.*s')", row->name, shape, count,
                    row->value, range, SHOWN_MAX, text);
     return false;
 }

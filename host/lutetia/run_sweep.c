@@ -82,8 +82,12 @@ static bool range_parse(struct sweep *sweep, const char *values, bool *bad)
         return true;
     }
     const char *dots = strstr(values, "..");
-    if (!dots || sscanf(dots + 2, "%lf/%d%c", &high, &steps, &end) != 2)
+    if (!dots)
         return false;
+    if (sscanf(dots + 2, "%lf/%d%c", &high, &steps, &end) != 2) {
+        *bad = strspn(values, "+-.0123456789eE/") == strlen(values); /* no word: half a range */
+        return *bad;
+    }
     char first[32] = "";
     snprintf(first, sizeof first, "%.*s", (int)(dots - values), values);
     char *stop;

@@ -22,6 +22,7 @@ static const struct {
     {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
+    {"start", bench_start_main, "the first picture, from the command, with warm caches"},
 };
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches };

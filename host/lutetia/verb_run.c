@@ -14,9 +14,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { GRACE_S = 3, JOBS_MOST = 256 };
+enum { GRACE_S = 3, PATIENCE = 30, JOBS_MOST = 256 };
 
 struct options {
     const char *in, *out, *sweep, *save, *resume, *video, *frames;
@@ -105,11 +106,23 @@ static void *allocate(void *context, void *block, size_t old, size_t new)
     return made;
 }
 
+static volatile sig_atomic_t at_work, patience;
+
+void run_at_work(bool now)
+{
+    at_work = now;
+}
+
 /* What Lua's own loops in C do (a pattern that backtracks for years) no hook stops. */
 static void alarm_take(int signal_number)
 {
     static const char said[] = "lutetia run: the script did not stop at its --timeout; ended\n";
     (void)signal_number;
+    if (at_work && patience > 0) {
+        patience--;
+        alarm(GRACE_S);
+        return;
+    }
     ssize_t written = write(STDERR_FILENO, said, sizeof said - 1);
     (void)written;
     _exit(EXIT_FAILED);
@@ -188,6 +201,7 @@ int script_run(struct run *run)
                     run->memory_most_bytes);
     memcpy(lua_getextraspace(L), &run, sizeof run);
     if (run->deadline_s > 0) {
+        patience = PATIENCE;
         signal(SIGALRM, alarm_take);
         alarm((unsigned)run->timeout_s + GRACE_S);
     }
@@ -252,8 +266,11 @@ int verb_run(int argc, char **argv)
     memcpy(run.film.camera, o.camera, sizeof run.film.camera);
     for (int i = 1; i < words.count; i++)
         run.words[run.words_count++] = words.words[i];
+    struct stat found;
     if (access(run.script, R_OK) != 0)
         return fail("run", "%s: cannot read: %s", run.script, strerror(errno));
+    if (stat(run.script, &found) == 0 && S_ISDIR(found.st_mode))
+        return fail("run", "%s: cannot read: %s", run.script, strerror(EISDIR));
     char *folder = strdup(run.script), *slash = folder ? strrchr(folder, '/') : NULL;
     if (slash)
         *slash = '\0';

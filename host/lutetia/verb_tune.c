@@ -8,6 +8,7 @@
 #include "tune_work.h"
 
 #include <errno.h>
+#include <harness.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -363,6 +364,8 @@ int verb_tune(int argc, char **argv)
         return fail_usage("tune", "there is nothing to do with '%.60s'", words.words[0]);
     if (forced_check() != EXIT_SUCCESS)
         return EXIT_USAGE;
+    if (json_path && !bench_can_write(json_path))
+        return fail("tune", "%s", bench_error());
     interrupt_catch();
     setenv("LUTETIA_BOX_AFTER", "0", 1); /* kernels as a long run gets them, from the start */
     struct machine_tuning usual = machine_tuning_usual();

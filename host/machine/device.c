@@ -75,10 +75,12 @@ struct candidate {
     char platform_name[128], name[256], version[128];
 };
 
-static int find_devices(struct candidate *out)
+/* *without: a platform that has no device; NULL: none is so. */
+static int find_devices(struct candidate *out, cl_platform_id *without)
 {
     cl_platform_id platforms[16];
     cl_uint platforms_count = 0;
+    *without = NULL;
     if (clGetPlatformIDs(16, platforms, &platforms_count) != CL_SUCCESS)
         return 0;
     if (platforms_count > 16)
@@ -88,8 +90,10 @@ static int find_devices(struct candidate *out)
         cl_device_id devices[DEVICES_MAX];
         cl_uint devices_count = 0;
         if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices,
-                           &devices_count) != CL_SUCCESS)
+                           &devices_count) != CL_SUCCESS) {
+            *without = platforms[p];
             continue;
+        }
         for (cl_uint d = 0; d < devices_count && d < DEVICES_MAX && count < DEVICES_MAX; d++) {
             struct candidate *c = &out[count++];
             memset(c, 0, sizeof *c);
@@ -113,7 +117,8 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
     struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
     if (!all)
         return 0;
-    int count = find_devices(all);
+    cl_platform_id without;
+    int count = find_devices(all, &without);
     for (int i = 0; i < count; i++) {
         cl_uint units = 0;
         cl_ulong memory = 0;
@@ -194,6 +199,18 @@ static struct device_shape shape_of(const struct device *d, const struct setting
     return shape;
 }
 
+/* PoCL has no device where it cannot make the folder that it compiles in. */
+static enum machine_status no_device_on(struct machine *m, cl_platform_id platform)
+{
+    char name[128] = "";
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, NULL);
+    return machine_fail(
+        m, MACHINE_NO_DEVICE,
+        "the OpenCL platform \"%s\" has no device; if it is PoCL: can it write in "
+        "POCL_CACHE_DIR, XDG_CACHE_HOME or ~/.cache?",
+        name);
+}
+
 enum machine_status device_open(struct machine *m, const struct machine_config *config)
 {
     struct device *d = &m->device;
@@ -202,17 +219,18 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
     struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
     if (!all)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
-    int count = find_devices(all), chosen = choose(all, count, choice);
+    cl_platform_id without;
+    int count = find_devices(all, &without), chosen = choose(all, count, choice);
     if (chosen < 0) {
         enum machine_status status =
-            count == 0 ? machine_fail(
-                             m, MACHINE_NO_DEVICE,
-                             "no OpenCL device was found: install one (Debian: apt-get install "
-                             "pocl-opencl-icd)")
-                       : machine_fail(m, MACHINE_NO_DEVICE,
-                                      "no OpenCL device is called \"%s\": `lutetia info` lists "
-                                      "the %d there are",
-                                      choice, count);
+            count > 0 ? machine_fail(m, MACHINE_NO_DEVICE,
+                                     "no OpenCL device is called \"%s\": `lutetia info` lists "
+                                     "the %d there are",
+                                     choice, count)
+            : without ? no_device_on(m, without)
+                      : machine_fail(m, MACHINE_NO_DEVICE,
+                                     "no OpenCL device was found: install one (Debian: apt-get "
+                                     "install pocl-opencl-icd)");
         free(all);
         return status;
     }

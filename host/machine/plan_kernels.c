@@ -4,6 +4,8 @@
  * Plans are kept by signature; numbers' values are no part of it. */
 #include "plan_kernels.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -73,13 +75,27 @@ void plans_finish(struct machine *m)
 
 /* ---- a look inside ---- */
 
-static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
-                      const char *text)
+/* NULL: it cannot be written. That is said once, and the program goes on without dumps. */
+static FILE *dump_open(struct machine *m, int number, const char *suffix)
 {
     char path[600];
     mkdir(m->dump_dir, 0777);
     snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
     FILE *f = fopen(path, "w");
+    if (!f) {
+        fprintf(stderr,
+                "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
+                strerror(errno));
+        free(m->dump_dir);
+        m->dump_dir = NULL;
+    }
+    return f;
+}
+
+static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
+                      const char *text)
+{
+    FILE *f = dump_open(m, number, suffix);
     if (!f)
         return;
     if (options)
@@ -90,10 +106,7 @@ static void dump_text(struct machine *m, int number, const char *suffix, const c
 
 static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
 {
-    char path[600];
-    mkdir(m->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d.graph", m->dump_dir, number);
-    FILE *f = fopen(path, "w");
+    FILE *f = dump_open(m, number, ".graph");
     if (!f)
         return;
     for (int i = 0; i < g->count; i++) {
@@ -136,6 +149,15 @@ static bool many_streams(const struct machine *m, const struct vpset *set,
         arrays += k->arguments[i].kind == ARGUMENT_INPUT;
     return m->device.is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
            (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
+}
+
+/* Functions like exp take hundreds of operations, each of which is a call where nothing is optimised: a microsecond for each
+ * processor, where it is a tenth else. Of them fewer make up for the compiler's time, which is not much more either. */
+static bool much_math(const struct machine *m, const struct kernel_text *k,
+                      const struct vpset *set)
+{
+    enum { MATH_WEIGHT = 32 };
+    return k->math && set->count >= m->settings.optimise_after / 4 / MATH_WEIGHT;
 }
 
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
@@ -183,7 +205,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.text};
     if (many_streams(m, &m->sets[set], &k))
         strcat(k.options, " -DAHEAD=128");
-    bool quick = p->quality == QUICK && !device_kernel_at_hand(m, parts, k.options, "k");
+    bool quick = p->quality == QUICK && !much_math(m, &k, &m->sets[set]) &&
+                 !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
     cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;

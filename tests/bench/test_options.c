@@ -77,6 +77,8 @@ static void bad_options_are_told(void **state)
     } bad[] = {
         {2, "--nothing", "", "no option \"--nothing\""},
         {2, "--json", "", "--json needs a value"},
+        {3, "--json", "/proc/none/a.json", "/proc/none/a.json: cannot write"},
+        {3, "--plot", "/none/a.png", "/none/a.png: cannot write"},
         {3, "--sizes", "3", "4..100 (got \"3\")"},
         {3, "--sizes", "8,", "(got \"8,\")"},
         {3, "--sizes", "8x101", "4..100"},

@@ -147,6 +147,12 @@ static const struct {
      JUNK,
      "not a folder"},
     {"no platform", {"paint", "x", "-o", OUT}, "OCL_ICD_VENDORS=/nowhere", 1, "OpenCL", ""},
+    {"a platform without devices",
+     {"paint", "x", "-o", OUT},
+     "POCL_CACHE_DIR=/proc/none",
+     1,
+     "has no device",
+     "POCL_CACHE_DIR"},
     {"no such device", {"paint", "x", "-o", OUT}, "LUTETIA_DEVICE=nonsense", 1, "nonsense", ""},
     {"no device for the demo",
      {"demo", "-o", "/tmp"},
@@ -309,6 +315,19 @@ static void frames_are_written(void **state)
         assert_int_equal(unlink(scratch_path(names[i])), 0);
 }
 
+static void a_dump_that_cannot_be_is_said_once(void **state)
+{
+    (void)state;
+    struct child child = {.arguments = {"", "paint", "Aa", "--paper", "64x48", "--steps", "6",
+                                        "--font", "DejaVuSerif", "-o",
+                                        scratch_path("last.png")},
+                          .variables = {"LUTETIA_DUMP=/proc/none"}};
+    run(&child, 0);
+    assert_non_null(strstr(child.errors, "LUTETIA_DUMP: cannot write /proc/none"));
+    assert_int_equal(lines_in(child.errors), 1);
+    assert_int_equal(unlink(scratch_path("last.png")), 0);
+}
+
 static void full_disk_leaves_nothing(void **state)
 {
     (void)state;
@@ -420,6 +439,7 @@ int main(void)
         cmocka_unit_test(paint_writes_a_picture),
         cmocka_unit_test(same_seed_same_file),
         cmocka_unit_test(frames_are_written),
+        cmocka_unit_test(a_dump_that_cannot_be_is_said_once),
         cmocka_unit_test(full_disk_leaves_nothing),
         cmocka_unit_test(interrupt_leaves_nothing),
         cmocka_unit_test(cc_compiles_a_program_of_1990),

@@ -51,6 +51,10 @@ static const struct {
     {"text('a', {features='='})", "there is no feature", 1, NULL, NULL},
     {"paper{}:type('a', {size=12}, {soot=1})", "no pigment 'soot'", 1, NULL, NULL},
     {"paper{}:type('a', {sise=12}, {water=1})", "text has no 'sise'", 1, NULL, NULL},
+    {"paper{width=8, height=8}:step(1.5)",
+     "step's count must be a whole number in 0..1000000 (got 1.5)", 1, NULL, NULL},
+    {"paper{width=8, height=8}:undo(-1)", "undo's count", 1, NULL, NULL},
+    {"paper{width=8, height=8}:to(0/0)", "a time must be a whole number", 1, NULL, NULL},
     {"image('/etc/passwd')", "folder given", 1, NULL, NULL},
     {"image('../x.png')", "folder given", 1, NULL, NULL},
     {"image('none.png')", "none.png", 1, NULL, NULL},
@@ -193,7 +197,13 @@ static void a_script_makes_its_pictures(void **state)
     child_script(&child, path, (const char *[]){"sice=30", "-o", folder, NULL});
     child_run(&child);
     assert_int_equal(child.status, 1);
-    assert_non_null(strstr(child.errors, "asked for no 'sice'"));
+    assert_non_null(strstr(child.errors, "good.lua:10: the script asks for no 'sice'"));
+    script_write(path, "local p = paper{width = 8, height = 8, model = 'thesis'}\n"
+                       "if p.steps > 0 then param('late') end\n");
+    child_script(&child, path, (const char *[]){"late=1", "-o", folder, NULL});
+    child_run(&child);
+    assert_int_equal(child.status, 1);
+    assert_non_null(strstr(child.errors, "asked for no 'late'"));
 }
 
 static void pictures_stay_in_their_folder(void **state)
@@ -248,10 +258,15 @@ static void wrong_command_lines_are_refused(void **state)
         const char *more[4];
         int status;
         const char *says;
-    } rows[] = {{{"seven"}, 2, "key=value"},           {{"=3"}, 2, "key=value"},
-                {{"--sweep", "a"}, 2, "--sweep"},      {{"--sweep", "a=3..1"}, 2, "--sweep"},
-                {{"--sweep", "a=/x"}, 2, "--sweep"},   {{"--memory", "0"}, 2, "--memory"},
-                {{"--timeout", "-1"}, 2, "--timeout"}, {{"-o", "/proc/no"}, 1, "/proc/no"}};
+    } rows[] = {{{"seven"}, 2, "key=value"},
+                {{"=3"}, 2, "key=value"},
+                {{"--sweep", "a"}, 2, "--sweep"},
+                {{"--sweep", "a=3..1"}, 2, "--sweep"},
+                {{"--sweep", "a=/x"}, 2, "--sweep"},
+                {{"--memory", "0"}, 2, "--memory"},
+                {{"--sweep", "a=0.1.."}, 2, "--sweep"},
+                {{"--timeout", "-1"}, 2, "--timeout"},
+                {{"-o", "/proc/no"}, 1, "/proc/no"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         child_script(&child, path, rows[i].more);
         child_run(&child);
@@ -262,6 +277,10 @@ static void wrong_command_lines_are_refused(void **state)
     child_run(&child);
     assert_int_equal(child.status, 1);
     assert_non_null(strstr(child.errors, "/no/such.lua"));
+    child_script(&child, "/tmp", (const char *[]){NULL});
+    child_run(&child);
+    assert_int_equal(child.status, 1);
+    assert_string_equal(child.errors, "lutetia run: /tmp: cannot read: Is a directory\n");
 }
 
 int main(void)

@@ -185,6 +185,7 @@ static void wrong_lines_are_said(void **state)
         {{"type", "a", "--warp", "round"}, 2, "--warp must be"},
         {{"type", "a", "--gl", "--stripes"}, 2, "--gl goes without"},
         {{"type", "a", "--corners", "0,0,9,9,9,0,0,9"}, 1, "without a dent"},
+        {{"type", "a", "--corners", "0,0,9"}, 2, "must be 8 numbers X,Y"},
         {{"type", "a", "--features", "="}, 1, "there is no feature"},
         {{"type", "a", "-o", "/nowhere/a.png"}, 1, "/nowhere"},
         {{"type", "a", "--filter", "@/nowhere"}, 1, "/nowhere: "},

@@ -335,6 +335,28 @@ static void bound_is_measured_when_asked_for(void **state)
     assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);
 }
 
+/* Others wait until they have run on millions. */
+static void functions_of_many_are_optimised_at_once(void **state)
+{
+    enum { SIDE = 192 }; /* 36864 processors */
+    (void)state;
+    set = support_set(machine, 2, SIDE, SIDE);
+    uint32_t a = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
+    float *out = malloc(sizeof *out * SIDE * SIDE);
+    assert_non_null(out);
+    for (int i = 0; i < SIDE * SIDE; i++)
+        out[i] = (float)i / (SIDE * SIDE);
+    assert_ok(machine_field_upload(machine, a, MACHINE_F32, out), machine);
+    store(a, machine_unary(machine, MACHINE_FEXP, value(a)));
+    assert_ok(machine_finish(machine), machine);
+    assert_ok(machine_field_download(machine, a, MACHINE_F32, out), machine);
+    assert_true(out[0] == 1);
+    free(out);
+    const struct machine_explained *x = explained();
+    assert_int_equal(x->kernels_count, 1);
+    assert_string_equal(x->kernels[0].made, "optimised");
+}
+
 static void nobody_who_did_not_ask_is_told(void **state)
 {
     struct machine *m = support_machine(0);
@@ -354,6 +376,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(strips_keep_rows_in_no_array, setup_strips, teardown),
         CASE(calls_are_recorded_or_foreseen),
         CASE(bound_is_measured_when_asked_for),
+        CASE(functions_of_many_are_optimised_at_once),
         cmocka_unit_test(nobody_who_did_not_ask_is_told),
     };
 

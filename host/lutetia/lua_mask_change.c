@@ -1,0 +1,199 @@
+/* lua_mask_change.c - masks made of masks: moved, turned, scaled, joined, softened. */
+#include "lua_mask.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+/* Pushes the mask at 1 under x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5]. */
+static int transformed(lua_State *L, const double m[6])
+{
+    const struct run_mask *mask = luaL_checkudata(L, 1, mask_type);
+    double det = m[0] * m[4] - m[1] * m[3];
+    if (mask->points) {
+        struct run_mask *made = mask_polygon_new(L, mask->points_count);
+        for (int i = 0; i < mask->points_count; i++) {
+            double x = mask->points[2 * i], y = mask->points[2 * i + 1];
+            made->points[2 * i] = m[0] * x + m[1] * y + m[2];
+            made->points[2 * i + 1] = m[3] * x + m[4] * y + m[5];
+        }
+        return 1;
+    }
+    double x1 = INFINITY, y1 = INFINITY, x2 = -INFINITY, y2 = -INFINITY;
+    for (int i = 0; i < 4; i++) {
+        double x = mask->x + (i & 1 ? mask->width : 0),
+               y = mask->y + (i & 2 ? mask->height : 0);
+        double to_x = m[0] * x + m[1] * y + m[2], to_y = m[3] * x + m[4] * y + m[5];
+        x1 = fmin(x1, floor(to_x));
+        y1 = fmin(y1, floor(to_y));
+        x2 = fmax(x2, ceil(to_x));
+        y2 = fmax(y2, ceil(to_y));
+    }
+    if (!mask->gray || det == 0) {
+        mask_gray_new(L, 0, 0, 0, 0);
+        return 1;
+    }
+    struct run_mask *made = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    for (int row = 0; row < made->height; row++)
+        for (int column = 0; column < made->width; column++) {
+            double px = column + made->x + 0.5 - m[2], py = row + made->y + 0.5 - m[5];
+            double x = (m[4] * px - m[1] * py) / det - mask->x - 0.5;
+            double y = (m[0] * py - m[3] * px) / det - mask->y - 0.5, sum = 0;
+            if (!(x > -1 && y > -1 && x < mask->width && y < mask->height))
+                continue;
+            int left = (int)floor(x), top = (int)floor(y);
+            for (int i = 0; i < 4; i++) {
+                int at_x = left + (i & 1), at_y = top + (i >> 1);
+                if (at_x < 0 || at_y < 0 || at_x >= mask->width || at_y >= mask->height)
+                    continue;
+                sum += (1 - fabs(x - at_x)) * (1 - fabs(y - at_y)) *
+                       mask->gray[(size_t)at_y * (size_t)mask->width + (size_t)at_x];
+            }
+            made->gray[(size_t)row * (size_t)made->width + (size_t)column] =
+                (uint8_t)lround(sum);
+        }
+    return 1;
+}
+
+static int mask_move(lua_State *L)
+{
+    double x = arg_at(L, 2, "move's x", -PLACE_MAX, PLACE_MAX);
+    double y = arg_at(L, 3, "move's y", -PLACE_MAX, PLACE_MAX);
+    return transformed(L, (double[6]){1, 0, x, 0, 1, y});
+}
+
+/* The point at arguments index, index + 1; the origin if there is none. */
+static void center_read(lua_State *L, int index, double center[2])
+{
+    for (int i = 0; i < 2; i++)
+        center[i] = lua_isnoneornil(L, index + i)
+                        ? 0
+                        : arg_at(L, index + i, "the center", -PLACE_MAX, PLACE_MAX);
+}
+
+static int mask_rotate(lua_State *L)
+{
+    double angle = arg_at(L, 2, "rotate's angle", -1e6, 1e6) * PI / 180, at[2];
+    center_read(L, 3, at);
+    double c = cos(angle), s = sin(angle);
+    return transformed(L, (double[6]){c, -s, at[0] - c * at[0] + s * at[1], s, c,
+                                      at[1] - s * at[0] - c * at[1]});
+}
+
+static int mask_scale(lua_State *L)
+{
+    double scale = arg_at(L, 2, "scale's factor", 0.001, 1000), at[2];
+    center_read(L, 3, at);
+    return transformed(
+        L, (double[6]){scale, 0, at[0] * (1 - scale), 0, scale, at[1] * (1 - scale)});
+}
+
+static int gray_at(const struct run_mask *mask, int x, int y)
+{
+    if (x < mask->x || y < mask->y || x >= mask->x + mask->width || y >= mask->y + mask->height)
+        return 0;
+    return mask->gray[(size_t)(y - mask->y) * (size_t)mask->width + (size_t)(x - mask->x)];
+}
+
+/* a + b: either; a * b: both; a - b: a where b is not. */
+static int mask_join(lua_State *L, char operation)
+{
+    lua_settop(L, 2);
+    const struct run_mask *a = mask_grayed(L, 1), *b = mask_grayed(L, 2);
+    int x1 = a->x, y1 = a->y, x2 = a->x + a->width, y2 = a->y + a->height;
+    if (operation == '+' && b->gray) {
+        bool first = a->gray != NULL;
+        x1 = first && x1 < b->x ? x1 : b->x;
+        y1 = first && y1 < b->y ? y1 : b->y;
+        x2 = first && x2 > b->x + b->width ? x2 : b->x + b->width;
+        y2 = first && y2 > b->y + b->height ? y2 : b->y + b->height;
+    }
+    struct run_mask *made = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    for (int y = y1; y < y2 && made->gray; y++)
+        for (int x = x1; x < x2; x++) {
+            int p = a->gray ? gray_at(a, x, y) : 0, q = b->gray ? gray_at(b, x, y) : 0;
+            int value = operation == '+'   ? p > q ? p : q
+                        : operation == '*' ? (p * q + 127) / 255
+                                           : (p * (255 - q) + 127) / 255;
+            made->gray[(size_t)(y - y1) * (size_t)made->width + (size_t)(x - x1)] =
+                (uint8_t)value;
+        }
+    return 1;
+}
+
+static int mask_add(lua_State *L)
+{
+    return mask_join(L, '+');
+}
+
+static int mask_multiply(lua_State *L)
+{
+    return mask_join(L, '*');
+}
+
+static int mask_subtract(lua_State *L)
+{
+    return mask_join(L, '-');
+}
+
+/* One pass of a box 2 * radius + 1 wide over `count` values `stride` apart. */
+static void box_pass(uint8_t *values, uint8_t *scratch, int count, size_t stride, int radius)
+{
+    int sum = 0, size = 2 * radius + 1;
+    for (int i = -radius; i < count; i++) {
+        if (i + radius < count)
+            sum += values[(size_t)(i + radius) * stride];
+        if (i - radius - 1 >= 0)
+            sum -= values[(size_t)(i - radius - 1) * stride];
+        if (i >= 0)
+            scratch[i] = (uint8_t)((sum + size / 2) / size);
+    }
+    for (int i = 0; i < count; i++)
+        values[(size_t)i * stride] = scratch[i];
+}
+
+/* soften(radius): three boxes after each other, nearly a bell. */
+static int mask_soften(lua_State *L)
+{
+    int radius = (int)lround(arg_at(L, 2, "soften's radius", 0, 1000));
+    lua_settop(L, 1);
+    const struct run_mask *mask = mask_grayed(L, 1);
+    int box = (radius + 1) / 2, rim = 3 * box;
+    if (!mask->gray || box == 0)
+        return 1;
+    struct run_mask *made = mask_gray_new(L, mask->width + 2.0 * rim, mask->height + 2.0 * rim,
+                                          mask->x - rim, mask->y - rim);
+    for (int y = 0; y < mask->height; y++)
+        memcpy(made->gray + (size_t)(y + rim) * (size_t)made->width + rim,
+               mask->gray + (size_t)y * (size_t)mask->width, (size_t)mask->width);
+    size_t width = (size_t)made->width;
+    uint8_t *scratch = lua_newuserdatauv(
+        L, (size_t)(made->width > made->height ? made->width : made->height), 0);
+    for (int pass = 0; pass < 3; pass++) {
+        for (int y = 0; y < made->height; y++)
+            box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box);
+        for (int x = 0; x < made->width; x++)
+            box_pass(made->gray + x, scratch, made->height, width, box);
+        run_check(L);
+    }
+    lua_pop(L, 1);
+    return 1;
+}
+
+/* x, y, width, height of what it covers. */
+static int mask_bounds(lua_State *L)
+{
+    const struct run_mask *mask = mask_grayed(L, 1);
+    int bounds[4] = {mask->x, mask->y, mask->width, mask->height};
+    for (int i = 0; i < 4; i++)
+        lua_pushinteger(L, bounds[i]);
+    return 4;
+}
+
+const luaL_Reg lua_mask_methods[] = {{"move", mask_move},     {"rotate", mask_rotate},
+                                     {"scale", mask_scale},   {"soften", mask_soften},
+                                     {"bounds", mask_bounds}, {NULL, NULL}};
+
+const luaL_Reg lua_mask_operators[] = {
+    {"__add", mask_add}, {"__mul", mask_multiply}, {"__sub", mask_subtract}, {NULL, NULL}};
