@@ -491,7 +491,7 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
     struct device *d = &m->device;
     double start = watch_clock(m);
     size_t size = 0;
-    unsigned char *binary = cache_program_read(d, key, &size);
+    unsigned char *binary = m->settings.keep ? cache_program_read(d, key, &size) : NULL;
     cl_int error = CL_SUCCESS, status = CL_SUCCESS;
     cl_program program = NULL;
     if (binary) {
@@ -529,7 +529,8 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         clReleaseProgram(program);
         return NULL;
     }
-    cache_program_write(d, key, program);
+    if (m->settings.keep)
+        cache_program_write(d, key, program);
     if (m->watch)
         watch_span(m, WATCH_BUILD, start, "\"options\":\"%s\"", options);
     return program;
@@ -606,8 +607,8 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
                            const char *options, const char *name)
 {
     char *key = program_key(&m->device, parts, options, name);
-    bool found =
-        key && (program_find(&m->device, key) || cache_program_is_there(&m->device, key));
+    bool found = key && (program_find(&m->device, key) ||
+                         (m->settings.keep && cache_program_is_there(&m->device, key)));
     free(key);
     return found;
 }

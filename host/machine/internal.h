@@ -204,6 +204,7 @@ struct settings {
     uint64_t strips, scatter;
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
+    uint64_t keep;    /* 0: programs are neither kept on disk nor looked for there */
     uint64_t verbose; /* says on the standard error what is wrong with it */
 };
 
