@@ -1,12 +1,15 @@
-/* test_keep.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged. */
+/* test_programs.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged;
+ * and those that need what functions.cl does not declare. */
 #include "support.h"
+
+#include "internal.h"
 
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 static char cache_before[400];
-static char folder[] = "/tmp/lutetia-keep-XXXXXX";
+static char folder[] = "/tmp/lutetia-programs-XXXXXX";
 
 enum { COMPILED = 1, LOADED = 2 };
 
@@ -95,7 +98,7 @@ static void programs_are_kept_and_loaded(void **state)
 
 static void damaged_programs_are_compiled_again(void **state)
 {
-    static const long lengths[] = {0, 15, 100, 2000};
+    static const long lengths[] = {0, 100, 2000};
     (void)state;
     assert_int_equal(programs_come("1"), LOADED);
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
@@ -112,6 +115,23 @@ static void nothing_is_kept_where_nobody_wants_it(void **state)
     assert_true(kept(REMOVE) > 0);
     assert_int_equal(programs_come("0"), COMPILED);
     assert_int_equal(kept(LEAVE), 0);
+}
+
+/* As a kernel that uses a function for the first time does. */
+static void program_that_needs_the_header_gets_it(void **state)
+{
+    static const char declared[] =
+        "kernel void k(global float *a) { a[0] = fma(a[0], a[1], 1); }",
+                      not_declared[] = "kernel void k(global float *a) { a[0] = cbrt(a[1]); }",
+                      nowhere[] = "kernel void k(global float *a) { a[0] = no_such(a[1]); }";
+    struct machine *m = support_machine(0);
+
+    (void)state;
+    assert_non_null(device_library_kernel(m, declared, "", "k"));
+    assert_non_null(device_library_kernel(m, not_declared, "", "k"));
+    assert_null(device_library_kernel(m, nowhere, "", "k"));
+    support_failed(m, MACHINE_BUILD_FAILED, "no_such");
+    machine_destroy(m);
 }
 
 static int folder_remove(void **state)
@@ -134,6 +154,7 @@ int main(void)
         cmocka_unit_test(programs_are_kept_and_loaded),
         cmocka_unit_test(damaged_programs_are_compiled_again),
         cmocka_unit_test(nothing_is_kept_where_nobody_wants_it),
+        cmocka_unit_test(program_that_needs_the_header_gets_it),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
