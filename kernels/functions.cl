@@ -58,8 +58,8 @@ WIDTHS(OF_TRUTHS, long)
     FROM(TO_, N, float)                                                                        \
     FROM(TO_, N, double)
 #define CONVERSIONS(N)                                                                         \
-    TO(uchar, N) TO(ushort, N) TO(int, N) TO(uint, N) TO(long, N) TO(ulong, N) TO(float, N)    \
-        TO(double, N)
+    TO(uchar, N)                                                                               \
+    TO(ushort, N) TO(int, N) TO(uint, N) TO(long, N) TO(ulong, N) TO(float, N) TO(double, N)
 CONVERSIONS(4)
 CONVERSIONS(8)
 CONVERSIONS(16)
