@@ -12,8 +12,6 @@
 
 size_t CONSTANT get_global_id(uint);
 size_t CONSTANT get_global_size(uint);
-size_t CONSTANT get_local_id(uint);
-size_t CONSTANT get_group_id(uint);
 
 /* Of T, and of vectors of it. */
 #define WIDTHS(EACH, T) EACH(T) EACH(T##2) EACH(T##4) EACH(T##8) EACH(T##16)
