@@ -50,4 +50,11 @@ static inline uint32_t sample_linear(uint64_t *state)
     return (uint32_t)(*state >> 33);
 }
 
+/* One of the first limit numbers; of none, 0. */
+static inline uint32_t sample_below(uint64_t *state, uint32_t limit)
+{
+    uint32_t any = sample_linear(state);
+    return limit ? any % limit : 0;
+}
+
 #endif

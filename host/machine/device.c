@@ -8,6 +8,7 @@
  *
  * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file
  * of cache.c. */
+#include "kernels.h"
 #include "watch.h"
 
 #include <stdlib.h>
@@ -251,6 +252,9 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
     clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof singles, &singles, NULL);
     clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
     d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    d->is_pocl = d->is_cpu && strcmp(d->platform_name, "Portable Computing Language") == 0;
+    /* PoCL has a cache of its own, and would compile each program once more to give it away. */
+    d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;
     d->units = units ? (int)units : 1;
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
     d->memory_max_alloc_bytes = max_alloc;
@@ -504,13 +508,34 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b)
 
 /* ---- programs ---- */
 
+/* Without the header of all OpenCL functions, which clang reads for longer than what the machine says: it is told that it
+ * has read it, and functions.cl declares those in use. NULL: the program needs it after all. */
+static cl_program build_without_header(const struct device *d,
+                                       const char *const parts[DEVICE_PARTS],
+                                       const char *options)
+{
+    const char *sources[1 + DEVICE_PARTS] = {kernel_functions_cl};
+    char all_options[300];
+    cl_int error;
+    memcpy(sources + 1, parts, DEVICE_PARTS * sizeof *parts);
+    snprintf(all_options, sizeof all_options, "%s -D_OPENCL_H_", options);
+    cl_program program =
+        clCreateProgramWithSource(d->context, 1 + DEVICE_PARTS, sources, NULL, &error);
+    if (error)
+        return NULL;
+    if (clBuildProgram(program, 1, &d->id, all_options, NULL, NULL) == CL_SUCCESS)
+        return program;
+    clReleaseProgram(program);
+    return NULL;
+}
+
 static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *key)
 {
     struct device *d = &m->device;
     double start = watch_clock(m);
     size_t size = 0;
-    unsigned char *binary = cache_program_read(d, key, &size);
+    unsigned char *binary = d->keeps_programs ? cache_program_read(d, key, &size) : NULL;
     cl_int error = CL_SUCCESS, status = CL_SUCCESS;
     cl_program program = NULL;
     if (binary) {
@@ -527,6 +552,8 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         if (program)
             clReleaseProgram(program);
     }
+    if (d->is_pocl && (program = build_without_header(d, parts, options)))
+        goto built;
     const char *sources[DEVICE_PARTS];
     memcpy(sources, parts, sizeof sources);
     program = clCreateProgramWithSource(d->context, DEVICE_PARTS, sources, NULL, &error);
@@ -548,7 +575,9 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         clReleaseProgram(program);
         return NULL;
     }
-    cache_program_write(d, key, program);
+built:
+    if (d->keeps_programs)
+        cache_program_write(d, key, program);
     if (m->watch)
         watch_span(m, WATCH_BUILD, start, "\"options\":\"%s\"", options);
     return program;
@@ -625,8 +654,8 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
                            const char *options, const char *name)
 {
     char *key = program_key(&m->device, parts, options, name);
-    bool found =
-        key && (program_find(&m->device, key) || cache_program_is_there(&m->device, key));
+    bool found = key && (program_find(&m->device, key) ||
+                         (m->device.keeps_programs && cache_program_is_there(&m->device, key)));
     free(key);
     return found;
 }

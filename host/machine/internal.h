@@ -209,6 +209,7 @@ struct settings {
     uint64_t strips, in_place, scatter, narrow;
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
+    uint64_t keep;    /* programs on disk */
     uint64_t verbose; /* says on the standard error what is wrong with it */
 };
 
@@ -252,6 +253,8 @@ struct device {
     cl_kernel *unstarted; /* built, and not run yet */
     int unstarted_count, unstarted_capacity;
     const char *options;
+    bool is_pocl;           /* on a CPU */
+    bool keeps_programs;    /* on disk */
     cl_event fence;         /* see device_pace(); NULL: none yet */
     uint64_t fence_kernels; /* run before it */
 };

@@ -29,6 +29,7 @@ static const struct setting {
     {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
      "a power of two from 1 to 2^30"},
     {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(KEEP, keep), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},
 /* The knobs, which a file of tuning.c may say too: */
 #define KNOB(variable, which) SETTING(variable, knob[which]), SETTING_FREE

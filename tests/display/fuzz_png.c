@@ -19,12 +19,6 @@ enum { MUTATIONS = 600, BYTES_MAX = 1 << 16 };
 
 static uint64_t random_state = 20;
 
-static uint32_t random_below(uint32_t limit)
-{
-    uint32_t any = sample_linear(&random_state);
-    return limit ? any % limit : 0;
-}
-
 static size_t file_read(const char *path, uint8_t *bytes)
 {
     FILE *file = fopen(path, "rb");
@@ -79,18 +73,20 @@ static bool header_is_huge(const uint8_t *bytes, size_t count)
 
 static size_t mutate(uint8_t *bytes, size_t count)
 {
-    uint32_t changes = 1 + random_below(6);
+    uint32_t changes = 1 + sample_below(&random_state, 6);
     for (uint32_t i = 0; i < changes && count > 8; i++) {
-        uint32_t at = random_below((uint32_t)count), run = 1 + random_below(24);
-        switch (random_below(5)) {
+        uint32_t at = sample_below(&random_state, (uint32_t)count),
+                 run = 1 + sample_below(&random_state, 24);
+        switch (sample_below(&random_state, 5)) {
         case 0:
-            bytes[at] = (uint8_t)random_below(256);
+            bytes[at] = (uint8_t)sample_below(&random_state, 256);
             break;
         case 1:
-            bytes[at] ^= (uint8_t)(1u << random_below(8));
+            bytes[at] ^= (uint8_t)(1u << sample_below(&random_state, 8));
             break;
         case 2: /* the header's fields are few: hit them often */
-            bytes[16 + random_below(13) % (count > 29 ? 13 : 1)] = (uint8_t)random_below(20);
+            bytes[16 + sample_below(&random_state, 13) % (count > 29 ? 13 : 1)] =
+                (uint8_t)sample_below(&random_state, 20);
             break;
         case 3:
             run = run < count - at ? run : (uint32_t)count - at;
@@ -116,7 +112,7 @@ static void damaged_files_are_read_or_refused(void **state)
             .width_px = 37, .height_px = 23, .channels = kind ? 3 : 1};
         assert_int_equal(display_image_create(&image), DISPLAY_OK);
         for (int i = 0; i < 37 * 23; i++)
-            image.pixels[i] = (uint8_t)random_below(256);
+            image.pixels[i] = (uint8_t)sample_below(&random_state, 256);
         assert_int_equal(display_png_write(path, &image), DISPLAY_OK);
         display_image_destroy(&image);
         counts[kind] = file_read(path, whole[kind]);

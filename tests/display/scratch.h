@@ -7,6 +7,7 @@
 
 #include <assert.h>
 #include <dirent.h>
+#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,16 +27,20 @@ static inline int scratch_count(void)
     return count;
 }
 
+static inline int scratch_drop(const char *path, const struct stat *about, int type,
+                               struct FTW *where)
+{
+    (void)about;
+    (void)type;
+    if (where->level > 0)
+        remove(path);
+    return 0;
+}
+
+/* With the folders in it. */
 static inline void scratch_empty(void)
 {
-    DIR *dir = opendir(scratch_dir);
-    for (struct dirent *entry; dir && (entry = readdir(dir));) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s", scratch_dir, entry->d_name);
-        unlink(path);
-    }
-    if (dir)
-        closedir(dir);
+    nftw(scratch_dir, scratch_drop, 8, FTW_DEPTH | FTW_PHYS);
 }
 
 static inline void scratch_remove(void)

@@ -17,11 +17,6 @@
 
 static uint64_t random_state = 2;
 
-static uint32_t random_below(uint32_t limit)
-{
-    return sample_linear(&random_state) % limit;
-}
-
 static double clock_s(void)
 {
     struct timespec now;
@@ -63,7 +58,7 @@ static void lights_are_those_of_the_bits(void **state)
         struct display_image image = {0};
         uint8_t lights[FRONT_PANEL_BYTES];
         for (int i = 0; i < FRONT_PANEL_BYTES; i++)
-            lights[i] = (uint8_t)random_below(256);
+            lights[i] = (uint8_t)sample_below(&random_state, 256);
         assert_int_equal(front_panel_draw(panel, lights, &image), DISPLAY_OK);
         int seen = 0, bright_least = 255, dark_most = 0;
         for (int l = 0; l < FRONT_PANEL_LIGHTS; l++) {
@@ -219,7 +214,7 @@ static size_t recording_make(uint8_t *out)
         at[0] = (uint8_t)(i == 3 ? 'l' : i); /* begins as the line does */
         at[1] = i == 3 ? 'u' : 0;
         for (int k = 8; k < LIGHT_RECORDING_FRAME_BYTES; k++)
-            at[k] = (uint8_t)random_below(256);
+            at[k] = (uint8_t)sample_below(&random_state, 256);
         at += LIGHT_RECORDING_FRAME_BYTES;
     }
     return (size_t)(at - out);
@@ -229,7 +224,8 @@ static enum display_status feed(struct light_reader *reader, const uint8_t *byte
 {
     while (count >
            0) { /* pieces of 1 to 700 bytes, each of its own so that ASan sees its end */
-        size_t piece = 1 + random_below(random_below(2) ? 5 : 700);
+        size_t piece =
+            1 + sample_below(&random_state, sample_below(&random_state, 2) ? 5 : 700);
         piece = piece < count ? piece : count;
         uint8_t *copy = malloc(piece);
         assert_non_null(copy);
@@ -281,18 +277,19 @@ static void damaged_recordings_are_read_or_refused(void **state)
     for (int i = 0; i < 3000; i++) {
         memcpy(damaged, recording, bytes);
         size_t count = bytes;
-        for (uint32_t k = random_below(4); k > 0; k--) {
-            size_t at = random_below(random_below(2) ? 60 : (uint32_t)count);
-            size_t run = 1 + random_below(60);
-            if (random_below(3) == 0 && at + run < count) {
+        for (uint32_t k = sample_below(&random_state, 4); k > 0; k--) {
+            size_t at = sample_below(&random_state,
+                                     sample_below(&random_state, 2) ? 60 : (uint32_t)count);
+            size_t run = 1 + sample_below(&random_state, 60);
+            if (sample_below(&random_state, 3) == 0 && at + run < count) {
                 memmove(damaged + at, damaged + at + run, count - at - run);
                 count -= run;
             } else {
-                damaged[at] = (uint8_t)random_below(256);
+                damaged[at] = (uint8_t)sample_below(&random_state, 256);
             }
         }
-        if (random_below(3) == 0)
-            count = random_below((uint32_t)count + 1);
+        if (sample_below(&random_state, 3) == 0)
+            count = sample_below(&random_state, (uint32_t)count + 1);
         t = (struct taken){0};
         struct light_reader reader = {.take = take, .context = &t};
         if (feed(&reader, damaged, count) == DISPLAY_OK) {

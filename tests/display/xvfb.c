@@ -1,6 +1,8 @@
 /* xvfb.c - Xvfb as a child, and an X client of its own beside the program that is tested. */
 #include "xvfb.h"
 
+#include "clock.h"
+
 #include <X11/Xatom.h>
 #include <X11/Xutil.h>
 #include <assert.h>
@@ -10,18 +12,10 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 static pid_t server;
 static Display *display;
-
-static double now_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void moment_wait(void)
 {
@@ -136,9 +130,9 @@ static Window window_look(const char *title)
 
 Window screen_window(const char *title, double wait_s)
 {
-    double until = now_s() + wait_s;
+    double until = clock_now_s() + wait_s;
     Window found = window_look(title);
-    while (!found && now_s() < until) {
+    while (!found && clock_now_s() < until) {
         moment_wait();
         found = window_look(title);
     }
@@ -147,10 +141,10 @@ Window screen_window(const char *title, double wait_s)
 
 bool screen_window_gone(Window window, double wait_s)
 {
-    double until = now_s() + wait_s;
+    double until = clock_now_s() + wait_s;
     XWindowAttributes attributes;
     while (XGetWindowAttributes(display, window, &attributes)) {
-        if (now_s() > until)
+        if (clock_now_s() > until)
             return false;
         moment_wait();
     }
@@ -220,7 +214,7 @@ void screen_read(Window window, struct display_image *image)
 
 bool screen_shows(Window window, const struct display_image *image, double wait_s)
 {
-    double until = now_s() + wait_s;
+    double until = clock_now_s() + wait_s;
     for (;;) {
         struct display_image seen;
         size_t bytes = (size_t)image->width_px * (size_t)image->height_px * 3, at = 0;
@@ -229,7 +223,7 @@ bool screen_shows(Window window, const struct display_image *image, double wait_
                     seen.height_px == image->height_px;
         while (same && at < bytes && seen.pixels[at] == image->pixels[at])
             at++;
-        bool late = now_s() > until;
+        bool late = clock_now_s() > until;
         if (late && at < bytes && same)
             fprintf(stderr, "at %d,%d channel %d: %d is seen for %d\n",
                     (int)(at / 3) % image->width_px, (int)(at / 3) / image->width_px,

@@ -35,11 +35,6 @@ int fail_usage(const char *verb, const char *format, ...)
 
 static uint64_t random_state = 3;
 
-static uint32_t random_below(uint32_t limit)
-{
-    return sample_linear(&random_state) % limit;
-}
-
 static const char *const pieces[] = {
     "--steps",     "--gravity", "--ink",
     "--paper",     "--pool",    "--out",
@@ -63,12 +58,13 @@ enum { PIECES = sizeof pieces / sizeof *pieces };
 
 static char *argument_make(char *buffer, size_t size)
 {
-    uint32_t joined = random_below(4) ? 1 : 1 + random_below(4);
+    uint32_t joined = sample_below(&random_state, 4) ? 1 : 1 + sample_below(&random_state, 4);
     buffer[0] = '\0';
     for (uint32_t i = 0; i < joined; i++)
-        strncat(buffer, pieces[random_below(PIECES)], size - strlen(buffer) - 1);
-    if (random_below(16) == 0 && buffer[0])
-        buffer[random_below((uint32_t)strlen(buffer))] = (char)(1 + random_below(255));
+        strncat(buffer, pieces[sample_below(&random_state, PIECES)], size - strlen(buffer) - 1);
+    if (sample_below(&random_state, 16) == 0 && buffer[0])
+        buffer[sample_below(&random_state, (uint32_t)strlen(buffer))] =
+            (char)(1 + sample_below(&random_state, 255));
     return buffer;
 }
 
@@ -94,7 +90,7 @@ static void random_lines_are_taken_or_refused(void **state)
             {0}};
         char buffers[ARGUMENTS_MAX][256], *arguments[ARGUMENTS_MAX + 1] = {NULL};
         static char verb[] = "paint";
-        int count = 1 + (int)random_below(ARGUMENTS_MAX - 1);
+        int count = 1 + (int)sample_below(&random_state, ARGUMENTS_MAX - 1);
         arguments[0] = verb;
         for (int i = 1; i < count; i++)
             arguments[i] = argument_make(buffers[i], sizeof buffers[i]);

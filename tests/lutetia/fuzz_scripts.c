@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "../display/scratch.h"
+
 enum { TEXT_MAX = 8192, STATEMENTS_MAX = 24 };
 
 struct source {
@@ -199,27 +201,16 @@ static void statement(struct source *s)
     say(s, " end)\n");
 }
 
-static char folder[64] = "/tmp/lutetia-fuzz-XXXXXX", script[96];
+static char script[512];
 
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
-
-static void folder_remove(void)
-{
-    char command[160];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    if (system(command) != 0)
-        perror(folder);
-}
 
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     (void)argc;
     (void)argv;
-    if (!mkdtemp(folder))
-        abort();
-    atexit(folder_remove);
-    snprintf(script, sizeof script, "%s/fuzz.lua", folder);
+    snprintf(script, sizeof script, "%s", scratch_path("fuzz.lua"));
     return 0;
 }
 
@@ -236,9 +227,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     FILE *file = fopen(script, "wb");
     if (!file || fwrite(s.text, 1, s.length, file) != s.length || fclose(file) != 0)
         abort();
-    char *arguments[] = {
-        (char[]){"run"},      script,         (char[]){"-q"},        (char[]){"-o"}, folder,
-        (char[]){"--memory"}, (char[]){"64"}, (char[]){"--timeout"}, (char[]){"60"}, NULL};
+    char *arguments[] = {(char[]){"run"}, script,
+                         (char[]){"-q"},  (char[]){"-o"},
+                         scratch_dir,     (char[]){"--memory"},
+                         (char[]){"64"},  (char[]){"--timeout"},
+                         (char[]){"60"},  NULL};
     int status = verb_run(9, arguments);
     if (status != 0 && status != 1)
         abort();

@@ -15,8 +15,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <sys/wait.h>
-#include <time.h>
 
+#include "clock.h"
 #include "scratch.h"
 #include "xvfb.h"
 
@@ -34,13 +34,6 @@ struct command {
     int said_from;   /* both outputs */
     char said[4096]; /* after command_end() */
 };
-
-static double now_s(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void command_start(struct command *command)
 {
@@ -257,14 +250,14 @@ static void recordings_go_at_their_pace(void **state)
     struct command command = {.arguments = {lutetia, "leds", "--window", "--close", "--size",
                                             "120x100", "--view", "front", "-o", out, both}};
     assert_true(memcmp(first.pixels, second.pixels, 3 * 120 * 100) != 0);
-    double began_s = now_s();
+    double began_s = clock_now_s();
     command_start(&command);
     Window window = window_of("both - lights");
     shows(window, &first);
     ends_with(&command, 0);
     assert_string_equal(command.said, "");
-    if (now_s() - began_s < 0.9)
-        fail_msg("it took %.3f s", now_s() - began_s);
+    if (clock_now_s() - began_s < 0.9)
+        fail_msg("it took %.3f s", clock_now_s() - began_s);
     struct display_image written = png_take(out);
     assert_memory_equal(written.pixels, second.pixels, 3 * 120 * 100);
     display_image_destroy(&written);
@@ -303,7 +296,7 @@ static void patterns_go_on_until_the_window_is_closed(void **state)
     window = window_of("random - lights");
     struct display_image seen = third;
     int changes = 0;
-    for (double until = now_s() + 20; changes < 5 && now_s() < until;) {
+    for (double until = clock_now_s() + 20; changes < 5 && clock_now_s() < until;) {
         struct display_image now;
         screen_read(window, &now);
         assert_non_null(now.pixels);

@@ -295,8 +295,5 @@ int main(void)
         cmocka_unit_test(ctrl_c_ends_a_script),
         cmocka_unit_test(wrong_command_lines_are_refused),
     };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    char command[600];
-    snprintf(command, sizeof command, "rm -rf '%s'/*/", scratch_path(""));
-    return system(command) == 0 ? failed : 1;
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

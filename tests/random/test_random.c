@@ -10,9 +10,9 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "clock.h"
 #include "program.h"
 
 /* What the engine decides by itself is forced. Evaluations come early, so that loops are found. Many turns are one
@@ -53,14 +53,6 @@ struct mode {
     double deadline_s; /* of shrinking; 0: none */
 };
 
-static double now_s(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool differs(const struct program *p, const struct mode *mode, struct trace *a,
                     struct trace *b, size_t *where)
 {
@@ -77,7 +69,7 @@ static bool fails(void *context, const struct program *p)
     size_t where;
     bool result;
 
-    if (mode->deadline_s > 0 && now_s() > mode->deadline_s)
+    if (mode->deadline_s > 0 && clock_now_s() > mode->deadline_s)
         return false;
     result = differs(p, mode, &a, &b, &where);
     trace_finish(&a);
@@ -99,7 +91,7 @@ static void report(const struct program *found, struct mode *mode, double shrink
     struct program p = *found;
     struct trace a = {0}, b = {0};
     size_t where;
-    double start = now_s();
+    double start = clock_now_s();
     int runs;
 
     mode->deadline_s = start + shrink_seconds;
@@ -108,7 +100,7 @@ static void report(const struct program *found, struct mode *mode, double shrink
     printf("seed %llu, %s: differs from the oracle. %d instructions shrunk to %d in %d runs, "
            "%.0f s:\n\n",
            (unsigned long long)p.seed, mode->eager ? "eager" : "fused", found->count, p.count,
-           runs, now_s() - start);
+           runs, clock_now_s() - start);
     program_print(&p, stdout);
     if (differs(&p, mode, &a, &b, &where)) {
         printf("\n/* word %zu of what it shows and leaves:", where);
@@ -186,10 +178,11 @@ static long number(const char *text)
 /* How many of so many seconds' programs differ: 0 or 1, for the first one ends it. */
 static long many(const struct options *o, double seconds, long *done)
 {
-    double start = now_s();
+    double start = clock_now_s();
     long failed = 0;
 
-    for (*done = 0; *done < o->programs && failed == 0 && now_s() - start < seconds; ++*done)
+    for (*done = 0; *done < o->programs && failed == 0 && clock_now_s() - start < seconds;
+         ++*done)
         failed += !one(o, (uint64_t)(o->seed + *done));
     return failed;
 }
@@ -197,12 +190,13 @@ static long many(const struct options *o, double seconds, long *done)
 static long in_shapes(const struct options *o, long *done)
 {
     long failed = 0;
-    double first = now_s();
+    double first = clock_now_s();
 
     /* Kernels may take longer than the seconds: then not all shapes are tried, but the first ones. */
-    for (int i = 0; i < SHAPES_COUNT && !failed && now_s() - first < 2 * o->seconds; i++) {
+    for (int i = 0; i < SHAPES_COUNT && !failed && clock_now_s() - first < 2 * o->seconds;
+         i++) {
         long of_shape;
-        double start = now_s();
+        double start = clock_now_s();
         paris_force(shapes[i]);
         failed = many(o, o->seconds / SHAPES_COUNT, &of_shape);
         *done += of_shape;
@@ -210,7 +204,7 @@ static long in_shapes(const struct options *o, long *done)
             printf("%s ", shapes[i][k] + strlen("LUTETIA_"));
         printf("\n    %ld programs, %llu kernels built, %llu calls foreseen, %.1f s%s\n",
                of_shape, (unsigned long long)paris_kernels_built(),
-               (unsigned long long)paris_calls_foreseen(), now_s() - start,
+               (unsigned long long)paris_calls_foreseen(), clock_now_s() - start,
                failed ? ": differs" : "");
         fflush(stdout);
     }
@@ -238,7 +232,7 @@ int main(int argc, char **argv)
                         .shrink_seconds = 600,
                         .fused = true,
                         .eager = true};
-    double start = now_s();
+    double start = clock_now_s();
     long done = 0, failed = 0;
     int c;
 
@@ -278,6 +272,6 @@ int main(int argc, char **argv)
     printf("%ld programs from seed %ld, %ld instructions each at most: %ld differ, %llu "
            "kernels built, %llu calls foreseen, %.1f s\n",
            done, o.seed, o.length, failed, (unsigned long long)paris_kernels_built(),
-           (unsigned long long)paris_calls_foreseen(), now_s() - start);
+           (unsigned long long)paris_calls_foreseen(), clock_now_s() - start);
     return failed != 0;
 }

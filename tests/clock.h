@@ -1,0 +1,15 @@
+/* clock.h - how late it is. */
+#ifndef LUTETIA_TESTS_CLOCK_H
+#define LUTETIA_TESTS_CLOCK_H
+
+#include <time.h>
+
+/* Seconds, from some moment on. */
+static inline double clock_now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+#endif

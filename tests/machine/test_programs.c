@@ -1,0 +1,160 @@
+/* test_programs.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged;
+ * and those that need what functions.cl does not declare. */
+#include "support.h"
+
+#include "internal.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char cache_before[400];
+static char folder[] = "/tmp/lutetia-programs-XXXXXX";
+
+enum { COMPILED = 1, LOADED = 2 };
+
+static int folder_make(void **state)
+{
+    const char *before = getenv("XDG_CACHE_HOME");
+    (void)state;
+    snprintf(cache_before, sizeof cache_before, "%s", before ? before : "");
+    assert_non_null(mkdtemp(folder));
+    setenv("XDG_CACHE_HOME", folder, 1);
+    return 0;
+}
+
+/* How many programs are kept; their files are removed, or cut to length bytes, where somebody says so. */
+enum { LEAVE = -1, REMOVE = -2 };
+
+static int kept(long length)
+{
+    char path[800];
+    int count = 0;
+    snprintf(path, sizeof path, "%s/lutetia", folder);
+    DIR *d = opendir(path);
+    if (!d)
+        return 0;
+    for (struct dirent *e; (e = readdir(d));) {
+        if (*e->d_name == '.')
+            continue;
+        assert_non_null(strstr(e->d_name, ".bin")); /* no temporary one is left */
+        assert_null(strstr(e->d_name, ".bin."));
+        snprintf(path, sizeof path, "%s/lutetia/%s", folder, e->d_name);
+        count++;
+        if (length == REMOVE)
+            assert_int_equal(unlink(path), 0);
+        else if (length >= 0)
+            assert_int_equal(truncate(path, length), 0);
+    }
+    closedir(d);
+    return count;
+}
+
+static wide expected_root(const void *data, uint64_t n)
+{
+    (void)data;
+    return number_real(__builtin_sqrt((double)(n % 41)), 64);
+}
+
+/* A machine of its own computes; how it came by its programs. */
+static int programs_come(const char *keep)
+{
+    int how = 0;
+    struct machine_config config = machine_config_default();
+    struct machine *m = NULL;
+    config.processors_count = 16;
+    config.eager = 0;
+    config.explain = 1;
+    setenv("LUTETIA_KEEP", keep, 1);
+    assert_ok(machine_create(&config, &m), m);
+    support_set(m, 2, 3, 41);
+    struct machine_value *v =
+        machine_to_float(m, machine_coordinate(m, 1, 32), MACHINE_F64, false);
+    support_expect(m, machine_unary(m, MACHINE_FSQRT, v), expected_root, NULL, "a root");
+    const struct machine_explained *x = machine_explain(m, false);
+    assert_non_null(x);
+    for (int i = 0; i < x->phases_count; i++) {
+        if (strcmp(x->phases[i].name, "build: compile") == 0)
+            how |= COMPILED;
+        if (strcmp(x->phases[i].name, "build: from the disk cache") == 0)
+            how |= LOADED;
+    }
+    machine_destroy(m);
+    unsetenv("LUTETIA_KEEP");
+    return how;
+}
+
+static void programs_are_kept_and_loaded(void **state)
+{
+    (void)state;
+    assert_int_equal(programs_come("1"), COMPILED);
+    int count = kept(LEAVE);
+    assert_true(count > 0);
+    assert_int_equal(programs_come("1"), LOADED);
+    assert_int_equal(kept(LEAVE), count);
+    assert_int_equal(programs_come("0"), COMPILED); /* nobody looks */
+    assert_int_equal(kept(LEAVE), count);
+}
+
+static void damaged_programs_are_compiled_again(void **state)
+{
+    static const long lengths[] = {0, 100, 2000};
+    (void)state;
+    assert_int_equal(programs_come("1"), LOADED);
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        int count = kept(lengths[i]);
+        assert_int_equal(programs_come("1"), COMPILED);
+        assert_int_equal(kept(LEAVE), count);
+        assert_int_equal(programs_come("1"), LOADED); /* they are whole again */
+    }
+}
+
+static void nothing_is_kept_where_nobody_wants_it(void **state)
+{
+    (void)state;
+    assert_true(kept(REMOVE) > 0);
+    assert_int_equal(programs_come("0"), COMPILED);
+    assert_int_equal(kept(LEAVE), 0);
+}
+
+/* As a kernel that uses a function for the first time does. */
+static void program_that_needs_the_header_gets_it(void **state)
+{
+    static const char declared[] =
+        "kernel void k(global float *a) { a[0] = fma(a[0], a[1], 1); }",
+                      not_declared[] = "kernel void k(global float *a) { a[0] = cbrt(a[1]); }",
+                      nowhere[] = "kernel void k(global float *a) { a[0] = no_such(a[1]); }";
+    struct machine *m = support_machine(0);
+
+    (void)state;
+    assert_non_null(device_library_kernel(m, declared, "", "k"));
+    assert_non_null(device_library_kernel(m, not_declared, "", "k"));
+    assert_null(device_library_kernel(m, nowhere, "", "k"));
+    support_failed(m, MACHINE_BUILD_FAILED, "no_such");
+    machine_destroy(m);
+}
+
+static int folder_remove(void **state)
+{
+    char path[300];
+    (void)state;
+    kept(REMOVE);
+    snprintf(path, sizeof path, "%s/lutetia", folder);
+    rmdir(path);
+    if (*cache_before)
+        setenv("XDG_CACHE_HOME", cache_before, 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+    return rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(programs_are_kept_and_loaded),
+        cmocka_unit_test(damaged_programs_are_compiled_again),
+        cmocka_unit_test(nothing_is_kept_where_nobody_wants_it),
+        cmocka_unit_test(program_that_needs_the_header_gets_it),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
