@@ -11,6 +11,8 @@
 #include "kernels.h"
 #include "watch.h"
 
+#include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -212,7 +214,8 @@ static enum machine_status no_device_on(struct machine *m, cl_platform_id platfo
         name);
 }
 
-enum machine_status device_open(struct machine *m, const struct machine_config *config)
+static enum machine_status choose_and_open(struct machine *m,
+                                           const struct machine_config *config)
 {
     struct device *d = &m->device;
     const char *choice = config->device ? config->device : getenv("LUTETIA_DEVICE");
@@ -282,6 +285,19 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
     return d->programs
                ? MACHINE_OK
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
+}
+
+/* The driver's threads do not take what a terminal says to the program, nor do the linkers that they run: PoCL aborts
+ * when one of those is interrupted. */
+enum machine_status device_open(struct machine *m, const struct machine_config *config)
+{
+    sigset_t interrupt, before;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &interrupt, &before);
+    enum machine_status status = choose_and_open(m, config);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return status;
 }
 
 static void pool_empty(struct device *d)
