@@ -67,35 +67,17 @@ static void bit_invert(const char *name, CM_field_id_t dest, enum machine_scope 
         paris_store_bit(m, dest, machine_unary(m, MACHINE_NOT, v), scope);
 }
 
-void CM_set_bit(CM_field_id_t dest)
-{
-    bit_put("CM_set_bit", dest, 1, MACHINE_WHERE_ACTIVE);
-}
-
-void CM_set_bit_always(CM_field_id_t dest)
-{
-    bit_put("CM_set_bit_always", dest, 1, MACHINE_EVERYWHERE);
-}
-
-void CM_clear_bit(CM_field_id_t dest)
-{
-    bit_put("CM_clear_bit", dest, 0, MACHINE_WHERE_ACTIVE);
-}
-
-void CM_clear_bit_always(CM_field_id_t dest)
-{
-    bit_put("CM_clear_bit_always", dest, 0, MACHINE_EVERYWHERE);
-}
-
-void CM_invert_bit(CM_field_id_t dest)
-{
-    bit_invert("CM_invert_bit", dest, MACHINE_WHERE_ACTIVE);
-}
-
-void CM_invert_bit_always(CM_field_id_t dest)
-{
-    bit_invert("CM_invert_bit_always", dest, MACHINE_EVERYWHERE);
-}
+PARIS_OF_A_FIELD(CM_set_bit, dest, true, bit_put("CM_set_bit", dest, 1, MACHINE_WHERE_ACTIVE))
+PARIS_OF_A_FIELD(CM_set_bit_always, dest, true,
+                 bit_put("CM_set_bit_always", dest, 1, MACHINE_EVERYWHERE))
+PARIS_OF_A_FIELD(CM_clear_bit, dest, true,
+                 bit_put("CM_clear_bit", dest, 0, MACHINE_WHERE_ACTIVE))
+PARIS_OF_A_FIELD(CM_clear_bit_always, dest, true,
+                 bit_put("CM_clear_bit_always", dest, 0, MACHINE_EVERYWHERE))
+PARIS_OF_A_FIELD(CM_invert_bit, dest, true,
+                 bit_invert("CM_invert_bit", dest, MACHINE_WHERE_ACTIVE))
+PARIS_OF_A_FIELD(CM_invert_bit_always, dest, true,
+                 bit_invert("CM_invert_bit_always", dest, MACHINE_EVERYWHERE))
 
 static void flags_clear(const char *name, enum machine_scope scope)
 {

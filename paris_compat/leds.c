@@ -56,15 +56,10 @@ static void latch(const char *name, CM_field_id_t source, enum machine_scope sco
         record();
 }
 
-void CM_latch_leds(CM_field_id_t source)
-{
-    latch("CM_latch_leds", source, MACHINE_WHERE_ACTIVE);
-}
-
-void CM_latch_leds_always(CM_field_id_t source)
-{
-    latch("CM_latch_leds_always", source, MACHINE_EVERYWHERE);
-}
+PARIS_OF_A_FIELD(CM_latch_leds, source, !leds_recording(),
+                 latch("CM_latch_leds", source, MACHINE_WHERE_ACTIVE))
+PARIS_OF_A_FIELD(CM_latch_leds_always, source, !leds_recording(),
+                 latch("CM_latch_leds_always", source, MACHINE_EVERYWHERE))
 
 void CM_set_system_leds_mode(unsigned int mode)
 {

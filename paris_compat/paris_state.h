@@ -154,6 +154,26 @@ static inline void paris_performed(void)
     if (paris_the.machine)
         machine_call_performed(paris_the.machine);
 }
+/* An instruction written by hand that is given one field; if `only`, it does no more than to compute. */
+#define PARIS_OF_A_FIELD(instruction, field, only, body)                                       \
+    static void again_##instruction(const struct machine_call *call)                           \
+    {                                                                                          \
+        instruction((CM_field_id_t)call->words[0]);                                            \
+    }                                                                                          \
+    void instruction(CM_field_id_t field)                                                      \
+    {                                                                                          \
+        struct machine_call call = {.again = again_##instruction,                              \
+                                    .name = #instruction,                                      \
+                                    .words_count = 1,                                          \
+                                    .words = {(uint64_t)(field)}};                             \
+        bool noted = (only);                                                                   \
+        if (noted && paris_foreseen(&call))                                                    \
+            return;                                                                            \
+        body;                                                                                  \
+        if (noted)                                                                             \
+            paris_performed();                                                                 \
+    }
+
 /* A double and its bits. */
 union paris_both {
     double number;

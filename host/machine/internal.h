@@ -610,6 +610,8 @@ bool replay_in_call(const struct machine *m);
 bool replay_in_loop(const struct machine *m);  /* then evaluations become due after calls */
 bool replay_thorough(const struct machine *m); /* evaluations are to leave nothing to compute */
 void replay_resolve(struct machine *m);        /* ... no lazy overflow either */
+/* Calls are noted that lead from a state to the next evaluation. */
+bool replay_follows(const struct machine *m);
 /* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
  * could not. */
 void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,

@@ -405,6 +405,12 @@ static bool sources_find(struct machine *m, struct deed *d, struct machine_value
     return true;
 }
 
+bool replay_follows(const struct machine *m)
+{
+    const struct replay *p = m->replay;
+    return p && p->from >= 0 && p->active < 0 && !p->depth;
+}
+
 void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
                       int count, struct device_buffer *const *buffers)
 {

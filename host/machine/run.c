@@ -219,11 +219,34 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     return status;
 }
 
+static bool is_held(const struct machine *m, const struct machine_value *v)
+{
+    for (int i = 1; i < m->sets_count; i++)
+        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
+            if (m->sets[i].flags[flag].value == v)
+                return true;
+    for (int i = 0; i < m->fields_count; i++)
+        for (int k = 0; k < m->fields[i]->slots_count; k++)
+            if (m->fields[i]->slots[k].value == v)
+                return true;
+    return false;
+}
+
 enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
                                  bool all)
 {
-    for (int i = 0; i < count; i++) /* what it is a part of may let go of it */
-        graph_borrow(m, wanted[i]);
+    bool held = true;
+    for (int i = 0; i < count; i++) {
+        graph_borrow(m, wanted[i]); /* what it is a part of may let go of it */
+        held = held && (node_is_leaf(wanted[i]) || is_held(m, wanted[i]));
+    }
+    /* What only the one who looks has, say a count, is evaluated apart: the calls before lead from state to state then,
+     * and are foreseen. */
+    if (!held && replay_follows(m)) {
+        enum machine_status status = evaluate(m, NULL, 0, all);
+        if (status)
+            return status;
+    }
     return evaluate(m, wanted, count, all);
 }
 

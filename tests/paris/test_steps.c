@@ -153,6 +153,31 @@ static void what_comes_between_is_seen(void **state)
     assert_int_equal(CM_u_read_from_processor_1L(0, count, 16), counted);
 }
 
+/* Instructions that no table has are foreseen as well. */
+static void bits_and_lights_are_not_recorded_again(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    CM_field_id_t bit = CM_allocate_heap_field(1);
+    uint64_t before = 0;
+    for (int i = 0; i < 60; i++) {
+        if (i == 20)
+            before = foreseen();
+        turn(&s, 5);
+        turn_wanted(&s, 5);
+        CM_u_move_1L(bit, s.cell, 1);
+        CM_invert_bit(bit);
+        CM_latch_leds(bit);
+        unsigned int even = 0;
+        for (int k = 0; k < CELLS; k++)
+            even += s.wanted[k] % 2 == 0;
+        assert_int_equal(CM_global_count_bit(bit), even);
+    }
+    expect(&s);
+    assert_int_equal(foreseen() - before, 40 * (CALLS + 3));
+}
+
 /* A constant that is another one each time builds nothing. */
 static void a_constant_that_changes_builds_nothing(void **state)
 {
@@ -264,6 +289,7 @@ int main(void)
         cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test(a_constant_that_changes_builds_nothing),
+        cmocka_unit_test(bits_and_lights_are_not_recorded_again),
         cmocka_unit_test_setup(many_turns_are_one_kernel, forced),
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
