@@ -524,6 +524,7 @@ struct in_place {
     int pairs_count, pairs_capacity;
     int above, below; /* rows of a border */
     int bytes;        /* of an element of each leaf, all together */
+    bool pays;        /* all arrays together are larger than what is near anyway */
 };
 
 /* emit.c */

@@ -496,7 +496,9 @@ static uint32_t take_places(const struct machine *m, const struct plan *p,
     const struct launch *l = &p->launches[0];
     size_t global[2], rows;
     uint32_t which = 0;
-    if (!dies || p->launches_count != 1 || !l->in_place.pairs_count || !m->settings.in_place)
+    bool wanted =
+        m->settings.in_place == SETTING_FREE ? l->in_place.pays : m->settings.in_place;
+    if (!dies || p->launches_count != 1 || !l->in_place.pairs_count || !wanted)
         return 0;
     strips_count(m, l, &m->sets[l->set], global, &rows);
     for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {

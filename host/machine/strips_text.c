@@ -441,6 +441,9 @@ static void kernel_text(struct strips *s, struct text *t)
     text_put(t, "    }\n}\n");
 }
 
+/* Smaller arrays are near, and a launch more costs more than it saves. */
+enum { IN_PLACE_BYTES = 12 << 20 };
+
 static void describe(const struct strips *s, const struct device_shape *shape,
                      struct kernel_text *out)
 {
@@ -463,6 +466,7 @@ static void describe(const struct strips *s, const struct device_shape *shape,
     out->vector = s->vector;
     out->strip_columns = strips_columns(s, shape);
     out->in_place = s->in_place;
+    out->in_place.pays = bytes > IN_PLACE_BYTES;
     out->strip_near = strips_near_columns(s, out->strip_columns);
     out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
     emit_options(out, s->set->halo, false, emit_streams(shape, s->set, out->vector, bytes),

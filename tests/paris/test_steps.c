@@ -267,6 +267,7 @@ static int forced_whole_rows(void **state)
 {
     (void)state;
     unsetenv("LUTETIA_COLUMNS");
+    setenv("LUTETIA_IN_PLACE", "1", 1);
     return paris_reset(NULL) ? 0 : -1;
 }
 
