@@ -12,8 +12,7 @@ enum {
 
 /* ---- what stages look at ---- */
 
-/* The values first, a stage alone: which passes there are, and which rings, follows from what all of them
- * look at. */
+/* The text of a stage alone: whether it is one again that came before, and what it costs, tells which passes there are. */
 static void stage_values(struct strips *s, int k)
 {
     struct stage *stage = &s->stages[k];

@@ -15,6 +15,53 @@ void support_failed(struct machine *m, enum machine_status status, const char *w
     assert_string_equal(machine_error(m), "");
 }
 
+wide support_integer(enum machine_op op, int w, wide a, wide b)
+{
+    signed_wide sa = wide_signed(a, w), sb = wide_signed(b, w);
+
+    switch ((int)op) {
+    case MACHINE_NOT:
+        return ~a & wide_mask(w);
+    case MACHINE_NEG:
+        return (0 - a) & wide_mask(w);
+    case MACHINE_AND:
+        return a & b;
+    case MACHINE_OR:
+        return a | b;
+    case MACHINE_XOR:
+        return a ^ b;
+    case MACHINE_ADD:
+        return (a + b) & wide_mask(w);
+    case MACHINE_SUB:
+        return (a - b) & wide_mask(w);
+    case MACHINE_MUL:
+        return a * b & wide_mask(w);
+    case MACHINE_UMIN:
+        return a < b ? a : b;
+    case MACHINE_UMAX:
+        return a > b ? a : b;
+    case MACHINE_SMIN:
+        return sa < sb ? a : b;
+    case MACHINE_SMAX:
+        return sa > sb ? a : b;
+    case MACHINE_EQ:
+        return a == b;
+    case MACHINE_NE:
+        return a != b;
+    case MACHINE_ULT:
+        return a < b;
+    case MACHINE_ULE:
+        return a <= b;
+    case MACHINE_SLT:
+        return sa < sb;
+    case MACHINE_SLE:
+        return sa <= sb;
+    default:
+        fail_msg("no oracle for operation %d", (int)op);
+        return 0;
+    }
+}
+
 void support_machine_destroy(struct machine *m)
 {
     if (getenv("LUTETIA_TEST_STATS")) {
@@ -213,4 +260,33 @@ void support_expect(struct machine *m, struct machine_value *value, support_expe
     assert_ok(machine_field_store(m, field, value, MACHINE_EVERYWHERE), m);
     support_expect_field(m, field, type, expected, data, what);
     assert_ok(machine_field_deallocate(m, field), m);
+}
+
+char support_cache[] = "/tmp/lutetia-test-cache-XXXXXX";
+static char cache_before[400];
+
+int support_cache_make(void **state)
+{
+    const char *before = getenv("XDG_CACHE_HOME");
+    (void)state;
+    snprintf(cache_before, sizeof cache_before, "%s", before ? before : "");
+    return mkdtemp(support_cache) && setenv("XDG_CACHE_HOME", support_cache, 1) == 0 ? 0 : -1;
+}
+
+void support_cache_leave(void)
+{
+    if (*cache_before)
+        setenv("XDG_CACHE_HOME", cache_before, 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+}
+
+/* With what the driver keeps there, too. */
+int support_cache_remove(void **state)
+{
+    char command[400];
+    (void)state;
+    support_cache_leave();
+    snprintf(command, sizeof command, "rm -rf %s", support_cache);
+    return system(command);
 }

@@ -39,6 +39,9 @@ void support_machine_destroy(struct machine *m);
 /* Makes and selects a VP set of the given axes. */
 int support_set(struct machine *m, int rank, ...);
 
+/* What an operation on bits or integers of that width makes of a and b, in plain C. */
+wide support_integer(enum machine_op op, int width, wide a, wide b);
+
 /* Ordinary and awkward numbers: ends of the range, zeros, NaN. */
 wide support_word(struct machine_type type, uint64_t seed, uint64_t n);
 /* A heap field of the current set with support_word(type, seed, n) in element n. */
@@ -62,6 +65,13 @@ void support_check(struct machine *m);
 /* The same for a field as it is. */
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what);
+
+/* A folder of the program's own for caches: a group's set-up and tear-down. It is XDG_CACHE_HOME from its making on;
+ * support_cache_leave() gives that back what it was before. */
+extern char support_cache[];
+int support_cache_make(void **state);
+void support_cache_leave(void);
+int support_cache_remove(void **state);
 
 static inline struct machine_scalar support_scalar(wide x)
 {

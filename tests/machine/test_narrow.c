@@ -25,48 +25,6 @@ static wide word(int width, int which, uint64_t n)
     return support_word(type, which == 0 || n % 5 == 0 ? 1 : 2, n);
 }
 
-static wide computed(enum machine_op op, int w, wide a, wide b)
-{
-    const signed_wide sa = wide_signed(a, w), sb = wide_signed(b, w);
-
-    switch ((int)op) {
-    case MACHINE_NOT:
-        return ~a & wide_mask(w);
-    case MACHINE_NEG:
-        return (0 - a) & wide_mask(w);
-    case MACHINE_AND:
-        return a & b;
-    case MACHINE_OR:
-        return a | b;
-    case MACHINE_XOR:
-        return a ^ b;
-    case MACHINE_ADD:
-        return (a + b) & wide_mask(w);
-    case MACHINE_SUB:
-        return (a - b) & wide_mask(w);
-    case MACHINE_UMIN:
-        return a < b ? a : b;
-    case MACHINE_UMAX:
-        return a > b ? a : b;
-    case MACHINE_SMIN:
-        return sa < sb ? a : b;
-    case MACHINE_SMAX:
-        return sa > sb ? a : b;
-    case MACHINE_EQ:
-        return a == b;
-    case MACHINE_NE:
-        return a != b;
-    case MACHINE_ULT:
-        return a < b;
-    case MACHINE_ULE:
-        return a <= b;
-    case MACHINE_SLT:
-        return sa < sb;
-    default: /* SLE */
-        return sa <= sb;
-    }
-}
-
 static uint64_t moved(uint64_t n, int dy, int dx)
 {
     const int y = (int)(n / COLUMNS), x = (int)(n % COLUMNS);
@@ -82,7 +40,7 @@ static bool is_compare(enum machine_op op)
 static wide of_neighbour(const struct test_case *c, uint64_t n)
 {
     n = moved(n, c->dy, c->dx);
-    return computed(c->op, c->width, word(c->width, 0, n), word(c->width, 1, n));
+    return support_integer(c->op, c->width, word(c->width, 0, n), word(c->width, 1, n));
 }
 
 /* What is made of it: a select, an extension, a part, a pair, and a sum that looks two ways along both axes. */

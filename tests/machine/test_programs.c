@@ -8,20 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char cache_before[400];
-static char folder[] = "/tmp/lutetia-programs-XXXXXX";
-
 enum { COMPILED = 1, LOADED = 2 };
-
-static int folder_make(void **state)
-{
-    const char *before = getenv("XDG_CACHE_HOME");
-    (void)state;
-    snprintf(cache_before, sizeof cache_before, "%s", before ? before : "");
-    assert_non_null(mkdtemp(folder));
-    setenv("XDG_CACHE_HOME", folder, 1);
-    return 0;
-}
 
 /* How many programs are kept; their files are removed, or cut to length bytes, where somebody says so. */
 enum { LEAVE = -1, REMOVE = -2 };
@@ -30,7 +17,7 @@ static int kept(long length)
 {
     char path[800];
     int count = 0;
-    snprintf(path, sizeof path, "%s/lutetia", folder);
+    snprintf(path, sizeof path, "%s/lutetia", support_cache);
     DIR *d = opendir(path);
     if (!d)
         return 0;
@@ -39,7 +26,7 @@ static int kept(long length)
             continue;
         assert_non_null(strstr(e->d_name, ".bin")); /* no temporary one is left */
         assert_null(strstr(e->d_name, ".bin."));
-        snprintf(path, sizeof path, "%s/lutetia/%s", folder, e->d_name);
+        snprintf(path, sizeof path, "%s/lutetia/%s", support_cache, e->d_name);
         count++;
         if (length == REMOVE)
             assert_int_equal(unlink(path), 0);
@@ -134,19 +121,6 @@ static void program_that_needs_the_header_gets_it(void **state)
     machine_destroy(m);
 }
 
-/* With what the driver keeps there, too. */
-static int folder_remove(void **state)
-{
-    char command[400];
-    (void)state;
-    if (*cache_before)
-        setenv("XDG_CACHE_HOME", cache_before, 1);
-    else
-        unsetenv("XDG_CACHE_HOME");
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -155,5 +129,5 @@ int main(void)
         cmocka_unit_test(nothing_is_kept_where_nobody_wants_it),
         cmocka_unit_test(program_that_needs_the_header_gets_it),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, support_cache_make, support_cache_remove);
 }

@@ -5,10 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Files are kept here, kernels where they usually are. */
-static char cache_before[400];
-static char folder[] = "/tmp/lutetia-tuning-XXXXXX";
-
 static struct machine *opened(const struct machine_tuning *tuning)
 {
     struct machine_config config = machine_config_default();
@@ -42,7 +38,7 @@ static bool kept_file(char *path, size_t size)
 {
     char where[300];
     bool found = false;
-    snprintf(where, sizeof where, "%s/lutetia", folder);
+    snprintf(where, sizeof where, "%s/lutetia", support_cache);
     DIR *d = opendir(where);
     if (!d)
         return false;
@@ -147,7 +143,7 @@ static void a_folder_that_cannot_be_is_said(void **state)
     setenv("XDG_CACHE_HOME", "/dev/null", 1);
     assert_int_equal(machine_tuning_keep(m, &tuning), MACHINE_BAD_ARGUMENT);
     support_failed(m, MACHINE_BAD_ARGUMENT, "/dev/null");
-    setenv("XDG_CACHE_HOME", folder, 1);
+    setenv("XDG_CACHE_HOME", support_cache, 1);
     machine_destroy(m);
 }
 
@@ -160,11 +156,8 @@ static void knobs_reach_the_kernels(void **state)
     char path[300], line[400] = "";
 
     (void)state;
-    if (*cache_before)
-        setenv("XDG_CACHE_HOME", cache_before, 1);
-    else
-        unsetenv("XDG_CACHE_HOME");
-    snprintf(path, sizeof path, "%s/dump", folder);
+    support_cache_leave();
+    snprintf(path, sizeof path, "%s/dump", support_cache);
     config.dump_dir = path;
     config.tuning = &tuning;
     config.eager = 0;
@@ -191,7 +184,7 @@ static void knobs_reach_the_kernels(void **state)
     machine_destroy(m);
     bool in_strips = false;
     for (int i = 0; i < 8; i++) {
-        snprintf(path, sizeof path, "%s/dump/%04d.cl", folder, i);
+        snprintf(path, sizeof path, "%s/dump/%04d.cl", support_cache, i);
         FILE *f = fopen(path, "r");
         if (!f)
             continue;
@@ -205,21 +198,10 @@ static void knobs_reach_the_kernels(void **state)
         fail_msg("no kernel of strips of 48 columns: %s", line);
 }
 
-static int folder_make(void **state)
+static int begin(void **state)
 {
-    const char *cache = getenv("XDG_CACHE_HOME");
-    (void)state;
-    snprintf(cache_before, sizeof cache_before, "%s", cache ? cache : "");
     unsetenv("LUTETIA_TUNED");
-    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : -1;
-}
-
-static int folder_remove(void **state)
-{
-    char command[400];
-    (void)state;
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return support_cache_make(state);
 }
 
 int main(void)
@@ -230,5 +212,5 @@ int main(void)
         cmocka_unit_test(a_folder_that_cannot_be_is_said),
         cmocka_unit_test(knobs_reach_the_kernels),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, begin, support_cache_remove);
 }

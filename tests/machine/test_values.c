@@ -63,49 +63,8 @@ static wide expected_bits(const void *data, uint64_t n)
     const struct binary_case *c = data;
     int w = c->type.width;
     wide a = word_a(c->type, n), b = word_b(c->type, n);
-    signed_wide sa = wide_signed(a, w), sb = wide_signed(b, w);
 
-    switch ((int)c->op) {
-    case MACHINE_NOT:
-        return ~a & wide_mask(w);
-    case MACHINE_NEG:
-        return (0 - a) & wide_mask(w);
-    case MACHINE_AND:
-        return a & b;
-    case MACHINE_OR:
-        return a | b;
-    case MACHINE_XOR:
-        return a ^ b;
-    case MACHINE_ADD:
-        return (a + b) & wide_mask(w);
-    case MACHINE_SUB:
-        return (a - b) & wide_mask(w);
-    case MACHINE_MUL:
-        return a * b & wide_mask(w);
-    case MACHINE_UMIN:
-        return a < b ? a : b;
-    case MACHINE_UMAX:
-        return a > b ? a : b;
-    case MACHINE_SMIN:
-        return sa < sb ? a : b;
-    case MACHINE_SMAX:
-        return sa > sb ? a : b;
-    case MACHINE_EQ:
-        return a == b;
-    case MACHINE_NE:
-        return a != b;
-    case MACHINE_ULT:
-        return a < b;
-    case MACHINE_ULE:
-        return a <= b;
-    case MACHINE_SLT:
-        return sa < sb;
-    case MACHINE_SLE:
-        return sa <= sb;
-    default:
-        fail_msg("no oracle for operation %d", (int)c->op);
-        return 0;
-    }
+    return support_integer(c->op, w, a, b);
 }
 
 #define CASE(op)                                                                               \
