@@ -1,14 +1,12 @@
 /* opencl.c - see opencl.h. */
 #include "opencl.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "devices.h"
 #include "harness.h"
-
-enum { PLATFORMS_MAX = 16, DEVICES_MAX = 64 };
 
 bool bench_opencl_fail(const char *what, cl_int error)
 {
@@ -17,36 +15,20 @@ bool bench_opencl_fail(const char *what, cl_int error)
 
 static bool device_choose(struct bench_opencl *cl, const char *wanted)
 {
-    cl_platform_id platforms[PLATFORMS_MAX];
-    cl_uint platforms_count = 0;
-    int index = 0;
-    if (!wanted || !*wanted)
-        wanted = getenv("LUTETIA_DEVICE");
-    if (clGetPlatformIDs(PLATFORMS_MAX, platforms, &platforms_count) || !platforms_count)
-        return bench_fail("hand-written kernels: no OpenCL platform; install pocl-opencl-icd");
-    for (cl_uint p = 0; p < platforms_count && p < PLATFORMS_MAX; p++) {
-        cl_device_id devices[DEVICES_MAX];
-        cl_uint count = 0;
-        char platform_name[128] = "";
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices, &count))
-            continue;
-        clGetPlatformInfo(platforms[p], CL_PLATFORM_NAME, sizeof platform_name, platform_name,
-                          NULL);
-        for (cl_uint d = 0; d < count && d < DEVICES_MAX; d++, index++) {
-            clGetDeviceInfo(devices[d], CL_DEVICE_NAME, sizeof cl->device_name, cl->device_name,
-                            NULL);
-            bool fits = !wanted || !*wanted;
-            if (!fits && isdigit((unsigned char)wanted[0]))
-                fits = atoi(wanted) == index;
-            else if (!fits)
-                fits = strcasestr(cl->device_name, wanted) || strcasestr(platform_name, wanted);
-            if (fits) {
-                cl->device = devices[d];
-                return true;
-            }
-        }
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
+    if (!all)
+        return bench_fail("hand-written kernels: no memory to list devices");
+    int count = opencl_devices(all, NULL);
+    int chosen = opencl_device_choose(all, count, wanted, &wanted);
+    if (chosen >= 0) {
+        cl->device = all[chosen].id;
+        memcpy(cl->device_name, all[chosen].name, sizeof cl->device_name);
     }
-    return bench_fail("hand-written kernels: no OpenCL device \"%s\"", wanted ? wanted : "");
+    free(all);
+    if (!count)
+        return bench_fail("hand-written kernels: no OpenCL device; install pocl-opencl-icd");
+    return chosen >= 0 ||
+           bench_fail("hand-written kernels: no OpenCL device \"%s\"", wanted ? wanted : "");
 }
 
 bool bench_opencl_open(struct bench_opencl *cl, const char *wanted)

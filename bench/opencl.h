@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 struct bench_opencl {
-    char device_name[128];
+    char device_name[256];
     cl_device_id device;
     cl_context context;
     cl_command_queue queue;

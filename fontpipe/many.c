@@ -4,6 +4,7 @@
 #include "gray_internal.h"
 #include "internal.h"
 
+#include <devices.h>
 #include <kernels.h>
 
 #include <CL/cl.h>
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAD = 16, BUFFERS = 6, PLATFORMS_MAX = 8, DEVICES_MAX = 32 };
+enum { PAD = 16, BUFFERS = 6 };
 
 /* As kernels/glyphs.cl has it. */
 struct device_job {
@@ -61,47 +62,23 @@ static enum font_status device_fail(cl_int error, const char *what)
 
 /* ---- the device ---- */
 
-static bool device_matches(const char *wanted, int index, const char *platform,
-                           const char *device)
-{
-    if (!wanted || !*wanted)
-        return true;
-    char *end;
-    long number = strtol(wanted, &end, 10);
-    if (*end == '\0')
-        return number == index;
-    return strstr(platform, wanted) || strstr(device, wanted);
-}
-
 static enum font_status device_find(struct font_many *m, const char *wanted)
 {
-    cl_platform_id platforms[PLATFORMS_MAX];
-    cl_uint platforms_count = 0;
-    int index = 0;
-    if (!wanted)
-        wanted = getenv("LUTETIA_DEVICE");
-    if (clGetPlatformIDs(PLATFORMS_MAX, platforms, &platforms_count) != CL_SUCCESS)
-        platforms_count = 0;
-    for (cl_uint p = 0; p < platforms_count && p < PLATFORMS_MAX; p++) {
-        cl_device_id devices[DEVICES_MAX];
-        cl_uint count = 0;
-        char platform[128] = "", device[128] = "";
-        clGetPlatformInfo(platforms[p], CL_PLATFORM_NAME, sizeof platform - 1, platform, NULL);
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices, &count) !=
-            CL_SUCCESS)
-            continue;
-        for (cl_uint d = 0; d < count && d < DEVICES_MAX; d++, index++) {
-            clGetDeviceInfo(devices[d], CL_DEVICE_NAME, sizeof device - 1, device, NULL);
-            if (!device_matches(wanted, index, platform, device))
-                continue;
-            m->device = devices[d];
-            snprintf(m->name, sizeof m->name, "%.90s (%.90s)", device, platform);
-            return FONT_OK;
-        }
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
+    if (!all)
+        return font_fail(FONT_NO_MEMORY, "no memory to list devices");
+    int chosen = opencl_device_choose(all, opencl_devices(all, NULL), wanted, &wanted);
+    if (chosen >= 0) {
+        m->device = all[chosen].id;
+        snprintf(m->name, sizeof m->name, "%.90s (%.90s)", all[chosen].name,
+                 all[chosen].platform_name);
     }
+    free(all);
+    if (chosen >= 0)
+        return FONT_OK;
     return font_fail(FONT_NO_DEVICE,
                      "there is no OpenCL device%s%.60s; `lutetia info` lists them",
-                     wanted && *wanted ? " " : "", wanted ? wanted : "");
+                     wanted ? " " : "", wanted ? wanted : "");
 }
 
 static enum font_status program_build(struct font_many *m)

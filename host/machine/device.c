@@ -8,6 +8,7 @@
  *
  * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file
  * of cache.c. */
+#include "devices.h"
 #include "kernels.h"
 #include "watch.h"
 
@@ -71,80 +72,24 @@ enum machine_status device_check(struct machine *m, cl_int error, const char *wh
 
 /* ---- choice ---- */
 
-enum { DEVICES_MAX = 64 };
-struct candidate {
-    cl_platform_id platform;
-    cl_device_id device;
-    char platform_name[128], name[256], version[128];
-};
-
-/* *without: a platform that has no device; NULL: none is so. */
-static int find_devices(struct candidate *out, cl_platform_id *without)
-{
-    cl_platform_id platforms[16];
-    cl_uint platforms_count = 0;
-    *without = NULL;
-    if (clGetPlatformIDs(16, platforms, &platforms_count) != CL_SUCCESS)
-        return 0;
-    if (platforms_count > 16)
-        platforms_count = 16;
-    int count = 0;
-    for (cl_uint p = 0; p < platforms_count; p++) {
-        cl_device_id devices[DEVICES_MAX];
-        cl_uint devices_count = 0;
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICES_MAX, devices,
-                           &devices_count) != CL_SUCCESS) {
-            *without = platforms[p];
-            continue;
-        }
-        for (cl_uint d = 0; d < devices_count && d < DEVICES_MAX && count < DEVICES_MAX; d++) {
-            struct candidate *c = &out[count++];
-            memset(c, 0, sizeof *c);
-            c->platform = platforms[p];
-            c->device = devices[d];
-            clGetPlatformInfo(c->platform, CL_PLATFORM_NAME, sizeof c->platform_name - 1,
-                              c->platform_name, NULL);
-            clGetDeviceInfo(c->device, CL_DEVICE_NAME, sizeof c->name - 1, c->name, NULL);
-            clGetDeviceInfo(c->device, CL_DEVICE_VERSION, sizeof c->version - 1, c->version,
-                            NULL);
-        }
-    }
-    return count;
-}
-
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
                                       const char *device, const char *version,
                                       int compute_units, uint64_t memory_bytes),
                          void *context)
 {
-    struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
     if (!all)
         return 0;
-    cl_platform_id without;
-    int count = find_devices(all, &without);
+    int count = opencl_devices(all, NULL);
     for (int i = 0; i < count; i++) {
         cl_uint units = 0;
         cl_ulong memory = 0;
-        clGetDeviceInfo(all[i].device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-        clGetDeviceInfo(all[i].device, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+        clGetDeviceInfo(all[i].id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+        clGetDeviceInfo(all[i].id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
         each(context, i, all[i].platform_name, all[i].name, all[i].version, (int)units, memory);
     }
     free(all);
     return count;
-}
-
-static int choose(const struct candidate *all, int count, const char *choice)
-{
-    if (!choice)
-        return count ? 0 : -1;
-    char *end;
-    long index = strtol(choice, &end, 10);
-    if (!*end)
-        return index >= 0 && index < count ? (int)index : -1;
-    for (int i = 0; i < count; i++)
-        if (strcasestr(all[i].name, choice) || strcasestr(all[i].platform_name, choice))
-            return i;
-    return -1;
 }
 
 /* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
@@ -218,13 +163,13 @@ static enum machine_status choose_and_open(struct machine *m,
                                            const struct machine_config *config)
 {
     struct device *d = &m->device;
-    const char *choice = config->device ? config->device : getenv("LUTETIA_DEVICE");
-    choice = choice && *choice ? choice : NULL;
-    struct candidate *all = calloc(DEVICES_MAX, sizeof *all);
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
     if (!all)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
     cl_platform_id without;
-    int count = find_devices(all, &without), chosen = choose(all, count, choice);
+    const char *choice;
+    int count = opencl_devices(all, &without);
+    int chosen = opencl_device_choose(all, count, config->device, &choice);
     if (chosen < 0) {
         enum machine_status status =
             count > 0 ? machine_fail(m, MACHINE_NO_DEVICE,
@@ -239,7 +184,7 @@ static enum machine_status choose_and_open(struct machine *m,
         return status;
     }
     d->platform = all[chosen].platform;
-    d->id = all[chosen].device;
+    d->id = all[chosen].id;
     snprintf(d->name, sizeof d->name, "%s", all[chosen].name);
     snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
     free(all);

@@ -1,0 +1,137 @@
+/* Devices: one is chosen by number or by part of a name; PoCL's threads each have a processor unless somebody said
+ * otherwise. */
+#include "devices.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void one_is_chosen_by_number_or_name(void **state)
+{
+    static const struct opencl_device all[] = {
+        {.platform_name = "Portable Computing Language", .name = "pthread-AMD EPYC"},
+        {.platform_name = "Somebody's CUDA", .name = "Accelerator 7"},
+        {.platform_name = "Somebody's CUDA", .name = "Accelerator 9"}};
+    static const struct {
+        const char *wanted;
+        int chosen;
+    } cases[] = {{NULL, 0},
+                 {"", 0},
+                 {"0", 0},
+                 {"2", 2},
+                 {"3", -1},
+                 {"-1", -1},
+                 {"epyc", 0},
+                 {"cuda", 1},
+                 {"rator 9", 2},
+                 {"GPU", -1},
+                 {"99999999999999999999", -1}};
+    (void)state;
+    unsetenv("LUTETIA_DEVICE");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *said = "unset";
+        assert_int_equal(cases[i].chosen, opencl_device_choose(all, 3, cases[i].wanted, &said));
+        if (cases[i].wanted && *cases[i].wanted)
+            assert_string_equal(said, cases[i].wanted);
+        else
+            assert_null(said);
+    }
+    assert_int_equal(-1, opencl_device_choose(all, 0, NULL, NULL));
+    setenv("LUTETIA_DEVICE", "7", 1);
+    assert_int_equal(-1, opencl_device_choose(all, 3, NULL, NULL));
+    assert_int_equal(1, opencl_device_choose(all, 3, "accelerator", NULL));
+    setenv("LUTETIA_DEVICE", "accelerator 9", 1);
+    assert_int_equal(2, opencl_device_choose(all, 3, "", NULL));
+    unsetenv("LUTETIA_DEVICE");
+}
+
+/* How many of this process's threads but the first may run on one processor alone. */
+static int threads_tied(void)
+{
+    DIR *tasks = opendir("/proc/self/task");
+    int tied = 0;
+    if (!tasks)
+        return 0;
+    for (struct dirent *d; (d = readdir(tasks));) {
+        cpu_set_t set;
+        int id = atoi(d->d_name);
+        if (id && id != getpid() && sched_getaffinity(id, sizeof set, &set) == 0)
+            tied += CPU_COUNT(&set) == 1;
+    }
+    closedir(tasks);
+    return tied;
+}
+
+/* The exit status of a process that opens a device and runs something: 1 where threads are tied, else 0. The
+ * threads tie themselves as they begin. */
+static int tied_in_child(const char *name, const char *value, bool one_processor)
+{
+    pid_t pid = fork();
+    if (pid == 0) {
+        static struct opencl_device all[OPENCL_DEVICES_MAX];
+        cpu_set_t last;
+        long processors = sysconf(_SC_NPROCESSORS_CONF);
+        unsetenv("POCL_AFFINITY");
+        unsetenv("POCL_MAX_PTHREAD_COUNT");
+        if (name)
+            setenv(name, value, 1);
+        CPU_ZERO(&last);
+        CPU_SET((size_t)processors - 1, &last);
+        if (one_processor && sched_setaffinity(0, sizeof last, &last))
+            _exit(77);
+        int count = opencl_devices(all, NULL), tied = 0;
+        if (count <= 0)
+            _exit(77);
+        cl_int error;
+        cl_context context = clCreateContext(NULL, 1, &all[0].id, NULL, NULL, &error);
+        if (error)
+            _exit(77);
+        for (int i = 0; i < 50 && !tied; i++, usleep(10000))
+            tied = threads_tied();
+        if (one_processor) /* all of them are on the one: what matters is that none was moved off it */
+            tied = getenv("POCL_AFFINITY") != NULL;
+        (void)context;
+        _exit(tied > 0);
+    }
+    int status = 0;
+    assert_int_equal(pid, waitpid(pid, &status, 0));
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void threads_have_a_processor_each_unless_told(void **state)
+{
+    (void)state;
+    cpu_set_t ours;
+    assert_int_equal(0, sched_getaffinity(0, sizeof ours, &ours));
+    long processors = sysconf(_SC_NPROCESSORS_CONF);
+    if (processors < 2 || CPU_COUNT(&ours) != processors) {
+        print_message("one processor, or not all are ours: skipped\n");
+        skip();
+    }
+    assert_int_equal(1, tied_in_child(NULL, NULL, false));
+    assert_int_equal(0, tied_in_child("POCL_AFFINITY", "0", false));
+    assert_int_equal(0, tied_in_child("POCL_MAX_PTHREAD_COUNT", "1", false));
+    assert_int_equal(0, tied_in_child(NULL, NULL, true));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_is_chosen_by_number_or_name),
+        cmocka_unit_test(threads_have_a_processor_each_unless_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
