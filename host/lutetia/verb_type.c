@@ -109,6 +109,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
                                       : "give a text%s",
                           words.count ? words.words[1] : "");
     t->text = words.words[0];
+    if (!*t->text)
+        return fail_usage("type", "the text is empty: there is nothing to draw");
     if (t->corners.count > 1)
         return fail_usage("type", "--corners can be given once");
     if (t->gl && (t->corners.count || t->gamma != 0 || t->stripes || t->compare))

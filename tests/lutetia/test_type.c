@@ -172,6 +172,7 @@ static void wrong_lines_are_said(void **state)
         const char *says;
     } cases[] = {
         {{"type"}, 2, "give a text"},
+        {{"type", ""}, 2, "the text is empty"},
         {{"type", "a", "b"}, 2, "put it in quotes"},
         {{"type", "a", "--size", "0"}, 2, "--size must be"},
         {{"type", "a", "--size", "-12"}, 2, "--size must be"},
