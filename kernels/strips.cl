@@ -39,6 +39,10 @@
             LAST_OUT(kind, q, -HALO, v);                                                       \
     } while (0)
 
+/* The halos of a ring's row, when it has been made. */
+#define WRAP_RIGHT(kind, q) PUT(TYPE_##kind, q, W, GET(TYPE_##kind, q, 0))
+#define WRAP_LEFT(kind, q) PUT(TYPE_##kind, q, -VECTOR, GET(TYPE_##kind, q, W - VECTOR))
+
 #ifdef ABOVE
 /* Rows around strips, which are written in place: see borders.cl. */
 #define BORDERS (get_global_size(1) * (ABOVE + BELOW))

@@ -101,7 +101,7 @@ void machine_begin(struct machine *m)
     if (!replay_in_call(m)) {
         replay_settle(m);
         run_flush_due(m);
-        m->turns_in_row = 0;
+        replay_looked(m);
     }
 }
 

@@ -272,10 +272,12 @@ struct machine {
     struct device device;
     bool device_open;
     pthread_t owner;
-    int inside;            /* calls that build, launch or wait: see machine_leave() */
-    struct replay *replay; /* NULL: nothing is noted */
-    int calls_noted;       /* and not performed yet */
-    int turns_in_row;      /* of loops that were foreseen, with nothing else in between */
+    int inside;              /* calls that build, launch or wait: see machine_leave() */
+    struct replay *replay;   /* NULL: nothing is noted */
+    int calls_noted;         /* and not performed yet */
+    int turns_in_row;        /* of loops that were foreseen, with nothing else in between */
+    int turns_between_looks; /* so many there were when somebody looked or did something else */
+    int looks_alike;         /* so often, one after the other, there were as many */
     bool eager;
     struct settings settings;
     struct watch *watch; /* NULL: nobody looks. See watch.h */
@@ -513,7 +515,10 @@ static inline int plan_input(const struct plan_graph *g, const struct plan_node 
 }
 
 /* Which arrays that a kernel stores may take the place of which that it reads: see strips.h. */
-enum { BORDERS_MOST = 16 };
+enum {
+    BORDERS_MOST = 16,
+    STRIPS_LEAST_COLUMNS = 128
+}; /* narrower than that strips are not cut */
 struct in_place {
     int leaves[BORDERS_MOST]; /* nodes whose borders can be copied */
     int leaves_count;
@@ -610,6 +615,7 @@ void replay_forget(struct machine *m);
 bool replay_in_call(const struct machine *m);
 bool replay_in_loop(const struct machine *m);  /* then evaluations become due after calls */
 bool replay_thorough(const struct machine *m); /* evaluations are to leave nothing to compute */
+void replay_looked(struct machine *m);         /* somebody has, or something else begins */
 void replay_resolve(struct machine *m);        /* ... no lazy overflow either */
 /* Calls are noted that lead from a state to the next evaluation. */
 bool replay_follows(const struct machine *m);

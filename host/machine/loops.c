@@ -10,8 +10,8 @@
 #include "replay.h"
 
 /* A loop that has turned so often is tried with many turns at once; after one that was not worth it, so many
- * evaluations later again. */
-enum { TURNS_SEEN = 6, TRY_AGAIN = 8192 };
+ * evaluations later again. Who has looked so often after as many turns as before is expected to do so again. */
+enum { TURNS_SEEN = 6, TRY_AGAIN = 8192, LOOKS_SURE = 8 };
 
 /* ---- found by the calls made ---- */
 
@@ -64,20 +64,44 @@ static bool loop_is(const struct machine *m, const struct edge *e)
     return e->alone && e->to == m->replay->active;
 }
 
-/* How many turns of such a plan are evaluated at once. */
-static int turns_at_once(const struct machine *m, const struct plan *plan)
+/* Evaluations for so many turns: those that are left over are evaluated one by one. */
+static int evaluations(int turns, int at_once)
 {
-    int turns = plan_turns(plan);
-    return turns < m->device.shape.turns ? turns : m->device.shape.turns;
+    return turns / at_once + turns % at_once;
 }
 
-int loop_turns_noted(const struct machine *m, const struct edge *e)
+/* How many turns of such a plan are evaluated at once: where nobody has said how many, up to a quarter more or fewer than
+ * usual if that makes fewer evaluations for one who always looks after as many turns. */
+static int turns_at_once(const struct machine *m, const struct plan *plan)
+{
+    int most = plan_turns(plan), usual = m->device.shape.turns, looks = m->turns_between_looks;
+    int turns = most < usual ? most : usual;
+    if (m->settings.knob[MACHINE_TURNS] != SETTING_FREE || m->looks_alike < LOOKS_SURE ||
+        looks < 2 * usual || turns < usual)
+        return turns;
+    for (int away = 1; away <= usual / 4; away++)
+        for (int side = 1; side >= -1; side -= 2) {
+            int other = usual + side * away;
+            if (other <= most && evaluations(looks, other) < evaluations(looks, turns))
+                turns = other;
+        }
+    return turns;
+}
+
+/* A number that is not the best any more is given up between turns, and the kernel for it with it. */
+int loop_turns_noted(struct machine *m, struct edge *e)
 {
     const struct replay *p = m->replay;
     if (!loop_is(m, e) || !p->thorough || e->runs < TURNS_SEEN)
         return 1;
-    int turns = turns_at_once(m, e->deed.plan);
-    return turns * e->calls_count <= CALLS_MOST ? turns : 1;
+    if (m->calls_noted <= e->calls_count || !e->turns_count) {
+        int turns = turns_at_once(m, e->deed.plan);
+        if (turns != e->turns_count && (m->looks_alike >= LOOKS_SURE || !e->turns.plan)) {
+            deed_finish(m, &e->turns);
+            e->turns_count = turns;
+        }
+    }
+    return e->turns_count * e->calls_count <= CALLS_MOST ? e->turns_count : 1;
 }
 
 /* Loops that are worth it are to be evaluated many turns at a time. For that all turns must begin alike, and those
@@ -132,6 +156,15 @@ void loop_build_turns(struct machine *m)
     p->thorough = false; /* in vain */
     p->not_before = m->flushes + TRY_AGAIN;
     states_forget(m);
+}
+
+void replay_looked(struct machine *m)
+{
+    if (!m->turns_in_row)
+        return;
+    m->looks_alike = m->turns_in_row == m->turns_between_looks ? m->looks_alike + 1 : 0;
+    m->turns_between_looks = m->turns_in_row;
+    m->turns_in_row = 0;
 }
 
 bool replay_thorough(const struct machine *m)

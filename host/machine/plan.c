@@ -379,28 +379,33 @@ static double descend(struct search *s, double best)
     return best;
 }
 
-/* One VP set of two axes, in rows with halos. */
-static bool could_be_strips(const struct plan_graph *g, const struct vpset *sets,
-                            const struct device_shape *shape)
+/* One VP set of two axes, in rows with halos: that; or NULL. */
+static const struct vpset *could_be_strips(const struct plan_graph *g, const struct vpset *sets,
+                                           const struct device_shape *shape)
 {
     uint16_t only = 0;
     if (shape->no_strips || shape->vector < 2)
-        return false;
+        return NULL;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
         if (!n->set || (n->constant && !n->leaf))
             continue;
         if (only && n->set != only)
-            return false;
+            return NULL;
         only = n->set;
     }
-    return only && sets[only].rank == 2 && sets[only].halo >= shape->vector;
+    return only && sets[only].rank == 2 && sets[only].halo >= shape->vector ? &sets[only]
+                                                                            : NULL;
 }
 
 /* How many turns of a loop with this graph can be one kernel of strips: what they look at, all together, must lie
- * in the halos. */
-static int turns_most(const struct plan_graph *g, const struct device_shape *shape)
+ * in the halos. Strips as wide as short rows have halos of their own. */
+static int turns_most(const struct plan_graph *g, const struct vpset *set,
+                      const struct device_shape *shape)
 {
+    if (set->width <= STRIPS_LEAST_COLUMNS && set->width <= shape->strip_columns &&
+        set->width % shape->vector == 0)
+        return 2 * shape->turns;
     int(*reach)[2] = calloc((size_t)g->count, sizeof *reach),
     most = 1; /* to the left, to the right */
     INVARIANT(reach != NULL);
@@ -452,8 +457,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     find_light(&s, weight);
     find_substitutes(g);
     double best = descend(&s, barriers_everywhere(&s));
-    bool could = could_be_strips(g, sets, shape);
-    g->turns_most = could ? turns_most(g, shape) : 1;
+    const struct vpset *could = could_be_strips(g, sets, shape);
+    g->turns_most = could ? turns_most(g, could, shape) : 1;
     if (could && !g->no_strips) {
         memcpy(barrier, s.barrier, count * sizeof *barrier);
         s.strips = true;

@@ -5,6 +5,7 @@
 #include "plan_kernels.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -473,19 +474,32 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
-/* So many strips that all units of a CPU have some, and some more to make up for what is late; not so many that
- * what each computes besides its own rows counts. */
+static size_t shared_by(size_t all, size_t parts)
+{
+    return (all + parts - 1) / parts;
+}
+
+/* How many strips there are and how many rows each has: those that are done soonest. The unit with most strips takes so
+ * long as these have rows, besides their own half of the margin's on average; and a tenth of a strip goes by until the last
+ * unit is ready. */
 static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
                          size_t global[2], size_t *rows)
 {
-    size_t wanted = (size_t)m->device.shape.strips_each * (size_t)m->device.units,
-           least = 8 + 4 * (size_t)l->strip_margin;
+    size_t units = (size_t)m->device.units, most = (size_t)m->device.shape.strips_each * units,
+           height = (size_t)s->rows;
+    double soonest = HUGE_VAL;
     global[0] = (size_t)(s->width / l->strip_columns);
     global[0] = global[0] ? global[0] : 1;
-    size_t down = (wanted + global[0] - 1) / global[0];
-    *rows = ((size_t)s->rows + down - 1) / down;
-    *rows = *rows < least ? least : *rows;
-    global[1] = ((size_t)s->rows + *rows - 1) / *rows;
+    for (size_t down = 1; down <= shared_by(most, global[0]) && down <= height; down++) {
+        size_t each = shared_by(height, down);
+        double strips = (double)shared_by(global[0] * shared_by(height, each), units);
+        double time = (strips + 0.1) * ((double)each + 0.5 * l->strip_margin);
+        if (time < soonest) {
+            soonest = time;
+            *rows = each;
+        }
+    }
+    global[1] = shared_by(height, *rows);
 }
 
 /* Puts the buffers of what is in no need of them any more where they will be written. Returns which borders it takes,

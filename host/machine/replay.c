@@ -52,7 +52,7 @@ void replay_finish(struct machine *m)
     m->replay = NULL;
 }
 
-static void deed_finish(struct machine *m, struct deed *d)
+void deed_finish(struct machine *m, struct deed *d)
 {
     for (int i = 0; d->values && i < d->nodes_count; i++)
         if (d->values[i])

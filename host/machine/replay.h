@@ -30,6 +30,7 @@ struct edge {
     struct deed deed;
     /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
     struct deed turns;
+    int turns_count; /* of them, once it is 2 or more */
     uint64_t runs;
 };
 
@@ -138,13 +139,14 @@ void loops_call(struct machine *m, const struct machine_call *call);
 /* After a call: a turn of the loop is complete, or several if they are short. */
 bool loop_turn_ends(const struct machine *m);
 /* How many turns of it are noted before any is performed. */
-int loop_turns_noted(const struct machine *m, const struct edge *e);
+int loop_turns_noted(struct machine *m, struct edge *e);
 /* Many turns of the loop, for the first time: performed call by call, and evaluated at the end. */
 void loop_build_turns(struct machine *m);
 /* After turns of it, one by one (many: or many at once): whether evaluations are to be thorough. */
 void loops_turned(struct machine *m, const struct edge *e, bool many);
 
 /* replay.c */
+void deed_finish(struct machine *m, struct deed *d);
 void edge_finish(struct machine *m, struct edge *e);
 /* The calls noted are performed, one by one. */
 void replay_catch_up(struct machine *m);

@@ -329,7 +329,7 @@ enum machine_status machine_flush(struct machine *m)
 {
     replay_settle(m);
     run_flush_due(m);
-    m->turns_in_row = 0;
+    replay_looked(m);
     return run_evaluate(m, NULL, 0, false);
 }
 

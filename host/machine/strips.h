@@ -34,7 +34,8 @@
  *
  * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
  * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
- * stages together. Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold
+ * stages together. Where a strip is as wide as a row of whole vectors, the rows of its rings are tori, too: each gets halos when
+ * it has been made, and nothing is computed twice but what stays in variables. Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold
  * anything, and nobody looks at them.
  *
  * Stages of which the same text comes again and again are turns of a loop, and each turn is a pass: a function,
@@ -91,6 +92,8 @@ struct strips {
     int *down, *ahead;       /* of nodes that are stored: see struct together */
     bool *bits_matter;
     int *ring_rows; /* of a node: how many; 0: no ring */
+    bool whole;     /* the strip is as wide as the row: rings have halos */
+    int *wraps;     /* of a ring, bits: whose halos are looked at */
     int *ring_at;   /* of a node: where in the strip's memory, in bytes for each column */
     int *number;    /* of a node that is a number, + 1; of an array that is read */
     int memory;     /* of a strip, bytes for each column */
@@ -101,6 +104,8 @@ struct strips {
     bool failed;
 };
 
+enum { WRAPS_LEFT = 1, WRAPS_RIGHT = 2 };
+
 static inline void widen(int *have, int wanted)
 {
     *have = wanted > *have ? wanted : *have;
@@ -110,7 +115,7 @@ static inline void widen(int *have, int wanted)
 
 /* Looks at what stages look at, and decides on passes, rows, columns and rings. False: it cannot be done in strips, or
  * memory is out. */
-bool strips_schedule(struct strips *s);
+bool strips_schedule(struct strips *s, const struct device_shape *shape);
 /* How far down the row is that the pointer looks at, the short way round. */
 int strips_rows_down(const struct strips *s, const struct emitter *e, const struct pointer *p);
 /* Once passes have their text: the margin that they need. False: more than there is around arrays. */

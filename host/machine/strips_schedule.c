@@ -215,6 +215,7 @@ static int schedule(struct strips *s, struct way way)
     s->downward = way.downward;
     s->rightward = way.rightward;
     memset(s->ring_rows, 0, (size_t)s->g->count * sizeof *s->ring_rows);
+    memset(s->wraps, 0, (size_t)s->g->count * sizeof *s->wraps);
     for (int k = 0; k < s->units_count; k++) {
         struct unit *to = &s->units[k];
         to->delay = to->above = to->below = to->left = to->right = to->ahead = 0;
@@ -229,11 +230,18 @@ static int schedule(struct strips *s, struct way way)
             struct unit *from = &s->units[s->unit[p->node]];
             int down = strips_rows_down(s, &to->e, p),
                 rows = to->delay - from->delay - down * s->downward + 1;
+            bool variable =
+                s->stages[from->stage].pass == s->stages[to->stage].pass && rows == 1;
             widen(&from->above, to->above - down);
             widen(&from->below, to->below + down);
-            widen(&from->left, to->left - p->low);
-            widen(&from->right, to->right + p->high);
-            if (s->stages[from->stage].pass == s->stages[to->stage].pass && rows == 1)
+            if (variable || !s->whole) {
+                widen(&from->left, to->left - p->low);
+                widen(&from->right, to->right + p->high);
+            } else {
+                s->wraps[p->node] |= (to->left - p->low > 0 ? WRAPS_LEFT : 0) |
+                                     (to->right + p->high > 0 ? WRAPS_RIGHT : 0);
+            }
+            if (variable)
                 widen(&from->ahead,
                       to->ahead +
                           up_to_vectors(s, s->rightward > 0 ? p->high : -p->low) / s->vector);
@@ -269,6 +277,7 @@ static int schedule(struct strips *s, struct way way)
 /* Rings of wide elements first, so that all are aligned. */
 static void lay_out(struct strips *s)
 {
+    s->memory = 0;
     for (int bytes = 8; bytes >= 1; bytes /= 2)
         for (int i = 0; i < s->g->count; i++)
             if (s->ring_rows[i] && (int)type_bytes(s->g->nodes[i].type) == bytes) {
@@ -405,7 +414,7 @@ static void choose_way(struct strips *s)
     find_pairs(s);
 }
 
-bool strips_schedule(struct strips *s)
+bool strips_schedule(struct strips *s, const struct device_shape *shape)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
         stage_values(s, k);
@@ -414,8 +423,14 @@ bool strips_schedule(struct strips *s)
         return false;
     find_bits(s);
     make_passes(s);
+    s->whole = s->set->width % s->vector == 0;
     choose_way(s);
     lay_out(s);
+    if (s->whole && strips_columns(s, shape) < s->set->width) {
+        s->whole = false;
+        choose_way(s);
+        lay_out(s);
+    }
     return !s->failed && suits(s);
 }
 
@@ -446,9 +461,8 @@ bool strips_find_margin(struct strips *s)
 
 int strips_columns(const struct strips *s, const struct device_shape *shape)
 {
-    enum { LEAST = 128 };
     int columns = shape->strip_columns, width = s->set->width;
-    while (columns > LEAST && columns * s->memory > shape->near_bytes)
+    while (columns > STRIPS_LEAST_COLUMNS && columns * s->memory > shape->near_bytes)
         columns = columns / 2 / s->vector * s->vector;
     int strips = (width + columns - 1) / columns;
     columns = width / strips / s->vector * s->vector;

@@ -218,8 +218,17 @@ static void pass_text(struct strips *s, struct pass *pass)
                  e->body.data);
     text_put(t,
              "#define BOX(e) (e)\n#define ROW_STORE STORE_AT_EDGE\n"
-             "%s#undef BOX\n#undef ROW_STORE\n    }\n}\n",
+             "%s#undef BOX\n#undef ROW_STORE\n    }\n",
              e->body.data);
+    for (int i = 0; i < pass->outputs_count; i++) {
+        const struct output *o = &pass->outputs[i];
+        const char *kind = memory_kind(s->g->nodes[o->node].type);
+        if (!o->array && s->wraps[o->node] & WRAPS_RIGHT)
+            text_put(t, "    WRAP_RIGHT(%s, q%d);\n", kind, i);
+        if (!o->array && s->wraps[o->node] & WRAPS_LEFT)
+            text_put(t, "    WRAP_LEFT(%s, q%d);\n", kind, i);
+    }
+    text_put(t, "}\n");
     s->failed = s->failed || t->failed || e->failed || e->body.failed || e->rows.failed ||
                 e->constants.failed || e->row_tests.failed || e->column_tests.failed;
 }
@@ -499,6 +508,7 @@ static void strips_finish(struct strips *s)
     free(s->ahead);
     free(s->bits_matter);
     free(s->ring_rows);
+    free(s->wraps);
     free(s->ring_at);
     free(s->number);
 }
@@ -525,11 +535,12 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
     s.ahead = calloc((size_t)g->count, sizeof *s.ahead);
     s.bits_matter = calloc((size_t)g->count, sizeof *s.bits_matter);
     s.ring_rows = calloc((size_t)g->count, sizeof *s.ring_rows);
+    s.wraps = calloc((size_t)g->count, sizeof *s.wraps);
     s.ring_at = calloc((size_t)g->count, sizeof *s.ring_at);
     s.number = calloc((size_t)g->count, sizeof *s.number);
     s.failed = !s.stages || !s.units || !s.unit || !s.passes || !s.down || !s.ahead ||
-               !s.bits_matter || !s.ring_rows || !s.ring_at || !s.number;
-    bool good = !s.failed && strips_schedule(&s);
+               !s.bits_matter || !s.ring_rows || !s.wraps || !s.ring_at || !s.number;
+    bool good = !s.failed && strips_schedule(&s, shape);
     for (int k = 0; k < s.passes_count && good; k++) {
         make_pass(&s, k);
         good = !s.failed;

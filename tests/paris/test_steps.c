@@ -223,6 +223,25 @@ static void many_turns_are_one_kernel(void **state)
     }
 }
 
+/* Whoever looks after every twentieth turn has ten at once, not eight, eight and four single ones; in strips of whole
+ * rows, whose rings are tori. */
+static void none_is_left_over(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    uint64_t before = 0;
+    for (int look = 0; look < 30; look++) {
+        before = kernels_run();
+        for (int i = 0; i < 20; i++) {
+            turn(&s, 7);
+            turn_wanted(&s, 7);
+        }
+        expect(&s);
+    }
+    assert_int_equal(kernels_run() - before, 2);
+}
+
 static uint64_t in_place(void)
 {
     struct machine_stats now;
@@ -271,6 +290,15 @@ static int forced_whole_rows(void **state)
     return paris_reset(NULL) ? 0 : -1;
 }
 
+static int usual_turns_in_strips(void **state)
+{
+    (void)state;
+    unsetenv("LUTETIA_COLUMNS");
+    unsetenv("LUTETIA_TURNS");
+    unsetenv("LUTETIA_IN_PLACE");
+    return paris_reset(NULL) ? 0 : -1;
+}
+
 static int forced(void **state)
 {
     static const char *const names[][2] = {
@@ -295,6 +323,8 @@ int main(void)
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test(a_loop_that_is_looked_at_is_not_either),
         cmocka_unit_test_setup(what_nobody_wants_is_written_over, forced_whole_rows),
+        cmocka_unit_test(what_comes_between_is_seen),
+        cmocka_unit_test_setup(none_is_left_over, usual_turns_in_strips),
         cmocka_unit_test(what_comes_between_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
