@@ -550,8 +550,13 @@ static enum machine_status copy_borders(struct machine *m, const struct launch *
     call_buffer(&c, to);
     for (int i = 0; i < BORDERS_MOST; i++)
         call_buffer(&c, buffers[in->leaves[i < in->leaves_count ? i : 0]]);
+    c.bytes = 0;
+    for (int i = 0; i < in->leaves_count; i++)
+        if (which >> i & 1)
+            c.bytes += 2 * s->pitch * global[1] * (size_t)(in->above + in->below) *
+                       (size_t)(bytes >> 4 * i & 15);
     return call_start_3d(&c, m, (size_t)(in->above + in->below), global[1],
-                         (size_t)in->leaves_count, "a kernel cannot be started");
+                         (size_t)in->leaves_count, "what strips read of each other");
 }
 
 /* in_place: which borders are needed: see take_places(). */

@@ -148,8 +148,8 @@ static enum machine_status sort_pass(struct machine *m, const struct sort *t,
             call_buffer(&c, t->pairs[!from]);
             call_buffer(&c, t->ranks);
         }
-        enum machine_status status = call_start_3d(&c, m, (size_t)t->chunks, rows, l->outer,
-                                                   "a kernel cannot be started");
+        enum machine_status status =
+            call_start_3d(&c, m, (size_t)t->chunks, rows, l->outer, "sorting");
         if (!status && number == 0)
             status = lines_sum_up(m, t->counts, lines_count(l), (size_t)t->chunks << bits);
         if (status)

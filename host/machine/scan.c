@@ -141,8 +141,7 @@ static enum machine_status scan_runs(struct machine *m, const struct lines *l,
     call_buffer(&c, j->out);
     call_buffer(&c, totals ? totals : j->out);
     call_buffer(&c, totals ? firsts : j->out);
-    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer,
-                         "a kernel cannot be started");
+    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
 
 /* Where FILLS takes elements from. */
@@ -175,10 +174,8 @@ static enum machine_status scan_stage(struct machine *m, const struct lines *l,
     call_buffer(&c, firsts ? firsts : j->out);
     call_buffer(&c, j->sums ? j->sums : j->out);
     if (stage == JOINS)
-        return call_start_3d(&c, m, (size_t)l->columns, l->inner * l->outer, 1,
-                             "a kernel cannot be started");
-    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer,
-                         "a kernel cannot be started");
+        return call_start_3d(&c, m, (size_t)l->columns, l->inner * l->outer, 1, "scanning");
+    return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
 
 static enum machine_status scan_lines(struct machine *m, const struct lines *l,
