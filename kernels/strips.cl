@@ -39,6 +39,13 @@
             LAST_OUT(kind, q, -HALO, v);                                                       \
     } while (0)
 
+/* What is stored past the caches must not be fetched into them. */
+#if STREAMS
+#define PREFETCH_STORE(q) (void)0
+#else
+#define PREFETCH_STORE(q) PREFETCH(q, 1)
+#endif
+
 /* The halos of a ring's row, when it has been made. */
 #define WRAP_RIGHT(kind, q) PUT(TYPE_##kind, q, W, GET(TYPE_##kind, q, 0))
 #define WRAP_LEFT(kind, q) PUT(TYPE_##kind, q, -VECTOR, GET(TYPE_##kind, q, W - VECTOR))

@@ -164,7 +164,7 @@ static void prefetch_text(const struct strips *s, struct pass *pass, struct text
     }
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
-            text_put(t, "        PREFETCH(q%d %c PITCH + x + %d, 1);\n", i, next,
+            text_put(t, "        PREFETCH_STORE(q%d %c PITCH + x + %d);\n", i, next,
                      s->ahead[pass->outputs[i].node] * s->vector);
 }
 
