@@ -30,13 +30,16 @@
     } while (0)
 
 /* In the middle of it. The first HALO columns are the right halo, the last ones the left. */
+#define AT_END(i) ((i) == 0 || (i) == W - VECTOR)
 #define STORE_INSIDE(kind, q, i, v)                                                            \
     do {                                                                                       \
         PASS_##kind(q, i, v);                                                                  \
-        if ((i) == 0)                                                                          \
-            FIRST_OUT(kind, q, W, v);                                                          \
-        if ((i) == W - VECTOR)                                                                 \
-            LAST_OUT(kind, q, -HALO, v);                                                       \
+        if (at_end) {                                                                          \
+            if ((i) == 0)                                                                      \
+                FIRST_OUT(kind, q, W, v);                                                      \
+            if ((i) == W - VECTOR)                                                             \
+                LAST_OUT(kind, q, -HALO, v);                                                   \
+        }                                                                                      \
     } while (0)
 
 /* What is stored past the caches must not be fetched into them. */

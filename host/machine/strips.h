@@ -61,6 +61,8 @@ struct unit {
 struct output {
     int node;
     bool array; /* else its ring */
+    bool
+        asks; /* the first of those that are stored where the strip's own rows and columns are */
 };
 
 struct pass {

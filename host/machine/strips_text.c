@@ -24,23 +24,59 @@ static bool in_places(const struct strips *s, int output)
     return false;
 }
 
-static void pass_output(struct strips *s, struct pass *pass, int node, bool array)
+static void output_add(struct pass *pass, int node, bool array)
+{
+    pass->outputs[pass->outputs_count++] = (struct output){.node = node, .array = array};
+}
+
+static struct operand output_value(struct strips *s, struct pass *pass, int node, bool array)
 {
     struct emitter *e = &pass->e;
-    const struct plan_node *n = &s->g->nodes[node];
-    int columns = s->ahead[node] * s->vector;
-    struct operand v = emit_value(e, node, emit_row(e, 0, s->down[node]), columns,
-                                  array || s->bits_matter[node]);
-    if (array)
-        text_put(&e->body,
-                 "        if (own%d && x + %d >= first && x + %d < last)\n"
-                 "            ROW_STORE(%s, q%d, x + %d, %s);\n",
-                 pass->outputs_count, columns, columns, memory_kind(n->type),
-                 pass->outputs_count, columns, v.text);
-    else
-        text_put(&e->body, "        OUT_%s(q%d, x + %d, %s);\n", memory_kind(n->type),
-                 pass->outputs_count, columns, v.text);
-    pass->outputs[pass->outputs_count++] = (struct output){node, array};
+    return emit_value(e, node, emit_row(e, 0, s->down[node]), s->ahead[node] * s->vector,
+                      array || s->bits_matter[node]);
+}
+
+static void ring_output(struct strips *s, struct pass *pass, int node)
+{
+    struct operand v = output_value(s, pass, node, false);
+    text_put(&pass->e.body, "        OUT_%s(q%d, x + %d, %s);\n",
+             memory_kind(s->g->nodes[node].type), pass->outputs_count,
+             s->ahead[node] * s->vector, v.text);
+    output_add(pass, node, false);
+}
+
+/* That, and those after it that go to the same row and columns: what asks whether a row and a vector of it are the strip's own
+ * asks for all of them. */
+static void array_outputs(struct strips *s, struct pass *pass, int first)
+{
+    struct emitter *e = &pass->e;
+    int node = s->stores[first], columns = s->ahead[node] * s->vector;
+    bool always = columns >= pass->before && columns <= -pass->after;
+    text_put(&e->body, "        if (own%d", pass->outputs_count);
+    if (!always)
+        text_put(&e->body, " && x + %d >= first && x + %d < last", columns, columns);
+    text_put(&e->body, ") {\n            const bool at_end = AT_END(x + %d);\n", columns);
+    for (int i = first; i < s->stores_count; i++) {
+        int other = s->stores[i];
+        const struct plan_node *n = &s->g->nodes[other];
+        if (n->stage != e->stage || !n->target || s->down[other] != s->down[node] ||
+            s->ahead[other] != s->ahead[node])
+            continue;
+        text_put(&e->body, "            ROW_STORE(%s, q%d, x + %d, %s);\n",
+                 memory_kind(n->type), pass->outputs_count, columns,
+                 output_value(s, pass, other, true).text);
+        output_add(pass, other, true);
+        pass->outputs[pass->outputs_count - 1].asks = i == first;
+    }
+    text_put(&e->body, "        }\n");
+}
+
+static bool is_output_already(const struct pass *pass, int node)
+{
+    for (int i = 0; i < pass->outputs_count; i++)
+        if (pass->outputs[i].array && pass->outputs[i].node == node)
+            return true;
+    return false;
 }
 
 static void pass_values(struct strips *s, struct pass *pass)
@@ -62,19 +98,17 @@ static void pass_values(struct strips *s, struct pass *pass)
     e->bare = true;
     e->together = &pass->together;
     for (e->stage = pass->first; e->stage <= pass->last && !e->failed; e->stage++) {
+        for (int i = 0; i < s->stores_count && !e->failed; i++)
+            if (s->g->nodes[s->stores[i]].stage == e->stage)
+                output_value(s, pass, s->stores[i], s->g->nodes[s->stores[i]].target);
+        /* all values before a store asks: what is computed in a branch is not known after it */
+        for (int i = 0; i < s->stores_count && !e->failed; i++)
+            if (s->g->nodes[s->stores[i]].stage == e->stage && s->ring_rows[s->stores[i]])
+                ring_output(s, pass, s->stores[i]);
         for (int i = 0; i < s->stores_count && !e->failed; i++) {
-            int node = s->stores[i];
-            if (s->g->nodes[node].stage == e->stage)
-                emit_value(e, node, emit_row(e, 0, s->down[node]), s->ahead[node] * s->vector,
-                           s->g->nodes[node].target || s->bits_matter[node]);
-        }
-        for (int i = 0; i < s->stores_count && !e->failed; i++) {
-            int node = s->stores[i];
-            const struct plan_node *n = &s->g->nodes[node];
-            if (n->stage == e->stage && s->ring_rows[node])
-                pass_output(s, pass, node, false);
-            if (n->stage == e->stage && n->target)
-                pass_output(s, pass, node, true);
+            const struct plan_node *n = &s->g->nodes[s->stores[i]];
+            if (n->stage == e->stage && n->target && !is_output_already(pass, s->stores[i]))
+                array_outputs(s, pass, i);
         }
     }
     s->failed = s->failed || e->failed || e->body.failed;
@@ -197,7 +231,7 @@ static void pass_text(struct strips *s, struct pass *pass)
     text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
              e->constants.data ? e->constants.data : "");
     for (int i = 0; i < pass->outputs_count; i++)
-        if (pass->outputs[i].array)
+        if (pass->outputs[i].asks)
             text_put(t, "    const bool own%d = y + (%d) >= top && y + (%d) < bottom;\n", i,
                      s->down[pass->outputs[i].node], s->down[pass->outputs[i].node]);
     carried_text(s, pass, t, true);
