@@ -514,11 +514,11 @@ static inline int plan_input(const struct plan_graph *g, const struct plan_node 
                : n->in[k];
 }
 
+/* Strips are not cut narrower than that. */
+enum { STRIPS_LEAST_COLUMNS = 128 };
+
 /* Which arrays that a kernel stores may take the place of which that it reads: see strips.h. */
-enum {
-    BORDERS_MOST = 16,
-    STRIPS_LEAST_COLUMNS = 128
-}; /* narrower than that strips are not cut */
+enum { BORDERS_MOST = 16 };
 struct in_place {
     int leaves[BORDERS_MOST]; /* nodes whose borders can be copied */
     int leaves_count;

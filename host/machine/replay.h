@@ -30,7 +30,7 @@ struct edge {
     struct deed deed;
     /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
     struct deed turns;
-    int turns_count; /* of them, once it is 2 or more */
+    int turns_count; /* of them; 0: not decided, 1: none are worth it */
     uint64_t runs;
 };
 

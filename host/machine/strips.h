@@ -34,9 +34,11 @@
  *
  * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
  * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
- * stages together. Where a strip is as wide as a row of whole vectors, the rows of its rings are tori, too: each gets halos when
- * it has been made, and nothing is computed twice but what stays in variables. Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold
- * anything, and nobody looks at them.
+ * stages together. Where a strip is as wide as a row of whole vectors, the rows of its rings are tori, too: each
+ * gets halos when it has been made, and nothing is computed twice but what stays in variables.
+ *
+ * Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold anything, and nobody looks
+ * at them.
  *
  * Stages of which the same text comes again and again are turns of a loop, and each turn is a pass: a function,
  * which all turns with the same text share. */
@@ -61,8 +63,7 @@ struct unit {
 struct output {
     int node;
     bool array; /* else its ring */
-    bool
-        asks; /* the first of those that are stored where the strip's own rows and columns are */
+    bool asks;  /* the first of those that are stored together */
 };
 
 struct pass {

@@ -24,9 +24,9 @@ static bool in_places(const struct strips *s, int output)
     return false;
 }
 
-static void output_add(struct pass *pass, int node, bool array)
+static void output_add(struct pass *pass, struct output output)
 {
-    pass->outputs[pass->outputs_count++] = (struct output){.node = node, .array = array};
+    pass->outputs[pass->outputs_count++] = output;
 }
 
 static struct operand output_value(struct strips *s, struct pass *pass, int node, bool array)
@@ -42,41 +42,46 @@ static void ring_output(struct strips *s, struct pass *pass, int node)
     text_put(&pass->e.body, "        OUT_%s(q%d, x + %d, %s);\n",
              memory_kind(s->g->nodes[node].type), pass->outputs_count,
              s->ahead[node] * s->vector, v.text);
-    output_add(pass, node, false);
+    output_add(pass, (struct output){.node = node});
 }
 
-/* That, and those after it that go to the same row and columns: what asks whether a row and a vector of it are the strip's own
- * asks for all of them. */
+/* Stores of one turn to arrays, at the same rows and columns. */
+static bool stored_together(const struct strips *s, int store, int other)
+{
+    const struct plan_node *n = &s->g->nodes[store], *o = &s->g->nodes[other];
+    return n->target && o->target && n->stage == o->stage && s->down[store] == s->down[other] &&
+           s->ahead[store] == s->ahead[other];
+}
+
+static bool is_first_there(const struct strips *s, int store)
+{
+    for (int i = 0; i < s->stores_count; i++)
+        if (stored_together(s, store, s->stores[i]))
+            return s->stores[i] == store;
+    return false;
+}
+
+/* That, and those that are stored together with it: what asks whether a row and a vector of it are the strip's own asks
+ * for all of them. */
 static void array_outputs(struct strips *s, struct pass *pass, int first)
 {
     struct emitter *e = &pass->e;
-    int node = s->stores[first], columns = s->ahead[node] * s->vector;
+    int columns = s->ahead[first] * s->vector;
     bool always = columns >= pass->before && columns <= -pass->after;
     text_put(&e->body, "        if (own%d", pass->outputs_count);
     if (!always)
         text_put(&e->body, " && x + %d >= first && x + %d < last", columns, columns);
     text_put(&e->body, ") {\n            const bool at_end = AT_END(x + %d);\n", columns);
-    for (int i = first; i < s->stores_count; i++) {
-        int other = s->stores[i];
-        const struct plan_node *n = &s->g->nodes[other];
-        if (n->stage != e->stage || !n->target || s->down[other] != s->down[node] ||
-            s->ahead[other] != s->ahead[node])
+    for (int i = 0; i < s->stores_count; i++) {
+        int node = s->stores[i];
+        if (!stored_together(s, first, node))
             continue;
         text_put(&e->body, "            ROW_STORE(%s, q%d, x + %d, %s);\n",
-                 memory_kind(n->type), pass->outputs_count, columns,
-                 output_value(s, pass, other, true).text);
-        output_add(pass, other, true);
-        pass->outputs[pass->outputs_count - 1].asks = i == first;
+                 memory_kind(s->g->nodes[node].type), pass->outputs_count, columns,
+                 output_value(s, pass, node, true).text);
+        output_add(pass, (struct output){.node = node, .array = true, .asks = node == first});
     }
     text_put(&e->body, "        }\n");
-}
-
-static bool is_output_already(const struct pass *pass, int node)
-{
-    for (int i = 0; i < pass->outputs_count; i++)
-        if (pass->outputs[i].array && pass->outputs[i].node == node)
-            return true;
-    return false;
 }
 
 static void pass_values(struct strips *s, struct pass *pass)
@@ -105,11 +110,9 @@ static void pass_values(struct strips *s, struct pass *pass)
         for (int i = 0; i < s->stores_count && !e->failed; i++)
             if (s->g->nodes[s->stores[i]].stage == e->stage && s->ring_rows[s->stores[i]])
                 ring_output(s, pass, s->stores[i]);
-        for (int i = 0; i < s->stores_count && !e->failed; i++) {
-            const struct plan_node *n = &s->g->nodes[s->stores[i]];
-            if (n->stage == e->stage && n->target && !is_output_already(pass, s->stores[i]))
-                array_outputs(s, pass, i);
-        }
+        for (int i = 0; i < s->stores_count && !e->failed; i++)
+            if (s->g->nodes[s->stores[i]].stage == e->stage && is_first_there(s, s->stores[i]))
+                array_outputs(s, pass, s->stores[i]);
     }
     s->failed = s->failed || e->failed || e->body.failed;
 }
@@ -171,9 +174,7 @@ static void carry(struct strips *s, struct pass *pass)
     for (int i = 0; i < pass->together.carried_count; i++) {
         int node = pass->together.carried[i].node;
         e->stage = s->g->nodes[node].stage;
-        struct operand v = emit_value(e, node, emit_row(e, 0, s->down[node]),
-                                      s->ahead[node] * s->vector, s->bits_matter[node]);
-        text_put(&e->body, "        c%d_1 = %s;\n", i, v.text);
+        text_put(&e->body, "        c%d_1 = %s;\n", i, output_value(s, pass, node, false).text);
     }
 }
 
