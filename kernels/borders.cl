@@ -11,6 +11,8 @@
         from = a##n;                                                                           \
         break;
 
+typedef ulong2 vector __attribute__((aligned(1)));
+
 __kernel void borders(uint pitch, int rows, int run, int above, int below, uint which,
                       ulong bytes, ulong begin, __global uchar *to ARRAYS(PARAMETER))
 {
@@ -31,9 +33,9 @@ __kernel void borders(uint pitch, int rows, int run, int above, int below, uint 
     to += begin + (ulong)pitch * ((ulong)(strips * (above + below)) * before +
                                   (ulong)(strip * (above + below) + row) * size);
     from += (ulong)((y % rows + rows) % rows) * pitch * size;
-    /* rows are whole vectors of 16 elements */
-    const __global ulong2 *f = (const __global ulong2 *)from;
-    __global ulong2 *t = (__global ulong2 *)to;
+    /* pitches are multiples of 16 elements */
+    const __global vector *f = (const __global vector *)from;
+    __global vector *t = (__global vector *)to;
     for (uint i = 0; i < pitch * size / 16; i++)
         t[i] = f[i];
 }

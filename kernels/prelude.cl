@@ -69,7 +69,9 @@ typedef JOIN(UNSIGNED, _lanes) VU;
 #else
 #define PART(v, at) __builtin_shufflevector(v, v, (at), (at) + 1, (at) + 2, (at) + 3)
 #endif
-#define PART_OUT(kind, p, i, part) JOIN(vstore, HALO)(part, 0, (p) + (i))
+typedef uchar uchar_part __attribute__((ext_vector_type(HALO), aligned(1)));
+typedef ushort ushort_part __attribute__((ext_vector_type(HALO), aligned(2)));
+#define PART_OUT(kind, p, i, part) (*(__global JOIN(TYPE_##kind, _part) *)((p) + (i)) = (part))
 #define FIRST_OUT(kind, p, i, v) PART_OUT(kind, p, i, PART(TO_##kind(v), 0))
 #define LAST_OUT(kind, p, i, v) PART_OUT(kind, p, i, PART(TO_##kind(v), VECTOR - HALO))
 #else

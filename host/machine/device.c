@@ -361,19 +361,22 @@ static void CL_CALLBACK memory_free(cl_mem memory, void *address)
 
 /* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own: large ones are in
  * large pages where the system has them, or looking for pages takes as long as computing. */
-static cl_mem memory_get(const struct device *d, size_t bytes, cl_int *error)
+static cl_mem memory_get(const struct device *d, struct rows rows, cl_int *error)
 {
     void *address;
-    if (!d->is_cpu || bytes < LARGE_PAGE_BYTES)
+    size_t bytes = rows.bytes, skipped = -rows.first % LINE_BYTES;
+    bool large = bytes >= LARGE_PAGE_BYTES;
+    if (!d->is_cpu || (!large && !skipped))
         return clCreateBuffer(d->context, CL_MEM_READ_WRITE, bytes, NULL, error);
     *error = CL_OUT_OF_HOST_MEMORY;
-    if (posix_memalign(&address, LARGE_PAGE_BYTES, bytes))
+    if (posix_memalign(&address, large ? LARGE_PAGE_BYTES : DEVICE_GUARD_BYTES,
+                       skipped + bytes))
         return NULL;
 #ifdef MADV_HUGEPAGE
     madvise(address, bytes / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES, MADV_HUGEPAGE);
 #endif
     cl_mem memory = clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes,
-                                   address, error);
+                                   (char *)address + skipped, error);
     if (!*error)
         *error = clSetMemObjectDestructorCallback(memory, memory_free, address);
     if (!*error)
@@ -386,9 +389,16 @@ static cl_mem memory_get(const struct device *d, size_t bytes, cl_int *error)
 
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
 {
+    return device_rows_get(m, (struct rows){bytes, 0});
+}
+
+struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
+{
     struct device *d = &m->device;
+    size_t bytes = rows.bytes;
+    rows.first %= LINE_BYTES;
     for (int i = d->pool_count - 1; i >= 0; i--)
-        if (d->pool[i]->bytes == bytes) {
+        if (d->pool[i]->bytes == bytes && d->pool[i]->first == rows.first) {
             struct device_buffer *b = d->pool[i];
             d->pool[i] = d->pool[--d->pool_count];
             d->pool_bytes -= bytes;
@@ -408,13 +418,13 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
     }
     struct device_buffer *b = calloc(1, sizeof *b);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    cl_mem parent = b ? memory_get(d, whole, &error) : NULL;
+    cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     if (error && d->pool_count) {
         m->inside++;
         clFinish(d->queue);
         m->inside--;
         pool_empty(d);
-        parent = b ? memory_get(d, whole, &error) : NULL;
+        parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     }
     if (!error) {
         cl_buffer_region region = {
@@ -434,6 +444,7 @@ struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
         return NULL;
     }
     b->bytes = bytes;
+    b->first = rows.first;
     b->refs = 1;
     d->held_bytes += bytes;
     return b;

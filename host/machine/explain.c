@@ -292,8 +292,8 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
         f->shifts_computed += shifts_computed(g, stores, stores_count, stage);
     f->stages = g->strips ? f->stages : 1;
     f->split = split;
-    /* A lane by itself takes the time of a whole vector. */
-    double lanes = k->vector == 1 ? m->device.shape.vector : 1;
+    /* A lane by itself takes the time of a whole vector, and so do many narrow ones. */
+    double lanes = (double)m->device.shape.vector / k->vector;
     f->operations_s =
         1e-9 * m->device.shape.op_ns * k->cost * lanes * (double)m->sets[set].count;
     take_arguments(f, g, k);

@@ -105,11 +105,16 @@ extern const struct node_op_info node_ops[NODE_OP_COUNT];
 
 /* Before and after each buffer there is so much more memory, which nobody's numbers are in: kernels in strips load
  * vectors of which some lanes are beyond a row's ends. A multiple of any device's alignment. */
-enum { DEVICE_GUARD_BYTES = 4096 };
+enum { DEVICE_GUARD_BYTES = 4096, LINE_BYTES = 64 };
+
+/* A buffer of so many bytes, in which the first column of the first row is so many bytes on. */
+struct rows {
+    size_t bytes, first;
+};
 
 struct device_buffer {
     cl_mem mem;
-    size_t bytes;
+    size_t bytes, first; /* see struct rows */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     uint32_t mark, number; /* of replay.c */
 };
@@ -633,6 +638,7 @@ void replay_failed(struct machine *m);
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v);
 /* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */
 size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type);
+struct rows observe_rows(const struct vpset *s, struct machine_type type);
 
 /* scan.c */
 /* Lines of elements in a buffer: see kernels/scan.cl. */
@@ -713,6 +719,8 @@ enum machine_status device_open(struct machine *m, const struct machine_config *
 void device_close(struct machine *m);
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
+/* On CPUs the first column is where a line of the caches begins. */
+struct device_buffer *device_rows_get(struct machine *m, struct rows rows);
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 /* The kernel of that name in a program of these parts, all but the last the same for many; from

@@ -7,15 +7,15 @@
 
 #include "narrow.h"
 
-enum { NARROWEST = 8, NARROW_MOST = 16, WIDE = 32 };
+enum { NARROWEST = 8, NARROW_MOST = 16 };
 
-/* Lanes that a node's number fits, if it can be computed there. */
-static int lane_of(const struct plan_graph *g, const struct plan_node *n)
+int narrow_lane_of(const struct plan_graph *g, int node, bool loaded)
 {
+    const struct plan_node *n = &g->nodes[node];
     if (n->type.kind != MACHINE_BITS || n->type.width > NARROW_MOST)
-        return WIDE;
+        return LANE_WIDE;
     int lane = n->type.width > NARROWEST ? NARROW_MOST : NARROWEST;
-    if (n->leaf || n->constant)
+    if (loaded || n->constant)
         return lane;
     bool of_bits = g->nodes[n->in[0]].type.width == 1;
     switch (n->op) {
@@ -29,7 +29,7 @@ static int lane_of(const struct plan_graph *g, const struct plan_node *n)
     case MACHINE_XOR:
         return lane;
     case NODE_ZERO_EXTEND:
-        return n->type.width > 1 ? lane : WIDE;
+        return n->type.width > 1 ? lane : LANE_WIDE;
     case NODE_EXTRACT:
     case MACHINE_NEG:
     case MACHINE_ADD:
@@ -44,26 +44,28 @@ static int lane_of(const struct plan_graph *g, const struct plan_node *n)
     case MACHINE_UMAX:
     case MACHINE_SMIN:
     case MACHINE_SMAX:
-        return of_bits ? WIDE : lane;
+    case NODE_OVERFLOW_UADD:
+    case NODE_OVERFLOW_USUB:
+    case NODE_OVERFLOW_SADD:
+    case NODE_OVERFLOW_SSUB:
+        return of_bits ? LANE_WIDE : lane;
     default:
-        return WIDE;
+        return LANE_WIDE;
     }
 }
 
 int narrow_lane(const struct plan_graph *g, const int *stores, int count, int stage)
 {
     bool *needed = calloc((size_t)g->count, sizeof *needed);
-    int lane = needed ? NARROWEST : WIDE;
+    int lane = needed ? NARROWEST : LANE_WIDE;
     for (int i = 0; needed && i < count; i++)
         needed[stores[i]] = true;
-    for (int i = g->count - 1; i >= 0 && lane < WIDE; i--) {
+    for (int i = g->count - 1; i >= 0 && lane < LANE_WIDE; i--) {
         const struct plan_node *n = &g->nodes[i];
         if (!needed[i])
             continue;
         bool loads = stage < 0 ? n->leaf : plan_loads(n, stage);
-        struct plan_node as_loaded = *n;
-        as_loaded.leaf = loads;
-        int own = lane_of(g, &as_loaded);
+        int own = narrow_lane_of(g, i, loads);
         lane = own > lane ? own : lane;
         for (int k = 0; !loads && k < node_ops[n->op].inputs; k++) {
             needed[n->in[k]] = true;
@@ -76,6 +78,37 @@ int narrow_lane(const struct plan_graph *g, const int *stores, int count, int st
 }
 
 /* ---- the text of one operation ---- */
+
+/* An unsigned number is that at most, as far as a few operations before it tell. */
+static uint32_t most(const struct plan_graph *g, int node, int operations)
+{
+    const struct plan_node *n = &g->nodes[node];
+    uint32_t any = (1u << n->type.width) - 1, a, b;
+    if (n->leaf || n->constant || !operations--)
+        return any;
+    switch (n->op) {
+    case NODE_SHIFT:
+    case NODE_ZERO_EXTEND:
+        a = most(g, n->in[0], operations);
+        return a < any ? a : any;
+    case NODE_SELECT:
+        a = most(g, n->in[1], operations);
+        b = most(g, n->in[2], operations);
+        return a > b ? a : b;
+    case MACHINE_ADD:
+        a = most(g, n->in[0], operations) + most(g, n->in[1], operations);
+        return a < any ? a : any;
+    default:
+        return any;
+    }
+}
+
+/* Of unsigned numbers of width bits, none of them is cut. */
+static bool sum_fits(const struct plan_graph *g, const struct plan_node *n, int width)
+{
+    enum { OPERATIONS = 6 };
+    return most(g, n->in[0], OPERATIONS) + most(g, n->in[1], OPERATIONS) < 1u << width;
+}
 
 static void cut(char *out, size_t size, const char *from, int width, int lane)
 {
@@ -167,8 +200,26 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
     case MACHINE_ADD:
     case MACHINE_SUB:
         snprintf(raw, sizeof raw, "%s %s %s", a, symbols[n->op], b);
-        cut(out, size, raw, width, lane);
+        cut(out, size, raw, n->op == MACHINE_ADD && sum_fits(g, n, width) ? lane : width, lane);
         return;
+    case NODE_OVERFLOW_UADD:
+        if (sum_fits(g, n, from.width))
+            snprintf(out, size, "(VI)(0)");
+        else
+            snprintf(out, size, "(((%s + %s) & (VU)(0x%x)) < %s)", a, b, (1u << from.width) - 1,
+                     a);
+        return;
+    case NODE_OVERFLOW_USUB:
+        snprintf(out, size, "(%s < %s)", a, b);
+        return;
+    case NODE_OVERFLOW_SADD:
+    case NODE_OVERFLOW_SSUB: { /* the signs say so */
+        bool sum = n->op == NODE_OVERFLOW_SADD;
+        snprintf(raw, sizeof raw, "(%s %s %s)", a, sum ? "+" : "-", b);
+        snprintf(out, size, "(((%s ^ %s) & (%s ^ %s) & (VU)(0x%x)) != (VU)(0))", a, raw, b,
+                 sum ? raw : a, 1u << (from.width - 1));
+        return;
+    }
     default: /* AND, OR, XOR, comparisons */
         snprintf(out, size, "(%s %s %s)", a, symbols[n->op], b);
         return;

@@ -22,6 +22,11 @@ size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
     return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
 }
 
+struct rows observe_rows(const struct vpset *s, struct machine_type type)
+{
+    return (struct rows){observe_buffer_bytes(s, type), (size_t)s->halo * type_bytes(type)};
+}
+
 /* The position of a processor in a buffer, in elements. */
 static size_t place(const struct vpset *s, uint64_t index)
 {
@@ -34,7 +39,7 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
     const struct vpset *s = &m->sets[set];
     size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
     unsigned char *image = calloc(1, bytes);
-    struct device_buffer *b = image ? device_buffer_get(m, bytes) : NULL;
+    struct device_buffer *b = image ? device_rows_get(m, observe_rows(s, type)) : NULL;
     if (!b) {
         free(image);
         if (!m->status)
@@ -72,10 +77,9 @@ static void put_scalar(unsigned char *to, struct machine_scalar x, size_t elemen
 struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
 {
     if (v->op == NODE_CONSTANT && !v->buffer) {
-        size_t element = type_bytes(v->type),
-               bytes = observe_buffer_bytes(&m->sets[set], v->type);
+        size_t element = type_bytes(v->type);
         unsigned char pattern[16];
-        struct device_buffer *b = device_buffer_get(m, bytes);
+        struct device_buffer *b = device_rows_get(m, observe_rows(&m->sets[set], v->type));
         if (!b)
             return NULL;
         put_scalar(pattern, v->imm, element);
@@ -210,11 +214,11 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 /* A buffer of the same content that nobody else looks at. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
-    size_t bytes = observe_buffer_bytes(&m->sets[set], v->type);
-    struct device_buffer *b = device_buffer_get(m, bytes);
+    struct rows rows = observe_rows(&m->sets[set], v->type);
+    struct device_buffer *b = device_rows_get(m, rows);
     if (!b)
         return NULL;
-    if (device_copy(m, v->buffer, b, bytes, "copying a field")) {
+    if (device_copy(m, v->buffer, b, rows.bytes, "copying a field")) {
         device_buffer_unref(m, b);
         return NULL;
     }

@@ -13,11 +13,12 @@
  *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch
  *     c = op_ns * operations, b = byte_ns * bytes
  *
- * with operations counted for each (node, offset) pair that the kernel evaluates, and bytes for
- * each array that it reads or writes. The search begins with a barrier at every shift of a
+ * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is less where lanes are narrow),
+ * and bytes for each array that it reads or writes. The search begins with a barrier at every shift of a
  * computed value, and takes one after the other away if that is cheaper. Measured constants:
  * device.c. */
 #include "internal.h"
+#include "narrow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,6 +48,7 @@ struct search {
     bool strips;                          /* all stages in one kernel */
     bool first;                           /* the first plan must do, whatever it costs */
     double operations, bytes, near_bytes; /* near: of rings */
+    int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;
 };
 
@@ -98,7 +100,10 @@ static void expand(struct search *s, int index, int offset, int stage)
     const struct plan_node *n = &s->g->nodes[index];
     if (n->constant || s->too_much || visited(s, index, offset))
         return;
-    if (plan_loads(n, stage)) {
+    bool loads = plan_loads(n, stage);
+    int lane = narrow_lane_of(s->g, index, loads);
+    s->lane = lane > s->lane ? lane : s->lane;
+    if (loads) {
         s->operations += 1;
         if (s->strips && !n->leaf) { /* in another row, from a ring: else in variables */
             bool first = s->loaded[index] != s->loads_stamp;
@@ -181,7 +186,8 @@ static int assign(struct search *s)
 /* Computing and moving overlap in part. */
 static double time_of(const struct search *s, const struct vpset *set)
 {
-    double c = s->operations * s->shape->op_ns + s->near_bytes * s->shape->near_byte_ns,
+    double op_ns = s->shape->op_ns * (s->shape->narrow ? (double)s->lane / LANE_WIDE : 1),
+           c = s->operations * op_ns + s->near_bytes * s->shape->near_byte_ns,
            b = s->bytes * s->shape->byte_ns;
     return (double)set->count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
 }
@@ -193,6 +199,7 @@ static double cost(struct search *s)
     double total = 0;
     s->too_much = false;
     s->operations = s->bytes = s->near_bytes = 0;
+    s->lane = 0;
     s->loads_stamp++;
     const struct vpset *only = NULL;
     for (int stage = 0; stage <= last; stage++) {
@@ -214,6 +221,7 @@ static double cost(struct search *s)
             s->offsets_count = 1;
             if (!s->strips) {
                 s->operations = s->bytes = 0;
+                s->lane = 0;
                 s->loads_stamp++;
             }
             for (int k = i; k < g->count; k++)

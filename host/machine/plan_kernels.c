@@ -36,13 +36,13 @@ struct plan {
     struct launch *launches;
     int launches_count;
     int *stored; /* nodes that get a buffer */
-    size_t *stored_bytes;
+    struct rows *stored_rows;
     int stored_count;
     uint32_t version;
     uint64_t worked; /* processors it has run on, all runs together */
     uint64_t work;   /* ... in one run */
     enum quality quality;
-    bool could_be_optimised, could_be_boxed;
+    bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
     struct plan *next;
 };
@@ -59,7 +59,7 @@ static void plan_free(struct plan *p)
     }
     free(p->launches);
     free(p->stored);
-    free(p->stored_bytes);
+    free(p->stored_rows);
     free(p->signature);
     free(p);
 }
@@ -284,7 +284,7 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
         const struct plan_node *n = &g->nodes[stores[i]];
         if (g->strips && !n->target)
             continue;
-        p->stored_bytes[p->stored_count] = observe_buffer_bytes(&m->sets[n->set], n->type);
+        p->stored_rows[p->stored_count] = observe_rows(&m->sets[n->set], n->type);
         p->stored[p->stored_count++] = stores[i];
     }
 }
@@ -322,8 +322,8 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
     if (good) {
         p->quality = quality;
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
-        p->stored_bytes = calloc((size_t)r->count, sizeof *p->stored_bytes);
-        good = p->stored && p->stored_bytes;
+        p->stored_rows = calloc((size_t)r->count, sizeof *p->stored_rows);
+        good = p->stored && p->stored_rows;
     }
     if (good) {
         g.boxes = quality == BOXED;
@@ -332,6 +332,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         plan_choose(&g, m->sets, &m->device.shape);
         if (m->watch)
             watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
+        p->could_be_strips = g.no_strips && g.turns_most > 1;
         *strips = g.strips;
         p->turns_most = g.turns_most;
         if (m->dump_dir)
@@ -376,7 +377,8 @@ static bool plan_is_due(const struct machine *m, const struct plan *p)
 {
     enum quality quality = quality_after(m, p->worked);
     return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
-           (quality != BOXED || p->could_be_optimised || p->could_be_boxed);
+           (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
+            p->could_be_strips);
 }
 
 /* The same plan with better kernels. What cannot be had is done without. */
@@ -401,7 +403,7 @@ static void plan_improve(struct machine *m, struct plan *p, const struct reach *
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;
-    better->stored_bytes = old.stored_bytes;
+    better->stored_rows = old.stored_rows;
     better->signature = NULL;
     plan_free(better);
 }
@@ -627,7 +629,7 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     for (int i = 0; i < p->stored_count && !status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
         if (!*b)
-            *b = device_buffer_get(m, p->stored_bytes[i]);
+            *b = device_rows_get(m, p->stored_rows[i]);
         if (!*b)
             status = m->status;
     }

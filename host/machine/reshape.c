@@ -51,7 +51,7 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
     struct device_buffer *out = NULL;
     enum machine_status status = MACHINE_OK;
     if (!words_evaluate(m, y, count, coarse) ||
-        !(out = device_buffer_get(m, observe_buffer_bytes(f, type))))
+        !(out = device_rows_get(m, observe_rows(f, type))))
         return NULL;
     for (uint32_t at = 0, n, first = 0; at < count && !status;
          first += n * y[at].parts, at += n) {
@@ -333,7 +333,7 @@ static bool image_get(struct machine *m, struct field *f, uint32_t words,
     field_slots_put(m, f, 0, f->bits, NULL, 0);
     for (uint32_t at = 0; at < f->bits; at += 64) {
         struct machine_type type = MACHINE_UINT(f->bits - at < 64 ? f->bits - at : 64);
-        struct device_buffer *b = device_buffer_get(m, observe_buffer_bytes(s, type));
+        struct device_buffer *b = device_rows_get(m, observe_rows(s, type));
         if (!b)
             return false;
         struct slot slot = slot_of(m, at, graph_buffer_node(m, type, f->vpset, b));

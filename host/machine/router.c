@@ -127,7 +127,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
 static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
                                    struct machine_type type)
 {
-    return device_buffer_get(m, observe_buffer_bytes(s, type));
+    return device_rows_get(m, observe_rows(s, type));
 }
 
 /* The columns that repeat the other end. */
@@ -271,9 +271,10 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
 {
     struct machine_type type = g->source->type;
     bool combines = combiner != MACHINE_COMBINE_OVERWRITE, in_order = combines || scatters(m);
-    size_t bytes = observe_buffer_bytes(g->to, type);
-    size_t trash = in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0;
-    struct device_buffer *out = device_buffer_get(m, bytes + trash), *owner = NULL, *to = NULL;
+    struct rows rows = observe_rows(g->to, type);
+    size_t bytes = rows.bytes;
+    rows.bytes += in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0; /* thrown away */
+    struct device_buffer *out = device_rows_get(m, rows), *owner = NULL, *to = NULL;
     enum machine_status status = out ? MACHINE_OK : m->status;
     if (!status && in_order) {
         owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);

@@ -47,7 +47,7 @@ bool values_materialise(struct machine *m, int set, struct machine_value **value
 static struct device_buffer *buffer_for(struct machine *m, const struct element *e)
 {
     const struct vpset *s = &m->sets[m->set_current];
-    return device_buffer_get(m, observe_buffer_bytes(s, MACHINE_UINT(8 * (int)e->bytes)));
+    return device_rows_get(m, observe_rows(s, MACHINE_UINT(8 * (int)e->bytes)));
 }
 
 struct lines lines_of(const struct vpset *s, int axis, bool downward)

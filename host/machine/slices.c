@@ -17,14 +17,13 @@ bool reshape_unpack(struct machine *m, struct machine_value *slice)
     int first = slice->detail / RESHAPE_BLOCK * RESHAPE_BLOCK, count = (int)k - first;
     struct machine_value key = *slice;
     struct device_buffer *b[RESHAPE_BLOCK] = {NULL}, *any = NULL;
-    size_t bytes = observe_buffer_bytes(s, slice->type);
     count = count < RESHAPE_BLOCK ? count : RESHAPE_BLOCK;
     for (int i = 0; i < count; i++) {
         key.detail = first + i;
         out[i] = first + i == slice->detail ? slice : graph_find(m, &key);
         if (!out[i] || out[i]->buffer)
             continue;
-        b[i] = device_buffer_get(m, bytes);
+        b[i] = device_rows_get(m, observe_rows(s, slice->type));
         if (!b[i]) {
             for (; i >= 0; i--)
                 if (b[i])
@@ -92,8 +91,7 @@ struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v
                                       const struct vpset *to)
 {
     v = observe_materialise(m, set, v);
-    struct device_buffer *b =
-        v ? device_buffer_get(m, observe_buffer_bytes(to, v->type)) : NULL;
+    struct device_buffer *b = v ? device_rows_get(m, observe_rows(to, v->type)) : NULL;
     if (!b)
         return NULL;
     struct kernel_call c = reshape_call(m, v->type, "slices");

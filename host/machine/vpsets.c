@@ -36,8 +36,10 @@ static void vpset_lay_out(const struct machine *m, struct vpset *s, const int *d
     const struct device_shape *shape = &m->device.shape;
     s->halo = s->width >= shape->vector ? shape->halo : 0;
     s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
+    size_t whole =
+        s->width < LINE_BYTES ? 16 : LINE_BYTES; /* of bytes, too, rows begin lines */
     if (s->halo)
-        s->pitch = (s->pitch + 15) / 16 * 16;
+        s->pitch = (s->pitch + whole - 1) / whole * whole;
 }
 
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,

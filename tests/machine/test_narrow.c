@@ -209,6 +209,47 @@ static int kernels_of(const char *folder, const char *lane)
     return count;
 }
 
+/* Sums and differences that do not fit. */
+static void check_overflows(int width)
+{
+    const uint32_t a = upload(width, 0), b = upload(width, 1);
+    const uint32_t field =
+        machine_field_allocate(machine, machine_vpset_current(machine), 1, MACHINE_HEAP);
+    char array[COUNT];
+
+    for (int k = 0; k < 4; k++) {
+        const bool sum = k & 1, is_signed = k & 2;
+        int differ = 0;
+        machine_begin(machine);
+        assert_ok(machine_overflow_record(machine, sum ? MACHINE_ADD : MACHINE_SUB, is_signed,
+                                          support_value(machine, a, MACHINE_UINT(width)),
+                                          support_value(machine, b, MACHINE_UINT(width))),
+                  machine);
+        assert_ok(machine_field_store(
+                      machine, field,
+                      machine_flag_value(machine, MACHINE_OVERFLOW, MACHINE_EVERYWHERE),
+                      MACHINE_EVERYWHERE),
+                  machine);
+        assert_ok(machine_field_download(machine, field, MACHINE_BIT, array), machine);
+        for (uint64_t n = 0; n < COUNT; n++) {
+            const wide x = word(width, 0, n), y = word(width, 1, n);
+            bool overflows;
+            number_integer(sum ? OP_ADD : OP_SUBTRACT, is_signed,
+                           is_signed ? (wide)wide_signed(x, width) : x,
+                           is_signed ? (wide)wide_signed(y, width) : y, width, &overflows);
+            if (array[n] != overflows)
+                fail_msg("%s %s of %d bits, element %d: overflow %d, expected %d",
+                         is_signed ? "signed" : "unsigned", sum ? "sum" : "difference", width,
+                         (int)n, array[n], overflows);
+            differ += overflows;
+        }
+        assert_in_range(differ, 1, COUNT - 1);
+    }
+    assert_ok(machine_field_deallocate(machine, field), machine);
+    assert_ok(machine_field_deallocate(machine, a), machine);
+    assert_ok(machine_field_deallocate(machine, b), machine);
+}
+
 static void run(const char *vector, bool strips)
 {
     static const int bytes[] = {8, 5, 8, 1}, shorts[] = {16, 13};
@@ -224,7 +265,12 @@ static void run(const char *vector, bool strips)
     support_set(machine, 2, ROWS, COLUMNS);
     check(bytes, 4, 8);
     assert_true(kernels_of(folder, strips ? "-DLANE=8, strips" : "-DLANE=8 ") > 0);
+    for (int i = 0; i < 2; i++) {
+        check_overflows(bytes[i]);
+        assert_true(kernels_of(folder, "-DLANE=8 ") > 0);
+    }
     if (!strips) {
+        check_overflows(shorts[1]);
         check(shorts, 2, 16);
         assert_true(kernels_of(folder, "-DLANE=16 ") > 0);
     }

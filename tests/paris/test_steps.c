@@ -242,6 +242,44 @@ static void none_is_left_over(void **state)
     assert_int_equal(kernels_run() - before, 2);
 }
 
+/* Without a coordinate in it: nothing is inside or outside of anything. */
+static void turn_alike(struct sheet *s)
+{
+    CM_get_from_news_1L(s->neighbour, s->cell, 0, CM_downward, 32);
+    CM_u_add_2_1L(s->cell, s->neighbour, 32);
+    CM_get_from_news_1L(s->neighbour, s->cell, 1, CM_downward, 32);
+    CM_u_add_2_1L(s->cell, s->neighbour, 32);
+}
+
+static void turn_alike_wanted(struct sheet *s)
+{
+    static uint32_t old[CELLS];
+    for (int axis = 0; axis < 2; axis++) {
+        memcpy(old, s->wanted, sizeof old);
+        for (int y = 0; y < HIGH; y++)
+            for (int x = 0; x < WIDE; x++)
+                s->wanted[y * WIDE + x] += axis ? old[y * WIDE + (x + WIDE - 1) % WIDE]
+                                                : old[(y + HIGH - 1) % HIGH * WIDE + x];
+    }
+}
+
+/* Its first kernels are as good as kernels in rows can be; after a while it is many turns at a time all the same. */
+static void a_loop_without_boxes_is_many_turns_at_once(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    uint64_t before = 0;
+    for (int i = 0; i < 160; i++) {
+        if (i == 80)
+            before = kernels_run();
+        turn_alike(&s);
+        turn_alike_wanted(&s);
+    }
+    expect(&s);
+    assert_true(kernels_run() - before <= 80 / 2);
+}
+
 static uint64_t in_place(void)
 {
     struct machine_stats now;
@@ -299,6 +337,18 @@ static int usual_turns_in_strips(void **state)
     return paris_reset(NULL) ? 0 : -1;
 }
 
+static int better_after_a_while(void **state)
+{
+    static const char *const names[] = {"LUTETIA_STRIPS", "LUTETIA_COLUMNS", "LUTETIA_TURNS",
+                                        "LUTETIA_IN_PLACE"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unsetenv(names[i]);
+    setenv("LUTETIA_BOX_AFTER", "50000", 1); /* cells: eight turns */
+    setenv("LUTETIA_FLUSH_AFTER", "8", 1);
+    return paris_reset(NULL) ? 0 : -1;
+}
+
 static int forced(void **state)
 {
     static const char *const names[][2] = {
@@ -326,6 +376,8 @@ int main(void)
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test_setup(none_is_left_over, usual_turns_in_strips),
         cmocka_unit_test(what_comes_between_is_seen),
+        cmocka_unit_test_setup(a_loop_without_boxes_is_many_turns_at_once,
+                               better_after_a_while),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
