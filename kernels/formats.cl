@@ -30,7 +30,7 @@ inline VL short_pack(VD x, int s, int e)
     VL r = SEL_L(CMP_L(magnitude < (VL)(SHORT_POWER(least))), small, normal);
     r = SEL_L(CMP_L(magnitude == (VL)(SHORT_INFINITE)), (VL)(ones), r) |
         (bits & SHORT_SIGN) >> (ulong)(63 - s - e);
-    return SEL_L(CMP_L(x == x), r, (VL)(ones | (ulong)1 << (s - 1)));
+    return SEL_L(CMP_L(x == x), r, (VL)(ones | (ulong)1 << (s - 1) | (ulong)1 << (s + e)));
 }
 
 inline VD short_unpack(VL bits, int s, int e)
@@ -43,5 +43,5 @@ inline VD short_unpack(VL bits, int s, int e)
     VL r = SEL_L(CMP_L(magnitude < (VL)((ulong)1 << s)), small, normal);
     r = SEL_L(CMP_L(magnitude >= (VL)(ones)), (VL)(SHORT_INFINITE), r) |
         (bits & ((ulong)1 << (s + e))) << (ulong)(63 - s - e);
-    return AS_D(SEL_L(CMP_L(magnitude > (VL)(ones)), (VL)((ulong)0xfff << 51), r));
+    return AS_D(SEL_L(CMP_L(magnitude > (VL)(ones)), (VL)((ulong)0x1fff << 51), r));
 }

@@ -90,7 +90,7 @@ MATH_FUNCTION struct math_dd dd_sqrt(struct math_dd a)
 
 MATH_FUNCTION double math_nan(void)
 {
-    return MATH_DOUBLE(0x7ff8000000000000UL);
+    return MATH_DOUBLE(0xfff8000000000000UL);
 }
 MATH_FUNCTION double math_infinity(void)
 {

@@ -281,8 +281,8 @@ inline VU column(int x, int W)
 
 /* ---- NaN ---- */
 
-#define CANON_F(v) SEL_F(CMP_U((v) == (v)), v, (VF)(as_float(0x7fc00000)))
-#define CANON_D(v) SEL_D(CMP_L((v) == (v)), v, (VD)(as_double(0x7ff8000000000000L)))
+#define CANON_F(v) SEL_F(CMP_U((v) == (v)), v, (VF)(as_float(0xffc00000u)))
+#define CANON_D(v) SEL_D(CMP_L((v) == (v)), v, (VD)(as_double(0xfff8000000000000UL)))
 
 /* ---- integers in floats and back ---- */
 

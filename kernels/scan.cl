@@ -78,7 +78,7 @@ inline TYPE least2(TYPE a, TYPE v)
         body(PRODUCT)                                                                          \
     }
 #define QUIET                                                                                  \
-    (sizeof(TYPE) == 4 ? (TYPE)as_float(0x7fc00000u) : (TYPE)as_double(0x7ff8000000000000UL))
+    (sizeof(TYPE) == 4 ? (TYPE)as_float(0xffc00000u) : (TYPE)as_double(0xfff8000000000000UL))
 #define TAKE(T, v) (v)
 #define SHOW(T, v) SEL((v) == (v), v, (T)(QUIET))
 #else

@@ -22,7 +22,7 @@ typedef uint64_t ulong;
 #endif
 #define SOFT_SIGN ((ulong)1 << 63)
 #define SOFT_INFINITE ((ulong)0x7ff << 52)
-#define SOFT_NAN ((ulong)0xfff << 51)
+#define SOFT_NAN ((ulong)0x1fff << 51)
 
 typedef struct {
     ulong sign, m;
@@ -217,7 +217,7 @@ SOFT_FUNCTION ulong soft_pack(ulong x, int s, int e)
     ulong ones = ((ulong)1 << e) - 1, sign = (x >> 63) << (s + e);
     x = soft_fit(x, s, e);
     if (soft_is_nan(x))
-        return ones << s | (ulong)1 << (s - 1);
+        return (ones << 1 | 1) << (s - 1) | (ulong)1 << (s + e);
     if ((x & ~SOFT_SIGN) == SOFT_INFINITE)
         return sign | ones << s;
     if ((x & ~SOFT_SIGN) == 0)

@@ -49,6 +49,38 @@
 #define PREFETCH_STORE(q) PREFETCH(q, 1)
 #endif
 
+/* Of more arrays than a processor can follow, rows are fetched one after the other, a few pieces in each turn of the loop over columns:
+ * so few places of the memory are at work at the same time. */
+#define PIECE_BYTES 512
+struct row_ahead {
+    const __global uchar *at;
+    int bytes; /* 0: there are no more */
+};
+#define ROW_AHEAD(p) {(const __global uchar *)((p) + first), (last - first) * (int)sizeof *(p)},
+#if STREAMS
+#define STORED_ROW_AHEAD(p)
+#else
+#define STORED_ROW_AHEAD(p) ROW_AHEAD(p)
+#endif
+#define FETCH_AHEAD                                                                            \
+    for (int i = 0; i < each && ahead[row_ahead].bytes; i++) {                                 \
+        const __global uchar *at = ahead[row_ahead].at + done_ahead;                           \
+        for (int line = 0; line < PIECE_BYTES; line += 64)                                     \
+            PREFETCH(at + line, 0);                                                            \
+        done_ahead += PIECE_BYTES;                                                             \
+        if (done_ahead >= ahead[row_ahead].bytes) {                                            \
+            done_ahead = 0;                                                                    \
+            row_ahead++;                                                                       \
+        }                                                                                      \
+    }
+inline int pieces_each(const struct row_ahead *ahead, int turns)
+{
+    int pieces = 0;
+    for (; ahead->bytes; ahead++)
+        pieces += (ahead->bytes + PIECE_BYTES - 1) / PIECE_BYTES;
+    return (pieces + turns - 1) / max(turns, 1);
+}
+
 /* The halos of a ring's row, when it has been made. */
 #define WRAP_RIGHT(kind, q) PUT(TYPE_##kind, q, W, GET(TYPE_##kind, q, 0))
 #define WRAP_LEFT(kind, q) PUT(TYPE_##kind, q, -VECTOR, GET(TYPE_##kind, q, W - VECTOR))

@@ -401,7 +401,8 @@ void paris_float_vax(const struct paris_instruction *self, struct paris_operand 
         r = machine_select(m, low, small, machine_binary(m, MACHINE_SUB, bits, two));
         r = machine_select(m, zero, none, r);
         r = machine_select(
-            m, wrong, paris_number(m, w, w == 32 ? 0x7fc00000 : INT64_C(0x7ff8000000000000)),
+            m, wrong,
+            paris_number(m, w, w == 32 ? 0xffc00000 : (int64_t)UINT64_C(0xfff8000000000000)),
             r);
     }
     if (!r || paris_flag_put(m, MACHINE_OVERFLOW, wrong, MACHINE_WHERE_ACTIVE))

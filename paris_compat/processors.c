@@ -17,20 +17,6 @@ static double float_of(struct machine_type type, struct machine_scalar bits)
     return number;
 }
 
-static struct machine_scalar bits_of(struct machine_type type, double number)
-{
-    float single = (float)number;
-    uint32_t low;
-    struct machine_scalar bits = {0, 0};
-    if (type.width == 32) {
-        memcpy(&low, &single, sizeof low);
-        bits.lo = low;
-    } else {
-        memcpy(&bits.lo, &number, sizeof bits.lo);
-    }
-    return bits;
-}
-
 static long sign_extend(uint64_t bits, unsigned int len)
 {
     unsigned int unused = len < 64 ? 64 - len : 0;
@@ -82,8 +68,9 @@ void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t s
     if (!processor_index(m, send_address, dest, "dest", &type, &index) ||
         !paris_check_operand(value, "value"))
         return;
-    struct machine_scalar bits =
-        value.letter == 'f' ? bits_of(type, value.value.number) : paris_constant_bits(value);
+    struct machine_scalar bits = value.letter == 'f'
+                                     ? machine_float_bits(type, value.value.number)
+                                     : paris_constant_bits(value);
     if (machine_field_write(m, dest.field, type, index, bits) != MACHINE_OK)
         paris_fail_machine();
 }

@@ -142,6 +142,9 @@ static struct device_shape shape_of(const struct device *d, const struct setting
         shape.vector = said(s, MACHINE_VECTOR, shape.vector);
         shape.halo = shape.vector > 1 ? shape.vector : 0;
         shape.narrow = shape.vector > 1 && s->narrow;
+#ifdef __x86_64__ /* 0/0 is *the* NaN, and an operand that is it is the result */
+        shape.keeps_nan = s->keeps_nan != 0;
+#endif
         shape.op_ns = 0.064 / shape.vector;
     }
     return shape;

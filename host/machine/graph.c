@@ -3,6 +3,7 @@
  * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out
  * of the table and lets its inputs go. Nodes live in blocks that are kept until the machine
  * goes. */
+#include "scalar.h"
 #include "watch.h"
 
 #include <stdlib.h>
@@ -164,28 +165,66 @@ static void bear(struct machine_value *v, uint32_t epoch)
     }
 }
 
-static void derive(struct machine_value *v, uint32_t epoch)
+/* Of constants. */
+static bool is_nan(const struct machine_value *v)
+{
+    bool single = v->type.width == 32;
+    return (v->imm.lo & (single ? INT32_MAX : INT64_MAX)) >
+           (single ? 0x7f800000u : UINT64_C(0x7ff0000000000000));
+}
+
+/* Which NaNs may be in it. */
+static void derive_nan(const struct machine *m, struct machine_value *v)
+{
+    enum nan kind = (enum nan)node_ops[v->op].nan;
+    bool nan = false, strange = false;
+    v->maybe_nan = v->strange_nan = false;
+    if (v->type.kind != MACHINE_FLOAT)
+        return;
+    for (int i = 0; i < node_ops[v->op].inputs; i++) {
+        nan = nan || v->in[i]->maybe_nan;
+        strange = strange || v->in[i]->strange_nan;
+    }
+    switch (v->op) {
+    case NODE_SELECT:
+    case NODE_SHIFT:
+        v->maybe_nan = nan;
+        v->strange_nan = strange;
+        break;
+    case NODE_CONSTANT:
+        v->strange_nan = is_nan(v) && v->imm.lo != (v->type.width == 32 ? NAN_32 : NAN_64);
+        break;
+    case NODE_BUFFER:
+    case NODE_SLICE:
+    case NODE_REINTERPRET:
+        v->strange_nan = true;
+        break;
+    case MACHINE_FMIN: /* b where either is a NaN: with a number for b they never give one */
+    case MACHINE_FMAX:
+        v->maybe_nan = v->in[1]->op == NODE_CONSTANT
+                           ? is_nan(v->in[1])
+                           : nan || strange || !m->device.shape.keeps_nan;
+        break;
+    default:
+        v->maybe_nan = kind == NAN_ANY ||
+                       (kind == NAN_KEPT && (nan || strange || !m->device.shape.keeps_nan));
+    }
+}
+
+static void derive(const struct machine *m, struct machine_value *v, uint32_t epoch)
 {
     const struct node_op_info *info = &node_ops[v->op];
     unsigned generator = (unsigned)node_cost(v->op, v->type), height = 0;
-    bool nan = info->may_be_nan;
     bear(v, epoch);
     for (int i = 0; i < info->inputs; i++) {
         const struct machine_value *in = v->in[i];
         generator += in->generator;
         if (in->height + 1u > height && !node_is_leaf(in))
             height = in->height + 1u;
-        if (v->op == NODE_SELECT || v->op == NODE_SHIFT)
-            nan = nan || in->maybe_nan;
-    }
-    /* min and max give b where either is NaN: with a number for b they never give a NaN. */
-    if ((v->op == MACHINE_FMIN || v->op == MACHINE_FMAX) && v->in[1]->op == NODE_CONSTANT) {
-        uint64_t magnitude = v->in[1]->imm.lo & (v->type.width == 32 ? 0x7fffffffu : INT64_MAX);
-        nan = magnitude > (v->type.width == 32 ? 0x7f800000u : 0x7ff0000000000000u);
     }
     v->generator = generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
     v->height = height > UINT16_MAX ? UINT16_MAX : (uint16_t)height;
-    v->maybe_nan = nan && v->type.kind == MACHINE_FLOAT;
+    derive_nan(m, v);
 }
 
 /* Waits to be computed: slices are views that cost nothing until somebody looks. */
@@ -231,7 +270,7 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     for (int i = 0; i < 3; i++)
         if (v->in[i])
             graph_ref(v->in[i]);
-    derive(v, m->epoch);
+    derive(m, v, m->epoch);
     v->interned = true;
     v->next = m->table[hash & (m->table_size - 1)];
     m->table[hash & (m->table_size - 1)] = v;
@@ -250,6 +289,7 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
                                 .type = type,
                                 .generator = GENERATOR_NONE,
                                 .set = (uint16_t)set,
+                                .strange_nan = type.kind == MACHINE_FLOAT,
                                 .buffer = buffer};
     return graph_borrow(m, v);
 }
@@ -339,7 +379,7 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
     for (int i = 0; i < 3; i++)
         if ((v->in[i] = key->in[i]))
             graph_ref(v->in[i]);
-    derive(v, m->epoch);
+    derive(m, v, m->epoch);
     if (is_pending(v))
         m->nodes_pending++;
     v->interned = true;

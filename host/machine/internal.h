@@ -96,11 +96,14 @@ enum node_op {
 };
 
 struct node_op_info {
-    const char *name;   /* in dumps, and of the prelude's function */
-    uint8_t inputs;     /* operands */
-    uint8_t cost;       /* vector instructions, about */
-    uint8_t may_be_nan; /* gives a NaN whose bits are not canonical until it is stored */
+    const char *name; /* in dumps, and of the prelude's function */
+    uint8_t inputs;   /* operands */
+    uint8_t cost;     /* vector instructions, about */
+    uint8_t nan;      /* enum nan */
 };
+/* May an operation's result be a NaN with bits that are not *the* NaN's (NAN_32, NAN_64)? Devices that keep NaNs give that one for
+ * the last kind of operations, of operands with no other. */
+enum nan { NAN_NEVER, NAN_ANY, NAN_KEPT };
 extern const struct node_op_info node_ops[NODE_OP_COUNT];
 
 /* Before and after each buffer there is so much more memory, which nobody's numbers are in: kernels in strips load
@@ -129,7 +132,8 @@ struct machine_value {
     struct machine_type type;
     uint8_t axis;
     uint8_t generator; /* cost where nothing is read from memory, else GENERATOR_NONE */
-    bool maybe_nan;    /* bits of a NaN in it may not be canonical */
+    bool maybe_nan;    /* an operation's NaN in it may not be *the* NaN until it is stored */
+    bool strange_nan;  /* the program's own NaNs may be in it, with any bits */
     uint16_t set;      /* VP set; 0: one number for all */
     uint16_t height;   /* longest path to something materialised */
     bool interned;
@@ -211,7 +215,7 @@ struct settings {
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
     uint64_t knob[MACHINE_KNOBS];
-    uint64_t strips, in_place, scatter, narrow;
+    uint64_t strips, in_place, scatter, narrow, keeps_nan;
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
     uint64_t keep;    /* programs on disk */
@@ -233,6 +237,7 @@ struct device_shape {              /* what generated code should look like there
     int strips_each;               /* for each unit */
     int turns;                     /* of a loop at once */
     bool narrow;                   /* kernels may have lanes of 8 or 16 bits */
+    bool keeps_nan;                /* see enum nan */
     bool streams;                  /* large arrays are stored past the caches */
     double launch_ns;              /* ... a launch */
 };
@@ -518,6 +523,9 @@ static inline int plan_input(const struct plan_graph *g, const struct plan_node 
                ? instead
                : n->in[k];
 }
+
+/* More arrays than a processor foresees at once. */
+enum { ARRAYS_MANY = 16 };
 
 /* Strips are not cut narrower than that. */
 enum { STRIPS_LEAST_COLUMNS = 128 };

@@ -415,6 +415,9 @@ bool machine_value_is_zero(const struct machine_value *v);
 struct machine_value *machine_constant(struct machine *m, struct machine_type type,
                                        struct machine_scalar bits);
 /* Rounded to the type. */
+/* A front-end number as a float of 32 or 64 bits, rounded; every NaN is the one that operations give, 0xffc00000 or
+ * 0xfff8000000000000. */
+struct machine_scalar machine_float_bits(struct machine_type type, double x);
 struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
                                              double x);
 

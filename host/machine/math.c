@@ -111,7 +111,7 @@ bool math_fold(int op, struct machine_type type, struct machine_scalar a,
     if (type.width == 64) {
         if (!math_evaluate(op, double_of(a.lo), double_of(b.lo), &r))
             return false;
-        out->lo = isnan(r) ? UINT64_C(0x7ff8000000000000) : bits_of(r);
+        out->lo = isnan(r) ? NAN_64 : bits_of(r);
         return true;
     }
     uint32_t low[2] = {(uint32_t)a.lo, (uint32_t)b.lo};
@@ -121,6 +121,6 @@ bool math_fold(int op, struct machine_type type, struct machine_scalar a,
         return false;
     single[0] = (float)r;
     memcpy(low, single, sizeof low);
-    out->lo = isnan(r) ? 0x7fc00000u : low[0];
+    out->lo = isnan(r) ? NAN_32 : low[0];
     return true;
 }

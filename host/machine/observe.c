@@ -33,6 +33,22 @@ static size_t place(const struct vpset *s, uint64_t index)
     return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
 }
 
+static bool has_strange_nan(struct machine_type type, const void *in, uint64_t count)
+{
+    bool has = false;
+    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++)
+        if (type.width == 32) {
+            uint32_t x;
+            memcpy(&x, (const unsigned char *)in + 4 * i, sizeof x);
+            has = (x & INT32_MAX) > 0x7f800000u && x != NAN_32;
+        } else {
+            uint64_t x;
+            memcpy(&x, (const unsigned char *)in + 8 * i, sizeof x);
+            has = (x & INT64_MAX) > UINT64_C(0x7ff0000000000000) && x != NAN_64;
+        }
+    return has;
+}
+
 static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type,
                                           const void *in)
 {
@@ -64,7 +80,9 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
         device_buffer_unref(m, b);
         return NULL;
     }
-    return graph_buffer_node(m, type, set, b);
+    struct machine_value *v = graph_buffer_node(m, type, set, b);
+    v->strange_nan = has_strange_nan(type, in, s->count);
+    return v;
 }
 
 static void put_scalar(unsigned char *to, struct machine_scalar x, size_t element)
@@ -87,7 +105,9 @@ struct machine_value *observe_materialise(struct machine *m, int set, struct mac
             device_buffer_unref(m, b);
             return NULL;
         }
-        return graph_buffer_node(m, v->type, set, b);
+        struct machine_value *number = graph_buffer_node(m, v->type, set, b);
+        number->strange_nan = v->strange_nan;
+        return number;
     }
     if (!v->buffer && run_evaluate(m, &v, 1, false))
         return NULL;
@@ -248,12 +268,14 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     /* In place where this part of the field alone holds the buffer: the slot's reference, and those of
      * this call. */
     uint32_t held = 0;
+    bool strange = v->strange_nan || has_strange_nan(type, &value.lo, 1);
     for (int i = 0; i < m->borrowed_count; i++)
         held += m->borrowed[i] == v;
     if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
         v = own_copy(m, f->vpset, v);
     if (!v)
         return m->status;
+    v->strange_nan = strange;
     size_t element = type_bytes(type);
     unsigned char raw[16];
     put_scalar(raw, scalar_cut(value, type.width), element);
@@ -463,9 +485,9 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     }
     *out = scalar_cut(*out, type.width);
     if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
-        out->lo = 0x7fc00000u;
+        out->lo = NAN_32;
     if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
-        out->lo = 0x7ff8000000000000u;
+        out->lo = NAN_64;
     if (type.s)
         out->lo = soft_rounded(out->lo, type);
     return MACHINE_OK;

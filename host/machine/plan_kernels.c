@@ -138,8 +138,6 @@ static bool too_many_arguments(const struct kernel_text *k)
     return bytes > 1024;
 }
 
-enum { ARRAYS_MANY = 16 }; /* more than a processor foresees at once */
-
 /* Those are fetched ahead. */
 static bool many_streams(const struct machine *m, const struct vpset *set,
                          const struct kernel_text *k)

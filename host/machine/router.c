@@ -212,8 +212,8 @@ static void combine_options(char *out, size_t size, const struct message *g)
     if (type.kind == MACHINE_FLOAT)
         snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=1 -DCANONICAL=%s",
                  type.width == 32 ? "float" : "double",
-                 type.width == 32 ? "as_float(0x7fc00000u)"
-                                  : "as_double(0x7ff8000000000000UL)");
+                 type.width == 32 ? "as_float(0xffc00000u)"
+                                  : "as_double(0xfff8000000000000UL)");
     else
         snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=%d", call_element(bytes),
                  bytes == 16 ? 2 : 0);
@@ -299,8 +299,11 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
         device_buffer_unref(m, to);
     if (owner)
         device_buffer_unref(m, owner);
-    if (!status)
-        return graph_buffer_node(m, type, g->to_set, out);
+    if (!status) {
+        struct machine_value *v = graph_buffer_node(m, type, g->to_set, out);
+        v->strange_nan = g->source->strange_nan || (g->old && g->old->strange_nan);
+        return v;
+    }
     if (out)
         device_buffer_unref(m, out);
     return NULL;
@@ -384,7 +387,9 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
         device_buffer_unref(m, out);
         return NULL;
     }
-    return graph_buffer_node(m, type, g->from_set, out);
+    struct machine_value *v = graph_buffer_node(m, type, g->from_set, out);
+    v->strange_nan = g->source->strange_nan;
+    return v;
 }
 
 struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,

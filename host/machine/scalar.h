@@ -7,6 +7,10 @@
 
 #include "machine.h"
 
+/* The NaN that operations give: see docs/engine.md. */
+#define NAN_32 0xffc00000u
+#define NAN_64 UINT64_C(0xfff8000000000000)
+
 /* So many ones. */
 static inline struct machine_scalar scalar_ones(int width)
 {

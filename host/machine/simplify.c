@@ -12,6 +12,9 @@
  * so what is overwritten under the same context is gone, and a test that was stored under c and
  * is and-ed into c forgets that it was. */
 #include "internal.h"
+#include "scalar.h"
+
+#include <math.h>
 
 #include <string.h>
 
@@ -94,23 +97,30 @@ struct machine_value *machine_constant(struct machine *m, struct machine_type ty
     return number(m, type, bits);
 }
 
-struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
-                                             double x)
+struct machine_scalar machine_float_bits(struct machine_type type, double x)
 {
     struct machine_scalar bits = {0, 0};
-    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64) ||
-        !soft_type_good(type))
-        return bad(m, "a float is 32 or 64 bits");
     if (type.width == 32) {
         float f = (float)x;
         uint32_t u;
         memcpy(&u, &f, sizeof u);
-        bits.lo = u;
+        bits.lo = isnan(x) ? NAN_32 : u;
     } else {
         memcpy(&bits.lo, &x, sizeof x);
-        if (type.s)
-            bits.lo = soft_rounded(bits.lo, type);
+        bits.lo = isnan(x) ? NAN_64 : bits.lo;
     }
+    return bits;
+}
+
+struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
+                                             double x)
+{
+    if (type.kind != MACHINE_FLOAT || (type.width != 32 && type.width != 64) ||
+        !soft_type_good(type))
+        return bad(m, "a float is 32 or 64 bits");
+    struct machine_scalar bits = machine_float_bits(type, x);
+    if (type.s)
+        bits.lo = soft_rounded(bits.lo, type);
     return number(m, type, bits);
 }
 

@@ -106,8 +106,11 @@ struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v
     for (int i = 0; i < RESHAPE_BLOCK; i++)
         call_buffer(&c, b);
     enum machine_status status = call_processors(&c, m, (size_t)to->ratio, "reshaping");
-    if (!status)
-        return graph_buffer_node(m, v->type, set, b);
+    if (!status) {
+        struct machine_value *out = graph_buffer_node(m, v->type, set, b);
+        out->strange_nan = v->strange_nan;
+        return out;
+    }
     device_buffer_unref(m, b);
     return NULL;
 }

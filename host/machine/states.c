@@ -97,7 +97,8 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
     say(w, (uint32_t)v->op | (uint32_t)v->type.kind << 8 | (uint32_t)v->type.width << 16 |
                (uint32_t)v->axis << 24);
     say(w, v->set | (uint32_t)m->sets[v->set].generation << 16);
-    say(w, v->type.s | (uint32_t)v->type.e << 8 | (uint32_t)v->maybe_nan << 16);
+    say(w, v->type.s | (uint32_t)v->type.e << 8 | (uint32_t)v->maybe_nan << 16 |
+               (uint32_t)v->strange_nan << 17);
     if (leaf && !is_own_leaf(w, v))
         return;
     if (leaf) {
@@ -174,6 +175,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
         struct machine_value *v = w->nodes[i];
         if (is_own_leaf(w, v)) {
             copies[i] = graph_buffer_node(m, v->type, v->set, NULL);
+            copies[i]->strange_nan = v->strange_nan;
             graph_keep(m, copies[i], true);
             s->leaves[s->leaves_count++] = (struct leaf){copies[i], v->buffer->number};
             continue;

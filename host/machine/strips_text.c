@@ -178,29 +178,62 @@ static void carry(struct strips *s, struct pass *pass)
     }
 }
 
-/* The next row of arrays, on its way to the caches while this one is computed: rows are shorter than what
- * hardware needs to find out that they follow each other. */
-static void prefetch_text(const struct strips *s, struct pass *pass, struct text *t)
+/* Of the rows of an array that a pass reads, the one that it comes to first. */
+static bool is_newest(const struct strips *s, const struct emitter *e, const struct pointer *p)
+{
+    bool newest = s->g->nodes[p->node].leaf;
+    for (int k = 0; k < e->pointers_count; k++)
+        newest = newest &&
+                 (e->seen_pointers[k].node != p->node ||
+                  (strips_rows_down(s, e, &e->seen_pointers[k]) - strips_rows_down(s, e, p)) *
+                          s->downward <=
+                      0);
+    return newest;
+}
+
+/* What the next turn of the loop over columns is going to want of the next row. */
+static void prefetch_columns(const struct strips *s, struct pass *pass, struct text *t)
 {
     const struct emitter *e = &pass->e;
     char next = s->downward > 0 ? '+' : '-';
-    for (int i = 0; i < e->pointers_count; i++) {
-        const struct pointer *p = &e->seen_pointers[i];
-        bool newest = s->g->nodes[p->node].leaf;
-        for (int k = 0; k < e->pointers_count; k++)
-            newest =
-                newest &&
-                (e->seen_pointers[k].node != p->node ||
-                 (strips_rows_down(s, e, &e->seen_pointers[k]) - strips_rows_down(s, e, p)) *
-                         s->downward <=
-                     0);
-        if (newest)
-            text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next, p->high);
-    }
+    for (int i = 0; i < e->pointers_count; i++)
+        if (is_newest(s, e, &e->seen_pointers[i]))
+            text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next,
+                     e->seen_pointers[i].high);
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
             text_put(t, "        PREFETCH_STORE(q%d %c PITCH + x + %d);\n", i, next,
                      s->ahead[pass->outputs[i].node] * s->vector);
+}
+
+/* Rows one after the other: which rows there are, and what a turn fetches of them. */
+static void prefetch_rows(const struct strips *s, struct pass *pass, struct text *before,
+                          struct text *turn)
+{
+    const struct emitter *e = &pass->e;
+    char next = s->downward > 0 ? '+' : '-';
+    text_put(before, "    const struct row_ahead ahead[] = {\n");
+    for (int i = 0; i < e->pointers_count; i++)
+        if (is_newest(s, e, &e->seen_pointers[i]))
+            text_put(before, "        ROW_AHEAD(p%d %c PITCH)\n", i, next);
+    for (int i = 0; i < pass->outputs_count; i++)
+        if (pass->outputs[i].array)
+            text_put(before, "        STORED_ROW_AHEAD(q%d %c PITCH)\n", i, next);
+    text_put(before,
+             "        {0, 0}};\n    int row_ahead = 0, done_ahead = 0;\n"
+             "    const int each = pieces_each(ahead, (last - first + %d) / VECTOR);\n",
+             pass->before + pass->after);
+    text_put(turn, "        FETCH_AHEAD\n");
+}
+
+static int arrays_of(const struct strips *s, const struct pass *pass)
+{
+    int count = 0;
+    for (int i = 0; i < pass->e.pointers_count; i++)
+        count += is_newest(s, &pass->e, &pass->e.seen_pointers[i]);
+    for (int i = 0; i < pass->outputs_count; i++)
+        count += pass->outputs[i].array;
+    return count;
 }
 
 static void pass_text(struct strips *s, struct pass *pass)
@@ -238,13 +271,22 @@ static void pass_text(struct strips *s, struct pass *pass)
     carried_text(s, pass, t, true);
     text_put(t, "    const int row_inside = 1%s;\n",
              boxes && e->row_tests.data ? e->row_tests.data : "");
+    /* The next row of arrays is on its way to the caches while this one is computed: rows are shorter than what hardware
+     * needs to find out that they follow each other. */
+    struct text fetch = {0};
+    if (arrays_of(s, pass) > ARRAYS_MANY)
+        prefetch_rows(s, pass, t, &fetch);
+    else
+        prefetch_columns(s, pass, &fetch);
     text_put(t,
              s->rightward > 0
                  ? "    for (int x = first - %d; x < last + %d; x += VECTOR) {\n"
                  : "    for (int x = (last + %2$d - 1) & -VECTOR; x >= first - %1$d; x -= "
                    "VECTOR) {\n",
              pass->before, pass->after);
-    prefetch_text(s, pass, t);
+    text_put(t, "%s", fetch.data ? fetch.data : "");
+    s->failed = s->failed || fetch.failed;
+    free(fetch.data);
     if (boxes)
         text_put(t,
                  "        if (row_inside && x >= inside.x && x < inside.y) {\n"

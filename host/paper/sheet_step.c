@@ -68,13 +68,6 @@ const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
     return history_air(p);
 }
 
-/* Says that what is 0 or more is a number: a comparison with one, where the machine would look for a NaN before it stores
- * it, and that takes two operations. */
-static void number(CM_field_id_t q)
-{
-    f_least(q, q, 0.0);
-}
-
 /* d = 0 where q is, 1 where there is a grain of it */
 static void present(CM_field_id_t d, CM_field_id_t q)
 {
@@ -159,10 +152,6 @@ static void settle(struct paper_sheet *p)
         f_sub(up, up, seeped);
         f_add(p->infused[i], p->infused[i], up);
         f_sub(p->fixed[i], p->fixed[i], up);
-        number(p->infused[i]);
-        number(p->fixed[i]);
-        if (surface)
-            number(p->surface[i]);
     }
 }
 
@@ -182,7 +171,6 @@ static void dry_up(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t loss)
     f_min(loss, loss, q);
     f_whole_of(loss, q);
     f_sub(q, q, loss);
-    number(q);
     CM_u_f_truncate_2_2L(count, loss, SHEET_DRIED_BITS, SHEET_F);
     CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
 }
@@ -308,7 +296,6 @@ static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces
     }
     f_add(q, q, sum[0]);
     f_add(q, q, sum[1]);
-    number(q);
 }
 
 /* d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10 upwards, or downwards from x on: w(x) + w(x-1)/2 + ...; on a sheet that is no
@@ -435,8 +422,6 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
     }
     for (unsigned axis = 0; axis < 2; axis++) {
         displacement_make(p, &terms, axis, faces[axis].out, faces[axis].in);
-        number(faces[axis].out);
-        f_most(faces[axis].in, faces[axis].in, 0.0);
         faces_below(&faces[axis], axis);
     }
     flow_take(p, p->surface_water, faces);
@@ -497,8 +482,6 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         f_next(other, room, axis);
         f_mul(out, out, other);
         f_mul(in, in, room);
-        number(out);
-        f_most(in, in, 0.0);
         faces_below(&faces[axis], axis);
     }
     for (unsigned axis = 0; axis < 2; axis++) {
@@ -506,7 +489,6 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         f_add(water, water, other);
         f_sub(water, water, flow[axis]);
     }
-    number(water);
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *weight = p->config.pigments[i].weight;
         for (unsigned axis = 0; axis < 2; axis++)

@@ -12,7 +12,7 @@ static int bias(struct soft_format f)
 
 uint64_t oracle_soft_nan(struct soft_format f)
 {
-    return ((UINT64_C(2) << f.e) - 1) << (f.s - 1);
+    return ((UINT64_C(4) << f.e) - 1) << (f.s - 1);
 }
 
 static uint64_t exponent_field(struct soft_format f, uint64_t bits)

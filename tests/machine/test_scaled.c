@@ -48,7 +48,7 @@ static wide bits_of(struct machine_type type, double x)
     else
         b.d = x;
     if (isnan(x))
-        return type.width == 32 ? 0x7fc00000u : UINT64_C(0x7ff8000000000000);
+        return type.width == 32 ? 0xffc00000u : UINT64_C(0xfff8000000000000);
     return type.width == 32 ? b.u : b.l;
 }
 

@@ -212,7 +212,7 @@ static uint64_t bits_wanted(double x, bool single)
     uint32_t low;
     float y = (float)x;
     if (isnan(x))
-        return single ? 0x7fc00000u : 0x7ff8000000000000u;
+        return single ? 0xffc00000u : 0xfff8000000000000u;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&low, &y, sizeof low);
     return single ? low : bits;

@@ -109,7 +109,7 @@ static number canonical(int width, double x)
     uint64_t all;
     float single = (float)x;
     if (isnan(x))
-        return width == 32 ? 0x7fc00000u : 0x7ff8000000000000u;
+        return width == 32 ? 0xffc00000u : 0xfff8000000000000u;
     if (width == 32) {
         memcpy(&low, &single, sizeof low);
         return low;

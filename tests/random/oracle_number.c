@@ -163,7 +163,7 @@ bool number_compare_integer(enum op op, bool is_signed, wide a, wide b)
 
 uint64_t number_nan(int float_bits)
 {
-    return float_bits == 32 ? 0x7fc00000u : 0x7ff8000000000000u;
+    return float_bits == 32 ? 0xffc00000u : 0xfff8000000000000u;
 }
 
 static float single(uint64_t bits)

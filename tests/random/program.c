@@ -27,12 +27,13 @@ uint64_t data_word(uint32_t stream, uint64_t index)
     return sample_mixed((stream + 1) * SAMPLE_GOLDEN + index * 0xd1342543de82ef95u);
 }
 
+/* -NAN: with the bits that operations give. */
 double data_real(uint32_t stream, uint64_t index)
 {
     static const double awkward[] = {0.0,    -0.0,    1.0,     -1.0,         0.5,
                                      2.5,    -3.5,    1e-45,   1e-310,       -1e-39,
                                      3.4e38, -3.4e38, 1.7e308, HUGE_VAL,     -HUGE_VAL,
-                                     NAN,    255.0,   65535.5, 2147483648.0, -129.0};
+                                     -NAN,   255.0,   65535.5, 2147483648.0, -129.0};
     uint64_t word = data_word(stream, index);
 
     if (word % 3 == 0)
@@ -60,7 +61,7 @@ void trace_real(struct trace *t, double x)
     uint64_t word;
 
     memcpy(&word, &x, sizeof word);
-    trace_add(t, isnan(x) ? 0x7ff8000000000000u : word);
+    trace_add(t, isnan(x) ? 0xfff8000000000000u : word);
 }
 
 void trace_finish(struct trace *t)
