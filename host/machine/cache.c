@@ -5,7 +5,8 @@
  *
  *     two lengths, 8 bytes each | driver, device, options, text | binary
  *
- * Each appears under its name only when it is complete. What cannot be read or written is done without. */
+ * Each appears under its name only when it is complete. What cannot be read or written is done without. An empty file,
+ * named in the same way, is a mark: background.c notes what the driver has in a cache of its own. */
 #include "internal.h"
 
 #include <fcntl.h>
@@ -55,7 +56,8 @@ FILE *cache_temporary(const char *path, char *temporary, size_t size)
     return f;
 }
 
-static bool program_path(char *out, size_t size, const struct device *d, const char *key)
+static bool path_of(char *out, size_t size, const struct device *d, const char *key,
+                    const char *suffix)
 {
     char folder[512];
     if (!machine_cache_folder(folder, sizeof folder))
@@ -63,8 +65,8 @@ static bool program_path(char *out, size_t size, const struct device *d, const c
     uint64_t a = cache_hash(cache_hash(cache_hash(CACHE_HASH_BEGIN, key), d->name), d->driver);
     uint64_t b = cache_hash(cache_hash(cache_hash(0x84222325cbf29ce4u, d->platform_name), key),
                             d->driver);
-    int n = snprintf(out, size, "%s/%016llx%016llx.bin", folder, (unsigned long long)a,
-                     (unsigned long long)b);
+    int n = snprintf(out, size, "%s/%016llx%016llx%s", folder, (unsigned long long)a,
+                     (unsigned long long)b, suffix);
     return n > 0 && (size_t)n < size;
 }
 
@@ -128,7 +130,7 @@ unsigned char *cache_program_read(const struct device *d, const char *key, size_
 {
     char path[700];
     char *whole = whole_key(d, key);
-    unsigned char *binary = whole && program_path(path, sizeof path, d, key)
+    unsigned char *binary = whole && path_of(path, sizeof path, d, key, ".bin")
                                 ? binary_read(path, whole, size)
                                 : NULL;
     free(whole);
@@ -140,7 +142,7 @@ void cache_program_write(const struct device *d, const char *key, cl_program pro
     char path[700], folder[512];
     char *whole = whole_key(d, key);
     if (whole && machine_cache_folder(folder, sizeof folder) &&
-        program_path(path, sizeof path, d, key)) {
+        path_of(path, sizeof path, d, key, ".bin")) {
         cache_folder_make(folder);
         binary_write(path, whole, program);
     }
@@ -150,5 +152,24 @@ void cache_program_write(const struct device *d, const char *key, cl_program pro
 bool cache_program_is_there(const struct device *d, const char *key)
 {
     char path[700];
-    return program_path(path, sizeof path, d, key) && !access(path, R_OK);
+    return path_of(path, sizeof path, d, key, ".bin") && !access(path, R_OK);
+}
+
+bool cache_mark_is_there(const struct device *d, const char *key)
+{
+    char path[700];
+    return path_of(path, sizeof path, d, key, ".has") && !access(path, F_OK);
+}
+
+void cache_mark_write(const struct device *d, const char *key)
+{
+    char path[700], folder[512];
+    int file = -1;
+    if (machine_cache_folder(folder, sizeof folder) &&
+        path_of(path, sizeof path, d, key, ".has")) {
+        cache_folder_make(folder);
+        file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    }
+    if (file >= 0)
+        close(file);
 }

@@ -8,6 +8,7 @@
  *
  * Programs. A kernel is known by its whole text and options: in memory by a hash table, on disk by a file
  * of cache.c. */
+#include "background.h"
 #include "devices.h"
 #include "kernels.h"
 #include "watch.h"
@@ -307,13 +308,16 @@ void device_flush(struct machine *m)
     m->inside--;
 }
 
-enum { KERNELS_AHEAD = 256 };
+/* While better kernels are being built no more are put into the queue than keep the device busy: they would all be of
+ * the old ones. */
+enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
 
-/* A fence is put behind every KERNELS_AHEAD kernels, and the one before it waited for. */
+/* A fence is put behind so many kernels, and the one before it waited for. */
 enum machine_status device_pace(struct machine *m)
 {
     struct device *d = &m->device;
-    if (d->kernels_run - d->fence_kernels < KERNELS_AHEAD)
+    uint64_t ahead = background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD;
+    if (d->kernels_run - d->fence_kernels < ahead)
         return MACHINE_OK;
     cl_event reached = d->fence;
     cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &d->fence);
@@ -483,21 +487,41 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b)
 
 /* ---- programs ---- */
 
-/* Without the header of all OpenCL functions, which clang reads for longer than what the machine says: it is told that it
- * has read it, and functions.cl declares those in use. NULL: the program needs it after all. */
+char *device_text_without_header(const char *const parts[DEVICE_PARTS])
+{
+    size_t size = strlen(kernel_functions_cl) + 1;
+    for (int i = 0; i < DEVICE_PARTS; i++)
+        size += strlen(parts[i]);
+    char *text = malloc(size), *end = text;
+    if (text)
+        end = stpcpy(end, kernel_functions_cl);
+    for (int i = 0; i < DEVICE_PARTS && text; i++)
+        end = stpcpy(end, parts[i]);
+    return text;
+}
+
+void device_options(const struct device *d, const char *options, bool header,
+                    char out[DEVICE_OPTIONS_BYTES])
+{
+    snprintf(out, DEVICE_OPTIONS_BYTES, "%s %s%s", options, d->options,
+             header ? "" : " -D_OPENCL_H_");
+}
+
+/* NULL: the program needs the header after all. */
 static cl_program build_without_header(const struct device *d,
                                        const char *const parts[DEVICE_PARTS],
                                        const char *options)
 {
-    const char *sources[1 + DEVICE_PARTS] = {kernel_functions_cl};
-    char all_options[300];
-    cl_int error;
-    memcpy(sources + 1, parts, DEVICE_PARTS * sizeof *parts);
-    snprintf(all_options, sizeof all_options, "%s -D_OPENCL_H_", options);
+    char all_options[DEVICE_OPTIONS_BYTES];
+    char *text = device_text_without_header(parts);
+    const char *source = text;
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
     cl_program program =
-        clCreateProgramWithSource(d->context, 1 + DEVICE_PARTS, sources, NULL, &error);
+        text ? clCreateProgramWithSource(d->context, 1, &source, NULL, &error) : NULL;
+    free(text);
     if (error)
         return NULL;
+    device_options(d, options, false, all_options);
     if (clBuildProgram(program, 1, &d->id, all_options, NULL, NULL) == CL_SUCCESS)
         return program;
     clReleaseProgram(program);
@@ -505,14 +529,16 @@ static cl_program build_without_header(const struct device *d,
 }
 
 static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
-                        const char *options, const char *key)
+                        const char *own_options, const char *key)
 {
     struct device *d = &m->device;
+    char options[DEVICE_OPTIONS_BYTES];
     double start = watch_clock(m);
     size_t size = 0;
     unsigned char *binary = d->keeps_programs ? cache_program_read(d, key, &size) : NULL;
     cl_int error = CL_SUCCESS, status = CL_SUCCESS;
     cl_program program = NULL;
+    device_options(d, own_options, true, options);
     if (binary) {
         const unsigned char *data = binary;
         program =
@@ -527,7 +553,7 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         if (program)
             clReleaseProgram(program);
     }
-    if (d->is_pocl && (program = build_without_header(d, parts, options)))
+    if (d->is_pocl && (program = build_without_header(d, parts, own_options)))
         goto built;
     const char *sources[DEVICE_PARTS];
     memcpy(sources, parts, sizeof sources);
@@ -558,9 +584,8 @@ built:
     return program;
 }
 
-/* The entry's text: the options, the kernel's name, the library's hash, the kernel. Owns. */
-static char *program_key(const struct device *d, const char *const parts[DEVICE_PARTS],
-                         const char *options, const char *name)
+char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name)
 {
     size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
     char *key = malloc(size);
@@ -628,7 +653,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name)
 {
-    char *key = program_key(&m->device, parts, options, name);
+    char *key = device_kernel_key(&m->device, parts, options, name);
     bool found = key && (program_find(&m->device, key) ||
                          (m->device.keeps_programs && cache_program_is_there(&m->device, key)));
     free(key);
@@ -639,7 +664,7 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
                         const char *options, const char *name)
 {
     struct device *d = &m->device;
-    char *key = program_key(d, parts, options, name);
+    char *key = device_kernel_key(d, parts, options, name);
     if (!key) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
         return NULL;
@@ -649,12 +674,10 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
         free(key);
         return known;
     }
-    char all_options[256];
-    snprintf(all_options, sizeof all_options, "%s %s", options, d->options);
     struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
     m->inside++;
-    if (entry && (entry->program = build(m, parts, all_options, key)))
+    if (entry && (entry->program = build(m, parts, options, key)))
         entry->kernel = clCreateKernel(entry->program, name, &error);
     m->inside--;
     if (entry && entry->program) {

@@ -70,7 +70,7 @@ void explain_call(struct explain *e, const char *name, int foreseen, double time
 void watch_released(struct machine *m, const struct machine_value *v)
 {
     struct explain *e = watch_sums(m);
-    if (v->told || v->buffer || v->op == NODE_CONSTANT || v->op == NODE_SLICE)
+    if (m->silent || v->told || v->buffer || v->op == NODE_CONSTANT || v->op == NODE_SLICE)
         return;
     e->facts.values_vanished++;
     e->vanished[v->op]++;
@@ -79,7 +79,7 @@ void watch_released(struct machine *m, const struct machine_value *v)
 void watch_overwritten(struct machine *m, const struct machine_value *old,
                        const struct machine_value *new)
 {
-    if (old != new && !node_is_leaf(old) && !node_is_cheap(old))
+    if (!m->silent && old != new && !node_is_leaf(old) && !node_is_cheap(old))
         watch_sums(m)->overwritten++;
 }
 
@@ -254,7 +254,8 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
 {
     struct explain *e = watch_sums(m);
     int set = g->nodes[stores[0]].set;
-    struct kernel_note *n = explain_note(e, kernel, NULL, set, m->sets[set].count);
+    struct kernel_note *n = /* one that is not there yet is like no other */
+        explain_note(e, kernel, kernel ? NULL : "", set, m->sets[set].count);
     bool split = e->parts > 0;
     e->parts -= split;
     if (!n || n->facts.generated)
@@ -298,6 +299,20 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
         1e-9 * m->device.shape.op_ns * k->cost * lanes * (double)m->sets[set].count;
     take_arguments(f, g, k);
     return n;
+}
+
+struct kernel_note *watch_kernel_built(struct machine *m, struct kernel_note *note,
+                                       cl_kernel kernel)
+{
+    struct kernel_note *known = NULL;
+    if (!note)
+        return NULL;
+    for (struct kernel_note *n = watch_sums(m)->notes; n && kernel && !known; n = n->next)
+        if (n->kernel == kernel && n->facts.vpset == note->facts.vpset &&
+            n->facts.processors == note->facts.processors)
+            known = n;
+    note->kernel = known ? NULL : kernel;
+    return known ? known : note;
 }
 
 /* ---- how fast the device copies ---- */

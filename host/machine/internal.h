@@ -17,7 +17,9 @@
  *   soft.c      floats of other formats than single and double        (uses graph)
  *   math.c      transcendental operations on the front end            (pure)
  *   run.c       evaluation: what to compute, and when                 (uses all of these)
- *   plan_kernels.c  plans kept: their kernels, made, made better, run (uses plan, emit, device)
+ *   plan_kernels.c  plans kept: their kernels, made, made better, run (uses plan, emit, background)
+ *   background.c  kernels compiled while others run                   (uses device)
+ *   compiler.c  ... by a program of its own
  *   replay.c    calls seen before: noted, and performed all at once   (uses run, states, loops)
  *   states.c    ... what fields and flags held then                   (uses graph)
  *   loops.c     ... which of them repeat, and how many turns at once  (uses run)
@@ -214,6 +216,7 @@ struct settings {
     uint64_t flush_after; /* values waiting */
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
+    uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     uint64_t strips, in_place, scatter, narrow, keeps_nan;
     uint64_t processors;
@@ -259,7 +262,7 @@ struct device {
     uint64_t pool_bytes, held_bytes;
     unsigned skew;                  /* of the next buffer's beginning */
     struct program_entry *programs; /* hash table by text: see device.c */
-    uint64_t kernels_built, kernels_run;
+    uint64_t kernels_built, kernels_built_background, kernels_run;
     cl_kernel *unstarted; /* built, and not run yet */
     int unstarted_count, unstarted_capacity;
     const char *options;
@@ -270,6 +273,7 @@ struct device {
 };
 
 struct plan;
+struct background;
 
 /* How often each rule found something that need not be computed: simplify.c, fields.c, run.c. */
 struct vanished {
@@ -327,6 +331,11 @@ struct machine {
     /* plan_kernels.c */
     struct plan **plans;
     int plans_size;
+    struct background *background; /* background.c; NULL: nothing was wanted so far */
+    struct plan *improving;        /* whose better kernels are being compiled there */
+    bool rehearsing;               /* evaluations see to their plan's kernels, and run none */
+    bool silent; /* what calls do is told to nobody: they will be performed once more */
+    struct plan *rehearsed; /* by the last rehearsal; NULL: there was nothing to compute */
 
     /* run.c */
     uint32_t epoch; /* evaluations so far */
@@ -597,9 +606,13 @@ void run_init(struct machine *m);
 
 /* plan_kernels.c */
 /* A plan, kept until the machine goes. version: another one where other kernels have been made for it;
- * UINT32_MAX while better ones are due, which run_evaluate() makes. stored: the nodes that get a buffer. */
+ * UINT32_MAX while better ones are due, which run_evaluate() sees to. stored: the nodes that get a buffer. */
 struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
+/* Its kernels are still being compiled in the background. */
+bool plan_waits(const struct machine *m, const struct plan *p);
+/* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
+void plans_see_to(struct machine *m);
 const int *plan_stored(const struct plan *p, int *count);
 int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
@@ -721,6 +734,8 @@ FILE *cache_temporary(const char *path, char *temporary, size_t size);
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
 void cache_program_write(const struct device *d, const char *key, cl_program program);
 bool cache_program_is_there(const struct device *d, const char *key);
+bool cache_mark_is_there(const struct device *d, const char *key);
+void cache_mark_write(const struct device *d, const char *key);
 
 /* device.c */
 enum machine_status device_open(struct machine *m, const struct machine_config *config);
@@ -739,6 +754,16 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
 /* The same for one that is written by hand, in a text of its own. */
 cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
                                 const char *name);
+/* What it is known by: its whole text, and how it is built. The caller's to free; NULL: no memory. */
+char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name);
+/* All options that its program is built with. And what PoCL is given: without the header of all OpenCL functions, which
+ * clang reads for longer than what the machine says. It is told that it has read it, and functions.cl declares those in
+ * use. The text is the caller's to free; NULL: no memory. */
+enum { DEVICE_OPTIONS_BYTES = 300 };
+void device_options(const struct device *d, const char *options, bool header,
+                    char out[DEVICE_OPTIONS_BYTES]);
+char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
 /* Starts it, unless error says that its arguments are wrong; a work-group on a CPU is one item. The
  * first time, waits: the compiler may still be at it in a thread of the driver's, and a program that
  * ended meanwhile would pull it down. */

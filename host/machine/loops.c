@@ -7,6 +7,7 @@
  * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
  * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
  * (they leave nothing to compute) while such loops run. */
+#include "background.h"
 #include "replay.h"
 
 /* A loop that has turned so often is tried with many turns at once; after one that was not worth it, so many
@@ -99,6 +100,7 @@ int loop_turns_noted(struct machine *m, struct edge *e)
         if (turns != e->turns_count && (m->looks_alike >= LOOKS_SURE || !e->turns.plan)) {
             deed_finish(m, &e->turns);
             e->turns_count = turns;
+            e->rehearsed = NULL;
         }
     }
     return e->turns_count * e->calls_count <= CALLS_MOST ? e->turns_count : 1;
@@ -106,7 +108,7 @@ int loop_turns_noted(struct machine *m, struct edge *e)
 
 /* Loops that are worth it are to be evaluated many turns at a time. For that all turns must begin alike, and those
  * that are known do not. */
-static bool become_thorough(struct machine *m, const struct edge *e)
+static bool become_thorough(struct machine *m, struct edge *e)
 {
     struct replay *p = m->replay;
     if (p->thorough || m->device.shape.turns < 2 || m->flushes < p->not_before ||
@@ -114,6 +116,12 @@ static bool become_thorough(struct machine *m, const struct edge *e)
         return false;
     int turns = turns_at_once(m, e->deed.plan);
     if (turns < 2 || m->turns_in_row < 2 * turns) /* who looks more often gains nothing */
+        return false;
+    if (!e->rehearsed_thorough && background_on(m)) {
+        e->wants_thorough = true;
+        return false;
+    }
+    if (e->rehearsed_thorough && plan_waits(m, e->rehearsed_thorough))
         return false;
     p->thorough = true;
     p->built_at = m->flushes;
@@ -125,18 +133,111 @@ static bool become_thorough(struct machine *m, const struct edge *e)
 static void stay_thorough(struct machine *m)
 {
     struct replay *p = m->replay;
+    if (background_busy(m)) /* there will be better kernels soon */
+        p->built_at = m->flushes;
     if (!p->thorough || m->flushes - p->built_at <= 64)
         return;
     p->thorough = false;
     states_forget(m);
 }
 
-void loops_turned(struct machine *m, const struct edge *e, bool many)
+void loops_turned(struct machine *m, struct edge *e, bool many)
 {
     if (many)
         m->replay->built_at = m->flushes;
     else if (!become_thorough(m, e))
         stay_thorough(m);
+}
+
+static void turns_in_vain(struct machine *m)
+{
+    struct replay *p = m->replay;
+    p->thorough = false;
+    p->not_before = m->flushes + TRY_AGAIN;
+    states_forget(m);
+}
+
+/* All that is noted is performed, and evaluated but for running the plan; then the state is entered again, and it is as if
+ * nothing had been. False: it cannot be entered, and all has been performed. */
+static bool rehearse(struct machine *m)
+{
+    struct replay *p = m->replay;
+    int active = p->active, edge = (int)(p->edge - p->states[active].edges);
+    int noted = m->calls_noted, at = p->at;
+    uint64_t stores = m->stores, flush_hash = m->flush_hash, flushes = m->flushes;
+    struct vanished vanished = m->vanished;
+    m->silent = m->hold_flush = true;
+    replay_catch_up(m);
+    m->hold_flush = false;
+    bool back = p->from == active && m->flushes == flushes;
+    if (back) {
+        m->rehearsing = true;
+        m->rehearsed = NULL;
+        run_evaluate(m, NULL, 0, false);
+        m->rehearsing = false;
+        machine_error_clear(m); /* it will be said when it matters */
+        graph_give_back(m);
+        state_activate(m, active, p->from_buffers);
+        replay_from_forget(m);
+        m->stores = m->stores_evaluated = stores;
+        m->flush_hash = flush_hash;
+        m->vanished = vanished;
+        p->log_count = 0;
+        p->since = 0;
+        p->edge = &p->states[active].edges[edge];
+        p->at = at;
+        m->calls_noted = noted;
+    }
+    m->silent = false;
+    return back;
+}
+
+/* False: all has been performed, and is in memory. *plan: whose kernels are seen to; NULL: there is nothing to compute. */
+static bool rehearse_or_perform(struct machine *m, struct plan **plan)
+{
+    bool back = rehearse(m);
+    if (back) {
+        *plan = m->rehearsed;
+    } else {
+        m->flush_due = true;
+        run_flush_due(m);
+        turns_in_vain(m);
+    }
+    return back;
+}
+
+bool loop_thorough_see_to(struct machine *m)
+{
+    struct replay *p = m->replay;
+    struct edge *e = p->edge;
+    if (!e->wants_thorough || m->calls_noted != e->calls_count || p->thorough ||
+        background_busy(m))
+        return true;
+    e->wants_thorough = false;
+    p->thorough = true;
+    bool back = rehearse_or_perform(m, &e->rehearsed_thorough);
+    p->thorough = false;
+    if (back && !e->rehearsed_thorough)
+        p->not_before = m->flushes + TRY_AGAIN;
+    return back;
+}
+
+enum loop_turns loop_turns_see_to(struct machine *m)
+{
+    struct replay *p = m->replay;
+    struct edge *e = p->edge;
+    if (!background_on(m))
+        return TURNS_AT_HAND;
+    if (!e->rehearsed && !background_busy(m)) {
+        if (!rehearse_or_perform(m, &e->rehearsed))
+            return TURNS_PERFORMED;
+        if (!e->rehearsed)
+            return TURNS_AT_HAND;
+    }
+    if (e->rehearsed && !plan_waits(m, e->rehearsed))
+        return TURNS_AT_HAND;
+    p->built_at = m->flushes; /* it is not in vain yet */
+    return TURNS_WAIT;
 }
 
 void loop_build_turns(struct machine *m)
@@ -153,9 +254,7 @@ void loop_build_turns(struct machine *m)
     bool back = p->active == active && p->states[active].edges_count > at;
     if (back && p->states[active].edges[at].turns.plan)
         return;
-    p->thorough = false; /* in vain */
-    p->not_before = m->flushes + TRY_AGAIN;
-    states_forget(m);
+    turns_in_vain(m);
 }
 
 void replay_looked(struct machine *m)

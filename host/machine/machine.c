@@ -1,4 +1,5 @@
 /* machine.c - creation, configuration, errors. */
+#include "background.h"
 #include "watch.h"
 
 #include <stdarg.h>
@@ -128,6 +129,7 @@ void machine_destroy(struct machine *m)
         return;
     m->calls_noted = 0; /* nobody is going to look */
     m->flush_due = false;
+    background_finish(m);
     watch_leave(m);
     replay_finish(m);
     fields_finish(m);
@@ -181,14 +183,16 @@ const char *machine_device_driver(const struct machine *m)
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)
 {
-    *out = (struct machine_stats){.stores = m->stores,
-                                  .values_live = m->nodes_live,
-                                  .calls_foreseen = m->calls_foreseen,
-                                  .flushes = m->flushes,
-                                  .plans_built = m->plans_built,
-                                  .kernels_built = m->device.kernels_built,
-                                  .kernels_run = m->device.kernels_run,
-                                  .kernels_in_place = m->kernels_in_place,
-                                  .bytes_held = m->device.held_bytes,
-                                  .busy_s = m->busy_s};
+    *out =
+        (struct machine_stats){.stores = m->stores,
+                               .values_live = m->nodes_live,
+                               .calls_foreseen = m->calls_foreseen,
+                               .flushes = m->flushes,
+                               .plans_built = m->plans_built,
+                               .kernels_built = m->device.kernels_built,
+                               .kernels_built_background = m->device.kernels_built_background,
+                               .kernels_run = m->device.kernels_run,
+                               .kernels_in_place = m->kernels_in_place,
+                               .bytes_held = m->device.held_bytes,
+                               .busy_s = m->busy_s};
 }

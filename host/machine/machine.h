@@ -31,7 +31,8 @@
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
  *
- * Threads. One machine belongs to one thread at a time.
+ * Threads. One machine belongs to one thread at a time. On PoCL a process, which is no child of the program, may compile
+ * better kernels beside it (LUTETIA_BACKGROUND=0: none).
  */
 #ifndef LUTETIA_MACHINE_H
 #define LUTETIA_MACHINE_H
@@ -199,6 +200,7 @@ struct machine_stats {
     uint64_t flushes;        /* evaluations */
     uint64_t plans_built;    /* evaluations whose shape had not been seen */
     uint64_t kernels_built;  /* compiled, or loaded from the disk cache */
+    uint64_t kernels_built_background; /* of these: while others ran (LUTETIA_BACKGROUND) */
     uint64_t kernels_run;
     uint64_t
         kernels_in_place; /* of these: wrote new values where old ones had been that nobody wanted any more */

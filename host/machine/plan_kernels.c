@@ -11,6 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "background.h"
 #include "call.h"
 #include "kernels.h"
 #include "watch.h"
@@ -19,7 +20,8 @@
 enum quality { QUICK, OPTIMISED, BOXED };
 
 struct launch {
-    cl_kernel kernel;
+    cl_kernel kernel;         /* NULL: it is compiled in the background */
+    int number;               /* ... there */
     struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
@@ -44,6 +46,9 @@ struct plan {
     enum quality quality;
     bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
+    bool later;          /* its kernels are compiled in the background */
+    struct plan *better; /* that one's are; it takes this one's place */
+    bool empty;          /* there is nothing yet but a better one */
     struct plan *next;
 };
 
@@ -57,11 +62,30 @@ static void plan_free(struct plan *p)
         free(p->launches[i].arguments);
         free(p->launches[i].in_place.pairs);
     }
+    plan_free(p->better);
     free(p->launches);
     free(p->stored);
     free(p->stored_rows);
     free(p->signature);
     free(p);
+}
+
+/* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
+static void notes_settle(struct machine *m, struct plan *p)
+{
+    for (int i = 0; m->watch && i < p->launches_count; i++) {
+        struct launch *l = &p->launches[i];
+        l->note = watch_kernel_built(m, l->note, l->kernel);
+    }
+}
+
+/* It does not take the other's place. */
+static void better_give_up(struct machine *m, struct plan *p)
+{
+    if (p->better)
+        notes_settle(m, p->better);
+    plan_free(p->better);
+    p->better = NULL;
 }
 
 void plans_finish(struct machine *m)
@@ -159,6 +183,68 @@ static bool much_math(const struct machine *m, const struct kernel_text *k,
     return k->math && set->count >= m->settings.optimise_after / 4 / MATH_WEIGHT;
 }
 
+/* Columns that a work-item does. */
+static size_t run_columns(const struct machine *m, int vector)
+{
+    size_t run = (size_t)m->device.shape.run_columns, lanes = (size_t)vector;
+    return (run + lanes - 1) / lanes * lanes;
+}
+
+/* In the background, for later (its number there; -1: no memory), or now; what it takes is what launch() says. */
+static int kernel_want(struct machine *m, const struct vpset *set, const struct kernel_text *k,
+                       const char *const parts[DEVICE_PARTS], bool later)
+{
+    size_t numbers = 5 + (size_t)set->rank - 1 + (k->strip_bytes ? 2 : 0),
+           count = numbers + (size_t)k->arguments_count,
+           across = (size_t)set->width / run_columns(m, k->vector) + 1,
+           widest = k->strip_bytes       ? 1
+                    : set->rows > across ? set->rows
+                                         : across;
+    int number = -1;
+    char *arguments = malloc(count + 1);
+    if (!arguments)
+        return -1;
+    memset(arguments, '4', numbers);
+    for (int i = 0; i < k->arguments_count; i++) {
+        const struct kernel_argument *a = &k->arguments[i];
+        arguments[numbers + (size_t)i] = a->kind == ARGUMENT_INPUT ||
+                                                 a->kind == ARGUMENT_OUTPUT ||
+                                                 a->kind == ARGUMENT_SCRATCH
+                                             ? 'm'
+                                         : a->kind != ARGUMENT_BORDERS && a->size == 8 ? '8'
+                                                                                       : '4';
+    }
+    arguments[count] = '\0';
+    const struct background_wish wish = {.parts = parts,
+                                         .options = k->options,
+                                         .name = "k",
+                                         .arguments = arguments,
+                                         .dimensions = 2,
+                                         .widest = widest};
+    if (later)
+        number = background_want(m, &wish);
+    else
+        background_foresee(m, &wish);
+    free(arguments);
+    return number;
+}
+
+/* A plan that writes where it reads needs that kernel, too: see copy_borders(). */
+static bool borders_want(struct machine *m)
+{
+    const char *parts[DEVICE_PARTS];
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        parts[i] = "";
+    parts[DEVICE_PARTS - 1] = kernel_borders_cl;
+    return background_want(m,
+                           &(struct background_wish){.parts = parts,
+                                                     .options = "",
+                                                     .name = "borders",
+                                                     .arguments = "44444488mmmmmmmmmmmmmmmmm",
+                                                     .dimensions = 3,
+                                                     .widest = 1}) >= 0;
+}
+
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
                         const int *stores, int stores_count)
 {
@@ -208,13 +294,18 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                  !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
-    cl_kernel kernel = launches ? device_kernel(m, parts, k.options, "k") : NULL;
+    int number = -1;
+    cl_kernel kernel = NULL;
     if (launches)
         p->launches = launches;
+    if (launches && (p->later || quick))
+        number = kernel_want(m, &m->sets[set], &k, parts, p->later);
+    if (launches && !p->later)
+        kernel = device_kernel(m, parts, k.options, "k");
     p->could_be_optimised |= quick;
     p->could_be_boxed |= k.has_boxes && !g->boxes;
     p->work += m->sets[set].count;
-    if (!kernel) {
+    if (!kernel && number < 0) {
         kernel_text_finish(&k);
         return false;
     }
@@ -222,6 +313,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     struct kernel_note *note =
         m->watch ? watch_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
     p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
+                                                       .number = number,
                                                        .note = note,
                                                        .set = set,
                                                        .vector = k.vector,
@@ -310,8 +402,16 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
     return true;
 }
 
+static bool in_place_wanted(const struct machine *m, const struct plan *p)
+{
+    const struct launch *l = &p->launches[0];
+    return p->launches_count == 1 && l->in_place.pairs_count &&
+           (m->settings.in_place == SETTING_FREE ? l->in_place.pays : m->settings.in_place);
+}
+
 static struct plan *plan_attempt(struct machine *m, const struct reach *r,
-                                 const struct targets *t, enum quality quality, bool *strips)
+                                 const struct targets *t, enum quality quality, bool later,
+                                 bool *strips)
 {
     struct plan_graph g;
     struct plan *p = calloc(1, sizeof *p);
@@ -319,6 +419,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
     bool good = plan_graph_init(&g, r, t) && p && stores;
     if (good) {
         p->quality = quality;
+        p->later = later;
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
         p->stored_rows = calloc((size_t)r->count, sizeof *p->stored_rows);
         good = p->stored && p->stored_rows;
@@ -335,29 +436,38 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         p->turns_most = g.turns_most;
         if (m->dump_dir)
             dump_graph(m, m->dump_count, &g);
-        good = plan_kernels(m, p, &g, stores);
+        good = plan_kernels(m, p, &g, stores) &&
+               (!later || !in_place_wanted(m, p) || borders_want(m));
     } else {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
     }
     free(g.nodes);
     free(stores);
     if (!good) {
+        if (p && later)
+            notes_settle(m, p);
         plan_free(p);
         return NULL;
     }
     return p;
 }
 
+/* later: its kernels are only wanted of the background. */
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                              enum quality quality)
+                              enum quality quality, bool later)
 {
     bool strips = quality == BOXED || m->device.shape.always_strips;
-    struct plan *p = plan_attempt(m, r, t, quality, &strips);
-    if (p || !strips)
-        return p;
-    machine_error_clear(m); /* it cannot be done in strips */
-    strips = false;
-    return plan_attempt(m, r, t, quality, &strips);
+    struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
+    if (!p && strips) { /* it cannot be done so */
+        machine_error_clear(m);
+        if (later)
+            background_drop(m);
+        strips = false;
+        p = plan_attempt(m, r, t, quality, later, &strips);
+    }
+    if (!p && later)
+        background_drop(m);
+    return p;
 }
 
 /* ---- plans ---- */
@@ -370,40 +480,90 @@ static enum quality quality_after(const struct machine *m, uint64_t worked)
                                                   : QUICK;
 }
 
-/* Better kernels would be worth it by now. */
+/* Better kernels would be worth it by now, and can be seen to. */
 static bool plan_is_due(const struct machine *m, const struct plan *p)
 {
     enum quality quality = quality_after(m, p->worked);
     return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
            (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
-            p->could_be_strips);
+            p->could_be_strips) &&
+           !background_busy(m);
 }
 
-/* The same plan with better kernels. What cannot be had is done without. */
-static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
-                         const struct targets *t)
+static void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
 {
-    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked)), old = *p;
-    p->quality = BOXED; /* not again, unless it says so itself */
-    if (!better) {
-        machine_error_clear(m);
-        return;
-    }
+    struct plan old = *p;
     *p = *better;
     p->signature = old.signature;
     p->signature_length = old.signature_length;
     p->hash = old.hash;
     p->worked = old.worked;
     p->version = old.version + 1;
-    if (m->watch)
-        watch_improved(m);
     p->next = old.next;
+    if (m->watch && !old.empty)
+        watch_improved(m);
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;
     better->stored_rows = old.stored_rows;
     better->signature = NULL;
     plan_free(better);
+}
+
+/* The same plan with better kernels, now. What cannot be had is done without. */
+static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
+                         const struct targets *t)
+{
+    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked), false);
+    p->quality = BOXED; /* not again, unless it says so itself */
+    if (better)
+        plan_becomes(m, p, better);
+    else
+        machine_error_clear(m);
+}
+
+/* What is being compiled in the background is not wanted any more. */
+static void improvement_give_up(struct machine *m)
+{
+    better_give_up(m, m->improving);
+    background_drop(m);
+    m->improving = NULL;
+}
+
+void plans_see_to(struct machine *m)
+{
+    struct plan *p = m->improving;
+    enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
+    if (state == BACKGROUND_WAITS)
+        return;
+    if (state == BACKGROUND_LOADED) {
+        struct plan *better = p->better;
+        for (int i = 0; i < better->launches_count; i++)
+            better->launches[i].kernel = background_kernel(m, better->launches[i].number);
+        notes_settle(m, better);
+        better->later = false;
+        p->better = NULL;
+        plan_becomes(m, p, better);
+    } else {
+        machine_error_clear(m);
+    }
+    improvement_give_up(m);
+}
+
+/* Better kernels for it are going to be compiled in the background. False: not so. */
+static bool improvement_begin(struct machine *m, struct plan *p, const struct reach *r,
+                              const struct targets *t, enum quality quality)
+{
+    if (!background_on(m) || background_busy(m))
+        return false;
+    p->better = plan_make(m, r, t, quality, true);
+    if (p->better && background_begin(m)) {
+        m->improving = p;
+        return true;
+    }
+    machine_error_clear(m);
+    better_give_up(m, p);
+    return false;
 }
 
 uint32_t plan_version(const struct machine *m, const struct plan *p)
@@ -423,9 +583,71 @@ const int *plan_stored(const struct plan *p, int *count)
     return p->stored;
 }
 
+bool plan_waits(const struct machine *m, const struct plan *p)
+{
+    return p == m->improving;
+}
+
+static struct plan *plan_find(const struct machine *m, const struct reach *r, uint64_t hash)
+{
+    struct plan *p = m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    while (p && !(p->hash == hash && p->signature_length == r->length &&
+                  !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
+        p = p->next;
+    return p;
+}
+
+/* It is known from now on. False: no memory, and it is no more. */
+static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
+{
+    struct plan **bucket = &m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    size_t bytes = r->length * sizeof *r->signature;
+    m->plans_built++;
+    p->signature = malloc(bytes);
+    if (!p->signature) {
+        plan_free(p);
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+        return false;
+    }
+    memcpy(p->signature, r->signature, bytes);
+    p->signature_length = r->length;
+    p->hash = hash;
+    p->next = *bucket;
+    *bucket = p;
+    return true;
+}
+
+/* A plan that has been rehearsed is wanted now. False: error set. */
+static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
+                      const struct targets *t)
+{
+    if (m->improving == p)
+        improvement_give_up(m);
+    struct plan *made = plan_make(m, r, t, BOXED, false);
+    if (made)
+        plan_becomes(m, p, made);
+    return made != NULL;
+}
+
+/* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
+static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struct reach *r,
+                                  const struct targets *t, uint64_t hash)
+{
+    if (p)
+        return p;
+    if (!(p = calloc(1, sizeof *p)))
+        return NULL;
+    p->empty = true;
+    p->quality = BOXED;
+    if (!plan_keep(m, p, r, hash))
+        return NULL;
+    improvement_begin(m, p, r, t, BOXED);
+    return p;
+}
+
 struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
 {
-    uint64_t h = machine_words_hash(r->signature, r->length);
+    uint64_t hash = machine_words_hash(r->signature, r->length);
     if (!m->plans) {
         m->plans_size = 1024;
         m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
@@ -434,30 +656,19 @@ struct plan *plan_get(struct machine *m, const struct reach *r, const struct tar
             return NULL;
         }
     }
-    struct plan **bucket = &m->plans[h & (uint64_t)(m->plans_size - 1)];
-    for (struct plan *p = *bucket; p; p = p->next)
-        if (p->hash == h && p->signature_length == r->length &&
-            !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)) {
-            if (plan_is_due(m, p))
-                plan_improve(m, p, r, t);
-            return p;
-        }
-    struct plan *p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0));
-    if (!p)
-        return NULL;
-    m->plans_built++;
-    p->signature = malloc(r->length * sizeof *p->signature);
-    if (!p->signature) {
-        plan_free(p);
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
-        return NULL;
-    }
-    memcpy(p->signature, r->signature, r->length * sizeof *p->signature);
-    p->signature_length = r->length;
-    p->hash = h;
-    p->next = *bucket;
-    *bucket = p;
-    return p;
+    if (!m->rehearsing)
+        plans_see_to(m);
+    struct plan *p = plan_find(m, r, hash);
+    if (m->rehearsing)
+        return plan_rehearse(m, p, r, t, hash);
+    if (p && p->empty)
+        return plan_fill(m, p, r, t) ? p : NULL;
+    if (p && plan_is_due(m, p) && !improvement_begin(m, p, r, t, quality_after(m, p->worked)))
+        plan_improve(m, p, r, t);
+    if (p)
+        return p;
+    p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0), false);
+    return p && plan_keep(m, p, r, hash) ? p : NULL;
 }
 
 /* ---- launches ---- */
@@ -510,9 +721,7 @@ static uint32_t take_places(const struct machine *m, const struct plan *p,
     const struct launch *l = &p->launches[0];
     size_t global[2], rows;
     uint32_t which = 0;
-    bool wanted =
-        m->settings.in_place == SETTING_FREE ? l->in_place.pays : m->settings.in_place;
-    if (!dies || p->launches_count != 1 || !l->in_place.pairs_count || !wanted)
+    if (!dies || !in_place_wanted(m, p))
         return 0;
     strips_count(m, l, &m->sets[l->set], global, &rows);
     for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {
@@ -566,8 +775,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
 {
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
-    size_t run = (size_t)m->device.shape.run_columns;
-    run = (run + (size_t)l->vector - 1) / (size_t)l->vector * (size_t)l->vector;
+    size_t run = run_columns(m, l->vector);
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);

@@ -104,6 +104,7 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
 {
     struct replay *p = m->replay;
     struct state *s = &p->states[p->active], *t = &p->states[to];
+    plans_see_to(m);
     if (!d->plan || plan_version(m, d->plan) != d->version)
         return false;
     graph_give_back(m);
@@ -172,11 +173,13 @@ static bool turns_do(struct machine *m)
     struct edge *e = p->edge;
     int turns = loop_turns_noted(m, e), whole = m->calls_noted / e->calls_count;
     double start = watch_clock(m);
-    if (turns > 1 && whole >= turns) {
-        if (!e->turns.plan) {
+    if (turns > 1 && whole >= turns && !e->turns.plan) {
+        enum loop_turns kernels = loop_turns_see_to(m);
+        if (kernels == TURNS_AT_HAND)
             loop_build_turns(m);
+        if (kernels != TURNS_WAIT)
             return true;
-        }
+    } else if (turns > 1 && whole >= turns) {
         if (!deed_do(m, &e->turns, e->to))
             return false;
         m->calls_noted -= turns * e->calls_count;
@@ -187,6 +190,8 @@ static bool turns_do(struct machine *m)
         whole -= turns;
         loops_turned(m, e, true);
     }
+    if (whole > 0 && !loop_thorough_see_to(m))
+        return true;
     for (; whole > 0; whole--) {
         int left = m->calls_noted - e->calls_count;
         struct state *s = &p->states[p->active];

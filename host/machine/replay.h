@@ -31,6 +31,9 @@ struct edge {
     /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
     struct deed turns;
     int turns_count; /* of them; 0: not decided, 1: none are worth it */
+    /* Plans whose kernels are being built: of many turns; of one that leaves nothing to compute. NULL: none. */
+    struct plan *rehearsed, *rehearsed_thorough;
+    bool wants_thorough; /* the latter is to be rehearsed with the next turn */
     uint64_t runs;
 };
 
@@ -142,8 +145,14 @@ bool loop_turn_ends(const struct machine *m);
 int loop_turns_noted(struct machine *m, struct edge *e);
 /* Many turns of the loop, for the first time: performed call by call, and evaluated at the end. */
 void loop_build_turns(struct machine *m);
+/* Their kernels are seen to. AT_HAND: they can be built so without waiting for the background; WAIT: turns go on one by
+ * one, for nothing has been performed; PERFORMED: all that was noted has been, and many turns are not worth it. */
+enum loop_turns { TURNS_AT_HAND, TURNS_WAIT, TURNS_PERFORMED };
+enum loop_turns loop_turns_see_to(struct machine *m);
+/* So for one turn that leaves nothing to compute. False: all that was noted has been performed. */
+bool loop_thorough_see_to(struct machine *m);
 /* After turns of it, one by one (many: or many at once): whether evaluations are to be thorough. */
-void loops_turned(struct machine *m, const struct edge *e, bool many);
+void loops_turned(struct machine *m, struct edge *e, bool many);
 
 /* replay.c */
 void deed_finish(struct machine *m, struct deed *d);

@@ -199,7 +199,9 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     if (m->watch)
         watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
                    m->plans_built == built ? "true" : "false");
-    if (p) {
+    if (m->rehearsing) {
+        m->rehearsed = p;
+    } else if (p) {
         int stored;
         plan_stored(p, &stored);
         if (m->watch)

@@ -159,6 +159,13 @@ int trace_open(const char *path)
     return machine;
 }
 
+static void track_title(int machine, enum trace_track track, const char *title)
+{
+    event_write("{\"ph\":\"M\",\"pid\":%d,\"tid\":%d,\"name\":\"thread_name\","
+                "\"args\":{\"name\":\"%s\"}}",
+                machine, track, title);
+}
+
 void trace_title(int machine, const char *title)
 {
     char text[NAME_BYTES];
@@ -166,11 +173,16 @@ void trace_title(int machine, const char *title)
     event_write("{\"ph\":\"M\",\"pid\":%d,\"name\":\"process_name\","
                 "\"args\":{\"name\":\"machine %d: %s\"}}",
                 machine, machine, quoted(text, sizeof text, title));
-    for (int track = TRACE_FRONT_END; track <= TRACE_DEVICE; track++)
-        event_write("{\"ph\":\"M\",\"pid\":%d,\"tid\":%d,\"name\":\"thread_name\","
-                    "\"args\":{\"name\":\"%s\"}}",
-                    machine, track, track == TRACE_DEVICE ? "device" : "front end");
+    track_title(machine, TRACE_FRONT_END, "front end");
+    track_title(machine, TRACE_DEVICE, "device");
     flush();
+    pthread_mutex_unlock(&trace.lock);
+}
+
+void trace_background(int machine)
+{
+    pthread_mutex_lock(&trace.lock);
+    track_title(machine, TRACE_BACKGROUND, "background");
     pthread_mutex_unlock(&trace.lock);
 }
 

@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-enum trace_track { TRACE_FRONT_END = 1, TRACE_DEVICE = 2 };
+enum trace_track { TRACE_FRONT_END = 1, TRACE_DEVICE = 2, TRACE_BACKGROUND = 3 };
 
 /* More events than this are not kept, and that is said: about 250 MB. */
 enum { TRACE_EVENTS_MOST = 2000000 };
@@ -24,6 +24,8 @@ enum { TRACE_EVENTS_MOST = 2000000 };
 int trace_open(const char *path);
 /* What the machine is called in the file. */
 void trace_title(int machine, const char *title);
+/* The third track has something on it. */
+void trace_background(int machine);
 /* A span, or with end_s < start_s a moment. category: a word. details: members of a JSON object; NULL: none. */
 void trace_event(int machine, enum trace_track track, const char *name, const char *category,
                  double start_s, double end_s, const char *details);

@@ -29,7 +29,8 @@ struct command {
 struct watch {
     int machine; /* in the trace; 0: none is written */
     struct explain *explain;
-    bool explains; /* asked for; a trace wants the kernels' names alone */
+    bool explains;   /* asked for; a trace wants the kernels' names alone */
+    bool background; /* it has that track */
 
     int depth;        /* calls being performed, one in another */
     const char *call; /* the outermost */
@@ -139,11 +140,27 @@ void watch_span(struct machine *m, enum watch_phase phase, double start, const c
     span(m, phase, watch_phase_names[phase], start, end, text);
 }
 
+/* It is no time of the front end's. */
+void watch_background(struct machine *m, double start, double end, const char *options)
+{
+    struct watch *w = m->watch;
+    char text[DETAILS_BYTES];
+    if (!w->machine)
+        return;
+    if (!w->background)
+        trace_background(w->machine);
+    w->background = true;
+    snprintf(text, sizeof text, "\"options\":\"%s\"", options);
+    trace_event(w->machine, TRACE_BACKGROUND, "build", "build", start, end, text);
+}
+
 /* ---- calls ---- */
 
 void watch_call(struct machine *m, const char *name, bool foreseen)
 {
     struct watch *w = m->watch;
+    if (m->silent)
+        return;
     if (!w->depth && w->explain->between)
         w->explain->between();
     if (foreseen) {

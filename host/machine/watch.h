@@ -11,12 +11,13 @@
  *   trace.c     writes it to a file as it happens
  *   explain.c   adds it up: machine_explain()
  *
- * What the file has on its two tracks, and what is inside of what:
+ * What the file has on its tracks, and what is inside of what:
  *
  *     front end   CM_f_add_2_1L   note   replay            evaluate                                      wait
  *                                        launch            targets, signature, look-up, launch
  *                                                                       plan, generate, build
  *     device                             kernels, fills, copies
+ *     background                         build (where kernels are compiled so: background.c)
  */
 #ifndef LUTETIA_MACHINE_WATCH_H
 #define LUTETIA_MACHINE_WATCH_H
@@ -87,8 +88,12 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
                                  const struct plan_graph *g, const int *stores,
                                  int stores_count, const struct kernel_text *k,
                                  const char *made);
+/* That kernel was not there yet (NULL): now it is; NULL: it will not be. */
+struct kernel_note *watch_kernel_built(struct machine *m, struct kernel_note *note,
+                                       cl_kernel kernel);
 void watch_split(struct machine *m);
 void watch_improved(struct machine *m);
+void watch_background(struct machine *m, double start, double end, const char *options);
 
 /* Commands. Which kernel the next device_launch() starts: a generated one, or one by hand that was given so
  * many bytes of arrays. Then where its event goes, and what it was; after an error, nothing. */

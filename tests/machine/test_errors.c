@@ -60,8 +60,8 @@ static void settings_that_are_nonsense_are_refused(void **state)
         {"LUTETIA_COLUMNS", "40"},      {"LUTETIA_COLUMNS", "-16"},
         {"LUTETIA_STRIPS", "yes"},      {"LUTETIA_EAGER", "2"},
         {"LUTETIA_FLUSH_AFTER", "1e3"}, {"LUTETIA_BOX_AFTER", "99999999999999999999"},
-        {"LUTETIA_PROCESSORS", "48"},   {"LUTETIA_SCATTER", " 1"},
-        {"LUTETIA_KEEP", "-1"}};
+        {"LUTETIA_BACKGROUND", "2"},    {"LUTETIA_PROCESSORS", "48"},
+        {"LUTETIA_SCATTER", " 1"},      {"LUTETIA_KEEP", "-1"}};
     struct machine_config config = machine_config_default();
 
     (void)state;

@@ -2,19 +2,23 @@
  * build with -Db_sanitize=thread sees what they share. */
 #include "support.h"
 
+#include "internal.h"
+
 #include <pthread.h>
 #include <unistd.h>
 
-enum { THREADS = 3, HEIGHT = 48, WIDTH = 80, COUNT = HEIGHT * WIDTH, TURNS = 40, TIMES = 3 };
+enum { THREADS = 3, HEIGHT = 48, WIDTH = 80, COUNT = HEIGHT * WIDTH, TURNS = 40 };
 
 struct result {
     uint32_t numbers[COUNT];
     uint64_t sum;
-    uint64_t foreseen;
-    char error[200]; /* "": none */
+    uint64_t foreseen; /* calls; or that kernels came from the background */
+    char error[200];   /* "": none */
 };
 
 static const char *trace_path; /* NULL: none */
+static int times = 3;          /* that each thread makes a machine */
+static bool background;
 
 struct sheet {
     struct machine *m;
@@ -89,16 +93,20 @@ static bool work(struct sheet *s, struct result *r)
     const struct machine_call call = {.words = {(uintptr_t)s}};
     for (int i = 0; i < TURNS; i++)
         turn_again(&call);
+    for (int i = 0; background && s->m->improving && i < 60000; i++) {
+        usleep(1000);
+        plans_see_to(s->m);
+    }
     struct machine_stats stats;
     machine_stats_get(s->m, &stats);
-    r->foreseen = stats.calls_foreseen;
+    r->foreseen = background ? stats.kernels_built_background > 0 : stats.calls_foreseen;
     return machine_finish(s->m) == MACHINE_OK && look(s, r);
 }
 
 static void *thread(void *data)
 {
     struct result *r = data;
-    for (int i = 0; i < TIMES && !r->error[0]; i++) {
+    for (int i = 0; i < times && !r->error[0]; i++) {
         struct sheet s = {.m = NULL};
         if (!work(&s, r))
             snprintf(r->error, sizeof r->error, "%s", s.m ? machine_error(s.m) : "no memory");
@@ -150,11 +158,27 @@ static void they_write_one_trace(void **state)
     assert_non_null(memchr(end, ']', 3));
 }
 
+/* Each machine's better kernels are compiled in the background, by a process of its own. */
+static void each_has_a_background(void **state)
+{
+    (void)state;
+    setenv("LUTETIA_BACKGROUND", "1", 1);
+    setenv("LUTETIA_OPTIMISE_AFTER", "1000000", 1);
+    setenv("LUTETIA_BOX_AFTER", "1", 1);
+    times = 1;
+    background = true;
+    together();
+    unsetenv("LUTETIA_BACKGROUND");
+    unsetenv("LUTETIA_BOX_AFTER");
+    unsetenv("LUTETIA_OPTIMISE_AFTER");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(machines_of_several_threads_do_not_meet),
         cmocka_unit_test(they_write_one_trace),
+        cmocka_unit_test(each_has_a_background),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

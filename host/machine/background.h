@@ -1,0 +1,52 @@
+/* background.h - kernels that a process compiles while others run: one batch at a time.
+ *
+ *     if (background_on(m) && !background_busy(m)) {
+ *         int number = background_want(m, &wish);    // and others
+ *         background_begin(m);
+ *     }
+ *     ... the program goes on; now and then:
+ *     switch (background_take(m)) {
+ *     case BACKGROUND_LOADED: kernel = background_kernel(m, number); // and background_drop(m)
+ *     case BACKGROUND_LOST: ...                                      // background_drop(m)
+ *     case BACKGROUND_WAITS: ...
+ *     } */
+#ifndef LUTETIA_MACHINE_BACKGROUND_H
+#define LUTETIA_MACHINE_BACKGROUND_H
+
+#include "internal.h"
+
+struct background_wish {
+    const char *const *parts; /* DEVICE_PARTS; all but the last stay as they are */
+    const char *options, *name;
+    const char *arguments; /* as compiler.h has them */
+    uint32_t dimensions;
+    uint64_t widest; /* as there */
+};
+
+enum background_state {
+    BACKGROUND_WAITS, /* for the process, or for its turn to be loaded */
+    BACKGROUND_LOADED,
+    BACKGROUND_LOST /* they cannot be had so, and no others from now on */
+};
+
+/* The decision: better kernels are compiled beside the program. Else the program waits for them. */
+bool background_on(struct machine *m);
+/* There is a batch that has begun. */
+bool background_busy(const struct machine *m);
+/* The kernel belongs to the next batch: its number there; -1: no memory. */
+int background_want(struct machine *m, const struct background_wish *wish);
+/* That kernel is about to be compiled by the machine itself, and better ones will be wanted. If no cache has it, which takes
+ * long, the process gets ready meanwhile: PoCL reads its library for most of a second before it compiles anything. */
+void background_foresee(struct machine *m, const struct background_wish *wish);
+/* False: no memory. */
+bool background_begin(struct machine *m);
+/* How far the batch is; never waits. Loads at most one kernel, which takes some 20 milliseconds. */
+enum background_state background_take(struct machine *m);
+/* One of a batch that is loaded. */
+cl_kernel background_kernel(const struct machine *m, int number);
+/* Nothing is wanted any more; none has begun. */
+void background_drop(struct machine *m);
+/* The machine goes. */
+void background_finish(struct machine *m);
+
+#endif
