@@ -15,6 +15,7 @@ int bench_machine_start(struct bench_report *r, struct bench_options *o, bool se
         return status;
     if (settled)
         setenv("LUTETIA_BOX_AFTER", "0", 0);
+    setenv("LUTETIA_BACKGROUND", "0", 0); /* after the warm-up no kernel is compiled */
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(r, o->name, bench_threads_count(), device);
     return -1;

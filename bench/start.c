@@ -2,21 +2,31 @@
  *
  * Each run is a process of its own, this very program again, that writes into a folder which is taken away afterwards. One
  * run of each warms the caches of kernels, fonts and files. Then they take turns; each gives the time until it has ended,
- * and the processor time that it took in all its threads: that is hardly longer where others use the machine. */
+ * and the processor time that it took in all its threads: that is hardly longer where others use the machine.
+ *
+ * --thorough: how long a program that looks after each of its steps stands still, too, when no kernel is in any cache, with
+ * better kernels compiled in the background and without. The first two steps, which need kernels at once, do not count. */
 #include <fcntl.h>
+#include <ftw.h>
 #include <spawn.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench.h"
+#include "listing.h"
 #include "of_machine.h"
+#include "paris_internal.h"
+#include "scene.h"
 
-enum { REPEAT_MIN = 3, COMMAND_WORDS = 12 };
+enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
+static const char STEPS_INTO[] =
+    "--steps-into"; /* what a run of the steps is told, then a file */
 
 extern char **environ;
 
@@ -79,7 +89,8 @@ static double seconds_of(struct timeval t)
     return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
 }
 
-static bool command_run(int number, struct place *place, double *passed_s, double *processor_s)
+static bool command_run(const char *const words[COMMAND_WORDS], struct place *place,
+                        double *passed_s, double *processor_s)
 {
     char program[4096], name[] = "lutetia";
     char *arguments[COMMAND_WORDS + 2] = {name};
@@ -87,8 +98,8 @@ static bool command_run(int number, struct place *place, double *passed_s, doubl
     if (length < 0)
         return bench_fail("/proc/self/exe cannot be read");
     program[length] = '\0';
-    for (int i = 0; i < COMMAND_WORDS && commands[number].words[i]; i++) {
-        const char *word = commands[number].words[i];
+    for (int i = 0; i < COMMAND_WORDS && words[i]; i++) {
+        const char *word = words[i];
         arguments[i + 1] = strcmp(word, PICTURE) == 0  ? place->picture
                            : strcmp(word, SCRIPT) == 0 ? place->script
                            : strcmp(word, FOLDER) == 0 ? place->folder
@@ -107,7 +118,7 @@ static bool command_run(int number, struct place *place, double *passed_s, doubl
     *passed_s = bench_now_s() - start;
     *processor_s = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
     return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
-           bench_fail("lutetia %s did not succeed", commands[number].words[0]);
+           bench_fail("lutetia %s did not succeed", words[0]);
 }
 
 static bool all_measure(struct bench_report *r, struct place *place, int repeat_count)
@@ -115,10 +126,10 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
     double *times = calloc((size_t)(2 * COMMANDS_COUNT * repeat_count), sizeof *times), ignored;
     bool ok = times || bench_fail("no memory for %d times", repeat_count);
     for (int i = 0; ok && i < COMMANDS_COUNT; i++)
-        ok = command_run(i, place, &ignored, &ignored);
+        ok = command_run(commands[i].words, place, &ignored, &ignored);
     for (int turn = 0; ok && turn < repeat_count; turn++)
         for (int i = 0; ok && i < COMMANDS_COUNT; i++)
-            ok = command_run(i, place, &times[2 * i * repeat_count + turn],
+            ok = command_run(commands[i].words, place, &times[2 * i * repeat_count + turn],
                              &times[(2 * i + 1) * repeat_count + turn]);
     for (int i = 0; ok && i < COMMANDS_COUNT; i++) {
         char processor[32];
@@ -134,16 +145,131 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
     return ok;
 }
 
+/* ---- pauses ---- */
+
+/* A run of the steps: the longest time from the end of one to the end of the next, and all of it, in a file. */
+static bool steps_run(const char *path)
+{
+    struct diffusion_scene scene;
+    double before = bench_now_s(), start = before, longest = 0;
+    if (!diffusion_scene_init(&scene, SIDE, SIDE))
+        return false;
+    struct listing l = {.width = SIDE,
+                        .height = SIDE,
+                        .gravity = (double)scene.gravity,
+                        .molecular_weight = {1, 1, 1}};
+    CM_init();
+    listing_allocate(&l);
+    struct machine *m = paris_machine();
+    bool ok = bench_machine_said(
+                  machine_field_upload(m, l.absorbency, MACHINE_F32, scene.absorbency)) &&
+              bench_machine_said(machine_field_upload(m, l.water, MACHINE_F32, scene.field[0]));
+    for (int i = 0; ok && i < STEPS; i++) {
+        listing_step(&l);
+        ok = bench_machine_finished();
+        double now = bench_now_s();
+        longest = i >= STEPS_FIRST && now - before > longest ? now - before : longest;
+        before = now;
+    }
+    diffusion_scene_finish(&scene);
+    FILE *file = ok ? fopen(path, "w") : NULL;
+    ok = file && fprintf(file, "%.6f %.6f", longest, before - start) > 0;
+    return file && fclose(file) == 0 && ok;
+}
+
+static int entry_remove(const char *path, const struct stat *status, int kind,
+                        struct FTW *where)
+{
+    (void)status;
+    (void)kind;
+    (void)where;
+    return remove(path);
+}
+
+static void variable_put(const char *name, char *value)
+{
+    if (value)
+        setenv(name, value, 1);
+    else
+        unsetenv(name);
+    free(value);
+}
+
+static char *variable_kept(const char *name)
+{
+    const char *value = getenv(name);
+    return value ? strdup(value) : NULL;
+}
+
+/* One with caches of its own, which are empty. */
+static bool steps_of(struct place *place, const char *background, double out[2])
+{
+    static const char *const names[] = {"XDG_CACHE_HOME", "POCL_CACHE_DIR",
+                                        "LUTETIA_BACKGROUND"};
+    enum { NAMES = sizeof names / sizeof *names };
+    const char *const words[COMMAND_WORDS] = {"bench", "start", STEPS_INTO, PICTURE};
+    char folder[96], driver[128], *kept[NAMES];
+    double ignored;
+    snprintf(folder, sizeof folder, "%s/cache", place->folder);
+    snprintf(driver, sizeof driver, "%s/pocl", folder);
+    if (mkdir(folder, 0700) || mkdir(driver, 0700))
+        return bench_fail("%s: cannot be made", driver);
+    for (int i = 0; i < NAMES; i++)
+        kept[i] = variable_kept(names[i]);
+    setenv(names[0], folder, 1);
+    setenv(names[1], driver, 1);
+    setenv(names[2], background, 1);
+    bool ok = command_run(words, place, &ignored, &ignored);
+    for (int i = 0; i < NAMES; i++)
+        variable_put(names[i], kept[i]);
+    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    FILE *file = ok ? fopen(place->picture, "r") : NULL;
+    if (ok && !(file && fscanf(file, "%lf %lf", &out[0], &out[1]) == 2))
+        ok = bench_fail("%s: no times are in it", place->picture);
+    if (file)
+        fclose(file);
+    return ok;
+}
+
+static bool pauses_measure(struct bench_report *r, struct place *place)
+{
+    static const char *const cases[2] = {"cold, waits", "cold, background"};
+    double times[2][2][RUNS];
+    char whats[2][32] = {"longest pause"};
+    bool ok = true;
+    snprintf(whats[1], sizeof whats[1], "%d steps", STEPS);
+    for (int run = 0; ok && run < RUNS; run++)
+        for (int background = 0; ok && background < 2; background++) {
+            double two[2];
+            ok = steps_of(place, background ? "1" : "0", two);
+            for (int i = 0; ok && i < 2; i++)
+                times[background][i][run] = two[i];
+        }
+    for (int i = 0; ok && i < 2; i++)
+        for (int background = 0; background < 2; background++)
+            bench_report_add(r, whats[i], cases[background],
+                             bench_sample_of(times[background][i], RUNS), 1e3, "ms");
+    return ok;
+}
+
 int bench_start_main(int argc, char **argv)
 {
     static struct bench_report report;
     struct bench_options options = {
-        .name = "start", .repeat_least = REPEAT_MIN, .repeat_count = 21};
+        .name = "start",
+        .repeat_least = REPEAT_MIN,
+        .repeat_count = 21,
+        .thorough_does = "how long a program stands still whose kernels are in no cache"};
+    if (argc == 3 && !strcmp(argv[1], STEPS_INTO))
+        return steps_run(argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
     struct place place = {0};
+    char *background = variable_kept("LUTETIA_BACKGROUND");
     int status = bench_machine_start(&report, &options, false, argc, argv);
+    variable_put("LUTETIA_BACKGROUND", background); /* the runs are as anybody's */
     if (status >= 0)
         return status;
-    bool ok = place_make(&place) && all_measure(&report, &place, options.repeat_count);
+    bool ok = place_make(&place) && all_measure(&report, &place, options.repeat_count) &&
+              (!options.thorough || pauses_measure(&report, &place));
     place_remove(&place);
     return bench_options_finish(&options, &report, "first picture", ok);
 }
