@@ -345,6 +345,7 @@ static void interrupt_leaves_nothing(void **state)
     struct child child = {.arguments = {"", "paint", "Aa", "--paper", "512x512", "--steps",
                                         "1000000", "--font", "DejaVuSerif", "-o",
                                         scratch_path("cut.png")},
+                          .variables = {"LUTETIA_BACKGROUND=1"},
                           .interrupt_after_ms = 1500};
     run(&child, 130);
     assert_int_equal(lines_in(child.errors), 1);

@@ -200,7 +200,7 @@ def explanation_of_a_source(folder):
 
 
 def interrupted_program_explains_itself(folder):
-    process = start_forever(LUTETIA, "explain", EXPLAINED, "forever")
+    process = start_forever(LUTETIA, "explain", EXPLAINED, "forever", LUTETIA_BACKGROUND="1")
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does
     output, errors = process.communicate(timeout=100)
     assert process.returncode == 130 and errors == "", (process.returncode, errors)
