@@ -57,7 +57,8 @@ static void between(void)
  * signal on to that. */
 static void interrupt_catch(void)
 {
-    struct sigaction now, ours = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction now,
+        ours = {.sa_handler = interrupt, .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
     if (sigaction(SIGINT, NULL, &now) == 0 && now.sa_handler == SIG_DFL)
         sigaction(SIGINT, &ours, NULL);
 }

@@ -57,7 +57,9 @@ static void interrupt_take(int signal_number)
  * a child, too, and PoCL aborts when that dies. What is blocked stays so in children. */
 void interrupt_catch(void)
 {
-    struct sigaction action = {.sa_handler = interrupt_take, .sa_flags = (int)SA_RESETHAND};
+    /* restarted: compilers that a system call is interrupted in say that something is wrong */
+    struct sigaction action = {.sa_handler = interrupt_take,
+                               .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
     sigset_t interrupt;
     sigemptyset(&interrupt);
     sigaddset(&interrupt, SIGINT);
