@@ -18,5 +18,6 @@ int bench_paper_main(int argc, char **argv);
 int bench_paris_main(int argc, char **argv);
 int bench_fonts_main(int argc, char **argv);
 int bench_start_main(int argc, char **argv);
+int bench_model_main(int argc, char **argv);
 
 #endif

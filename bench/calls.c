@@ -15,10 +15,19 @@
 
 #include "bench.h"
 #include "harness.h"
+#include "listing.h"
 #include "of_machine.h"
 #include "paris_internal.h"
 
-enum { SIDE = 256, CALLS_TIMED = 10000, CALLS_GROWTH = 1000000, REPEAT_MIN = 10 };
+enum {
+    SIDE = 256,
+    CALLS_TIMED = 10000,
+    CALLS_GROWTH = 1000000,
+    STEPS_GROWTH = 1000000,
+    STEPS_SIDE = 64,
+    STEPS_BETWEEN = 100, /* two looks */
+    REPEAT_MIN = 10
+};
 
 /* ---- the program ---- */
 
@@ -137,29 +146,75 @@ static bool cost_measure(struct bench_report *r, const struct calls *c, int repe
     return ok;
 }
 
+struct held {
+    struct machine_stats machine;
+    size_t resident;
+};
+
+static struct held held_now(void)
+{
+    struct held h = {.resident = calls_resident_bytes()};
+    machine_stats_get(paris_machine(), &h.machine);
+    return h;
+}
+
+static void growth_add(struct bench_report *r, const char *of_case, struct held before)
+{
+    struct held after = held_now();
+    bench_report_add(r, "growth, process", of_case,
+                     one((double)after.resident - (double)before.resident), 1.0 / 1024, "KiB");
+    bench_report_add(
+        r, "growth, values", of_case,
+        one((double)after.machine.values_live - (double)before.machine.values_live), 1,
+        "values");
+    bench_report_add(r, "growth, device", of_case,
+                     one((double)after.machine.bytes_held - (double)before.machine.bytes_held),
+                     1.0 / 1024, "KiB");
+}
+
 static void growth_measure(struct bench_report *r, const struct calls *c)
 {
-    struct machine_stats before, after;
     double ignored;
     calls_make(c, CALLS_GROWTH / 10, &ignored, &ignored);
-    machine_stats_get(paris_machine(), &before);
-    size_t resident = calls_resident_bytes();
+    struct held before = held_now();
     calls_make(c, CALLS_GROWTH, &ignored, &ignored);
-    machine_stats_get(paris_machine(), &after);
-    double process = (double)calls_resident_bytes() - (double)resident;
-    bench_report_add(r, "growth, process", "million calls", one(process), 1.0 / 1024, "KiB");
-    bench_report_add(r, "growth, values", "million calls",
-                     one((double)after.values_live - (double)before.values_live), 1, "values");
-    bench_report_add(r, "growth, device", "million calls",
-                     one((double)after.bytes_held - (double)before.bytes_held), 1.0 / 1024,
-                     "KiB");
+    growth_add(r, "million calls", before);
+}
+
+static void step(const void *listing)
+{
+    listing_step(listing);
+}
+
+/* Of the diffusion listing on a small sheet: 108 million calls. */
+static bool steps_growth_measure(struct bench_report *r)
+{
+    struct machine_config config = machine_config_default();
+    struct listing listing = {.width = STEPS_SIDE,
+                              .height = STEPS_SIDE,
+                              .gravity = 1.1,
+                              .molecular_weight = {0.9, 0.7, 0.5}};
+    fprintf(stderr, "calls: a million steps ...\n");
+    if (!paris_reset(&config))
+        return bench_fail("%s", paris_error());
+    listing_allocate(&listing);
+    if (!bench_machine_steps(step, &listing, STEPS_GROWTH / 20, STEPS_BETWEEN))
+        return false;
+    struct held before = held_now();
+    if (!bench_machine_steps(step, &listing, STEPS_GROWTH, STEPS_BETWEEN))
+        return false;
+    growth_add(r, "million steps", before);
+    return true;
 }
 
 int bench_calls_main(int argc, char **argv)
 {
     static struct bench_report report;
     struct bench_options options = {
-        .name = "calls", .repeat_least = REPEAT_MIN, .repeat_count = 21};
+        .name = "calls",
+        .thorough_does = "memory over a million steps of the diffusion listing, too",
+        .repeat_least = REPEAT_MIN,
+        .repeat_count = 21};
     struct calls c;
     int status = bench_machine_start(&report, &options, false, argc, argv);
     if (status >= 0)
@@ -168,5 +223,6 @@ int bench_calls_main(int argc, char **argv)
     bool ok = cost_measure(&report, &c, options.repeat_count);
     if (ok)
         growth_measure(&report, &c);
+    ok = ok && (!options.thorough || steps_growth_measure(&report));
     return bench_options_finish(&options, &report, "recorded", ok);
 }

@@ -22,6 +22,8 @@ static const struct {
     {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
+    {"model", bench_model_main,
+     "what the engine's cost model prefers, beside what it could have had"},
     {"start", bench_start_main, "the first picture, from the command, with warm caches"},
 };
 

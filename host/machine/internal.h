@@ -351,7 +351,8 @@ struct machine {
     bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
-    uint64_t kernels_in_place;
+    uint64_t kernels_in_place, kernels_in_strips;
+    double predicted_s; /* of the plans that ran */
     uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
     double busy_s;
 };
@@ -513,6 +514,7 @@ struct plan_graph {
     bool strips;    /* decided: all stages in one kernel, see strips.h */
     bool no_strips; /* but not so */
     int turns_most; /* of a loop, in one kernel of strips; 1: that cannot be */
+    double cost_ns; /* of one run, by the model */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);

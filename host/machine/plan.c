@@ -477,7 +477,7 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
             memcpy(s.barrier, barrier, count * sizeof *barrier);
         }
     }
-    cost(&s);
+    g->cost_ns = cost(&s);
     free(s.barrier);
     free(s.light);
     free(s.earliest);

@@ -46,6 +46,7 @@ struct plan {
     enum quality quality;
     bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
+    double predicted_s;  /* of a run */
     bool later;          /* its kernels are compiled in the background */
     struct plan *better; /* that one's are; it takes this one's place */
     bool empty;          /* there is nothing yet but a better one */
@@ -434,6 +435,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         p->could_be_strips = g.no_strips && g.turns_most > 1;
         *strips = g.strips;
         p->turns_most = g.turns_most;
+        p->predicted_s = 1e-9 * g.cost_ns;
         if (m->dump_dir)
             dump_graph(m, m->dump_count, &g);
         good = plan_kernels(m, p, &g, stores) &&
@@ -842,6 +844,8 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     for (int i = 0; i < p->launches_count && !status; i++)
         status = launch(m, &p->launches[i], buffers, nodes, in_place);
     m->kernels_in_place += in_place && !status;
+    m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
+    m->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
     device_flush(m);
     if (m->watch)

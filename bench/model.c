@@ -1,0 +1,222 @@
+/* model.c - `lutetia bench model`: see model.h.
+ *
+ * The programs differ in what they ask of a plan: values that are cheap or dear to compute again at a neighbour, wide and
+ * narrow ones, neighbours across rows, along them, or both, and chains of them. */
+#include "model.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cm/paris.h>
+
+#include "bench.h"
+#include "grids.h"
+#include "listing.h"
+#include "of_machine.h"
+#include "paris_internal.h"
+
+enum {
+    STEPS = 16,
+    STEPS_WARM = 3,
+    ROUNDS_MOST = 64,
+    SIGNIFICAND = 23,
+    EXPONENT = 8,
+    FLOAT = 32
+};
+
+struct program {
+    struct listing listing;
+    struct life_paris life;
+    struct heat_paris heat;
+    CM_field_id_t a, b, c;
+};
+
+/* ---- the programs ---- */
+
+static void listing_begin(struct program *p, int side)
+{
+    p->listing = (struct listing){
+        .width = side, .height = side, .gravity = 1.1, .molecular_weight = {0.9, 0.7, 0.5}};
+    listing_allocate(&p->listing);
+}
+
+static void listing_go(const void *p)
+{
+    listing_step(&((const struct program *)p)->listing);
+}
+
+static void life_begin(struct program *p, int side)
+{
+    life_paris_allocate(&p->life, side, side);
+}
+
+static void life_go(const void *p)
+{
+    life_paris_step(&((const struct program *)p)->life);
+}
+
+static void heat_begin(struct program *p, int side)
+{
+    heat_paris_allocate(&p->heat, side, side);
+}
+
+static void heat_go(const void *p)
+{
+    heat_paris_step(&((const struct program *)p)->heat);
+}
+
+static void floats_begin(struct program *p, int side)
+{
+    unsigned int dimensions[2] = {(unsigned int)side, (unsigned int)side};
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
+    CM_set_context();
+    p->a = CM_allocate_heap_field(FLOAT);
+    p->b = CM_allocate_heap_field(FLOAT);
+    p->c = CM_allocate_heap_field(FLOAT);
+    CM_f_move_constant_1L(p->a, 0.5, SIGNIFICAND, EXPONENT);
+}
+
+/* The mean of three, along both axes: cheap to compute again. */
+static void mean_along(const struct program *p, unsigned int axis)
+{
+    CM_get_from_news_1L(p->b, p->a, axis, CM_upward, FLOAT);
+    CM_get_from_news_1L(p->c, p->a, axis, CM_downward, FLOAT);
+    CM_f_add_2_1L(p->a, p->b, SIGNIFICAND, EXPONENT);
+    CM_f_add_2_1L(p->a, p->c, SIGNIFICAND, EXPONENT);
+    CM_f_multiply_constant_2_1L(p->a, 1.0 / 3, SIGNIFICAND, EXPONENT);
+}
+
+static void blur_go(const void *of)
+{
+    mean_along(of, 0);
+    mean_along(of, 1);
+}
+
+/* Four of them, one after the other, along rows alone. */
+static void chain_go(const void *of)
+{
+    for (int i = 0; i < 4; i++)
+        mean_along(of, 1);
+}
+
+/* A quotient and a root, which are dear, looked at by the neighbours on all sides. */
+static void dear_go(const void *of)
+{
+    const struct program *p = of;
+    CM_f_multiply_3_1L(p->b, p->a, p->a, SIGNIFICAND, EXPONENT);
+    CM_f_add_constant_2_1L(p->b, 1.0, SIGNIFICAND, EXPONENT);
+    CM_f_sqrt_1_1L(p->b, SIGNIFICAND, EXPONENT);
+    CM_f_divide_2_1L(p->a, p->b, SIGNIFICAND, EXPONENT);
+    blur_go(of);
+}
+
+static const struct {
+    const char *name;
+    void (*begin)(struct program *p, int side);
+    void (*step)(const void *p);
+} programs[] = {{"listing", listing_begin, listing_go}, {"life", life_begin, life_go},
+                {"heat", heat_begin, heat_go},          {"blur", floats_begin, blur_go},
+                {"chain", floats_begin, chain_go},      {"dear", floats_begin, dear_go}};
+
+int model_programs_count(void)
+{
+    return sizeof programs / sizeof *programs;
+}
+
+const char *model_program_name(int program)
+{
+    return programs[program].name;
+}
+
+/* ---- measured ---- */
+
+static const char *const strips_said[MODEL_FORMS] = {"0", "1", ""};
+
+static bool machine_begin_form(enum model_form form)
+{
+    struct machine_config config = machine_config_default();
+    setenv("LUTETIA_STRIPS", strips_said[form], 1);
+    return paris_reset(&config) || bench_fail("%s", paris_error());
+}
+
+static bool measure_once(int program, int side, enum model_form form, double *wall,
+                         double *processor, struct model_result *result)
+{
+    static struct program p;
+    struct machine_stats before, after;
+    double scale = 1e9 / ((double)side * side * STEPS);
+    if (!machine_begin_form(form))
+        return false;
+    programs[program].begin(&p, side);
+    if (!bench_machine_steps(programs[program].step, &p, STEPS_WARM, 1))
+        return false;
+    machine_stats_get(paris_machine(), &before);
+    double wall_s = bench_now_s(), processor_s = bench_process_s();
+    if (!bench_machine_steps(programs[program].step, &p, STEPS, 1))
+        return false;
+    *wall = (bench_now_s() - wall_s) * scale;
+    *processor = (bench_process_s() - processor_s) * scale / bench_threads_count();
+    machine_stats_get(paris_machine(), &after);
+    result->predicted = (after.predicted_s - before.predicted_s) * scale;
+    result->in_strips = after.kernels_in_strips > before.kernels_in_strips;
+    return true;
+}
+
+bool model_measure(int program, int side, int rounds, struct model_result results[MODEL_FORMS])
+{
+    static const char *const forced[][2] = {
+        {"LUTETIA_TURNS", "1"}, {"LUTETIA_BOX_AFTER", "0"}, {"LUTETIA_OPTIMISE_AFTER", "0"}};
+    double wall[MODEL_FORMS][ROUNDS_MOST], processor[MODEL_FORMS][ROUNDS_MOST];
+    bool good = true;
+    for (size_t i = 0; i < sizeof forced / sizeof *forced; i++)
+        setenv(forced[i][0], forced[i][1], 1);
+    rounds = rounds < ROUNDS_MOST ? rounds : ROUNDS_MOST;
+    for (int i = 0; good && i < rounds; i++)
+        for (int form = 0; good && form < MODEL_FORMS; form++)
+            good = measure_once(program, side, (enum model_form)form, &wall[form][i],
+                                &processor[form][i], &results[form]);
+    for (size_t i = 0; i < sizeof forced / sizeof *forced; i++)
+        unsetenv(forced[i][0]);
+    unsetenv("LUTETIA_STRIPS");
+    for (int form = 0; good && form < MODEL_FORMS; form++) {
+        results[form].wall = bench_sample_of(wall[form], rounds);
+        results[form].processor = bench_sample_of(processor[form], rounds);
+    }
+    return good;
+}
+
+int bench_model_main(int argc, char **argv)
+{
+    static const char *const names[MODEL_FORMS] = {"rows", "strips", "chosen"};
+    static const char unit[] = "ns/cell-step";
+    static struct bench_report report;
+    struct bench_options options = {.name = "model",
+                                    .sizes = {{256, 256}, {1024, 1024}, {2048, 2048}},
+                                    .sizes_count = 3,
+                                    .size_least = 64,
+                                    .size_most = 8192,
+                                    .repeat_least = 3,
+                                    .repeat_count = 7};
+    int status = bench_machine_start(&report, &options, true, argc, argv);
+    if (status >= 0)
+        return status;
+    bool ok = true;
+    for (int i = 0; ok && i < options.sizes_count; i++)
+        for (int p = 0; ok && p < model_programs_count(); p++) {
+            struct model_result results[MODEL_FORMS];
+            int side = options.sizes[i][0];
+            char of_case[32], what[32];
+            snprintf(of_case, sizeof of_case, "%s %dx%d", programs[p].name, side, side);
+            fprintf(stderr, "model: %s ...\n", of_case);
+            ok = (options.sizes[i][1] == side || bench_fail("sheets must be squares")) &&
+                 model_measure(p, side, options.repeat_count, results);
+            for (int form = 0; ok && form < MODEL_FORMS; form++) {
+                struct bench_sample predicted = {results[form].predicted,
+                                                 results[form].predicted};
+                bench_report_add(&report, names[form], of_case, results[form].wall, 1, unit);
+                snprintf(what, sizeof what, "%s, predicted", names[form]);
+                bench_report_add(&report, what, of_case, predicted, 1, unit);
+            }
+        }
+    return bench_options_finish(&options, &report, "chosen", ok);
+}
