@@ -49,8 +49,8 @@
 #define PREFETCH_STORE(q) PREFETCH(q, 1)
 #endif
 
-/* Of more arrays than a processor can follow, rows are fetched one after the other, a few pieces in each turn of the loop over columns:
- * so few places of the memory are at work at the same time. */
+/* Of more arrays than a processor can follow, rows are fetched one after the other, a few pieces in each turn of the
+ * loop over columns: so few places of the memory are at work at the same time. */
 #define PIECE_BYTES 512
 struct row_ahead {
     const __global uchar *at;

@@ -448,7 +448,7 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         e->wide = e->wide || spell_letter(from) == 'Q';
         enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
         bool spelt = soft != SPELL_SOFT_NOT;
-        if (e->lane < 32) {
+        if (e->lane < LANE_WIDE) {
             narrow_spell(expression, sizeof expression, e->g, n, e->lane, a, b, in[2].text);
             spelt = true;
         } else if (spelt)

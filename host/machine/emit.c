@@ -93,7 +93,7 @@ static bool rows_kernel(const struct plan_graph *g, const int *stores, int store
     /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
     bool one =
         wraps || e->wide || e->soft || set->width < shape->vector || set->halo < shape->vector;
-    out->vector = one ? 1 : shape->vector * 32 / lane;
+    out->vector = one ? 1 : shape->vector * LANE_WIDE / lane;
     out->wraps = wraps;
     out->wide = e->wide;
     out->soft = e->soft;
@@ -139,13 +139,13 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
 {
     int lane = shape->narrow && set->halo
                    ? narrow_lane(g, stores, stores_count, g->nodes[stores[0]].stage)
-                   : 32;
-    if (lane < 32 && set->width >= shape->vector * 32 / lane) {
+                   : LANE_WIDE;
+    if (lane < LANE_WIDE && set->width >= shape->vector * LANE_WIDE / lane) {
         if (!rows_kernel(g, stores, stores_count, set, shape, lane, out))
             return false;
         if (out->vector > 1)
             return true;
         kernel_text_finish(out);
     }
-    return rows_kernel(g, stores, stores_count, set, shape, 32, out);
+    return rows_kernel(g, stores, stores_count, set, shape, LANE_WIDE, out);
 }

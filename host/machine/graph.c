@@ -165,14 +165,6 @@ static void bear(struct machine_value *v, uint32_t epoch)
     }
 }
 
-/* Of constants. */
-static bool is_nan(const struct machine_value *v)
-{
-    bool single = v->type.width == 32;
-    return (v->imm.lo & (single ? INT32_MAX : INT64_MAX)) >
-           (single ? 0x7f800000u : UINT64_C(0x7ff0000000000000));
-}
-
 /* Which NaNs may be in it. */
 static void derive_nan(const struct machine *m, struct machine_value *v)
 {
@@ -192,7 +184,7 @@ static void derive_nan(const struct machine *m, struct machine_value *v)
         v->strange_nan = strange;
         break;
     case NODE_CONSTANT:
-        v->strange_nan = is_nan(v) && v->imm.lo != (v->type.width == 32 ? NAN_32 : NAN_64);
+        v->strange_nan = scalar_is_strange_nan(v->type, v->imm.lo);
         break;
     case NODE_BUFFER:
     case NODE_SLICE:
@@ -202,7 +194,7 @@ static void derive_nan(const struct machine *m, struct machine_value *v)
     case MACHINE_FMIN: /* b where either is a NaN: with a number for b they never give one */
     case MACHINE_FMAX:
         v->maybe_nan = v->in[1]->op == NODE_CONSTANT
-                           ? is_nan(v->in[1])
+                           ? scalar_is_nan(v->type, v->in[1]->imm.lo)
                            : nan || strange || !m->device.shape.keeps_nan;
         break;
     default:

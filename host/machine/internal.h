@@ -103,8 +103,8 @@ struct node_op_info {
     uint8_t cost;     /* vector instructions, about */
     uint8_t nan;      /* enum nan */
 };
-/* May an operation's result be a NaN with bits that are not *the* NaN's (NAN_32, NAN_64)? Devices that keep NaNs give that one for
- * the last kind of operations, of operands with no other. */
+/* May an operation's result be a NaN with bits that are not *the* NaN's (NAN_32, NAN_64)? Devices that keep NaNs give
+ * that one for the last kind of operations, of operands with no other. */
 enum nan { NAN_NEVER, NAN_ANY, NAN_KEPT };
 extern const struct node_op_info node_ops[NODE_OP_COUNT];
 

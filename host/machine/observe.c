@@ -35,17 +35,13 @@ static size_t place(const struct vpset *s, uint64_t index)
 
 static bool has_strange_nan(struct machine_type type, const void *in, uint64_t count)
 {
+    size_t bytes = type_bytes(type);
     bool has = false;
-    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++)
-        if (type.width == 32) {
-            uint32_t x;
-            memcpy(&x, (const unsigned char *)in + 4 * i, sizeof x);
-            has = (x & INT32_MAX) > 0x7f800000u && x != NAN_32;
-        } else {
-            uint64_t x;
-            memcpy(&x, (const unsigned char *)in + 8 * i, sizeof x);
-            has = (x & INT64_MAX) > UINT64_C(0x7ff0000000000000) && x != NAN_64;
-        }
+    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++) {
+        uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
+        memcpy(&x, (const unsigned char *)in + i * bytes, bytes);
+        has = scalar_is_strange_nan(type, x);
+    }
     return has;
 }
 

@@ -11,6 +11,19 @@
 #define NAN_32 0xffc00000u
 #define NAN_64 UINT64_C(0xfff8000000000000)
 
+/* Of a float of that type. */
+static inline bool scalar_is_nan(struct machine_type type, uint64_t bits)
+{
+    return type.width == 32 ? (bits & INT32_MAX) > 0x7f800000u
+                            : (bits & INT64_MAX) > UINT64_C(0x7ff0000000000000);
+}
+
+/* One that no operation gives. */
+static inline bool scalar_is_strange_nan(struct machine_type type, uint64_t bits)
+{
+    return scalar_is_nan(type, bits) && bits != (type.width == 32 ? NAN_32 : NAN_64);
+}
+
 /* So many ones. */
 static inline struct machine_scalar scalar_ones(int width)
 {

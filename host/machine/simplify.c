@@ -15,7 +15,6 @@
 #include "scalar.h"
 
 #include <math.h>
-
 #include <string.h>
 
 static const struct machine_type bit_type = {.kind = MACHINE_BITS, .width = 1};

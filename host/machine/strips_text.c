@@ -598,7 +598,7 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
                        .set = set,
                        .stores = stores,
                        .stores_count = count,
-                       .vector = shape->vector * 32 / lane,
+                       .vector = shape->vector * LANE_WIDE / lane,
                        .lane = lane};
     struct text t = {0};
     memset(out, 0, sizeof *out);
@@ -647,7 +647,7 @@ bool emit_strips(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out)
 {
-    int lane = shape->narrow ? narrow_lane(g, stores, count, -1) : 32;
-    return (lane < 32 && strips_kernel(g, stores, count, set, shape, lane, out)) ||
-           strips_kernel(g, stores, count, set, shape, 32, out);
+    int lane = shape->narrow ? narrow_lane(g, stores, count, -1) : LANE_WIDE;
+    return (lane < LANE_WIDE && strips_kernel(g, stores, count, set, shape, lane, out)) ||
+           strips_kernel(g, stores, count, set, shape, LANE_WIDE, out);
 }

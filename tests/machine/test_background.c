@@ -261,12 +261,12 @@ static void many_turns_at_once_do_not_wait(void **state)
 
 /* ---- compilers that are not as they should be ---- */
 
-static char stub[64], log_path[64];
+static char pretender[64], log_path[64];
 
 static int folder_make(void **state)
 {
     int status = support_cache_make(state);
-    snprintf(stub, sizeof stub, "%s/compiler", support_cache);
+    snprintf(pretender, sizeof pretender, "%s/compiler", support_cache);
     snprintf(log_path, sizeof log_path, "%s/log", support_cache);
     return status;
 }
@@ -275,12 +275,12 @@ static int folder_make(void **state)
 static void compiler_is(const char *does)
 {
     unlink(log_path);
-    FILE *f = fopen(stub, "w");
+    FILE *f = fopen(pretender, "w");
     assert_non_null(f);
     fprintf(f, "#!/bin/sh\necho $$ >>%s\n%s\n", log_path, does);
     assert_int_equal(fclose(f), 0);
-    assert_int_equal(chmod(stub, 0700), 0);
-    setenv("LUTETIA_COMPILER", stub, 1);
+    assert_int_equal(chmod(pretender, 0700), 0);
+    setenv("LUTETIA_COMPILER", pretender, 1);
 }
 
 static void compiler_path(char path[1024])
