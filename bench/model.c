@@ -33,10 +33,10 @@ struct program {
 
 /* ---- the programs ---- */
 
-static void listing_begin(struct program *p, int side)
+static void listing_begin(struct program *p, int width, int height)
 {
     p->listing = (struct listing){
-        .width = side, .height = side, .gravity = 1.1, .molecular_weight = {0.9, 0.7, 0.5}};
+        .width = width, .height = height, .gravity = 1.1, .molecular_weight = {0.9, 0.7, 0.5}};
     listing_allocate(&p->listing);
 }
 
@@ -45,9 +45,9 @@ static void listing_go(const void *p)
     listing_step(&((const struct program *)p)->listing);
 }
 
-static void life_begin(struct program *p, int side)
+static void life_begin(struct program *p, int width, int height)
 {
-    life_paris_allocate(&p->life, side, side);
+    life_paris_allocate(&p->life, width, height);
 }
 
 static void life_go(const void *p)
@@ -55,9 +55,9 @@ static void life_go(const void *p)
     life_paris_step(&((const struct program *)p)->life);
 }
 
-static void heat_begin(struct program *p, int side)
+static void heat_begin(struct program *p, int width, int height)
 {
-    heat_paris_allocate(&p->heat, side, side);
+    heat_paris_allocate(&p->heat, width, height);
 }
 
 static void heat_go(const void *p)
@@ -65,9 +65,9 @@ static void heat_go(const void *p)
     heat_paris_step(&((const struct program *)p)->heat);
 }
 
-static void floats_begin(struct program *p, int side)
+static void floats_begin(struct program *p, int width, int height)
 {
-    unsigned int dimensions[2] = {(unsigned int)side, (unsigned int)side};
+    unsigned int dimensions[2] = {(unsigned int)height, (unsigned int)width};
     CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
     CM_set_context();
     p->a = CM_allocate_heap_field(FLOAT);
@@ -112,7 +112,7 @@ static void dear_go(const void *of)
 
 static const struct {
     const char *name;
-    void (*begin)(struct program *p, int side);
+    void (*begin)(struct program *p, int width, int height);
     void (*step)(const void *p);
 } programs[] = {{"listing", listing_begin, listing_go}, {"life", life_begin, life_go},
                 {"heat", heat_begin, heat_go},          {"blur", floats_begin, blur_go},
@@ -139,15 +139,15 @@ static bool machine_begin_form(enum model_form form)
     return paris_reset(&config) || bench_fail("%s", paris_error());
 }
 
-static bool measure_once(int program, int side, enum model_form form, double *wall,
+static bool measure_once(int program, int width, int height, enum model_form form, double *wall,
                          double *processor, struct model_result *result)
 {
     static struct program p;
     struct machine_stats before, after;
-    double scale = 1e9 / ((double)side * side * STEPS);
+    double scale = 1e9 / ((double)width * height * STEPS);
     if (!machine_begin_form(form))
         return false;
-    programs[program].begin(&p, side);
+    programs[program].begin(&p, width, height);
     if (!bench_machine_steps(programs[program].step, &p, STEPS_WARM, 1))
         return false;
     machine_stats_get(paris_machine(), &before);
@@ -162,7 +162,8 @@ static bool measure_once(int program, int side, enum model_form form, double *wa
     return true;
 }
 
-bool model_measure(int program, int side, int rounds, struct model_result results[MODEL_FORMS])
+bool model_measure(int program, int width, int height, int rounds,
+                   struct model_result results[MODEL_FORMS])
 {
     static const char *const forced[][2] = {
         {"LUTETIA_TURNS", "1"}, {"LUTETIA_BOX_AFTER", "0"}, {"LUTETIA_OPTIMISE_AFTER", "0"}};
@@ -173,7 +174,7 @@ bool model_measure(int program, int side, int rounds, struct model_result result
     rounds = rounds < ROUNDS_MOST ? rounds : ROUNDS_MOST;
     for (int i = 0; good && i < rounds; i++)
         for (int form = 0; good && form < MODEL_FORMS; form++)
-            good = measure_once(program, side, (enum model_form)form, &wall[form][i],
+            good = measure_once(program, width, height, (enum model_form)form, &wall[form][i],
                                 &processor[form][i], &results[form]);
     for (size_t i = 0; i < sizeof forced / sizeof *forced; i++)
         unsetenv(forced[i][0]);
@@ -204,12 +205,11 @@ int bench_model_main(int argc, char **argv)
     for (int i = 0; ok && i < options.sizes_count; i++)
         for (int p = 0; ok && p < model_programs_count(); p++) {
             struct model_result results[MODEL_FORMS];
-            int side = options.sizes[i][0];
+            int width = options.sizes[i][0], height = options.sizes[i][1];
             char of_case[32], what[32];
-            snprintf(of_case, sizeof of_case, "%s %dx%d", programs[p].name, side, side);
+            snprintf(of_case, sizeof of_case, "%s %dx%d", programs[p].name, width, height);
             fprintf(stderr, "model: %s ...\n", of_case);
-            ok = (options.sizes[i][1] == side || bench_fail("sheets must be squares")) &&
-                 model_measure(p, side, options.repeat_count, results);
+            ok = model_measure(p, width, height, options.repeat_count, results);
             for (int form = 0; ok && form < MODEL_FORMS; form++) {
                 struct bench_sample predicted = {results[form].predicted,
                                                  results[form].predicted};

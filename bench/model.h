@@ -3,10 +3,11 @@
  *
  *     struct model_result results[MODEL_FORMS];
  *     for (int i = 0; i < model_programs_count(); i++)
- *         if (!model_measure(i, 1024, 5, results))
+ *         if (!model_measure(i, 1024, 1024, 5, results))
  *             ...bench_error()
  *
- * Every form runs on a machine of its own (it is paris_machine() afterwards); plans are for one step, looked at after each. */
+ * Every form runs on a machine of its own (it is paris_machine() afterwards); plans are for one step, looked at after
+ * each. */
 #ifndef LUTETIA_BENCH_MODEL_H
 #define LUTETIA_BENCH_MODEL_H
 
@@ -23,7 +24,8 @@ struct model_result {
 
 int model_programs_count(void);
 const char *model_program_name(int program);
-/* side: of the sheet, in cells, 64 or more. The forms take turns, `rounds` of them. Errors: false, bench_error(). */
-bool model_measure(int program, int side, int rounds, struct model_result results[MODEL_FORMS]);
+/* Shape: of the sheet, in cells, 64 or more each. The forms take turns, `rounds` of them. Errors: false, bench_error(). */
+bool model_measure(int program, int width, int height, int rounds,
+                   struct model_result results[MODEL_FORMS]);
 
 #endif

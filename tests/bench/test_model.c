@@ -23,7 +23,7 @@ static void what_is_chosen_is_fast(void **state)
     (void)state;
     for (int p = 0; p < model_programs_count(); p++) {
         struct model_result r[MODEL_FORMS];
-        if (!model_measure(p, SIDE, ROUNDS, r))
+        if (!model_measure(p, SIDE, SIDE, ROUNDS, r))
             fail_msg("%s: %s", model_program_name(p), bench_error());
         const double rows = r[MODEL_ROWS].processor.min, strips = r[MODEL_STRIPS].processor.min,
                      chosen = r[MODEL_CHOSEN].processor.min,
