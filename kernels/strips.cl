@@ -42,6 +42,23 @@
         }                                                                                      \
     } while (0)
 
+/* Where every vector of a row is whole, and all of the row is the strip's: its halos when it has been made. What has been
+ * stored past the caches is not read again. */
+#define NOT_STORED(kind, q, i, v) (void)0
+#if STREAMS
+#define STORE_EVEN STORE_INSIDE
+#define ROW_ENDS(kind, q, own) (void)0
+#else
+#define STORE_EVEN(kind, q, i, v) OUT_##kind(q, i, v)
+#define ROW_ENDS(kind, q, own)                                                                 \
+    do {                                                                                       \
+        if (own) {                                                                             \
+            FIRST_OUT(kind, q, W, LOAD_##kind(q, 0));                                          \
+            LAST_OUT(kind, q, -HALO, LOAD_##kind(q, W - VECTOR));                              \
+        }                                                                                      \
+    } while (0)
+#endif
+
 /* What is stored past the caches must not be fetched into them. */
 #if STREAMS
 #define PREFETCH_STORE(q) (void)0

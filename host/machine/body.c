@@ -196,19 +196,27 @@ static int constant_of(struct emitter *e, int node)
     return k;
 }
 
-/* A comparison of a coordinate with a number: writes the scalar test that it holds for a whole
- * vector, which, since it holds on one side of a line, is that it holds at both ends. */
+bool emit_is_box(const struct plan_graph *g, const struct plan_node *n)
+{
+    if (n->leaf || n->op < MACHINE_ULT || n->op > MACHINE_SLE)
+        return false;
+    const struct plan_node *a = &g->nodes[n->in[0]], *b = &g->nodes[n->in[1]];
+    const struct plan_node *place = a->constant ? b : a;
+    return a->constant != b->constant && place->op == NODE_COORDINATE && !place->leaf &&
+           place->type.width <= 32;
+}
+
+/* Writes the scalar test that it holds for a whole vector, which, since it holds on one side of a line, is that it
+ * holds at both ends. */
 static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
 {
     static const char *const symbols[] = {
         [MACHINE_ULT] = "<", [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
-    if (n->op < MACHINE_ULT || n->op > MACHINE_SLE)
+    if (!emit_is_box(e->g, n))
         return false;
     const struct plan_node *a = &e->g->nodes[n->in[0]], *b = &e->g->nodes[n->in[1]];
     const struct plan_node *place = a->constant ? b : a;
     int width = place->type.width;
-    if (a->constant == b->constant || place->op != NODE_COORDINATE || place->leaf || width > 32)
-        return false;
     bool is_signed = n->op == MACHINE_SLT || n->op == MACHINE_SLE;
     int k = constant_of(e, a->constant ? n->in[0] : n->in[1]),
         bits = is_signed ? width - 1 : width;

@@ -88,6 +88,9 @@ struct operand {
 /* The node's value in that row and column; canonical: a NaN in it has the bits that are stored. */
 struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical);
 
+/* A comparison of a coordinate with a number. */
+bool emit_is_box(const struct plan_graph *g, const struct plan_node *n);
+
 /* The row at that distance along an axis from ours, which is row 0. */
 int emit_row(struct emitter *e, int axis, int distance);
 void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed);

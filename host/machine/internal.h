@@ -582,7 +582,6 @@ struct kernel_text {
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
     int strip_margin;   /* rows that each computes besides its own */
     int strip_columns;  /* of all but the last, which has what is left, too */
-    int strip_near;     /* columns of a ring's row */
     struct in_place in_place;
     int cost; /* node_cost() of these operations, and of coordinates and random numbers */
 };

@@ -25,7 +25,7 @@ struct launch {
     struct kernel_note *note; /* for those who watch; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
-    int strip_margin, strip_columns, strip_near;
+    int strip_margin, strip_columns;
     struct in_place in_place;
     struct kernel_argument *arguments;
     int arguments_count;
@@ -195,7 +195,7 @@ static size_t run_columns(const struct machine *m, int vector)
 static int kernel_want(struct machine *m, const struct vpset *set, const struct kernel_text *k,
                        const char *const parts[DEVICE_PARTS], bool later)
 {
-    size_t numbers = 5 + (size_t)set->rank - 1 + (k->strip_bytes ? 2 : 0),
+    size_t numbers = 5 + (size_t)set->rank - 1 + (k->strip_bytes ? 1 : 0),
            count = numbers + (size_t)k->arguments_count,
            across = (size_t)set->width / run_columns(m, k->vector) + 1,
            widest = k->strip_bytes       ? 1
@@ -321,7 +321,6 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .strip_bytes = k.strip_bytes,
                                                        .strip_margin = k.strip_margin,
                                                        .strip_columns = k.strip_columns,
-                                                       .strip_near = k.strip_near,
                                                        .in_place = k.in_place,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
@@ -802,10 +801,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
     for (int a = 0; a < s->rank - 1; a++)
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
-    if (l->strip_bytes) {
+    if (l->strip_bytes)
         error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_columns);
-        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_near);
-    }
     for (int i = 0; i < l->arguments_count; i++, at++) {
         const struct kernel_argument *a = &l->arguments[i];
         if (a->kind == ARGUMENT_SCRATCH)

@@ -66,6 +66,19 @@ struct output {
     bool asks;  /* the first of those that are stored together */
 };
 
+/* Rings of so many rows: the first row of all of them, one after the other, then the second .. So what a pass looks at
+ * in one row of many rings is at one address and a number. */
+struct rings {
+    int rows;
+    int at;    /* in the strip's memory, bytes for each column */
+    int bytes; /* of a row of all of them, for each column */
+};
+
+/* Of some rings, the row that is so many below a pass's: where that of the first ring begins that the pass looks at. */
+struct ring_row {
+    int rings, down, first;
+};
+
 struct pass {
     struct emitter e;
     struct together together;
@@ -75,8 +88,13 @@ struct pass {
     int delay;              /* of the first of its rows */
     int above, below;       /* rows */
     int before, after;      /* columns, whole vectors */
+    bool even; /* all that it stores is of columns first - columns .. last - columns - 1 of x */
+    int columns;
     struct output *outputs;
     int outputs_count;
+    bool *inside; /* of a node: it is looked at inside all boxes, too */
+    struct ring_row *ring_rows;
+    int ring_rows_count, ring_rows_capacity;
 };
 
 struct strips {
@@ -97,9 +115,12 @@ struct strips {
     int *ring_rows; /* of a node: how many; 0: no ring */
     bool whole;     /* the strip is as wide as the row: rings have halos */
     int *wraps;     /* of a ring, bits: whose halos are looked at */
-    int *ring_at;   /* of a node: where in the strip's memory, in bytes for each column */
-    int *number;    /* of a node that is a number, + 1; of an array that is read */
-    int memory;     /* of a strip, bytes for each column */
+    int *ring_at;   /* of a node: where in the row of its rings, in bytes for each column */
+    int *rings_of;  /* of a node */
+    struct rings *rings;
+    int rings_count, rings_capacity;
+    int *number; /* of a node that is a number, + 1; of an array that is read */
+    int memory;  /* of a strip, bytes for each column */
     struct in_place in_place;
     int margin; /* columns of a ring on both sides of the strip's */
     struct arguments arguments;
@@ -126,7 +147,8 @@ bool strips_find_margin(struct strips *s);
 /* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as
  * wide. */
 int strips_columns(const struct strips *s, const struct device_shape *shape);
-/* Those of a ring's row: as wide as a strip, of which the last takes what is left, too, and both margins. */
+/* Those of a ring's row: as wide as a strip, of which the last takes what is left, too, and both margins. They are part
+ * of the text: of few numbers, so that sheets of many sizes have the same. */
 int strips_near_columns(const struct strips *s, int columns);
 
 #endif

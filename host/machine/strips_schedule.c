@@ -209,6 +209,37 @@ static void find_delays(struct strips *s, bool aligned)
     }
 }
 
+/* How many rows of a ring there are from the one that is made to that which the unit looks at. */
+static int rows_between(const struct strips *s, const struct unit *to, const struct pointer *p)
+{
+    const struct unit *from = &s->units[s->unit[p->node]];
+    return to->delay - from->delay - strips_rows_down(s, &to->e, p) * s->downward + 1;
+}
+
+static bool same_pass(const struct strips *s, const struct unit *a, const struct unit *b)
+{
+    return s->stages[a->stage].pass == s->stages[b->stage].pass;
+}
+
+/* A row that is looked at where another is made, vector for vector, is overwritten by that: see overwritten_loads(). */
+static void find_ring_rows(struct strips *s)
+{
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *to = &s->units[k];
+        for (int i = 0; i < to->e.pointers_count; i++) {
+            const struct pointer *p = &to->e.seen_pointers[i];
+            if (s->g->nodes[p->node].leaf)
+                continue;
+            const struct unit *from = &s->units[s->unit[p->node]];
+            int rows = rows_between(s, to, p);
+            bool same = same_pass(s, from, to),
+                 in_step = same && !p->low && !p->high && to->ahead == from->ahead;
+            if (!same || rows > 1)
+                widen(&s->ring_rows[p->node], rows - in_step);
+        }
+    }
+}
+
 /* That way; returns what strips keep then: bytes for each column, in rings and in vectors of earlier turns. */
 static int schedule(struct strips *s, struct way way)
 {
@@ -228,10 +259,8 @@ static int schedule(struct strips *s, struct way way)
             if (s->g->nodes[p->node].leaf)
                 continue;
             struct unit *from = &s->units[s->unit[p->node]];
-            int down = strips_rows_down(s, &to->e, p),
-                rows = to->delay - from->delay - down * s->downward + 1;
-            bool variable =
-                s->stages[from->stage].pass == s->stages[to->stage].pass && rows == 1;
+            int down = strips_rows_down(s, &to->e, p);
+            bool variable = same_pass(s, from, to) && rows_between(s, to, p) == 1;
             widen(&from->above, to->above - down);
             widen(&from->below, to->below + down);
             if (variable || !s->whole) {
@@ -245,10 +274,9 @@ static int schedule(struct strips *s, struct way way)
                 widen(&from->ahead,
                       to->ahead +
                           up_to_vectors(s, s->rightward > 0 ? p->high : -p->low) / s->vector);
-            else
-                widen(&s->ring_rows[p->node], rows);
         }
     }
+    find_ring_rows(s);
     for (int i = 0; i < s->passes_count; i++) {
         struct pass *pass = &s->passes[i];
         pass->above = pass->below = pass->before = pass->after = 0;
@@ -274,16 +302,40 @@ static int schedule(struct strips *s, struct way way)
     return kept;
 }
 
-/* Rings of wide elements first, so that all are aligned. */
+static int rings_with(struct strips *s, int rows)
+{
+    for (int i = 0; i < s->rings_count; i++)
+        if (s->rings[i].rows == rows)
+            return i;
+    if (s->rings_count == s->rings_capacity)
+        s->rings = machine_more(s->rings, &s->rings_capacity, sizeof *s->rings, &s->failed);
+    if (s->failed)
+        return 0;
+    s->rings[s->rings_count] = (struct rings){.rows = rows};
+    return s->rings_count++;
+}
+
+/* Pass by pass: turns of a loop have theirs in the same order, each at the same distance from those of the turn before. */
 static void lay_out(struct strips *s)
 {
-    s->memory = 0;
-    for (int bytes = 8; bytes >= 1; bytes /= 2)
-        for (int i = 0; i < s->g->count; i++)
-            if (s->ring_rows[i] && (int)type_bytes(s->g->nodes[i].type) == bytes) {
-                s->ring_at[i] = s->memory;
-                s->memory += bytes * s->ring_rows[i];
-            }
+    s->rings_count = s->memory = 0;
+    for (int pass = 0; pass < s->passes_count; pass++)
+        for (int i = 0; i < s->stores_count && !s->failed; i++) {
+            int node = s->stores[i];
+            const struct plan_node *n = &s->g->nodes[node];
+            if (s->stages[n->stage].pass != pass || !s->ring_rows[node])
+                continue;
+            s->rings_of[node] = rings_with(s, s->ring_rows[node]);
+            if (s->failed)
+                return;
+            struct rings *rings = &s->rings[s->rings_of[node]];
+            s->ring_at[node] = rings->bytes;
+            rings->bytes += (int)type_bytes(n->type);
+        }
+    for (int i = 0; i < s->rings_count; i++) {
+        s->rings[i].at = s->memory;
+        s->memory += s->rings[i].rows * s->rings[i].bytes;
+    }
 }
 
 /* Elements of up to 64 bits; what all stages together look at lies in the halos of arrays; and there are so many
@@ -471,7 +523,14 @@ int strips_columns(const struct strips *s, const struct device_shape *shape)
 
 int strips_near_columns(const struct strips *s, int columns)
 {
-    columns = 2 * columns < s->set->width ? 2 * columns : s->set->width;
-    int vector = s->vector > 16 ? s->vector : 16;
-    return (columns + 2 * s->margin + vector - 1) / vector * vector + vector;
+    enum {
+        LINE = 64,
+        STEPS = 8
+    }; /* all rows begin a line of the caches; not all the same one */
+    int least = (2 * columns < s->set->width ? 2 * columns : s->set->width) + 2 * s->margin +
+                s->vector,
+        step = LINE;
+    while (step * STEPS < least)
+        step *= 2;
+    return (least + step - 1) / step * step + LINE;
 }

@@ -39,7 +39,7 @@ static struct operand output_value(struct strips *s, struct pass *pass, int node
 static void ring_output(struct strips *s, struct pass *pass, int node)
 {
     struct operand v = output_value(s, pass, node, false);
-    text_put(&pass->e.body, "        OUT_%s(q%d, x + %d, %s);\n",
+    text_put(&pass->e.body, "        RING_STORE(%s, q%d, x + %d, %s);\n",
              memory_kind(s->g->nodes[node].type), pass->outputs_count,
              s->ahead[node] * s->vector, v.text);
     output_add(pass, (struct output){.node = node});
@@ -69,7 +69,7 @@ static void array_outputs(struct strips *s, struct pass *pass, int first)
     int columns = s->ahead[first] * s->vector;
     bool always = columns >= pass->before && columns <= -pass->after;
     text_put(&e->body, "        if (own%d", pass->outputs_count);
-    if (!always)
+    if (!always && !pass->even)
         text_put(&e->body, " && x + %d >= first && x + %d < last", columns, columns);
     text_put(&e->body, ") {\n            const bool at_end = AT_END(x + %d);\n", columns);
     for (int i = 0; i < s->stores_count; i++) {
@@ -84,8 +84,48 @@ static void array_outputs(struct strips *s, struct pass *pass, int first)
     text_put(&e->body, "        }\n");
 }
 
+/* In strips as wide as a row: whether all that a pass stores is of the same columns. Those are then all of the loop's
+ * but for the first ones, where it only gets ready. */
+static void find_even(const struct strips *s, struct pass *pass)
+{
+    int count = 0;
+    pass->even = s->whole;
+    for (int i = 0; i < s->stores_count; i++) {
+        int node = s->stores[i], stage = s->g->nodes[node].stage;
+        if (stage < pass->first || stage > pass->last ||
+            (!s->g->nodes[node].target && !s->ring_rows[node]))
+            continue;
+        int columns = s->ahead[node] * s->vector;
+        pass->even = pass->even && (count == 0 || columns == pass->columns);
+        pass->columns = columns;
+        count++;
+    }
+}
+
+/* What the pass still wants of the row of a ring that it is about to store another row over. */
+static void overwritten_loads(struct strips *s, struct pass *pass, int node)
+{
+    struct emitter *e = &pass->e;
+    int stage = e->stage;
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *to = &s->units[k];
+        if (to->stage <= stage || to->stage > pass->last)
+            continue;
+        for (int i = 0; i < to->e.pointers_count; i++) {
+            const struct pointer *p = &to->e.seen_pointers[i];
+            int down = (pass->delay - to->delay) * s->downward + strips_rows_down(s, &to->e, p),
+                apart = down - s->down[node];
+            e->stage = to->stage;
+            if (p->node == node && apart && apart % s->ring_rows[node] == 0)
+                emit_value(e, node, emit_row(e, 0, down), s->ahead[node] * s->vector, false);
+        }
+    }
+    e->stage = stage;
+}
+
 static void pass_values(struct strips *s, struct pass *pass)
 {
+    find_even(s, pass);
     struct emitter *e = &pass->e;
     emitter_init(e, s->g, s->set, pass->first);
     e->lane = s->lane;
@@ -108,8 +148,10 @@ static void pass_values(struct strips *s, struct pass *pass)
                 output_value(s, pass, s->stores[i], s->g->nodes[s->stores[i]].target);
         /* all values before a store asks: what is computed in a branch is not known after it */
         for (int i = 0; i < s->stores_count && !e->failed; i++)
-            if (s->g->nodes[s->stores[i]].stage == e->stage && s->ring_rows[s->stores[i]])
+            if (s->g->nodes[s->stores[i]].stage == e->stage && s->ring_rows[s->stores[i]]) {
+                overwritten_loads(s, pass, s->stores[i]);
                 ring_output(s, pass, s->stores[i]);
+            }
         for (int i = 0; i < s->stores_count && !e->failed; i++)
             if (s->g->nodes[s->stores[i]].stage == e->stage && is_first_there(s, s->stores[i]))
                 array_outputs(s, pass, s->stores[i]);
@@ -178,10 +220,43 @@ static void carry(struct strips *s, struct pass *pass)
     }
 }
 
-/* Of the rows of an array that a pass reads, the one that it comes to first. */
-static bool is_newest(const struct strips *s, const struct emitter *e, const struct pointer *p)
+static bool holds_inside(const struct plan_graph *g, int node)
 {
-    bool newest = s->g->nodes[p->node].leaf;
+    const struct plan_node *n = &g->nodes[node];
+    return emit_is_box(g, n) || (n->op == MACHINE_AND && !n->leaf &&
+                                 holds_inside(g, n->in[0]) && holds_inside(g, n->in[1]));
+}
+
+static void mark_inside(const struct plan_graph *g, bool *inside, int node, int stage)
+{
+    const struct plan_node *n = &g->nodes[node];
+    if (inside[node])
+        return;
+    inside[node] = true;
+    if (n->constant || plan_loads(n, stage))
+        return;
+    bool selects = n->op == NODE_SELECT && holds_inside(g, n->in[0]);
+    for (int k = selects; k < (selects ? 2 : node_ops[n->op].inputs); k++)
+        mark_inside(g, inside, plan_input(g, n, k, stage), stage);
+}
+
+/* What is looked at nowhere but outside of boxes is little. */
+static void find_inside(struct strips *s, struct pass *pass)
+{
+    pass->inside = calloc((size_t)s->g->count, sizeof *pass->inside);
+    s->failed = s->failed || !pass->inside;
+    for (int i = 0; i < s->stores_count && !s->failed; i++) {
+        int stage = s->g->nodes[s->stores[i]].stage;
+        if (stage >= pass->first && stage <= pass->last)
+            mark_inside(s->g, pass->inside, s->stores[i], stage);
+    }
+}
+
+/* Of the rows of an array that a pass reads, the one that it comes to first. */
+static bool is_fetched(const struct strips *s, const struct pass *pass, const struct pointer *p)
+{
+    const struct emitter *e = &pass->e;
+    bool newest = s->g->nodes[p->node].leaf && pass->inside[p->node];
     for (int k = 0; k < e->pointers_count; k++)
         newest = newest &&
                  (e->seen_pointers[k].node != p->node ||
@@ -197,7 +272,7 @@ static void prefetch_columns(const struct strips *s, struct pass *pass, struct t
     const struct emitter *e = &pass->e;
     char next = s->downward > 0 ? '+' : '-';
     for (int i = 0; i < e->pointers_count; i++)
-        if (is_newest(s, e, &e->seen_pointers[i]))
+        if (is_fetched(s, pass, &e->seen_pointers[i]))
             text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next,
                      e->seen_pointers[i].high);
     for (int i = 0; i < pass->outputs_count; i++)
@@ -214,7 +289,7 @@ static void prefetch_rows(const struct strips *s, struct pass *pass, struct text
     char next = s->downward > 0 ? '+' : '-';
     text_put(before, "    const struct row_ahead ahead[] = {\n");
     for (int i = 0; i < e->pointers_count; i++)
-        if (is_newest(s, e, &e->seen_pointers[i]))
+        if (is_fetched(s, pass, &e->seen_pointers[i]))
             text_put(before, "        ROW_AHEAD(p%d %c PITCH)\n", i, next);
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
@@ -230,44 +305,152 @@ static int arrays_of(const struct strips *s, const struct pass *pass)
 {
     int count = 0;
     for (int i = 0; i < pass->e.pointers_count; i++)
-        count += is_newest(s, &pass->e, &pass->e.seen_pointers[i]);
+        count += is_fetched(s, pass, &pass->e.seen_pointers[i]);
     for (int i = 0; i < pass->outputs_count; i++)
         count += pass->outputs[i].array;
     return count;
 }
 
+/* From that column on, before the other: a vector at a time, the way that x goes. */
+static void columns_loop(const struct strips *s, struct text *t, const char *from, int from_at,
+                         const char *to, int to_at)
+{
+    if (s->rightward > 0)
+        text_put(t, "    for (int x = %s + (%d); x < %s + (%d); x += VECTOR) {\n", from,
+                 from_at, to, to_at);
+    else
+        text_put(t,
+                 "    for (int x = (%s + (%d) - 1) & -VECTOR; x >= %s + (%d); x -= VECTOR) {\n",
+                 to, to_at, from, from_at);
+}
+
+/* The loops over columns; fetch: what a turn fetches. */
+static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
+{
+    struct text *t = &pass->text;
+    const char *body = pass->e.body.data, *store = pass->even ? "STORE_EVEN" : "STORE_INSIDE";
+    int lead = s->rightward > 0 ? pass->before + pass->columns : pass->after - pass->columns;
+    if (pass->even && lead > 0) {
+        if (s->rightward > 0)
+            columns_loop(s, t, "first", -pass->before, "first", -pass->columns);
+        else
+            columns_loop(s, t, "last", -pass->columns, "last", pass->after);
+        text_put(t,
+                 "#define BOX(e) (e)\n#define RING_STORE NOT_STORED\n"
+                 "#define ROW_STORE NOT_STORED\n%s"
+                 "#undef BOX\n#undef RING_STORE\n#undef ROW_STORE\n    }\n",
+                 body);
+    }
+    text_put(t, "#define RING_STORE(kind, q, i, v) OUT_##kind(q, i, v)\n");
+    if (pass->even)
+        columns_loop(s, t, "first", -pass->columns, "last", -pass->columns);
+    else
+        columns_loop(s, t, "first", -pass->before, "last", pass->after);
+    if (has_boxes(s, &pass->e))
+        text_put(t,
+                 "        for (; row_inside && x >= inside.x && x < inside.y; x %c= VECTOR) {\n"
+                 "%s#define BOX(e) ((VI)(-1))\n#define ROW_STORE %s\n"
+                 "%s#undef BOX\n#undef ROW_STORE\n        }\n"
+                 "        if (%s + (%d))\n            break;\n",
+                 s->rightward > 0 ? '+' : '-', fetch ? fetch : "", store, body,
+                 s->rightward > 0 ? "x >= last" : "x < first",
+                 pass->even         ? -pass->columns
+                 : s->rightward > 0 ? pass->after
+                                    : -pass->before);
+    text_put(t, "%s", fetch ? fetch : "");
+    text_put(t,
+             "#define BOX(e) (e)\n#define ROW_STORE %s\n"
+             "%s#undef BOX\n#undef ROW_STORE\n    }\n#undef RING_STORE\n",
+             pass->even ? store : "STORE_AT_EDGE", body);
+    int own = 0;
+    for (int i = 0; i < pass->outputs_count && pass->even; i++) {
+        own = pass->outputs[i].asks ? i : own;
+        if (pass->outputs[i].array)
+            text_put(t, "    ROW_ENDS(%s, q%d, own%d);\n",
+                     memory_kind(s->g->nodes[pass->outputs[i].node].type), i, own);
+    }
+}
+
+/* Which of the pass's rows of rings the node's is, so far below the pass's row. */
+static int ring_row_of(struct strips *s, struct pass *pass, int node, int down)
+{
+    int first = s->ring_at[node];
+    for (int i = 0; i < pass->ring_rows_count; i++) {
+        const struct ring_row *row = &pass->ring_rows[i];
+        if (row->rings != s->rings_of[node])
+            continue;
+        if ((row->down - down) % s->ring_rows[node] == 0)
+            return i;
+        first = row->first;
+    }
+    if (pass->ring_rows_count == pass->ring_rows_capacity)
+        pass->ring_rows = machine_more(pass->ring_rows, &pass->ring_rows_capacity,
+                                       sizeof *pass->ring_rows, &s->failed);
+    if (s->failed)
+        return 0;
+    pass->ring_rows[pass->ring_rows_count] =
+        (struct ring_row){.rings = s->rings_of[node], .down = down, .first = first};
+    return pass->ring_rows_count++;
+}
+
+/* A pointer of the pass's to a row of a ring. */
+static void near_row(struct strips *s, struct pass *pass, struct text *t, const char *constant,
+                     char letter, int number, int node, int down)
+{
+    int row = ring_row_of(s, pass, node, down);
+    const char *type = memory_type(s->g->nodes[node].type);
+    if (!s->failed)
+        text_put(t,
+                 "    %s__global %s *const %c%d = (__global %s *)(n%d + NEAR * (%d)) + (MARGIN "
+                 "- first);\n",
+                 constant, type, letter, number, type, row,
+                 s->ring_at[node] - pass->ring_rows[row].first);
+}
+
 static void pass_text(struct strips *s, struct pass *pass)
 {
     struct emitter *e = &pass->e;
-    struct text *t = &pass->text;
+    struct text *t = &pass->text, rows = {0};
     bool boxes = has_boxes(s, e);
     carry(s, pass);
     text_put(t, "(const int W, const int PITCH, const int PLOG2, const int RATIO, const int "
                 "D0, const int y,\n    const int top, const int bottom, const int first, "
                 "const int last, const int2 inside");
-    for (int i = 0; i < e->pointers_count; i++)
-        text_put(t, ",\n    const __global %s *%s p%d",
-                 memory_type(s->g->nodes[e->seen_pointers[i].node].type),
-                 s->g->nodes[e->seen_pointers[i].node].leaf &&
-                         border_of(s, e->seen_pointers[i].node) < 0
-                     ? "restrict"
-                     : "",
-                 i);
-    for (int i = 0; i < pass->outputs_count; i++)
-        text_put(t, ",\n    __global %s *%s q%d",
-                 memory_type(s->g->nodes[pass->outputs[i].node].type),
-                 pass->outputs[i].array && !in_places(s, pass->outputs[i].node) ? "restrict"
-                                                                                : "",
-                 i);
+    for (int i = 0; i < e->pointers_count; i++) {
+        int node = e->seen_pointers[i].node;
+        if (s->g->nodes[node].leaf)
+            text_put(t, ",\n    const __global %s *%s p%d", memory_type(s->g->nodes[node].type),
+                     border_of(s, node) < 0 ? "restrict" : "", i);
+        else
+            near_row(s, pass, &rows, "const ", 'p', i, node,
+                     strips_rows_down(s, e, &e->seen_pointers[i]));
+    }
+    for (int i = 0; i < pass->outputs_count; i++) {
+        int node = pass->outputs[i].node;
+        if (pass->outputs[i].array)
+            text_put(t, ",\n    __global %s *%s q%d", memory_type(s->g->nodes[node].type),
+                     !in_places(s, node) ? "restrict" : "", i);
+        else
+            near_row(s, pass, &rows, "", 'q', i, node, s->down[node]);
+    }
+    for (int i = 0; i < pass->ring_rows_count; i++)
+        text_put(t, ",\n    __global uchar *n%d", i);
     numbers_text(e, t);
-    text_put(t, ")\n{\n    const int row = wrap(y, D0), r0 = row;\n");
+    text_put(t, ")\n{\n%s    const int row = wrap(y, D0), r0 = row;\n",
+             rows.data ? rows.data : "");
+    s->failed = s->failed || rows.failed;
+    free(rows.data);
     emit_axes(e, t);
     text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
              e->constants.data ? e->constants.data : "");
-    for (int i = 0; i < pass->outputs_count; i++)
-        if (pass->outputs[i].asks)
+    for (int i = 0; i < pass->outputs_count; i++) {
+        int down = s->down[pass->outputs[i].node];
+        if (pass->outputs[i].asks && pass->above <= down && pass->below <= -down)
+            text_put(t, "    const bool own%d = true;\n", i);
+        else if (pass->outputs[i].asks)
             text_put(t, "    const bool own%d = y + (%d) >= top && y + (%d) < bottom;\n", i,
-                     s->down[pass->outputs[i].node], s->down[pass->outputs[i].node]);
+                     down, down);
+    }
     carried_text(s, pass, t, true);
     text_put(t, "    const int row_inside = 1%s;\n",
              boxes && e->row_tests.data ? e->row_tests.data : "");
@@ -278,25 +461,9 @@ static void pass_text(struct strips *s, struct pass *pass)
         prefetch_rows(s, pass, t, &fetch);
     else
         prefetch_columns(s, pass, &fetch);
-    text_put(t,
-             s->rightward > 0
-                 ? "    for (int x = first - %d; x < last + %d; x += VECTOR) {\n"
-                 : "    for (int x = (last + %2$d - 1) & -VECTOR; x >= first - %1$d; x -= "
-                   "VECTOR) {\n",
-             pass->before, pass->after);
-    text_put(t, "%s", fetch.data ? fetch.data : "");
+    loops_text(s, pass, fetch.data);
     s->failed = s->failed || fetch.failed;
     free(fetch.data);
-    if (boxes)
-        text_put(t,
-                 "        if (row_inside && x >= inside.x && x < inside.y) {\n"
-                 "#define BOX(e) ((VI)(-1))\n#define ROW_STORE STORE_INSIDE\n"
-                 "%s#undef BOX\n#undef ROW_STORE\n        continue;\n        }\n",
-                 e->body.data);
-    text_put(t,
-             "#define BOX(e) (e)\n#define ROW_STORE STORE_AT_EDGE\n"
-             "%s#undef BOX\n#undef ROW_STORE\n    }\n",
-             e->body.data);
     for (int i = 0; i < pass->outputs_count; i++) {
         const struct output *o = &pass->outputs[i];
         const char *kind = memory_kind(s->g->nodes[o->node].type);
@@ -314,6 +481,8 @@ static void make_pass(struct strips *s, int number)
 {
     struct pass *pass = &s->passes[number];
     pass_values(s, pass);
+    if (!s->failed)
+        find_inside(s, pass);
     if (!s->failed)
         pass_text(s, pass);
     if (!s->failed)
@@ -368,7 +537,7 @@ static void kernel_head(struct strips *s, struct text *t)
 {
     text_put(t, "__kernel WHOLE_VECTORS void k(int W, int PITCH, int RUN, int PLOG2, int "
                 "RATIO, int D0, int "
-                "COLUMNS, int NEAR");
+                "COLUMNS");
     int constant = 0;
     for (int i = 0; i < s->arguments.count; i++) {
         const struct kernel_argument *a = &s->arguments.list[i];
@@ -401,11 +570,6 @@ static void kernel_head(struct strips *s, struct text *t)
                  "    const __global uchar *const around = scratch + get_global_size(1) * "
                  "get_global_size(0) *\n        (size_t)(NEAR * %d);\n",
                  s->memory + 8);
-    for (int i = 0; i < s->g->count; i++)
-        if (s->ring_rows[i])
-            text_put(t, "    __global %s *const n%d = (__global %s *)(near + NEAR * %d);\n",
-                     memory_type(s->g->nodes[i].type), i, memory_type(s->g->nodes[i].type),
-                     s->ring_at[i]);
     for (int k = 0; k < s->passes_count; k++) {
         text_put(t, "    const int2 inside%d = ", k);
         if (has_boxes(s, &s->passes[k].e)) {
@@ -418,10 +582,11 @@ static void kernel_head(struct strips *s, struct text *t)
     }
 }
 
-static void ring_row(struct strips *s, struct text *t, int node, int down)
+static void ring_row(const struct strips *s, struct text *t, const struct ring_row *row)
 {
-    text_put(t, ",\n                n%d + (ring(y + (%d), %d) * NEAR + %d) - first", node, down,
-             s->ring_rows[node], s->margin);
+    const struct rings *rings = &s->rings[row->rings];
+    text_put(t, ",\n                near + NEAR * %d + ring(y + (%d), %d) * (NEAR * %d)",
+             rings->at + row->first, row->down, rings->rows, rings->bytes);
 }
 
 static void array_row(struct text *t, char letter, int node, int down)
@@ -464,16 +629,14 @@ static void pass_call(struct strips *s, struct text *t, int k)
             bordered_row(s, t, border, down);
         else if (s->g->nodes[p->node].leaf)
             array_row(t, 'b', p->node, down);
-        else
-            ring_row(s, t, p->node, down);
     }
     for (int i = 0; i < pass->outputs_count; i++) {
-        int node = pass->outputs[i].node, down = s->down[node];
+        int node = pass->outputs[i].node;
         if (pass->outputs[i].array)
-            array_row(t, 'o', node, down);
-        else
-            ring_row(s, t, node, down);
+            array_row(t, 'o', node, s->down[node]);
     }
+    for (int i = 0; i < pass->ring_rows_count; i++)
+        ring_row(s, t, &pass->ring_rows[i]);
     pass_numbers(s, t, e);
     text_put(t, ");\n        }\n");
 }
@@ -492,7 +655,7 @@ static void edges_text(const struct strips *s, struct text *t)
     }
 }
 
-static void kernel_text(struct strips *s, struct text *t)
+static void kernel_text(struct strips *s, const struct device_shape *shape, struct text *t)
 {
     bool integers = false;
     int above = 0, below = 0; /* rows, of i */
@@ -508,6 +671,10 @@ static void kernel_text(struct strips *s, struct text *t)
         text_put(t, "#define ABOVE %d\n#define BELOW %d\n", s->in_place.above,
                  s->in_place.below);
     text_put(t, "%s", kernel_strips_cl);
+    text_put(t, "enum { NEAR = %d, MARGIN = %d }; /* columns of a ring's row, and beyond */\n",
+             strips_near_columns(s, strips_columns(s, shape)) +
+                 (getenv("NEARP") ? atoi(getenv("NEARP")) : 0),
+             s->margin);
     edges_text(s, t);
     for (int k = 0; k < s->passes_count; k++) {
         if (s->passes[k].same == k && has_boxes(s, &s->passes[k].e))
@@ -553,8 +720,8 @@ static void describe(const struct strips *s, const struct device_shape *shape,
     out->strip_columns = strips_columns(s, shape);
     out->in_place = s->in_place;
     out->in_place.pays = bytes > IN_PLACE_BYTES;
-    out->strip_near = strips_near_columns(s, out->strip_columns);
-    out->strip_bytes = (size_t)(s->memory + 8) * (size_t)out->strip_near;
+    out->strip_bytes =
+        (size_t)(s->memory + 8) * (size_t)strips_near_columns(s, out->strip_columns);
     emit_options(out, s->set->halo, false, emit_streams(shape, s->set, out->vector, bytes),
                  s->lane);
 }
@@ -576,6 +743,8 @@ static void strips_finish(struct strips *s)
         free(s->passes[k].text.data);
         free(s->passes[k].span.data);
         free(s->passes[k].outputs);
+        free(s->passes[k].inside);
+        free(s->passes[k].ring_rows);
     }
     free(s->stages);
     free(s->units);
@@ -587,6 +756,8 @@ static void strips_finish(struct strips *s)
     free(s->ring_rows);
     free(s->wraps);
     free(s->ring_at);
+    free(s->rings_of);
+    free(s->rings);
     free(s->number);
 }
 
@@ -614,9 +785,11 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
     s.ring_rows = calloc((size_t)g->count, sizeof *s.ring_rows);
     s.wraps = calloc((size_t)g->count, sizeof *s.wraps);
     s.ring_at = calloc((size_t)g->count, sizeof *s.ring_at);
+    s.rings_of = calloc((size_t)g->count, sizeof *s.rings_of);
     s.number = calloc((size_t)g->count, sizeof *s.number);
     s.failed = !s.stages || !s.units || !s.unit || !s.passes || !s.down || !s.ahead ||
-               !s.bits_matter || !s.ring_rows || !s.wraps || !s.ring_at || !s.number;
+               !s.bits_matter || !s.ring_rows || !s.wraps || !s.ring_at || !s.rings_of ||
+               !s.number;
     bool good = !s.failed && strips_schedule(&s, shape);
     for (int k = 0; k < s.passes_count && good; k++) {
         make_pass(&s, k);
@@ -625,7 +798,7 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
     good = good && strips_find_margin(&s);
     if (good) {
         collect_arguments(&s);
-        kernel_text(&s, &t);
+        kernel_text(&s, shape, &t);
         describe(&s, shape, out);
         good = !s.failed && !t.failed;
     }
