@@ -120,7 +120,7 @@ static void cut(char *out, size_t size, const char *from, int width, int lane)
 
 static void widened(char *out, size_t size, const char *a, struct machine_type t)
 {
-    snprintf(out, size, t.width == 1 ? "AS_U(%s & (VI)(1))" : "%s", a);
+    snprintf(out, size, t.width == 1 ? "AS_U(-%s)" : "%s", a);
 }
 
 static void extended(char *out, size_t size, const char *a, struct machine_type t, int lane)
