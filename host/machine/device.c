@@ -500,10 +500,11 @@ char *device_text_without_header(const char *const parts[DEVICE_PARTS])
     return text;
 }
 
+/* Programs compare what they like, a number with itself, say: compilers need not tell users. */
 void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES])
 {
-    snprintf(out, DEVICE_OPTIONS_BYTES, "%s %s%s", options, d->options,
+    snprintf(out, DEVICE_OPTIONS_BYTES, "%s -w %s%s", options, d->options,
              header ? "" : " -D_OPENCL_H_");
 }
 
