@@ -411,8 +411,7 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
 static int turns_most(const struct plan_graph *g, const struct vpset *set,
                       const struct device_shape *shape)
 {
-    if (set->width <= STRIPS_LEAST_COLUMNS && set->width <= shape->strip_columns &&
-        set->width % shape->vector == 0)
+    if (set->width <= STRIPS_LEAST_COLUMNS && set->width <= shape->strip_columns)
         return 2 * shape->turns;
     int(*reach)[2] = calloc((size_t)g->count, sizeof *reach),
     most = 1; /* to the left, to the right */

@@ -34,7 +34,7 @@
  *
  * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
  * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
- * stages together. Where a strip is as wide as a row of whole vectors, the rows of its rings are tori, too: each
+ * stages together. Where a strip is as wide as a row, the rows of its rings are tori, too (s->whole): each
  * gets halos when it has been made, and nothing is computed twice but what stays in variables.
  *
  * Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold anything, and nobody looks

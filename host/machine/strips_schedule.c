@@ -475,10 +475,13 @@ bool strips_schedule(struct strips *s, const struct device_shape *shape)
         return false;
     find_bits(s);
     make_passes(s);
-    s->whole = s->set->width % s->vector == 0;
+    int over =
+        s->set->width %
+        s->vector; /* the last vector may reach beyond the row, but not beyond its halo */
+    s->whole = !over || s->vector - over <= s->set->halo;
     choose_way(s);
     lay_out(s);
-    if (s->whole && strips_columns(s, shape) < s->set->width) {
+    if (s->whole && s->set->width / strips_columns(s, shape) > 1) {
         s->whole = false;
         choose_way(s);
         lay_out(s);

@@ -185,10 +185,10 @@ static void span_text(struct strips *s, struct pass *pass)
     text_put(t,
              ")\n{\n    int from = last + %d, to = from;\n"
              "    for (int x = first - %d; x < last + %d; x += VECTOR)\n"
-             "        if (x + %d + VECTOR <= WHOLE%s) {\n"
+             "        if (x + %d + VECTOR <= %s%s) {\n"
              "            from = min(from, x);\n            to = x + VECTOR;\n"
              "        }\n    return (int2)(from, to);\n}\n",
-             pass->after, pass->before, pass->after, furthest,
+             pass->after, pass->before, pass->after, furthest, pass->even ? "W" : "WHOLE",
              e->column_tests.data ? e->column_tests.data : "");
     s->failed = s->failed || t->failed;
 }
