@@ -197,10 +197,8 @@ inline VU column(int x, int W)
 #define TYPE_f64 double
 #if LANE < 32 /* memory has 0 or 1: nothing is compared */
 #define FROM_bit(v) AS_S(-CONVERT(UNSIGNED, v))
-#define TO_bit(v) CONVERT(uchar, -(v))
 #else
 #define FROM_bit(v) CMP_U(CONVERT(SIGNED, v) != (SIGNED)0)
-#define TO_bit(v) CONVERT(uchar, (v) & (SIGNED)1)
 #endif
 #define FROM_u8(v) CONVERT(UNSIGNED, v)
 #define FROM_u16(v) CONVERT(UNSIGNED, v)
@@ -208,6 +206,7 @@ inline VU column(int x, int W)
 #define FROM_u64(v) (v)
 #define FROM_f32(v) (v)
 #define FROM_f64(v) (v)
+#define TO_bit(v) CONVERT(uchar, (v) & (SIGNED)1)
 #define TO_u8(v) CONVERT(uchar, v)
 #define TO_u16(v) CONVERT(ushort, v)
 #define TO_u32(v) (v)

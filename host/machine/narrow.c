@@ -118,9 +118,19 @@ static void cut(char *out, size_t size, const char *from, int width, int lane)
         snprintf(out, size, "((%s) & (VU)(0x%x))", from, (1u << width) - 1);
 }
 
-static void widened(char *out, size_t size, const char *a, struct machine_type t)
+/* A bit from memory was 0 or 1 there, and negated twice is that again. Of others a bit is cut out: compilers make a
+ * negated comparison a load under a mask, of a constant in a page that nothing else may ever have touched; while no
+ * lane is set it stays so, and processors take hundreds of cycles for each such load. */
+static void widened(char *out, size_t size, const struct plan_graph *g, int node, const char *a)
 {
-    snprintf(out, size, t.width == 1 ? "AS_U(-%s)" : "%s", a);
+    bool bit = g->nodes[node].type.width == 1;
+    while (!g->nodes[node].leaf && g->nodes[node].op == NODE_SHIFT)
+        node = g->nodes[node].in[0];
+    snprintf(out, size,
+             !bit                  ? "%s"
+             : g->nodes[node].leaf ? "AS_U(-%s)"
+                                   : "AS_U(%s & (VI)(1))",
+             a);
 }
 
 static void extended(char *out, size_t size, const char *a, struct machine_type t, int lane)
@@ -153,7 +163,7 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         snprintf(out, size, width == 1 ? "SEL_I(%s, %s, %s)" : "SEL_U(%s, %s, %s)", a, b, c);
         return;
     case NODE_ZERO_EXTEND:
-        widened(x, sizeof x, a, from);
+        widened(x, sizeof x, g, n->in[0], a);
         cut(out, size, x, width < from.width ? width : lane, lane);
         return;
     case NODE_SIGN_EXTEND:
@@ -166,8 +176,8 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         }
         return;
     case NODE_CONCAT:
-        widened(x, sizeof x, a, from);
-        widened(y, sizeof y, b, g->nodes[n->in[1]].type);
+        widened(x, sizeof x, g, n->in[0], a);
+        widened(y, sizeof y, g, n->in[1], b);
         snprintf(out, size, "(%s | (%s << (VU)(%d)))", x, y, from.width);
         return;
     case NODE_EXTRACT:
