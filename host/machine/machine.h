@@ -205,6 +205,7 @@ struct machine_stats {
     uint64_t
         kernels_in_place; /* of these: wrote new values where old ones had been that nobody wanted any more */
     uint64_t kernels_in_strips; /* of these: several stages at once */
+    uint64_t kernels_in_tiles;  /* likewise, in local memory */
     double predicted_s;  /* what evaluations take by the cost model: see docs/engine.md */
     uint64_t bytes_held; /* device memory in use by values */
     double busy_s;       /* time in which the front end waited for the device */
