@@ -124,23 +124,28 @@ static void shape_tiles(const struct device *d, const struct settings *s,
     }
 }
 
+/* From public figures of large GPUs, and not measured: 1e13 operations a second, 1 TB/s, and 15 TB/s to and from local memory.
+ * It is the ratios that plans follow from. */
+struct device_shape device_shape_gpu(void)
+{
+    return (struct device_shape){.vector = 1,
+                                 .op_ns = 1e-4,
+                                 .byte_ns = 1e-3,
+                                 .near_byte_ns = 6e-5,
+                                 .launch_ns = 5000,
+                                 .run_columns = 1,
+                                 .strip_columns = 256,
+                                 .strips_each = 3,
+                                 .turns = 8,
+                                 .streams = true};
+}
+
 /* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
- * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. Those of a GPU are from public
- * figures of large ones, and not measured: 1 TB/s; 5e12 operations a second; a unit moves about as many bytes to and from
- * local memory at each cycle as it has lanes. */
+ * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. */
 static struct device_shape shape_usual(const struct device *d)
 {
     if (!d->is_cpu)
-        return (struct device_shape){.vector = 1,
-                                     .op_ns = 2e-4,
-                                     .byte_ns = 1e-3,
-                                     .near_byte_ns = 2e-4,
-                                     .launch_ns = 5000,
-                                     .run_columns = 1,
-                                     .strip_columns = 256,
-                                     .strips_each = 3,
-                                     .turns = 8,
-                                     .streams = true};
+        return device_shape_gpu();
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
     return (struct device_shape){.vector = width >= 16  ? 16

@@ -755,6 +755,8 @@ void cache_mark_write(const struct device *d, const char *key);
 /* device.c */
 enum machine_status device_open(struct machine *m, const struct machine_config *config);
 void device_close(struct machine *m);
+/* What is usual on a GPU, but for what the device tells. */
+struct device_shape device_shape_gpu(void);
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
 /* On CPUs the first column is where a line of the caches begins. */

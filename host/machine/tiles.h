@@ -74,8 +74,7 @@ void tiling_look(struct tiling *t, struct tile_look look);
 /* Each stage's columns and rows around the tile, when all is known. */
 void tiling_extents(struct tiling *t);
 
-/* Chooses a tile for that: whose arrays leave room in local memory for a second group, if there is one, and which takes
- * least time. placed: where each array is, too. False: none has room. */
+/* Chooses a tile for that, which takes least time. placed: where each array is, too. False: none has room. */
 bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device_shape *shape,
                   bool placed);
 /* How many turns of a loop, of which one is that, are best evaluated at once: those that take least time each, and less

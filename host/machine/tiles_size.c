@@ -9,13 +9,16 @@
  *     b    = of each stage, far_ns * (width + left + right) * (height + above + below) / (width * height); and stored_ns
  *     fill = what a device of so many units does in the time that the tiles take, of which the sheet is a part: tiles that
  *            are partly beyond the sheet, and units that are idle while others make the last tiles
- */
+ *
+ * and a quarter more where there is no room in local memory for a second group, which works while the first waits at a
+ * barrier. */
 #include "tiles.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { ALIGNED = 8, SIDE_MOST = 128 };
+/* Work-items that go in step load whole lines of a row: 32 elements of 4 bytes, at least. */
+enum { ALIGNED = 8, WIDTH_LEAST = 32, WIDTH_MOST = 128, HEIGHT_MOST = 64 };
 
 void tiling_finish(struct tiling *t)
 {
@@ -78,6 +81,8 @@ void tiling_extents(struct tiling *t)
             widen(&from->below, t->stages[k].below + l->below);
         }
 }
+
+static const double ALONE = 1.25;
 
 /* ---- local memory ---- */
 
@@ -163,29 +168,32 @@ struct choice {
 
 static void try_tile(struct tiling *t, const struct vpset *set,
                      const struct device_shape *shape, bool placed, int width, int height,
-                     int bytes_most, struct choice *best)
+                     struct choice *best)
 {
     double ns = time_of(t, set, shape, width, height);
-    if (ns >= best->ns || bytes_alive(t, width, height) > bytes_most ||
-        (placed && place(t, width, height) > bytes_most))
+    if (ns >= best->ns)
         return;
-    *best = (struct choice){width, height, ns};
+    int bytes = bytes_alive(t, width, height);
+    if (bytes <= shape->local_bytes && placed)
+        bytes = place(t, width, height);
+    if (bytes > shape->local_bytes)
+        return;
+    if (2 * bytes > shape->local_bytes)
+        ns *= ALONE;
+    if (ns < best->ns)
+        *best = (struct choice){width, height, ns};
 }
 
 bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device_shape *shape,
                   bool placed)
 {
     struct choice best = {.ns = HUGE_VAL};
-    for (int groups = 2; groups >= 1 && !best.width; groups--) {
-        int bytes_most = shape->local_bytes / groups;
-        if (shape->tile_width)
-            try_tile(t, set, shape, placed, shape->tile_width, shape->tile_height, bytes_most,
-                     &best);
-        for (int width = SIDE_MOST; !shape->tile_width && width >= 16; width /= 2)
-            for (int height = SIDE_MOST; height >= 1; height /= 2)
-                if (width * height >= shape->group)
-                    try_tile(t, set, shape, placed, width, height, bytes_most, &best);
-    }
+    if (shape->tile_width)
+        try_tile(t, set, shape, placed, shape->tile_width, shape->tile_height, &best);
+    for (int width = WIDTH_LEAST; !shape->tile_width && width <= WIDTH_MOST; width *= 2)
+        for (int height = 2; height <= HEIGHT_MOST; height += height < 4 ? 2 : 4)
+            if (width * height >= shape->group)
+                try_tile(t, set, shape, placed, width, height, &best);
     if (!best.width)
         return false;
     t->width = best.width;

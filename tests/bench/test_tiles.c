@@ -104,9 +104,23 @@ static void one_turn_in_tiles(void **state)
     }
 }
 
+static void many_turns_in_tiles(void **state)
+{
+    static const struct sheet sheets[] = {
+        {64, 64, {2, 2, 2, 2}, "", 60, "4"},
+        {37, 29, {0, 0, 0, 0}, "16x8", 60, "3"},
+    };
+    (void)state;
+    setenv("LUTETIA_BOX_AFTER", "0", 1);
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++) {
+        uint64_t all, tiles = agrees(&sheets[i], &all);
+        assert_true(tiles > 0 && all < 40);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles),cmocka_unit_test(many_turns_in_tiles)};
     setenv("LUTETIA_VECTOR", "1", 1);
     setenv("LUTETIA_STRIPS", "1", 1);
     return cmocka_run_group_tests(tests, NULL, NULL);
