@@ -237,7 +237,7 @@ struct machine_explained_store {
     enum machine_cut why;
     struct machine_type type;
     const char *operation; /* that gave it, under the context or not */
-    bool in_ring; /* a few rows of it at a time, or a few vectors, and no array: see strips.h */
+    bool in_ring;   /* some of its rows, or tiles, at a time, in no array: strips.h, tiles.h */
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
@@ -254,8 +254,9 @@ struct machine_explained_kernel {
     int bytes_read, bytes_written; /* for a processor */
     int shifts_computed;           /* neighbours' values that were computed again, not loaded */
     int stages, rings; /* in strips: one after the other; values in rings of rows. Else 1, 0 */
-    bool split;        /* of one that would have had too many arguments */
-    const char *made;  /* how well: "quick", "optimised", "boxed" */
+    int tile_width, tile_height; /* in tiles, then rings are of tiles; else 0 */
+    bool split;                  /* of one that would have had too many arguments */
+    const char *made;            /* how well: "quick", "optimised", "boxed" */
     const struct machine_explained_store *stores;
     int stores_count;
     uint64_t runs;
