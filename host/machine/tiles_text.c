@@ -282,6 +282,15 @@ static void near_pointer(const struct tiles *s, struct text *t, int node)
              s->tiling.arrays[s->array[node] - 1].at);
 }
 
+/* A shift of what is shifted already may be a stage later than what it looks at, with nothing in between. */
+static bool is_empty(const struct tiles *s, int stage)
+{
+    for (int i = 0; i < s->stores_count; i++)
+        if (is_of(s, i, stage))
+            return false;
+    return true;
+}
+
 static void stage_call(const struct tiles *s, struct text *t, int k)
 {
     const struct emitter *e = &s->stages[k].e;
@@ -331,7 +340,7 @@ static void kernel_text(struct tiles *s, struct text *t)
              "/* tiles of %d x %d */\n",
              s->shape->group, s->tiling.width, s->tiling.height);
     for (int k = 0; k < s->stages_count; k++)
-        if (s->stages[k].same == k)
+        if (s->stages[k].same == k && !is_empty(s, k))
             text_put(t, "void s%d%s", k, s->stages[k].text.data);
     for (int i = 0; i < s->stages_count; i++)
         emit_collect(&s->arguments, &s->stages[i].e, s->number, &s->constants_count,
@@ -341,7 +350,8 @@ static void kernel_text(struct tiles *s, struct text *t)
             emit_argument(&s->arguments, ARGUMENT_OUTPUT, s->stores[i], 0, &s->failed);
     kernel_head(s, t);
     for (int k = 0; k < s->stages_count; k++)
-        stage_call(s, t, k);
+        if (!is_empty(s, k))
+            stage_call(s, t, k);
     text_put(t, "}\n");
 }
 

@@ -52,8 +52,7 @@ static void listing_begin(struct listing *l, const struct diffusion_scene *s)
                          0);
 }
 
-/* Returns how many kernels of tiles ran, of all that ran. */
-static uint64_t agrees(const struct sheet *t, uint64_t *all)
+static struct machine_stats agrees(const struct sheet *t)
 {
     struct diffusion_scene s;
     struct oracle o;
@@ -79,48 +78,38 @@ static uint64_t agrees(const struct sheet *t, uint64_t *all)
         oracle_compare(&o, "tiles", i, mine);
     }
     machine_stats_get(paris_machine(), &stats);
-    printf("%dx%d, tile %s, turns %s: %llu kernels, %llu in tiles, %llu built\n", t->width,
-           t->height, t->tile, t->turns, (unsigned long long)stats.kernels_run,
-           (unsigned long long)stats.kernels_in_tiles, (unsigned long long)stats.kernels_built);
-    *all = stats.kernels_run;
     free(mine);
     oracle_finish(&o);
     diffusion_scene_finish(&s);
-    return stats.kernels_in_tiles;
+    return stats;
 }
 
+/* Larger, smaller than a tile, odd, and with what the rectangle leaves out at some edges. */
 static void one_turn_in_tiles(void **state)
 {
     static const struct sheet sheets[] = {
-        {64, 64, {2, 2, 2, 2}, "", 3, "1"},    {37, 29, {2, 2, 2, 2}, "8x8", 3, "1"},
-        {5, 4, {0, 0, 0, 0}, "8x8", 3, "1"},   {33, 17, {0, 0, 0, 0}, "8x8", 3, "1"},
-        {300, 20, {20, 0, 1, 4}, "", 3, "1"},  {4, 70, {0, 1, 0, 1}, "3x5", 3, "1"},
-        {47, 31, {0, 0, 1, 1}, "1x1", 3, "1"},
+        {300, 20, {20, 0, 1, 4}, "", 2, "1"}, {37, 29, {2, 2, 2, 2}, "8x8", 2, "1"},
+        {5, 4, {0, 0, 0, 0}, "8x8", 2, "1"},  {33, 17, {0, 0, 0, 0}, "8x8", 2, "1"},
+        {4, 70, {0, 1, 0, 1}, "8x8", 2, "1"},
     };
     (void)state;
-    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++) {
-        uint64_t all, tiles = agrees(&sheets[i], &all);
-        assert_true(tiles > 0);
-    }
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++)
+        assert_true(agrees(&sheets[i]).kernels_in_tiles > 0);
 }
 
 static void many_turns_in_tiles(void **state)
 {
-    static const struct sheet sheets[] = {
-        {64, 64, {2, 2, 2, 2}, "", 60, "4"},
-        {37, 29, {0, 0, 0, 0}, "16x8", 60, "3"},
-    };
+    const struct sheet sheet = {37, 29, {0, 0, 0, 0}, "16x8", 40, "2"};
     (void)state;
-    setenv("LUTETIA_BOX_AFTER", "0", 1);
-    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++) {
-        uint64_t all, tiles = agrees(&sheets[i], &all);
-        assert_true(tiles > 0 && all < 40);
-    }
+    setenv("LUTETIA_BOX_AFTER", "0", 1); /* they are of plans as good as can be */
+    struct machine_stats stats = agrees(&sheet);
+    assert_true(stats.kernels_in_tiles > 0 && stats.kernels_run < 35);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles),cmocka_unit_test(many_turns_in_tiles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles),
+                                       cmocka_unit_test(many_turns_in_tiles)};
     setenv("LUTETIA_VECTOR", "1", 1);
     setenv("LUTETIA_STRIPS", "1", 1);
     return cmocka_run_group_tests(tests, NULL, NULL);
