@@ -52,15 +52,16 @@ int tiling_array(struct tiling *t, struct tile_array array)
 
 void tiling_look(struct tiling *t, struct tile_look look)
 {
-    struct tile_look *l = t->looks, *end = t->looks + t->looks_count;
-    while (l < end && (l->to != look.to || l->from != look.from))
-        l++;
-    if (l == end) {
+    int i = 0;
+    while (i < t->looks_count && (t->looks[i].to != look.to || t->looks[i].from != look.from))
+        i++;
+    if (i == t->looks_count) {
         if (t->looks_count == t->looks_capacity)
             t->looks = machine_grown(t->looks, &t->looks_capacity, sizeof *t->looks);
         t->looks[t->looks_count++] = look;
         return;
     }
+    struct tile_look *l = &t->looks[i];
     widen(&l->left, look.left);
     widen(&l->right, look.right);
     widen(&l->above, look.above);
