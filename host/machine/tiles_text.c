@@ -233,14 +233,20 @@ static void stage_text(struct tiles *s, int k)
     stage_begin(s, k);
     outputs(s, k);
     head(s, k, t);
-    text_put(t, "    const int S0 = 1, all = wide * max(high, 0);\n"
-                "    for (int i = item; i < all; i += GROUP) {\n"
-                "        const int in_y = i / wide, in_x = i %% wide, x = x0 + in_x;\n"
-                "        const int row = wrap(y0 + in_y, D0), r0 = row, c0 = row;\n");
+    /* The only quotients: they are dear. */
+    text_put(
+        t, "    const int S0 = 1, all = wide * max(high, 0);\n"
+           "    const int step_x = GROUP %% wide, step_y = GROUP / wide;\n"
+           "    int in_x = item %% wide, in_y = item / wide;\n"
+           "    for (int i = item; i < all; i += GROUP) {\n"
+           "        const int x = x0 + in_x, row = wrap(y0 + in_y, D0), r0 = row, c0 = row;\n");
     text_put(t, "%s", e->rows.data ? e->rows.data : "");
     pointers(s, e, t);
-    text_put(t, "%s%s    }\n}\n", e->constants.data ? e->constants.data : "",
-             e->body.data ? e->body.data : "");
+    text_put(t,
+             "%s%s        in_x += step_x;\n        in_y += step_y;\n"
+             "        if (in_x >= wide) {\n            in_x -= wide;\n            in_y++;\n"
+             "        }\n    }\n}\n",
+             e->constants.data ? e->constants.data : "", e->body.data ? e->body.data : "");
     s->failed = s->failed || t->failed || e->failed || e->body.failed || e->rows.failed ||
                 e->constants.failed;
     stage->same = k;

@@ -206,8 +206,10 @@ static long in_shapes(const struct options *o, long *done)
         *done += of_shape;
         for (int k = 0; shapes[i][k]; k++)
             printf("%s ", shapes[i][k] + strlen("LUTETIA_"));
-        printf("\n    %ld programs, %llu kernels built, %llu calls foreseen, %.1f s%s\n",
+        printf("\n    %ld programs, %llu kernels built, %llu of several stages run, %llu calls "
+               "foreseen, %.1f s%s\n",
                of_shape, (unsigned long long)paris_kernels_built(),
+               (unsigned long long)paris_kernels_of_stages(),
                (unsigned long long)paris_calls_foreseen(), clock_now_s() - start,
                failed ? ": differs" : "");
         fflush(stdout);
