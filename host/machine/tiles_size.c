@@ -87,27 +87,28 @@ static const double ALONE = 1.25;
 
 /* ---- local memory ---- */
 
-/* 0: no stage looks at it, and it is in no local memory. */
-static int array_bytes(const struct tiling *t, const struct tile_array *a, int width,
-                       int height)
+/* 0: no stage looks at it, and it is in no local memory. What is looked at far away makes it large. */
+static int64_t array_bytes(const struct tiling *t, const struct tile_array *a, int width,
+                           int height)
 {
     if (a->last == a->stage)
         return 0;
     const struct tile_stage *s = &t->stages[a->stage];
-    int elements = (width + s->left + s->right) * (height + s->above + s->below);
+    int64_t elements =
+        (int64_t)(width + s->left + s->right) * (int64_t)(height + s->above + s->below);
     return (elements * a->bytes + ALIGNED - 1) / ALIGNED * ALIGNED;
 }
 
 /* The most that is wanted at the same time. */
-static int bytes_alive(const struct tiling *t, int width, int height)
+static int64_t bytes_alive(const struct tiling *t, int width, int height)
 {
-    int most = 0;
+    int64_t most = 0;
     for (int k = 0; k < t->stages_count; k++) {
-        int alive = 0;
+        int64_t alive = 0;
         for (int i = 0; i < t->arrays_count; i++)
             if (t->arrays[i].stage <= k && t->arrays[i].last >= k)
                 alive += array_bytes(t, &t->arrays[i], width, height);
-        widen(&most, alive);
+        most = alive > most ? alive : most;
     }
     return most;
 }
@@ -117,23 +118,24 @@ static bool live_together(const struct tile_array *a, const struct tile_array *b
     return a->stage <= b->last && b->stage <= a->last;
 }
 
-/* Each where first there is room, in the order of stages. Returns how many bytes that takes. */
-static int place(struct tiling *t, int width, int height)
+/* Each where first there is room, in the order of stages. Returns how many bytes that takes, not much more than are alive at
+ * the same time. */
+static int64_t place(struct tiling *t, int width, int height)
 {
-    int most = 0;
+    int64_t most = 0;
     for (int i = 0; i < t->arrays_count; i++) {
         struct tile_array *a = &t->arrays[i];
-        int bytes = array_bytes(t, a, width, height);
-        a->at = 0;
+        int64_t bytes = array_bytes(t, a, width, height), at = 0;
         for (int k = 0; k < i; k++) {
             const struct tile_array *b = &t->arrays[k];
-            int end = b->at + array_bytes(t, b, width, height);
-            if (live_together(a, b) && a->at < end && b->at < a->at + bytes) { /* begin again */
-                a->at = end;
+            int64_t end = b->at + array_bytes(t, b, width, height);
+            if (live_together(a, b) && at < end && b->at < at + bytes) { /* begin again */
+                at = end;
                 k = -1;
             }
         }
-        widen(&most, a->at + bytes);
+        a->at = (int)at;
+        most = at + bytes > most ? at + bytes : most;
     }
     return most;
 }
@@ -174,7 +176,7 @@ static void try_tile(struct tiling *t, const struct vpset *set,
     double ns = time_of(t, set, shape, width, height);
     if (ns >= best->ns)
         return;
-    int bytes = bytes_alive(t, width, height);
+    int64_t bytes = bytes_alive(t, width, height);
     if (bytes <= shape->local_bytes && placed)
         bytes = place(t, width, height);
     if (bytes > shape->local_bytes)

@@ -10,7 +10,6 @@ struct stage {
     struct emitter e;
     struct text text; /* of its function, but for its name */
     int same;         /* the first stage with that text */
-    double far_bytes;
 };
 
 struct tiles {
@@ -37,7 +36,7 @@ static bool is_of(const struct tiles *s, int store, int stage)
     return s->g->nodes[s->stores[store]].stage == stage;
 }
 
-/* Which stages load it is known: local memory has what later ones look at. */
+/* When it is known which stages load it: local memory has what later ones look at. */
 static bool is_near(const struct tiles *s, int node)
 {
     const struct tile_array *a = &s->tiling.arrays[s->array[node] - 1];

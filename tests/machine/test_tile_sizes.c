@@ -152,6 +152,24 @@ static void tiles_leave_room_for_two(void **state)
     tiling_finish(&t);
 }
 
+static void what_is_far_away_has_no_room(void **state)
+{
+    struct tiling t = {0};
+    struct device_shape shape = shape_with(48 << 10);
+    struct vpset set = sheet_of(1 << 15, 1 << 15);
+    (void)state;
+    tiling_begin(&t, 3);
+    for (int k = 1; k < 3; k++)
+        tiling_look(&t, (struct tile_look){k, k - 1, 1 << 14, 1 << 14, 1 << 14, 1 << 14});
+    for (int k = 0; k < 2; k++)
+        tiling_array(&t, (struct tile_array){8, k, k + 1, false, 0});
+    tiling_extents(&t);
+    assert_int_equal(t.stages[0].right, 1 << 15);
+    assert_false(tiles_choose(&t, &set, &shape, true));
+    assert_false(tiles_choose(&t, &set, &shape, false));
+    tiling_finish(&t);
+}
+
 /* Where memory is what takes time many turns pay, where arithmetic is none do, and never more than have room. */
 static void turns_pay_where_memory_is_slow(void **state)
 {
@@ -181,6 +199,7 @@ int main(void)
         cmocka_unit_test(arrays_that_live_together_are_apart),
         cmocka_unit_test(extents_are_enough),
         cmocka_unit_test(tiles_leave_room_for_two),
+        cmocka_unit_test(what_is_far_away_has_no_room),
         cmocka_unit_test(turns_pay_where_memory_is_slow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
