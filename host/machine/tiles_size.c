@@ -202,8 +202,8 @@ bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device
     t->width = best.width;
     t->height = best.height;
     t->ns = best.ns;
-    t->bytes =
-        placed ? place(t, best.width, best.height) : bytes_alive(t, best.width, best.height);
+    t->bytes = (int)(placed ? place(t, best.width, best.height)
+                            : bytes_alive(t, best.width, best.height));
     return true;
 }
 
