@@ -100,10 +100,12 @@ enum { GROUP_USUAL = 256, GROUP_LEAST = 32, LOCAL_BYTES_CPU = 48 << 10 };
 static void shape_tiles(const struct device *d, const struct settings *s,
                         struct device_shape *shape)
 {
-    size_t items = 0;
+    size_t items = 0, sides[16] = {0};
     cl_ulong local = 0;
     cl_device_local_mem_type kind = CL_NONE;
     clGetDeviceInfo(d->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof items, &items, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizeof sides, sides, NULL);
+    items = sides[0] < items ? sides[0] : items;
     clGetDeviceInfo(d->id, CL_DEVICE_LOCAL_MEM_SIZE, sizeof local, &local, NULL);
     clGetDeviceInfo(d->id, CL_DEVICE_LOCAL_MEM_TYPE, sizeof kind, &kind, NULL);
     shape->units = d->units;

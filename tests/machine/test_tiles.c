@@ -138,18 +138,22 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     support_machine_destroy(m);
 }
 
-/* Local memory too small for any tile, and no tile: the plan does without. */
-static void what_does_not_fit_is_done_without(void **state)
+/* A tile that local memory is too small for, or a group that the device does not take: the plan does without. */
+static void what_cannot_be_is_done_without(void **state)
 {
-    struct machine_stats stats;
     (void)state;
-    setenv("LUTETIA_TILE", "1024x1024", 1);
-    struct machine *m = support_machine(0);
-    unsetenv("LUTETIA_TILE");
-    sheet_agrees(m, 20, 37);
-    machine_stats_get(m, &stats);
-    assert_int_equal(stats.kernels_in_tiles, 0);
-    support_machine_destroy(m);
+    for (int group = 0; group < 2; group++) {
+        struct machine_stats stats;
+        setenv("LUTETIA_TILE", group ? "8x5" : "1024x1024", 1);
+        struct machine *m = support_machine(0);
+        unsetenv("LUTETIA_TILE");
+        if (group)
+            m->device.shape.group = 1 << 16;
+        sheet_agrees(m, 20, 37);
+        machine_stats_get(m, &stats);
+        assert_int_equal(stats.kernels_in_tiles, 0);
+        support_machine_destroy(m);
+    }
 }
 
 int main(void)
@@ -157,7 +161,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sheets_that_no_tile_fits),
         cmocka_unit_test(a_gpu_takes_tiles_by_itself),
-        cmocka_unit_test(what_does_not_fit_is_done_without),
+        cmocka_unit_test(what_cannot_be_is_done_without),
     };
     setenv("LUTETIA_VECTOR", "1", 1);
     setenv("LUTETIA_STRIPS", "1", 1);
