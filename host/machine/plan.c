@@ -16,7 +16,7 @@
  * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is less where lanes are narrow),
  * and bytes for each array that it reads or writes. The search begins with a barrier at every shift of a
  * computed value, and takes one after the other away if that is cheaper. Measured constants:
- * device.c. */
+ * device.c. All stages may be one kernel of strips, or of tiles, whose time is that of tiles_size.c. */
 #include "internal.h"
 #include "narrow.h"
 #include "tiles.h"
@@ -50,9 +50,9 @@ struct search {
     bool strips; /* all stages in one kernel */
     bool tiles;  /* ... of tiles */
     struct tiling tiling;
-    int *array; /* of a node that is stored: in the tiling */
-    int cost_began; /* loads_stamp: what has a later one has been loaded by an earlier stage, or this one */
-    bool first;                           /* the first plan must do, whatever it costs */
+    int *array;     /* of a node that is stored: in the tiling */
+    int cost_began; /* loads_stamp then: what has a later one was loaded by some stage already */
+    bool first;     /* the first plan must do, whatever it costs */
     double operations, bytes, near_bytes; /* near: of rings */
     int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;
@@ -473,8 +473,10 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
             return NULL;
         only = n->set;
     }
-    bool rows = shape->vector < 2 ? !sets[only].halo : sets[only].halo >= shape->vector;
-    return only && sets[only].rank == 2 && rows ? &sets[only] : NULL;
+    if (!only || sets[only].rank != 2)
+        return NULL;
+    bool halos = sets[only].halo && sets[only].halo >= shape->vector;
+    return halos == (shape->vector > 1) ? &sets[only] : NULL;
 }
 
 /* How many turns of a loop with this graph can be one kernel of strips: what they look at, all together, must lie
@@ -550,8 +552,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
             g->turns_most =
                 strips < IMPOSSIBLE ? tiles_turns(&s.tiling, could, shape, best) : 1;
         }
-        g->strips =
-            assign(&s) > 0 && strips < IMPOSSIBLE && (strips < best || shape->always_strips);
+        g->strips = assign(&s) > 0 && (!tiles || strips < IMPOSSIBLE) &&
+                    (strips < best || shape->always_strips);
         if (!g->strips) {
             s.strips = s.tiles = false;
             memcpy(s.barrier, barrier, count * sizeof *barrier);
