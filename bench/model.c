@@ -158,7 +158,8 @@ static bool measure_once(int program, int width, int height, enum model_form for
     *processor = (bench_process_s() - processor_s) * scale / bench_threads_count();
     machine_stats_get(paris_machine(), &after);
     result->predicted = (after.predicted_s - before.predicted_s) * scale;
-    result->in_strips = after.kernels_in_strips > before.kernels_in_strips;
+    result->in_strips = after.kernels_in_strips > before.kernels_in_strips ||
+                        after.kernels_in_tiles > before.kernels_in_tiles;
     return true;
 }
 

@@ -19,7 +19,7 @@ enum model_form { MODEL_ROWS, MODEL_STRIPS, MODEL_CHOSEN, MODEL_FORMS };
 struct model_result {
     struct bench_sample wall, processor;
     double predicted;
-    bool in_strips; /* it is: not every program can be */
+    bool in_strips; /* it is, or in tiles: not every program can be */
 };
 
 int model_programs_count(void);

@@ -12,6 +12,9 @@
 
 size_t CONSTANT get_global_id(uint);
 size_t CONSTANT get_global_size(uint);
+size_t CONSTANT get_local_id(uint);
+size_t CONSTANT get_group_id(uint);
+void __attribute__((overloadable, convergent)) barrier(cl_mem_fence_flags);
 
 /* Of T, and of vectors of it. */
 #define WIDTHS(EACH, T) EACH(T) EACH(T##2) EACH(T##4) EACH(T##8) EACH(T##16)

@@ -68,9 +68,10 @@ static void kernel(FILE *out, const struct machine_explained_kernel *k)
                 k->arrays_read, k->arrays_written);
         fprintf(out,
                 "\"bytes_read\": %d, \"bytes_written\": %d, \"shifts_computed\": %d, "
-                "\"stages\": %d, \"rings\": %d, \"split\": %s, \"made\": \"%s\"",
+                "\"stages\": %d, \"rings\": %d, \"tile\": [%d, %d], \"split\": %s, \"made\": "
+                "\"%s\"",
                 k->bytes_read, k->bytes_written, k->shifts_computed, k->stages, k->rings,
-                k->split ? "true" : "false", k->made);
+                k->tile_width, k->tile_height, k->split ? "true" : "false", k->made);
         stores(out, k);
     }
     fprintf(out, "}");

@@ -77,8 +77,11 @@ static void print_stores(FILE *out, const struct machine_explained_kernel *k)
     for (int i = 0; i < k->stores_count && i < STORES_SHOWN; i++) {
         const struct machine_explained_store *s = &k->stores[i];
         fprintf(out, "       %s %s%s%s, %s of %d bits: %s\n",
-                s->in_ring ? "keeps a few rows of" : "stores", s->where, *s->where ? " = " : "",
-                s->operation, s->type.kind == MACHINE_FLOAT ? "float" : "word", s->type.width,
+                !s->in_ring     ? "stores"
+                : k->tile_width ? "keeps tiles of"
+                                : "keeps a few rows of",
+                s->where, *s->where ? " = " : "", s->operation,
+                s->type.kind == MACHINE_FLOAT ? "float" : "word", s->type.width,
                 explain_why(s->why));
     }
     if (k->stores_count > STORES_SHOWN)
@@ -115,7 +118,12 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
             k->vpset, (unsigned long long)k->processors, k->bytes_read, k->arrays_read,
             k->arrays_read == 1 ? "" : "s", k->bytes_written, k->arrays_written, k->operations,
             k->operations_cost, k->made);
-    if (k->stages > 1)
+    if (k->tile_width)
+        fprintf(out,
+                "       in tiles of %d x %d: %d stages in one go, %d values kept in local "
+                "memory, in no array\n",
+                k->tile_width, k->tile_height, k->stages, k->rings);
+    else if (k->stages > 1)
         fprintf(out,
                 "       in strips: %d stages in one go, %d values kept for a few rows, "
                 "in no array\n",

@@ -44,7 +44,7 @@ struct item {
     char *text, *options, *name, *arguments;
     char *mark; /* NULL: whether the driver has it is not kept on disk */
     const char *parts[DEVICE_PARTS];
-    uint32_t dimensions;
+    uint32_t dimensions, group;
     uint64_t widest;
     bool compiled;    /* the driver has it */
     cl_kernel kernel; /* NULL: not loaded yet */
@@ -332,6 +332,7 @@ int background_want(struct machine *m, const struct background_wish *wish)
                           .name = strdup(wish->name),
                           .arguments = strdup(wish->arguments),
                           .dimensions = wish->dimensions,
+                          .group = wish->group ? wish->group : 1,
                           .widest = wish->widest};
     memcpy(item->parts, wish->parts, sizeof item->parts);
     item->parts[DEVICE_PARTS - 1] = item->text;
@@ -358,7 +359,8 @@ static size_t request_write(char *out, const struct device *d, const struct item
         [COMPILER_PLATFORM] = d->platform_name, [COMPILER_DEVICE] = d->name,
         [COMPILER_OPTIONS] = options,           [COMPILER_NAME] = item->name,
         [COMPILER_ARGUMENTS] = item->arguments, [COMPILER_TEXT] = text};
-    struct compiler_request request = {.dimensions = item->dimensions, .widest = item->widest};
+    struct compiler_request request = {
+        .dimensions = item->dimensions, .group = item->group, .widest = item->widest};
     size_t bytes = sizeof request;
     for (int i = 0; i < COMPILER_STRINGS; i++) {
         request.bytes[i] = (uint32_t)strlen(strings[i]) + 1;

@@ -20,6 +20,7 @@ struct background_wish {
     const char *options, *name;
     const char *arguments; /* as compiler.h has them */
     uint32_t dimensions;
+    uint32_t group;  /* work-items of a work-group, along the first; 0: 1 */
     uint64_t widest; /* as there */
 };
 

@@ -430,8 +430,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         seen->low = dx < seen->low ? dx : seen->low;
         seen->high = dx > seen->high ? dx : seen->high;
         e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
-        snprintf(expression, sizeof expression, "LOAD_%s(p%d, AT(%d))", memory_kind(n->type), p,
-                 dx);
+        snprintf(expression, sizeof expression, "LOAD_%s(p%d, %s(%d))", memory_kind(n->type), p,
+                 e->near && !n->leaf ? "NEAR" : "AT", dx);
         e->loads++;
     } else if (n->op == NODE_SHIFT) {
         bool along_row = n->axis == e->set->rank - 1;
@@ -570,6 +570,64 @@ void emit_number(struct text *t, const struct plan_graph *g, const struct kernel
     else
         text_put(t, ", %s a%d", names[strchr(letters, spell_letter(n->type)) - letters],
                  (*count)++);
+}
+
+/* Row offsets are modulo the height. */
+int emit_rows_down(const struct emitter *e, const struct pointer *p)
+{
+    int height = e->set->dimensions[0], down = e->row_offsets[p->row].d[0] % height;
+    return down > height / 2 ? down - height : down < -(height / 2) ? down + height : down;
+}
+
+void emit_find_bits(const struct plan_graph *g, bool *bits_matter)
+{
+    for (int i = g->count - 1; i >= 0; i--) {
+        const struct plan_node *n = &g->nodes[i];
+        bool bits =
+            n->op == NODE_REINTERPRET ||
+            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || bits_matter[i]));
+        for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
+            bits_matter[n->in[k]] = true;
+            if (n->instead[k] >= 0)
+                bits_matter[n->instead[k]] = true;
+        }
+    }
+}
+
+void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,
+                  bool *failed)
+{
+    for (int i = 0; i < e->pointers_count; i++) {
+        int node = e->seen_pointers[i].node;
+        if (e->g->nodes[node].leaf && !number[node]) {
+            emit_argument(to, ARGUMENT_INPUT, node, 0, failed);
+            number[node] = node + 1;
+        }
+    }
+    bool fresh = false;
+    for (int i = 0; i < e->arguments.count; i++) {
+        const struct kernel_argument *a = &e->arguments.list[i];
+        if (a->kind == ARGUMENT_CONSTANT) {
+            fresh = !number[a->node];
+            number[a->node] = fresh ? ++*count : number[a->node];
+        }
+        if (fresh)
+            emit_argument(to, a->kind, a->node, a->size, failed);
+    }
+}
+
+void emit_numbers(struct text *t, const struct emitter *e)
+{
+    int count = 0;
+    for (int i = 0; i < e->arguments.count; i++)
+        emit_number(t, e->g, &e->arguments.list[i], &count);
+}
+
+void emit_numbers_passed(struct text *t, const struct emitter *e, const int *number)
+{
+    for (int i = 0; i < e->arguments.count; i++)
+        text_put(t, ", %c%d", e->arguments.list[i].kind == ARGUMENT_CONSTANT ? 'a' : 'h',
+                 number[e->arguments.list[i].node] - 1);
 }
 
 void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane)

@@ -1,4 +1,4 @@
-/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c and strips_text.c.
+/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c, strips_text.c and tiles_text.c.
  *
  * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last axis are columns,
  * along the others another row. */
@@ -12,6 +12,11 @@ struct text {
     size_t length, capacity;
     bool failed;
 };
+
+static inline void widen(int *have, int wanted)
+{
+    *have = wanted > *have ? wanted : *have;
+}
 
 __attribute__((format(printf, 2, 3))) void text_put(struct text *t, const char *format, ...);
 
@@ -72,7 +77,8 @@ struct emitter {
     int lane;  /* bits: 32, or of narrow.c */
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
-    bool bare;                 /* pointers are somebody else's: only which there are is noted */
+    bool bare; /* pointers are somebody else's: only which there are is noted */
+    bool near; /* what earlier stages stored is where NEAR() says: see tiles.h */
     struct together *together; /* NULL: a stage alone */
     int ops, loads, cost;
 };
@@ -96,9 +102,21 @@ int emit_row(struct emitter *e, int axis, int distance);
 void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed);
 /* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
 void emit_axes(const struct emitter *e, struct text *t);
+/* How far down the row is that the pointer looks at, the short way round; of two axes. */
+int emit_rows_down(const struct emitter *e, const struct pointer *p);
+/* Whose NaNs are looked at bit by bit when they have been kept for a later stage. In arrays all are canonical. */
+void emit_find_bits(const struct plan_graph *g, bool *bits_matter);
 /* How a kernel's argument is declared that is a number, or its upper half; *count: numbers so far. */
 void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
                  int *count);
+
+/* Arrays and numbers that one part of a kernel takes are the kernel's arguments, too, once each. number: of a node that is a
+ * number, + 1; of an array that is read, anything. *count: numbers so far. */
+void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,
+                  bool *failed);
+/* The numbers that a part takes: as it declares them, and as the kernel passes them. */
+void emit_numbers(struct text *t, const struct emitter *e);
+void emit_numbers_passed(struct text *t, const struct emitter *e, const int *number);
 
 /* What the prelude is told. */
 void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane);

@@ -115,7 +115,7 @@ static inline enum machine_status call_start(struct kernel_call *c, struct machi
     size_t global[2] = {x, y};
     if (m->watch)
         watch_arrays(m, c->bytes);
-    return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, what) : m->status;
+    return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, NULL, what) : m->status;
 }
 
 static inline enum machine_status call_start_3d(struct kernel_call *c, struct machine *m,
@@ -124,7 +124,7 @@ static inline enum machine_status call_start_3d(struct kernel_call *c, struct ma
     size_t global[3] = {x, y, z};
     if (m->watch)
         watch_arrays(m, c->bytes);
-    return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, what) : m->status;
+    return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, NULL, what) : m->status;
 }
 
 /* Columns that a work-item of call_over() does; the kernel wants it as an argument. */

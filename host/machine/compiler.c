@@ -119,11 +119,11 @@ static cl_int arguments_set(cl_kernel kernel, const char *arguments)
 /* The driver compiles when it is started. */
 static cl_int start(cl_kernel kernel, const struct compiler_request *r)
 {
-    static const size_t one[3] = {1, 1, 1};
+    const size_t local[3] = {r->group, 1, 1};
     size_t widest = r->widest < COMPILER_WIDEST ? (size_t)r->widest : COMPILER_WIDEST,
-           global[3] = {1, widest, 1};
-    cl_int error =
-        clEnqueueNDRangeKernel(queue, kernel, r->dimensions, NULL, global, one, 0, NULL, NULL);
+           global[3] = {r->group, widest, 1};
+    cl_int error = clEnqueueNDRangeKernel(queue, kernel, r->dimensions, NULL, global, local, 0,
+                                          NULL, NULL);
     return error ? error : clFinish(queue);
 }
 
@@ -132,7 +132,8 @@ static bool compile(const struct compiler_request *r, char *const strings[COMPIL
     const char *text = strings[COMPILER_TEXT];
     cl_kernel kernel = NULL;
     cl_int error;
-    if (!device_open(strings) || r->dimensions < 2 || r->dimensions > 3 || !r->widest)
+    if (!device_open(strings) || r->dimensions < 2 || r->dimensions > 3 || !r->widest ||
+        !r->group)
         return false;
     cl_program program = clCreateProgramWithSource(context, 1, &text, NULL, &error);
     if (error)

@@ -31,6 +31,7 @@ enum compiler_string {
 struct compiler_request {
     uint32_t bytes[COMPILER_STRINGS];
     uint32_t dimensions;
+    uint32_t group;  /* work-items of a work-group, along the first of them */
     uint64_t widest; /* the most work-items in one of them: drivers make other code for few */
 };
 

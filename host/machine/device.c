@@ -93,20 +93,61 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
     return count;
 }
 
+/* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory as GPUs have it (a CPU says how
+ * large a cache is). */
+enum { GROUP_USUAL = 256, GROUP_LEAST = 32, LOCAL_BYTES_CPU = 48 << 10 };
+
+static void shape_tiles(const struct device *d, const struct settings *s,
+                        struct device_shape *shape)
+{
+    size_t items = 0, sides[16] = {0};
+    cl_ulong local = 0;
+    cl_device_local_mem_type kind = CL_NONE;
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof items, &items, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizeof sides, sides, NULL);
+    items = sides[0] < items ? sides[0] : items;
+    clGetDeviceInfo(d->id, CL_DEVICE_LOCAL_MEM_SIZE, sizeof local, &local, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_LOCAL_MEM_TYPE, sizeof kind, &kind, NULL);
+    shape->units = d->units;
+    shape->group = GROUP_USUAL;
+    while (shape->group > GROUP_LEAST && (size_t)shape->group > items)
+        shape->group /= 2;
+    if (d->is_cpu && local > LOCAL_BYTES_CPU)
+        local = LOCAL_BYTES_CPU;
+    shape->local_bytes = local < (cl_ulong)INT32_MAX ? (int)local : INT32_MAX;
+    /* CPUs have vectors, which are several times as fast: there tiles are for tests. So are tiles in what is called local and is
+     * not. */
+    bool wanted = d->is_cpu ? shape->always_strips : kind == CL_LOCAL || shape->always_strips;
+    if (shape->vector > 1 || (size_t)shape->group > items || !wanted)
+        shape->group = 0;
+    if (s->tile != SETTING_FREE) {
+        shape->tile_width = (int)(s->tile >> 16);
+        shape->tile_height = (int)(s->tile & 0xffff);
+    }
+}
+
+/* From public figures of large GPUs, and not measured: 1e13 operations a second, 1 TB/s, and 15 TB/s to and from local memory.
+ * It is the ratios that plans follow from. */
+struct device_shape device_shape_gpu(void)
+{
+    return (struct device_shape){.vector = 1,
+                                 .op_ns = 1e-4,
+                                 .byte_ns = 1e-3,
+                                 .near_byte_ns = 6e-5,
+                                 .launch_ns = 5000,
+                                 .run_columns = 1,
+                                 .strip_columns = 256,
+                                 .strips_each = 3,
+                                 .turns = 8,
+                                 .streams = true};
+}
+
 /* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
  * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. */
 static struct device_shape shape_usual(const struct device *d)
 {
     if (!d->is_cpu)
-        return (struct device_shape){.vector = 1,
-                                     .op_ns = 2e-4,
-                                     .byte_ns = 1e-3,
-                                     .launch_ns = 5000,
-                                     .run_columns = 1,
-                                     .strip_columns = 256,
-                                     .strips_each = 3,
-                                     .turns = 8,
-                                     .streams = true};
+        return device_shape_gpu();
     cl_uint width = 0;
     clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
     return (struct device_shape){.vector = width >= 16  ? 16
@@ -148,6 +189,7 @@ static struct device_shape shape_of(const struct device *d, const struct setting
 #endif
         shape.op_ns = 0.064 / shape.vector;
     }
+    shape_tiles(d, s, &shape);
     return shape;
 }
 
@@ -626,7 +668,8 @@ static void unstarted_add(struct device *d, cl_kernel kernel)
 }
 
 enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
-                                  cl_uint dimensions, const size_t *global, const char *what)
+                                  cl_uint dimensions, const size_t *global, const size_t *local,
+                                  const char *what)
 {
     static const size_t one[3] = {1, 1, 1};
     struct device *d = &m->device;
@@ -635,7 +678,10 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
-                                       d->is_cpu ? one : NULL, 0, NULL, done);
+                                       local       ? local
+                                       : d->is_cpu ? one
+                                                   : NULL,
+                                       0, NULL, done);
     if (m->watch)
         watch_launched(m, error, kernel, what);
     d->kernels_run++;
@@ -649,6 +695,14 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
         }
     m->inside--;
     return device_check(m, error, what);
+}
+
+bool device_takes_group(const struct device *d, cl_kernel kernel, int items)
+{
+    size_t most = 0;
+    return !clGetKernelWorkGroupInfo(kernel, d->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
+                                     &most, NULL) &&
+           (size_t)items <= most;
 }
 
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],

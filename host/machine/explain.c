@@ -292,6 +292,8 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
     for (int stage = g->strips ? 0 : f->stages - 1; stage < f->stages; stage++)
         f->shifts_computed += shifts_computed(g, stores, stores_count, stage);
     f->stages = g->strips ? f->stages : 1;
+    f->tile_width = k->tile_width;
+    f->tile_height = k->tile_height;
     f->split = split;
     /* A lane by itself takes the time of a whole vector, and so do many narrow ones. */
     double lanes = (double)m->device.shape.vector / k->vector;

@@ -12,6 +12,8 @@
  *   emit.c      the text of a kernel of rows                          (pure; no OpenCL)
  *   strips_schedule.c  ... of several stages, line by line: which rows, when
  *   strips_text.c      ... the text of it                             (pure; no OpenCL)
+ *   tiles_size.c  ... on scalar work-items: how large tiles of the sheet are
+ *   tiles_text.c       ... the text of it                             (pure; no OpenCL)
  *   narrow.c    the text of operations in lanes of 8 or 16 bits       (pure)
  *   spell.c     the text of one operation                             (pure)
  *   soft.c      floats of other formats than single and double        (uses graph)
@@ -219,6 +221,7 @@ struct settings {
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     uint64_t strips, in_place, scatter, narrow, keeps_nan;
+    uint64_t tile; /* width << 16 | height */
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
     uint64_t keep;    /* programs on disk */
@@ -232,12 +235,16 @@ struct device_shape {              /* what generated code should look like there
     int halo;                      /* columns of padding, where vectors are used */
     double op_ns;                  /* cost model: one vector instruction, for an element */
     double byte_ns;                /* ... one byte to or from memory */
-    double near_byte_ns;           /* ... to or from a cache */
+    double near_byte_ns;           /* ... to or from a cache, or local memory */
     int near_bytes;                /* of a cache, which rings should not fill */
     int strip_columns;             /* the most, a multiple of the vector */
-    bool no_strips, always_strips; /* see plan.c; for tests */
+    bool no_strips, always_strips; /* or tiles: see plan.c; for tests */
     int run_columns;               /* of a work-item: a multiple of the vector, but on a GPU */
     int strips_each;               /* for each unit */
+    int units;                     /* that compute at the same time */
+    int group;                     /* of a tile: work-items; 0: there are no tiles */
+    int local_bytes;               /* of local memory, for a work-group */
+    int tile_width, tile_height;   /* forced; 0: free */
     int turns;                     /* of a loop at once */
     bool narrow;                   /* kernels may have lanes of 8 or 16 bits */
     bool keeps_nan;                /* see enum nan */
@@ -351,7 +358,7 @@ struct machine {
     bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
-    uint64_t kernels_in_place, kernels_in_strips;
+    uint64_t kernels_in_place, kernels_in_strips, kernels_in_tiles;
     double predicted_s; /* of the plans that ran */
     uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
     double busy_s;
@@ -511,9 +518,9 @@ struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
     bool boxes;     /* write kernels that tell inside from outside: see body.c */
-    bool strips;    /* decided: all stages in one kernel, see strips.h */
+    bool strips;    /* decided: all stages in one kernel, see strips.h and tiles.h */
     bool no_strips; /* but not so */
-    int turns_most; /* of a loop, in one kernel of strips; 1: that cannot be */
+    int turns_most; /* of a loop, in one kernel; 1: that cannot be, or does not pay */
     double cost_ns; /* of one run, by the model */
 };
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
@@ -582,6 +589,8 @@ struct kernel_text {
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
     int strip_margin;   /* rows that each computes besides its own */
     int strip_columns;  /* of all but the last, which has what is left, too */
+    int group;          /* of a tile: work-items; 0: not in tiles */
+    int tile_width, tile_height;
     struct in_place in_place;
     int cost; /* node_cost() of these operations, and of coordinates and random numbers */
 };
@@ -593,6 +602,10 @@ bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count
 bool emit_strips(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);
+/* tiles_text.c: likewise, on scalar work-items. */
+bool emit_tiles(const struct plan_graph *g, const int *stores, int count,
+                const struct vpset *set, const struct device_shape *shape,
+                struct kernel_text *out);
 void kernel_text_finish(struct kernel_text *k);
 size_t type_bytes(struct machine_type type); /* in a buffer */
 
@@ -741,6 +754,8 @@ void cache_mark_write(const struct device *d, const char *key);
 /* device.c */
 enum machine_status device_open(struct machine *m, const struct machine_config *config);
 void device_close(struct machine *m);
+/* What is usual on a GPU, but for what the device tells. */
+struct device_shape device_shape_gpu(void);
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
 /* On CPUs the first column is where a line of the caches begins. */
@@ -765,11 +780,14 @@ enum { DEVICE_OPTIONS_BYTES = 300 };
 void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES]);
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
-/* Starts it, unless error says that its arguments are wrong; a work-group on a CPU is one item. The
- * first time, waits: the compiler may still be at it in a thread of the driver's, and a program that
+/* Starts it, unless error says that its arguments are wrong, in work-groups of that size; local NULL: the driver decides,
+ * and on a CPU one is one item. The first time, waits: the compiler may still be at it in a thread of the driver's, and a program that
  * ended meanwhile would pull it down. */
 enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
-                                  cl_uint dimensions, const size_t *global, const char *what);
+                                  cl_uint dimensions, const size_t *global, const size_t *local,
+                                  const char *what);
+/* The kernel can be started in work-groups of so many items. */
+bool device_takes_group(const struct device *d, cl_kernel kernel, int items);
 /* It need not be built: it is in memory, or on disk. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);

@@ -194,6 +194,7 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                .kernels_run = m->device.kernels_run,
                                .kernels_in_place = m->kernels_in_place,
                                .kernels_in_strips = m->kernels_in_strips,
+                               .kernels_in_tiles = m->kernels_in_tiles,
                                .predicted_s = m->predicted_s,
                                .bytes_held = m->device.held_bytes,
                                .busy_s = m->busy_s};

@@ -205,6 +205,7 @@ struct machine_stats {
     uint64_t
         kernels_in_place; /* of these: wrote new values where old ones had been that nobody wanted any more */
     uint64_t kernels_in_strips; /* of these: several stages at once */
+    uint64_t kernels_in_tiles;  /* likewise, in local memory */
     double predicted_s;  /* what evaluations take by the cost model: see docs/engine.md */
     uint64_t bytes_held; /* device memory in use by values */
     double busy_s;       /* time in which the front end waited for the device */
@@ -236,7 +237,7 @@ struct machine_explained_store {
     enum machine_cut why;
     struct machine_type type;
     const char *operation; /* that gave it, under the context or not */
-    bool in_ring; /* a few rows of it at a time, or a few vectors, and no array: see strips.h */
+    bool in_ring;   /* some of its rows, or tiles, at a time, in no array: strips.h, tiles.h */
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
@@ -253,8 +254,9 @@ struct machine_explained_kernel {
     int bytes_read, bytes_written; /* for a processor */
     int shifts_computed;           /* neighbours' values that were computed again, not loaded */
     int stages, rings; /* in strips: one after the other; values in rings of rows. Else 1, 0 */
-    bool split;        /* of one that would have had too many arguments */
-    const char *made;  /* how well: "quick", "optimised", "boxed" */
+    int tile_width, tile_height; /* in tiles, then rings are of tiles; else 0 */
+    bool split;                  /* of one that would have had too many arguments */
+    const char *made;            /* how well: "quick", "optimised", "boxed" */
     const struct machine_explained_store *stores;
     int stores_count;
     uint64_t runs;

@@ -16,15 +16,17 @@
  * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is less where lanes are narrow),
  * and bytes for each array that it reads or writes. The search begins with a barrier at every shift of a
  * computed value, and takes one after the other away if that is cheaper. Measured constants:
- * device.c. */
+ * device.c. All stages may be one kernel of strips, or of tiles, whose time is that of tiles_size.c. */
 #include "internal.h"
 #include "narrow.h"
+#include "tiles.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LIGHT = 8, EVALUATIONS_MAX = 1200, OFFSETS_MAX = 512 };
+#define IMPOSSIBLE 1e300 /* cost of a plan that does until there is another */
 
 struct visit {
     uint32_t stamp;
@@ -45,8 +47,12 @@ struct search {
     /* offsets met: vectors of rank numbers */
     int (*offsets)[MACHINE_AXES_MAX];
     int offsets_count;
-    bool strips;                          /* all stages in one kernel */
-    bool first;                           /* the first plan must do, whatever it costs */
+    bool strips; /* all stages in one kernel */
+    bool tiles;  /* ... of tiles */
+    struct tiling tiling;
+    int *array;     /* of a node that is stored: in the tiling */
+    int cost_began; /* loads_stamp then: what has a later one was loaded by some stage already */
+    bool first;     /* the first plan must do, whatever it costs */
     double operations, bytes, near_bytes; /* near: of rings */
     int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;
@@ -95,6 +101,29 @@ static bool visited(struct search *s, int node, int offset)
     return false;
 }
 
+/* Arrays come from global memory once; of later stages, from a cache near. Those of earlier stages are in local memory. */
+static void tile_loads(struct search *s, int index, int offset, int stage)
+{
+    const struct plan_node *n = &s->g->nodes[index];
+    const int *at = s->offsets[offset];
+    double bytes = (double)type_bytes(n->type);
+    tiling_look(&s->tiling, (struct tile_look){.to = stage,
+                                               .from = n->leaf ? -1 : n->stage,
+                                               .left = -at[1],
+                                               .right = at[1],
+                                               .above = -at[0],
+                                               .below = at[0]});
+    if (!n->leaf) {
+        s->near_bytes += bytes;
+        widen(&s->tiling.arrays[s->array[index]].last, stage);
+    } else if (s->loaded[index] <= s->cost_began) {
+        s->bytes += bytes;
+    } else if (s->loaded[index] < s->loads_stamp) {
+        s->near_bytes += bytes;
+    }
+    s->loaded[index] = s->loads_stamp;
+}
+
 static void expand(struct search *s, int index, int offset, int stage)
 {
     const struct plan_node *n = &s->g->nodes[index];
@@ -105,7 +134,9 @@ static void expand(struct search *s, int index, int offset, int stage)
     s->lane = lane > s->lane ? lane : s->lane;
     if (loads) {
         s->operations += 1;
-        if (s->strips && !n->leaf) { /* in another row, from a ring: else in variables */
+        if (s->tiles) {
+            tile_loads(s, index, offset, stage);
+        } else if (s->strips && !n->leaf) { /* in another row, from a ring: else in variables */
             bool first = s->loaded[index] != s->loads_stamp;
             if (s->offsets[offset][0]) {
                 s->near_bytes += (first ? 2 : 1) * (double)type_bytes(n->type);
@@ -192,11 +223,45 @@ static double time_of(const struct search *s, const struct vpset *set)
     return (double)set->count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
 }
 
+/* What a stage of tiles stores: in global memory, and in local memory if a later one is going to look at it, which is known
+ * when all are done. */
+static void tile_stores(struct search *s, int node, double bytes)
+{
+    const struct plan_node *n = &s->g->nodes[node];
+    s->array[node] = tiling_array(&s->tiling, (struct tile_array){.bytes = (int)bytes,
+                                                                  .stage = n->stage,
+                                                                  .last = n->stage,
+                                                                  .stays = n->target});
+    s->tiling.stored_ns += n->target ? bytes * s->shape->byte_ns : 0;
+}
+
+static void tile_stage_ends(struct search *s, int stage)
+{
+    struct tile_stage *t = &s->tiling.stages[stage];
+    t->ns = s->operations * s->shape->op_ns + s->near_bytes * s->shape->near_byte_ns;
+    t->far_ns = s->bytes * s->shape->byte_ns;
+    s->operations = s->bytes = s->near_bytes = 0;
+    s->loads_stamp++;
+}
+
+static double tiles_time(struct search *s, const struct vpset *set)
+{
+    struct tiling *t = &s->tiling;
+    for (int i = 0; i < t->arrays_count; i++)
+        if (t->arrays[i].last > t->arrays[i].stage)
+            t->stages[t->arrays[i].stage].ns += t->arrays[i].bytes * s->shape->near_byte_ns;
+    tiling_extents(t);
+    return tiles_choose(t, set, s->shape, false) ? t->ns : s->first ? IMPOSSIBLE : HUGE_VAL;
+}
+
 static double cost(struct search *s)
 {
     struct plan_graph *g = s->g;
     int last = assign(s);
     double total = 0;
+    if (s->tiles)
+        tiling_begin(&s->tiling, last + 1);
+    s->cost_began = s->loads_stamp;
     s->too_much = false;
     s->operations = s->bytes = s->near_bytes = 0;
     s->lane = 0;
@@ -228,17 +293,23 @@ static double cost(struct search *s)
                 if (g->nodes[k].stored && g->nodes[k].stage == stage &&
                     g->nodes[k].set == set) {
                     double bytes = (double)type_bytes(g->nodes[k].type);
-                    if (g->nodes[k].target || !s->strips)
+                    if (s->tiles)
+                        tile_stores(s, k, bytes);
+                    else if (g->nodes[k].target || !s->strips)
                         s->bytes += bytes;
                     s->operations += g->nodes[k].target || !s->strips;
                     expand(s, k, 0, stage);
                 }
             if (s->too_much || s->visits_count > EVALUATIONS_MAX)
-                return s->first ? 1e300 : HUGE_VAL;
-            if (!s->strips)
+                return s->first ? IMPOSSIBLE : HUGE_VAL;
+            if (s->tiles)
+                tile_stage_ends(s, stage);
+            else if (!s->strips)
                 total += time_of(s, only);
         }
     }
+    if (s->tiles && only)
+        return tiles_time(s, only);
     return s->strips && only ? time_of(s, only) : total;
 }
 
@@ -387,12 +458,12 @@ static double descend(struct search *s, double best)
     return best;
 }
 
-/* One VP set of two axes, in rows with halos: that; or NULL. */
+/* One VP set of two axes, in rows with halos (or without, for tiles): that; or NULL. */
 static const struct vpset *could_be_strips(const struct plan_graph *g, const struct vpset *sets,
                                            const struct device_shape *shape)
 {
     uint16_t only = 0;
-    if (shape->no_strips || shape->vector < 2)
+    if (shape->no_strips || (shape->vector < 2 && !shape->group))
         return NULL;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
@@ -402,8 +473,10 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
             return NULL;
         only = n->set;
     }
-    return only && sets[only].rank == 2 && sets[only].halo >= shape->vector ? &sets[only]
-                                                                            : NULL;
+    if (!only || sets[only].rank != 2)
+        return NULL;
+    bool halos = sets[only].halo && sets[only].halo >= shape->vector;
+    return halos == (shape->vector > 1) ? &sets[only] : NULL;
 }
 
 /* How many turns of a loop with this graph can be one kernel of strips: what they look at, all together, must lie
@@ -456,23 +529,32 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     s.loaded = calloc(count, sizeof *s.loaded);
     s.visits = calloc(s.visits_size, sizeof *s.visits);
     s.offsets = calloc(OFFSETS_MAX, sizeof *s.offsets);
+    s.array = calloc(count, sizeof *s.array);
     double *weight = calloc(count, sizeof *weight);
     bool *barrier = calloc(count, sizeof *barrier);
     INVARIANT(s.barrier && s.light && s.earliest && s.loaded && s.visits && s.offsets &&
-              weight && barrier);
+              s.array && weight && barrier);
     s.offsets_count = 1;
     find_light(&s, weight);
     find_substitutes(g);
     double best = descend(&s, barriers_everywhere(&s));
     const struct vpset *could = could_be_strips(g, sets, shape);
-    g->turns_most = could ? turns_most(g, could, shape) : 1;
+    bool tiles = could && shape->vector < 2;
+    g->turns_most = !could ? 1 : tiles ? 2 * shape->turns : turns_most(g, could, shape);
     if (could && !g->no_strips) {
         memcpy(barrier, s.barrier, count * sizeof *barrier);
         s.strips = true;
+        s.tiles = tiles;
         double strips = descend(&s, barriers_everywhere(&s));
-        g->strips = assign(&s) > 0 && (strips < best || shape->always_strips);
+        if (tiles) {
+            cost(&s); /* the last one tried may not have been the best */
+            g->turns_most =
+                strips < IMPOSSIBLE ? tiles_turns(&s.tiling, could, shape, best) : 1;
+        }
+        g->strips = assign(&s) > 0 && (!tiles || strips < IMPOSSIBLE) &&
+                    (strips < best || shape->always_strips);
         if (!g->strips) {
-            s.strips = false;
+            s.strips = s.tiles = false;
             memcpy(s.barrier, barrier, count * sizeof *barrier);
         }
     }
@@ -483,6 +565,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     free(s.loaded);
     free(s.visits);
     free(s.offsets);
+    free(s.array);
+    tiling_finish(&s.tiling);
     free(weight);
     free(barrier);
 }

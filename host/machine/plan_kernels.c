@@ -26,6 +26,7 @@ struct launch {
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
     int strip_margin, strip_columns;
+    int group, tile_width, tile_height; /* group 0: not in tiles */
     struct in_place in_place;
     struct kernel_argument *arguments;
     int arguments_count;
@@ -191,13 +192,24 @@ static size_t run_columns(const struct machine *m, int vector)
     return (run + lanes - 1) / lanes * lanes;
 }
 
+static size_t shared_by(size_t all, size_t parts)
+{
+    return (all + parts - 1) / parts;
+}
+
+static size_t tiles_across(const struct vpset *set, int tile_width)
+{
+    return shared_by((size_t)set->width, (size_t)tile_width);
+}
+
 /* In the background, for later (its number there; -1: no memory), or now; what it takes is what launch() says. */
 static int kernel_want(struct machine *m, const struct vpset *set, const struct kernel_text *k,
                        const char *const parts[DEVICE_PARTS], bool later)
 {
     size_t numbers = 5 + (size_t)set->rank - 1 + (k->strip_bytes ? 1 : 0),
            count = numbers + (size_t)k->arguments_count,
-           across = (size_t)set->width / run_columns(m, k->vector) + 1,
+           across = k->group ? tiles_across(set, k->tile_width) * (size_t)k->group
+                             : (size_t)set->width / run_columns(m, k->vector) + 1,
            widest = k->strip_bytes       ? 1
                     : set->rows > across ? set->rows
                                          : across;
@@ -221,6 +233,7 @@ static int kernel_want(struct machine *m, const struct vpset *set, const struct 
                                          .name = "k",
                                          .arguments = arguments,
                                          .dimensions = 2,
+                                         .group = (uint32_t)k->group,
                                          .widest = widest};
     if (later)
         number = background_want(m, &wish);
@@ -246,15 +259,23 @@ static bool borders_want(struct machine *m)
                                                      .widest = 1}) >= 0;
 }
 
+static bool plan_text(const struct machine *m, const struct plan_graph *g, const int *stores,
+                      int count, struct kernel_text *k)
+{
+    const struct vpset *set = &m->sets[g->nodes[stores[0]].set];
+    const struct device_shape *shape = &m->device.shape;
+    return !g->strips          ? emit_kernel(g, stores, count, set, shape, k)
+           : shape->vector < 2 ? emit_tiles(g, stores, count, set, shape, k)
+                               : emit_strips(g, stores, count, set, shape, k);
+}
+
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
                         const int *stores, int stores_count)
 {
     int set = g->nodes[stores[0]].set;
     struct kernel_text k;
     double start = watch_clock(m);
-    if (g->strips
-            ? !emit_strips(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)
-            : !emit_kernel(g, stores, stores_count, &m->sets[set], &m->device.shape, &k)) {
+    if (!plan_text(m, g, stores, stores_count, &k)) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
         return false;
     }
@@ -278,6 +299,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         if (k.strip_bytes)
             snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns",
                      k.strip_columns);
+        if (k.group)
+            snprintf(said + n, sizeof said - (size_t)n, ", tiles of %d x %d", k.tile_width,
+                     k.tile_height);
         dump_text(m, m->dump_count++, ".cl", said, k.text);
     }
     struct launch *launches =
@@ -303,6 +327,8 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         number = kernel_want(m, &m->sets[set], &k, parts, p->later);
     if (launches && !p->later)
         kernel = device_kernel(m, parts, k.options, "k");
+    if (kernel && k.group && !device_takes_group(&m->device, kernel, k.group))
+        kernel = NULL; /* plan_make() does without */
     p->could_be_optimised |= quick;
     p->could_be_boxed |= k.has_boxes && !g->boxes;
     p->work += m->sets[set].count;
@@ -321,6 +347,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                                        .strip_bytes = k.strip_bytes,
                                                        .strip_margin = k.strip_margin,
                                                        .strip_columns = k.strip_columns,
+                                                       .group = k.group,
+                                                       .tile_width = k.tile_width,
+                                                       .tile_height = k.tile_height,
                                                        .in_place = k.in_place,
                                                        .arguments = k.arguments,
                                                        .arguments_count = k.arguments_count};
@@ -686,11 +715,6 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
-static size_t shared_by(size_t all, size_t parts)
-{
-    return (all + parts - 1) / parts;
-}
-
 /* How many strips there are and how many rows each has: those that are done soonest. The unit with most strips takes so
  * long as these have rows, besides their own half of the margin's on average; and a tenth of a strip goes by until the last
  * unit is ready. */
@@ -777,7 +801,13 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     const struct vpset *s = &m->sets[l->set];
     struct device_buffer *scratch = NULL;
     size_t run = run_columns(m, l->vector);
-    size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows};
+    size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows},
+           local[2] = {(size_t)l->group, 1};
+    if (l->group) {
+        run = (size_t)l->tile_height;
+        global[0] = tiles_across(s, l->tile_width) * local[0];
+        global[1] = shared_by(s->rows, run);
+    }
     if (l->strip_bytes) {
         strips_count(m, l, s, global, &run);
         size_t borders = (size_t)(l->in_place.above + l->in_place.below) * s->pitch *
@@ -816,8 +846,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     }
     if (m->watch)
         watch_launch(m, l->note);
-    enum machine_status status =
-        device_launch(m, l->kernel, error, 2, global, "a kernel cannot be started");
+    enum machine_status status = device_launch(
+        m, l->kernel, error, 2, global, l->group ? local : NULL, "a kernel cannot be started");
     if (scratch)
         device_buffer_unref(m, scratch); /* the queue is in order */
     return status;
@@ -842,6 +872,7 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
         status = launch(m, &p->launches[i], buffers, nodes, in_place);
     m->kernels_in_place += in_place && !status;
     m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
+    m->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;
     m->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
     device_flush(m);

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { TILE_SIDE_MOST = 1024 };
+
 static const struct setting {
     const char *variable;
     size_t at;                   /* in struct settings */
@@ -24,6 +26,8 @@ static const struct setting {
     {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
     {SETTING(BACKGROUND, background), 1, 0, 1, 0, "0 or 1"},
     {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(TILE, tile), SETTING_FREE, 0, UINT64_MAX, 0,
+     "a width and a height from 1 to 1024, as 64x16"},
     {SETTING(IN_PLACE, in_place), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(NARROW, narrow), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KEEPS_NAN, keeps_nan), SETTING_FREE, 0, 1, 0, "0 or 1"},
@@ -55,6 +59,28 @@ bool settings_number(const char *text, uint64_t *out)
     return !*end && !errno;
 }
 
+/* "64x16": the one shifted, and the other. */
+static bool sides_read(const char *text, uint64_t *out)
+{
+    char width[8];
+    size_t length = strcspn(text, "x");
+    uint64_t w, h;
+    if (length >= sizeof width || text[length] != 'x')
+        return false;
+    memcpy(width, text, length);
+    width[length] = 0;
+    if (!settings_number(width, &w) || !settings_number(text + length + 1, &h))
+        return false;
+    *out = w << 16 | h;
+    return w >= 1 && w <= TILE_SIDE_MOST && h >= 1 && h <= TILE_SIDE_MOST;
+}
+
+static bool value_read(const struct setting *s, const char *text, uint64_t *out)
+{
+    return s->at == offsetof(struct settings, tile) ? sides_read(text, out)
+                                                    : settings_number(text, out);
+}
+
 static bool suits(const struct setting *s, uint64_t value)
 {
     if (value < s->least || value > s->most || (s->multiple && value % s->multiple))
@@ -74,7 +100,7 @@ enum machine_status settings_read(struct machine *m)
         const struct setting *s = &table[i];
         const char *text = getenv(s->variable);
         uint64_t value = s->usual;
-        if (text && *text && (!settings_number(text, &value) || !suits(s, value)))
+        if (text && *text && (!value_read(s, text, &value) || !suits(s, value)))
             return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is \"%.40s\")",
                                 s->variable, s->may_be, text);
         memcpy((char *)&m->settings + s->at, &value, sizeof value);

@@ -130,18 +130,11 @@ struct strips {
 
 enum { WRAPS_LEFT = 1, WRAPS_RIGHT = 2 };
 
-static inline void widen(int *have, int wanted)
-{
-    *have = wanted > *have ? wanted : *have;
-}
-
 /* ---- strips_schedule.c ---- */
 
 /* Looks at what stages look at, and decides on passes, rows, columns and rings. False: it cannot be done in strips, or
  * memory is out. */
 bool strips_schedule(struct strips *s, const struct device_shape *shape);
-/* How far down the row is that the pointer looks at, the short way round. */
-int strips_rows_down(const struct strips *s, const struct emitter *e, const struct pointer *p);
 /* Once passes have their text: the margin that they need. False: more than there is around arrays. */
 bool strips_find_margin(struct strips *s);
 /* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as

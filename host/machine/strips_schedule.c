@@ -106,23 +106,6 @@ static void make_units(struct strips *s)
     free(m.with);
 }
 
-/* Whose NaNs are looked at bit by bit when they have been kept for a later stage. In arrays all are canonical. */
-static void find_bits(struct strips *s)
-{
-    const struct plan_graph *g = s->g;
-    for (int i = g->count - 1; i >= 0; i--) {
-        const struct plan_node *n = &g->nodes[i];
-        bool bits =
-            n->op == NODE_REINTERPRET ||
-            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || s->bits_matter[i]));
-        for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
-            s->bits_matter[n->in[k]] = true;
-            if (n->instead[k] >= 0)
-                s->bits_matter[n->instead[k]] = true;
-        }
-    }
-}
-
 /* ---- which stages are one pass ---- */
 
 /* Where stages are turns of a loop: of how many stages, and which stage the first of those begins with that are all
@@ -164,21 +147,6 @@ static void make_passes(struct strips *s)
 
 /* ---- which rows and columns ---- */
 
-/* Row offsets are modulo the height: the short way round. */
-static int short_way(const struct strips *s, int offset)
-{
-    int height = s->set->dimensions[0];
-    offset %= height;
-    return offset > height / 2      ? offset - height
-           : offset < -(height / 2) ? offset + height
-                                    : offset;
-}
-
-int strips_rows_down(const struct strips *s, const struct emitter *e, const struct pointer *p)
-{
-    return short_way(s, e->row_offsets[p->row].d[0]);
-}
-
 static int up_to_vectors(const struct strips *s, int columns)
 {
     return columns > 0 ? (columns + s->vector - 1) / s->vector * s->vector : 0;
@@ -200,7 +168,7 @@ static void find_delays(struct strips *s, bool aligned)
                 const struct pointer *p = &to->e.seen_pointers[i];
                 if (!s->g->nodes[p->node].leaf)
                     widen(&to->delay, s->units[s->unit[p->node]].delay +
-                                          strips_rows_down(s, &to->e, p) * s->downward);
+                                          emit_rows_down(&to->e, p) * s->downward);
             }
             widen(&most, to->delay);
         }
@@ -213,7 +181,7 @@ static void find_delays(struct strips *s, bool aligned)
 static int rows_between(const struct strips *s, const struct unit *to, const struct pointer *p)
 {
     const struct unit *from = &s->units[s->unit[p->node]];
-    return to->delay - from->delay - strips_rows_down(s, &to->e, p) * s->downward + 1;
+    return to->delay - from->delay - emit_rows_down(&to->e, p) * s->downward + 1;
 }
 
 static bool same_pass(const struct strips *s, const struct unit *a, const struct unit *b)
@@ -259,7 +227,7 @@ static int schedule(struct strips *s, struct way way)
             if (s->g->nodes[p->node].leaf)
                 continue;
             struct unit *from = &s->units[s->unit[p->node]];
-            int down = strips_rows_down(s, &to->e, p);
+            int down = emit_rows_down(&to->e, p);
             bool variable = same_pass(s, from, to) && rows_between(s, to, p) == 1;
             widen(&from->above, to->above - down);
             widen(&from->below, to->below + down);
@@ -353,7 +321,7 @@ static bool suits(const struct strips *s)
             const struct pointer *p = &unit->e.seen_pointers[i];
             if (unit->left - p->low > s->set->halo || unit->right + p->high > s->set->halo)
                 return false;
-            widen(&rows, abs(strips_rows_down(s, &unit->e, p)) + behind);
+            widen(&rows, abs(emit_rows_down(&unit->e, p)) + behind);
         }
     }
     return s->set->halo && s->set->width >= 2 * s->vector && s->set->dimensions[0] >= 2 * rows;
@@ -372,7 +340,7 @@ static bool may_replace(const struct strips *s, int output, int leaf)
             const struct pointer *p = &u->e.seen_pointers[i];
             if (p->node != leaf)
                 continue;
-            int late = u->delay - strips_rows_down(s, &u->e, p) * s->downward - out->delay;
+            int late = u->delay - emit_rows_down(&u->e, p) * s->downward - out->delay;
             bool there = u == out && !p->low && !p->high && !u->left && !u->right;
             if (late > 0 || (late == 0 && !there))
                 return false;
@@ -434,7 +402,7 @@ static void find_pairs(struct strips *s)
         const struct pass *pass = &s->passes[s->stages[u->stage].pass];
         int own = (pass->delay - u->delay) * s->downward;
         for (int i = 0; i < u->e.pointers_count; i++) {
-            int down = own + strips_rows_down(s, &u->e, &u->e.seen_pointers[i]);
+            int down = own + emit_rows_down(&u->e, &u->e.seen_pointers[i]);
             widen(&in->above, pass->above - down);
             widen(&in->below, pass->below + down);
         }
@@ -473,11 +441,10 @@ bool strips_schedule(struct strips *s, const struct device_shape *shape)
     make_units(s);
     if (s->failed)
         return false;
-    find_bits(s);
+    emit_find_bits(s->g, s->bits_matter);
     make_passes(s);
-    int over =
-        s->set->width %
-        s->vector; /* the last vector may reach beyond the row, but not beyond its halo */
+    /* the last vector may reach beyond the row, but not beyond its halo */
+    int over = s->set->width % s->vector;
     s->whole = !over || s->vector - over <= s->set->halo;
     choose_way(s);
     lay_out(s);

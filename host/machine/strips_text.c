@@ -113,7 +113,7 @@ static void overwritten_loads(struct strips *s, struct pass *pass, int node)
             continue;
         for (int i = 0; i < to->e.pointers_count; i++) {
             const struct pointer *p = &to->e.seen_pointers[i];
-            int down = (pass->delay - to->delay) * s->downward + strips_rows_down(s, &to->e, p),
+            int down = (pass->delay - to->delay) * s->downward + emit_rows_down(&to->e, p),
                 apart = down - s->down[node];
             e->stage = to->stage;
             if (p->node == node && apart && apart % s->ring_rows[node] == 0)
@@ -164,13 +164,6 @@ static bool has_boxes(const struct strips *s, const struct emitter *e)
     return s->g->boxes && (e->row_tests.data || e->column_tests.data);
 }
 
-static void numbers_text(const struct emitter *e, struct text *t)
-{
-    int count = 0;
-    for (int i = 0; i < e->arguments.count; i++)
-        emit_number(t, e->g, &e->arguments.list[i], &count);
-}
-
 /* Of which columns on, and up to which, whole vectors are inside all boxes, and stored whole. */
 static void span_text(struct strips *s, struct pass *pass)
 {
@@ -181,7 +174,7 @@ static void span_text(struct strips *s, struct pass *pass)
         if (pass->outputs[i].array)
             widen(&furthest, s->ahead[pass->outputs[i].node] * s->vector);
     text_put(t, "(const int W, const int first, const int last");
-    numbers_text(e, t);
+    emit_numbers(t, e);
     text_put(t,
              ")\n{\n    int from = last + %d, to = from;\n"
              "    for (int x = first - %d; x < last + %d; x += VECTOR)\n"
@@ -258,11 +251,10 @@ static bool is_fetched(const struct strips *s, const struct pass *pass, const st
     const struct emitter *e = &pass->e;
     bool newest = s->g->nodes[p->node].leaf && pass->inside[p->node];
     for (int k = 0; k < e->pointers_count; k++)
-        newest = newest &&
-                 (e->seen_pointers[k].node != p->node ||
-                  (strips_rows_down(s, e, &e->seen_pointers[k]) - strips_rows_down(s, e, p)) *
-                          s->downward <=
-                      0);
+        newest = newest && (e->seen_pointers[k].node != p->node ||
+                            (emit_rows_down(e, &e->seen_pointers[k]) - emit_rows_down(e, p)) *
+                                    s->downward <=
+                                0);
     return newest;
 }
 
@@ -423,7 +415,7 @@ static void pass_text(struct strips *s, struct pass *pass)
                      border_of(s, node) < 0 ? "restrict" : "", i);
         else
             near_row(s, pass, &rows, "const ", 'p', i, node,
-                     strips_rows_down(s, e, &e->seen_pointers[i]));
+                     emit_rows_down(e, &e->seen_pointers[i]));
     }
     for (int i = 0; i < pass->outputs_count; i++) {
         int node = pass->outputs[i].node;
@@ -435,7 +427,7 @@ static void pass_text(struct strips *s, struct pass *pass)
     }
     for (int i = 0; i < pass->ring_rows_count; i++)
         text_put(t, ",\n    __global uchar *n%d", i);
-    numbers_text(e, t);
+    emit_numbers(t, e);
     text_put(t, ")\n{\n%s    const int row = wrap(y, D0), r0 = row;\n",
              rows.data ? rows.data : "");
     s->failed = s->failed || rows.failed;
@@ -498,39 +490,15 @@ static void make_pass(struct strips *s, int number)
 
 static void collect_arguments(struct strips *s)
 {
-    for (int k = 0; k < s->passes_count; k++) {
-        const struct emitter *e = &s->passes[k].e;
-        for (int i = 0; i < e->pointers_count; i++) {
-            int node = e->seen_pointers[i].node;
-            if (s->g->nodes[node].leaf && !s->number[node]) {
-                emit_argument(&s->arguments, ARGUMENT_INPUT, node, 0, &s->failed);
-                s->number[node] = node + 1;
-            }
-        }
-        bool fresh = false;
-        for (int i = 0; i < e->arguments.count; i++) {
-            const struct kernel_argument *a = &e->arguments.list[i];
-            if (a->kind == ARGUMENT_CONSTANT) {
-                fresh = !s->number[a->node];
-                s->number[a->node] = fresh ? ++s->constants_count : s->number[a->node];
-            }
-            if (fresh)
-                emit_argument(&s->arguments, a->kind, a->node, a->size, &s->failed);
-        }
-    }
+    for (int k = 0; k < s->passes_count; k++)
+        emit_collect(&s->arguments, &s->passes[k].e, s->number, &s->constants_count,
+                     &s->failed);
     for (int i = 0; i < s->stores_count; i++)
         if (s->g->nodes[s->stores[i]].target)
             emit_argument(&s->arguments, ARGUMENT_OUTPUT, s->stores[i], 0, &s->failed);
     if (s->in_place.pairs_count)
         emit_argument(&s->arguments, ARGUMENT_BORDERS, 0, 4, &s->failed);
     emit_argument(&s->arguments, ARGUMENT_SCRATCH, 0, 0, &s->failed);
-}
-
-static void pass_numbers(const struct strips *s, struct text *t, const struct emitter *e)
-{
-    for (int i = 0; i < e->arguments.count; i++)
-        text_put(t, ", %c%d", e->arguments.list[i].kind == ARGUMENT_CONSTANT ? 'a' : 'h',
-                 s->number[e->arguments.list[i].node] - 1);
 }
 
 static void kernel_head(struct strips *s, struct text *t)
@@ -574,7 +542,7 @@ static void kernel_head(struct strips *s, struct text *t)
         text_put(t, "    const int2 inside%d = ", k);
         if (has_boxes(s, &s->passes[k].e)) {
             text_put(t, "s%d_inside(W, first, last", s->passes[k].same);
-            pass_numbers(s, t, &s->passes[k].e);
+            emit_numbers_passed(t, &s->passes[k].e, s->number);
             text_put(t, ");\n");
         } else {
             text_put(t, "(int2)(0, 0);\n");
@@ -623,7 +591,7 @@ static void pass_call(struct strips *s, struct text *t, int k)
              s->downward > 0 ? '-' : '+', pass->delay, pass->above, pass->below, pass->same, k);
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
-        int down = strips_rows_down(s, e, p);
+        int down = emit_rows_down(e, p);
         int border = border_of(s, p->node);
         if (border >= 0)
             bordered_row(s, t, border, down);
@@ -637,7 +605,7 @@ static void pass_call(struct strips *s, struct text *t, int k)
     }
     for (int i = 0; i < pass->ring_rows_count; i++)
         ring_row(s, t, &pass->ring_rows[i]);
-    pass_numbers(s, t, e);
+    emit_numbers_passed(t, e, s->number);
     text_put(t, ");\n        }\n");
 }
 

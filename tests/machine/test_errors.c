@@ -54,14 +54,25 @@ static void device_that_is_not_there_is_refused(void **state)
 
 static void settings_that_are_nonsense_are_refused(void **state)
 {
-    static const char *const wrong[][2] = {
-        {"LUTETIA_TURNS", "0"},         {"LUTETIA_TURNS", "many"},
-        {"LUTETIA_VECTOR", "2"},        {"LUTETIA_VECTOR", "16x"},
-        {"LUTETIA_COLUMNS", "40"},      {"LUTETIA_COLUMNS", "-16"},
-        {"LUTETIA_STRIPS", "yes"},      {"LUTETIA_EAGER", "2"},
-        {"LUTETIA_FLUSH_AFTER", "1e3"}, {"LUTETIA_BOX_AFTER", "99999999999999999999"},
-        {"LUTETIA_BACKGROUND", "2"},    {"LUTETIA_PROCESSORS", "48"},
-        {"LUTETIA_SCATTER", " 1"},      {"LUTETIA_KEEP", "-1"}};
+    static const char *const wrong[][2] = {{"LUTETIA_TURNS", "0"},
+                                           {"LUTETIA_TURNS", "many"},
+                                           {"LUTETIA_VECTOR", "2"},
+                                           {"LUTETIA_VECTOR", "16x"},
+                                           {"LUTETIA_COLUMNS", "40"},
+                                           {"LUTETIA_COLUMNS", "-16"},
+                                           {"LUTETIA_TILE", "64"},
+                                           {"LUTETIA_TILE", "0x8"},
+                                           {"LUTETIA_TILE", "8x1025"},
+                                           {"LUTETIA_TILE", "8x8x8"},
+                                           {"LUTETIA_TILE", "1234567890x8"},
+                                           {"LUTETIA_STRIPS", "yes"},
+                                           {"LUTETIA_EAGER", "2"},
+                                           {"LUTETIA_FLUSH_AFTER", "1e3"},
+                                           {"LUTETIA_BOX_AFTER", "99999999999999999999"},
+                                           {"LUTETIA_BACKGROUND", "2"},
+                                           {"LUTETIA_PROCESSORS", "48"},
+                                           {"LUTETIA_SCATTER", " 1"},
+                                           {"LUTETIA_KEEP", "-1"}};
     struct machine_config config = machine_config_default();
 
     (void)state;

@@ -31,6 +31,15 @@ static int setup_strips(void **state)
     return begin("1");
 }
 
+static int setup_tiles(void **state)
+{
+    (void)state;
+    setenv("LUTETIA_VECTOR", "1", 1);
+    int status = begin("1");
+    unsetenv("LUTETIA_VECTOR");
+    return status;
+}
+
 static int teardown(void **state)
 {
     (void)state;
@@ -244,6 +253,32 @@ static void strips_keep_rows_in_no_array(void **state)
     assert_non_null(strstr(k->name, "FADD"));
 }
 
+/* The same in tiles, cheaper to compile: of what is stored in no array, tiles are kept. */
+static void tiles_are_kept_in_no_array(void **state)
+{
+    uint32_t a = field_of(1), c = field_of(3);
+    struct machine_value *v = value(a);
+    float out[COUNT];
+
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        v = machine_unary(machine, MACHINE_FSQRT, v);
+    store(c, machine_binary(machine, MACHINE_FADD, machine_shift(machine, v, 0, 1),
+                            machine_shift(machine, v, 0, -1)));
+    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
+    const struct machine_explained *x = explained();
+    assert_int_equal(x->kernels_count, 1);
+    const struct machine_explained_kernel *k = &x->kernels[0];
+    assert_int_equal(k->stages, 2);
+    assert_int_equal(k->rings, 1);
+    assert_true(k->tile_width > 0 && k->tile_height > 0);
+    assert_int_equal(k->stores_count, 2);
+    assert_int_equal(k->stores[0].in_ring + k->stores[1].in_ring, 1);
+    assert_int_equal(k->operations, 4);
+    assert_int_equal(k->bytes_read, 4);
+    assert_int_equal(k->bytes_written, 4);
+}
+
 /* ---- calls ---- */
 
 static uint32_t water;
@@ -374,6 +409,7 @@ int main(void)
         CASE(overwritten_value_has_vanished),
         CASE(dear_value_is_stored_for_its_neighbours),
         cmocka_unit_test_setup_teardown(strips_keep_rows_in_no_array, setup_strips, teardown),
+        cmocka_unit_test_setup_teardown(tiles_are_kept_in_no_array, setup_tiles, teardown),
         CASE(calls_are_recorded_or_foreseen),
         CASE(bound_is_measured_when_asked_for),
         CASE(functions_of_many_are_optimised_at_once),

@@ -371,3 +371,11 @@ uint64_t paris_calls_foreseen(void)
     machine_stats_get(paris_machine(), &now);
     return now.calls_foreseen;
 }
+
+uint64_t paris_kernels_of_stages(void)
+{
+    struct machine_stats now;
+
+    machine_stats_get(paris_machine(), &now);
+    return now.kernels_in_strips + now.kernels_in_tiles;
+}

@@ -217,6 +217,8 @@ uint64_t paris_kernels_built(void);
 void paris_force(const char *const *variables);
 /* Calls that were not recorded again: of a step seen before. */
 uint64_t paris_calls_foreseen(void);
+/* ... runs of several stages in one kernel, of strips or tiles. */
+uint64_t paris_kernels_of_stages(void);
 
 /* ---- shrinking ---- */
 

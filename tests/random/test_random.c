@@ -25,6 +25,7 @@ enum { VARIABLES_MOST = 8 };
 static const char *const shapes[][VARIABLES_MOST] = {
     {"LUTETIA_VECTOR=16", "LUTETIA_STRIPS=1", "LUTETIA_TURNS=8", "LUTETIA_IN_PLACE=1", BEST},
     {"LUTETIA_VECTOR=8", "LUTETIA_STRIPS=1", "LUTETIA_TURNS=4", "LUTETIA_COLUMNS=16", BEST},
+    {"LUTETIA_VECTOR=1", "LUTETIA_STRIPS=1", "LUTETIA_TILE=5x3", "LUTETIA_TURNS=3", BEST},
     {"LUTETIA_VECTOR=1", OFTEN},
     {"LUTETIA_VECTOR=4", "LUTETIA_STRIPS=1", "LUTETIA_COLUMNS=16", "LUTETIA_TURNS=1", OFTEN},
     {"LUTETIA_VECTOR=4", "LUTETIA_STRIPS=1", "LUTETIA_TURNS=2", "LUTETIA_IN_PLACE=1", BEST},
@@ -36,6 +37,9 @@ static const char *const shapes[][VARIABLES_MOST] = {
      OFTEN},
     {"LUTETIA_VECTOR=16", "LUTETIA_STRIPS=1", "LUTETIA_COLUMNS=32", "LUTETIA_REPLAY=0", OFTEN},
     {"LUTETIA_STRIPS=0", "LUTETIA_TURNS=1", "LUTETIA_RUN=16", OFTEN},
+    {"LUTETIA_VECTOR=1", "LUTETIA_STRIPS=1", "LUTETIA_TILE=16x8", "LUTETIA_TURNS=2", BEST},
+    {"LUTETIA_VECTOR=1", "LUTETIA_STRIPS=1", "LUTETIA_TILE=1x1", "LUTETIA_TURNS=1", OFTEN},
+    {"LUTETIA_VECTOR=1", "LUTETIA_STRIPS=1", "LUTETIA_TURNS=8", BEST},
 };
 
 enum { SHAPES_COUNT = sizeof shapes / sizeof *shapes };
@@ -202,8 +206,10 @@ static long in_shapes(const struct options *o, long *done)
         *done += of_shape;
         for (int k = 0; shapes[i][k]; k++)
             printf("%s ", shapes[i][k] + strlen("LUTETIA_"));
-        printf("\n    %ld programs, %llu kernels built, %llu calls foreseen, %.1f s%s\n",
+        printf("\n    %ld programs, %llu kernels built, %llu of several stages run, %llu calls "
+               "foreseen, %.1f s%s\n",
                of_shape, (unsigned long long)paris_kernels_built(),
+               (unsigned long long)paris_kernels_of_stages(),
                (unsigned long long)paris_calls_foreseen(), clock_now_s() - start,
                failed ? ": differs" : "");
         fflush(stdout);

@@ -1,0 +1,116 @@
+/* test_tiles.c - the listing in tiles of local memory, forced on a CPU: one turn and many, on sheets that tiles do not
+ * fit, against the plain double loop. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <cm/paris.h>
+
+#include "diffusion_oracle.h"
+#include "harness.h"
+#include "listing.h"
+#include "machine.h"
+#include "of_machine.h"
+#include "paris_internal.h"
+
+struct sheet {
+    int width, height, rim[4];
+    const char *tile; /* "": the engine's choice */
+    int steps;
+    const char *turns;
+};
+
+static void step(const void *listing)
+{
+    listing_step(listing);
+}
+
+static void listing_begin(struct listing *l, const struct diffusion_scene *s)
+{
+    struct machine *m = paris_machine();
+    *l =
+        (struct listing){.width = s->width, .height = s->height, .gravity = (double)s->gravity};
+    for (int i = 0; i < 3; i++)
+        l->molecular_weight[i] = (double)s->molecular_weight[i];
+    listing_allocate(l);
+    l->x0 = s->x0;
+    l->y0 = s->y0;
+    l->x1 = s->x1;
+    l->y1 = s->y1;
+    assert_int_equal(machine_field_upload(m, l->absorbency, MACHINE_F32, s->absorbency), 0);
+    assert_int_equal(machine_field_upload(m, l->water, MACHINE_F32, s->field[DIFFUSION_WATER]),
+                     0);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(machine_field_upload(m, l->pigment[i], MACHINE_F32,
+                                              s->field[DIFFUSION_PIGMENT + i]),
+                         0);
+}
+
+static struct machine_stats agrees(const struct sheet *t)
+{
+    struct diffusion_scene s;
+    struct oracle o;
+    struct listing l;
+    struct machine_config config = machine_config_default();
+    struct machine_stats stats;
+
+    setenv("LUTETIA_TURNS", t->turns, 1);
+    setenv("LUTETIA_TILE", t->tile, 1);
+    assert_true(paris_reset(&config));
+    oracle_scene_init(&s, t->width, t->height, t->rim);
+    oracle_init(&o, &s);
+    oracle_steps(&o, t->steps);
+    listing_begin(&l, &s);
+    float *mine = malloc((size_t)s.width * (size_t)s.height * sizeof *mine);
+    assert_non_null(mine);
+    if (!bench_machine_steps(step, &l, t->steps, t->steps))
+        fail_msg("%s", bench_error());
+    for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
+        CM_field_id_t id = i == DIFFUSION_WATER ? l.water : l.pigment[i - DIFFUSION_PIGMENT];
+        machine_begin(paris_machine());
+        assert_int_equal(machine_field_download(paris_machine(), id, MACHINE_F32, mine), 0);
+        oracle_compare(&o, "tiles", i, mine);
+    }
+    machine_stats_get(paris_machine(), &stats);
+    free(mine);
+    oracle_finish(&o);
+    diffusion_scene_finish(&s);
+    return stats;
+}
+
+/* Larger, smaller than a tile, odd, and with what the rectangle leaves out at some edges. */
+static void one_turn_in_tiles(void **state)
+{
+    static const struct sheet sheets[] = {
+        {300, 20, {20, 0, 1, 4}, "", 2, "1"}, {37, 29, {2, 2, 2, 2}, "8x8", 2, "1"},
+        {5, 4, {0, 0, 0, 0}, "8x8", 2, "1"},  {33, 17, {0, 0, 0, 0}, "8x8", 2, "1"},
+        {4, 70, {0, 1, 0, 1}, "8x8", 2, "1"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++)
+        assert_true(agrees(&sheets[i]).kernels_in_tiles > 0);
+}
+
+static void many_turns_in_tiles(void **state)
+{
+    const struct sheet sheet = {37, 29, {0, 0, 0, 0}, "16x8", 40, "2"};
+    (void)state;
+    setenv("LUTETIA_BOX_AFTER", "0", 1); /* they are of plans as good as can be */
+    struct machine_stats stats = agrees(&sheet);
+    assert_true(stats.kernels_in_tiles > 0 && stats.kernels_run < 35);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles),
+                                       cmocka_unit_test(many_turns_in_tiles)};
+    setenv("LUTETIA_VECTOR", "1", 1);
+    setenv("LUTETIA_STRIPS", "1", 1);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
