@@ -39,9 +39,8 @@ struct tile_stage {
 struct tile_array {
     int bytes;       /* of an element */
     int stage, last; /* in which it is stored, and loaded for the last time */
-    bool
-        stays; /* it is an array in global memory, too: in the next turn of a loop it is there */
-    int at;    /* decided: where in local memory */
+    bool stays;      /* it is in global memory, too: in the next turn of a loop it is there */
+    int at;          /* decided: where in local memory */
 };
 
 /* A stage looks at what another has stored, or at arrays in global memory (from -1): so far from where it is. */
