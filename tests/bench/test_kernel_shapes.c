@@ -1,5 +1,5 @@
-/* test_tiles.c - the listing in tiles of local memory, forced on a CPU: one turn and many, on sheets that tiles do not
- * fit, against the plain double loop. */
+/* test_kernel_shapes.c - the listing in strips, and in tiles of local memory, which are forced on a CPU: one turn and many, on
+ * sheets that vectors and tiles do not fit, against the plain double loop. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,10 +21,14 @@
 
 struct sheet {
     int width, height, rim[4];
-    const char *tile; /* "": the engine's choice */
     int steps;
-    const char *turns;
+    const char *turns, *tile, *columns, *in_place; /* NULL: the engine's choice */
 };
+
+static void force(const char *name, const char *value)
+{
+    setenv(name, value ? value : "", 1);
+}
 
 static void step(const void *listing)
 {
@@ -60,8 +64,10 @@ static struct machine_stats agrees(const struct sheet *t)
     struct machine_config config = machine_config_default();
     struct machine_stats stats;
 
-    setenv("LUTETIA_TURNS", t->turns, 1);
-    setenv("LUTETIA_TILE", t->tile, 1);
+    force("LUTETIA_TURNS", t->turns);
+    force("LUTETIA_TILE", t->tile);
+    force("LUTETIA_COLUMNS", t->columns);
+    force("LUTETIA_IN_PLACE", t->in_place);
     assert_true(paris_reset(&config));
     oracle_scene_init(&s, t->width, t->height, t->rim);
     oracle_init(&o, &s);
@@ -75,7 +81,7 @@ static struct machine_stats agrees(const struct sheet *t)
         CM_field_id_t id = i == DIFFUSION_WATER ? l.water : l.pigment[i - DIFFUSION_PIGMENT];
         machine_begin(paris_machine());
         assert_int_equal(machine_field_download(paris_machine(), id, MACHINE_F32, mine), 0);
-        oracle_compare(&o, "tiles", i, mine);
+        oracle_compare(&o, "listing", i, mine);
     }
     machine_stats_get(paris_machine(), &stats);
     free(mine);
@@ -88,29 +94,50 @@ static struct machine_stats agrees(const struct sheet *t)
 static void one_turn_in_tiles(void **state)
 {
     static const struct sheet sheets[] = {
-        {300, 20, {20, 0, 1, 4}, "", 2, "1"}, {37, 29, {2, 2, 2, 2}, "8x8", 2, "1"},
-        {5, 4, {0, 0, 0, 0}, "8x8", 2, "1"},  {33, 17, {0, 0, 0, 0}, "8x8", 2, "1"},
-        {4, 70, {0, 1, 0, 1}, "8x8", 2, "1"},
+        {300, 20, {20, 0, 1, 4}, 2, "1", NULL, NULL, NULL},
+        {37, 29, {2, 2, 2, 2}, 2, "1", "8x8", NULL, NULL},
+        {5, 4, {0, 0, 0, 0}, 2, "1", "8x8", NULL, NULL},
+        {33, 17, {0, 0, 0, 0}, 2, "1", "8x8", NULL, NULL},
+        {4, 70, {0, 1, 0, 1}, 2, "1", "8x8", NULL, NULL},
     };
     (void)state;
+    force("LUTETIA_VECTOR", "1");
     for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++)
         assert_true(agrees(&sheets[i]).kernels_in_tiles > 0);
 }
 
 static void many_turns_in_tiles(void **state)
 {
-    const struct sheet sheet = {37, 29, {0, 0, 0, 0}, "16x8", 40, "2"};
+    const struct sheet sheet = {37, 29, {0, 0, 0, 0}, 40, "2", "16x8", NULL, NULL};
     (void)state;
-    setenv("LUTETIA_BOX_AFTER", "0", 1); /* they are of plans as good as can be */
+    force("LUTETIA_VECTOR", "1");
+    force("LUTETIA_BOX_AFTER", "0"); /* they are of plans as good as can be */
     struct machine_stats stats = agrees(&sheet);
     assert_true(stats.kernels_in_tiles > 0 && stats.kernels_run < 35);
+}
+
+/* As wide as rows that vectors fit and do not fit, and narrower ones beside each other; rectangles that end inside a vector,
+ * and none; in place, too. */
+static void in_strips(void **state)
+{
+    static const struct sheet sheets[] = {
+        {48, 21, {0, 0, 0, 0}, 3, "1", NULL, NULL, "1"},
+        {47, 20, {1, 2, 1, 3}, 3, "1", NULL, NULL, "1"},
+        {33, 24, {0, 0, 0, 0}, 30, "3", NULL, NULL, NULL},
+        {116, 30, {17, 0, 2, 5}, 30, "3", NULL, "48", NULL},
+    };
+    (void)state;
+    force("LUTETIA_VECTOR", NULL);
+    force("LUTETIA_BOX_AFTER", "0");
+    for (size_t i = 0; i < sizeof sheets / sizeof *sheets; i++)
+        assert_true(agrees(&sheets[i]).kernels_in_strips > 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(one_turn_in_tiles),
-                                       cmocka_unit_test(many_turns_in_tiles)};
-    setenv("LUTETIA_VECTOR", "1", 1);
+                                       cmocka_unit_test(many_turns_in_tiles),
+                                       cmocka_unit_test(in_strips)};
     setenv("LUTETIA_STRIPS", "1", 1);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
