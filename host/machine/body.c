@@ -411,15 +411,16 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
         return result;
     }
-    bool loads = plan_loads(n, e->stage);
-    canonical = canonical && n->maybe_nan && !loads;
+    /* What another stage has in a variable is the form that it keeps, not one that it may have computed besides. */
+    bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row);
+    canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !loads);
     int known = variable_find(e, node, row, dx, canonical);
     if (known >= 0)
         return named(known);
     char expression[1200];
     const char *type = spell_container(n->type);
     e->wide = e->wide || type[1] == 'Q';
-    if (loads && in_variables(e, node, row)) {
+    if (kept) {
         if (emit_between(e, node, row, dx, &result, expression, sizeof expression))
             return result;
     } else if (loads) {
