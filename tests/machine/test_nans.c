@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { ROWS = 3, COLUMNS = 50, COUNT = ROWS * COLUMNS, TURNS = 40, WRITTEN = 77 };
+enum { ROWS = 8, COLUMNS = 50, COUNT = ROWS * COLUMNS, TURNS = 40, WRITTEN = 77, ROOTS = 8 };
 
 static struct machine *machine;
 
@@ -76,6 +76,17 @@ static struct machine_type float_of(int width)
 static struct machine_value *constant(struct machine_type type, double x)
 {
     return machine_constant_float(machine, type, x);
+}
+
+/* Where the column is a multiple of that. */
+static struct machine_value *every(uint64_t columns)
+{
+    return machine_binary(
+        machine, MACHINE_EQ,
+        machine_binary(
+            machine, MACHINE_UREM, machine_coordinate(machine, 1, 16),
+            machine_constant(machine, MACHINE_UINT(16), (struct machine_scalar){columns, 0})),
+        machine_constant(machine, MACHINE_UINT(16), (struct machine_scalar){0, 0}));
 }
 
 static uint32_t upload(struct machine_type type)
@@ -161,12 +172,7 @@ static void check(int width)
     struct machine_value *mask, *a;
 
     machine_begin(machine);
-    mask = machine_binary(
-        machine, MACHINE_EQ,
-        machine_binary(
-            machine, MACHINE_UREM, machine_coordinate(machine, 1, 16),
-            machine_constant(machine, MACHINE_UINT(16), (struct machine_scalar){3, 0})),
-        machine_constant(machine, MACHINE_UINT(16), (struct machine_scalar){0, 0}));
+    mask = every(3);
     a = support_value(machine, raw, type);
     const uint32_t b = store(
         machine_select(machine, mask, constant(type, NAN), machine_shift(machine, a, 1, 1)));
@@ -236,6 +242,71 @@ static void check_written(int width)
     }
 }
 
+static uint64_t without_sign(int width, uint64_t x)
+{
+    return result(width, fabs(number(width, x)));
+}
+
+/* Where the column is a multiple of three without its sign, else as it is, with its bits. */
+static uint64_t kept(int width, uint64_t n)
+{
+    const uint64_t x = bits_at(width, n);
+    return n % COLUMNS % 3 ? x : without_sign(width, x);
+}
+
+/* So dear that neighbours do not compute it again. */
+static uint64_t root_of(int width, uint64_t n, int roots)
+{
+    uint64_t x = kept(width, n);
+    for (int i = 0; i < roots; i++)
+        x = result(width, sqrt(number(width, result(width, number(width, x) / 3))));
+    return x;
+}
+
+static uint64_t root(int width, uint64_t n)
+{
+    return root_of(width, n, ROOTS);
+}
+
+/* In even columns from the row below. */
+static uint64_t kept_or_moved(int width, uint64_t n)
+{
+    return n % COLUMNS % 2 ? kept(width, n)
+                           : without_sign(width, root(width, (n + COLUMNS) % COUNT));
+}
+
+static uint64_t half_or_moved(int width, uint64_t n)
+{
+    return n % COLUMNS % 5 ? root_of(width, n, ROOTS / 2)
+                           : without_sign(width, root(width, (n + COLUMNS) % COUNT));
+}
+
+/* In strips a stage computes with a value in one form, and keeps it for the next in the other. */
+static void check_kept(void)
+{
+    const struct machine_type type = MACHINE_F32;
+    const uint32_t raw = upload(type);
+
+    machine_begin(machine);
+    struct machine_value *a = support_value(machine, raw, type);
+    struct machine_value *k =
+        machine_select(machine, every(3), machine_unary(machine, MACHINE_FABS, a), a);
+    struct machine_value *r = k, *half = k;
+    for (int i = 0; i < ROOTS; i++) {
+        r = machine_unary(machine, MACHINE_FSQRT,
+                          machine_binary(machine, MACHINE_FDIV, r, constant(type, 3)));
+        half = i == ROOTS / 2 - 1 ? r : half;
+    }
+    struct machine_value *below =
+        machine_unary(machine, MACHINE_FABS, machine_shift(machine, r, 0, 1));
+    const uint32_t moving = store(machine_select(machine, every(2), below, k)),
+                   more = store(machine_select(machine, every(5), below, half)),
+                   roots = store(r);
+    expect(moving, type, kept_or_moved, "what a stage has kept");
+    expect(more, type, half_or_moved, "what a stage has computed");
+    expect(roots, type, root, "a root");
+}
+
 static void run(const char *keeps)
 {
     setenv("LUTETIA_KEEPS_NAN", keeps, 1);
@@ -263,10 +334,26 @@ static void nans_that_they_do_not(void **state)
     run("0");
 }
 
+static void nans_that_stages_keep(void **state)
+{
+    struct machine_stats stats;
+
+    (void)state;
+    setenv("LUTETIA_STRIPS", "1", 1);
+    machine = support_machine(false);
+    support_set(machine, 2, ROWS, COLUMNS);
+    check_kept();
+    machine_stats_get(machine, &stats);
+    assert_true(stats.kernels_in_strips > 0);
+    support_machine_destroy(machine);
+    unsetenv("LUTETIA_STRIPS");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nans_that_devices_keep),
-                                       cmocka_unit_test(nans_that_they_do_not)};
+                                       cmocka_unit_test(nans_that_they_do_not),
+                                       cmocka_unit_test(nans_that_stages_keep)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
