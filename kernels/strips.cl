@@ -42,8 +42,8 @@
         }                                                                                      \
     } while (0)
 
-/* Where every vector of a row is whole, and all of the row is the strip's: its halos when it has been made. What has been
- * stored past the caches is not read again. */
+/* Where all of a row is the strip's, in vectors as they come: the last one may end in the halo. Halos follow when the row
+ * has been made. What has been stored past the caches (rows of whole vectors) is not read again. */
 #define NOT_STORED(kind, q, i, v) (void)0
 #if STREAMS
 #define STORE_EVEN STORE_INSIDE

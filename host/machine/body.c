@@ -640,6 +640,18 @@ void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int
         snprintf(k->options + n, sizeof k->options - (size_t)n, " -DLANE=%d", lane);
 }
 
+void emit_hand_over(bool good, struct text *t, struct arguments *a, struct kernel_text *out)
+{
+    if (good) {
+        out->text = t->data;
+        out->arguments = a->list;
+        out->arguments_count = a->count;
+    } else {
+        free(t->data);
+        free(a->list);
+    }
+}
+
 bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,
                   double bytes)
 {

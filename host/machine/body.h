@@ -1,4 +1,4 @@
-/* body.h - the text of what a kernel computes, for all shapes of kernels: see emit.c, strips_text.c and tiles_text.c.
+/* body.h - the text of what a kernel computes, for all shapes: see emit.c, strips_text.c and tiles_text.c.
  *
  * Each (node, offset) is one variable of the loop over a row's columns; offsets along the last axis are columns,
  * along the others another row. */
@@ -110,13 +110,16 @@ void emit_find_bits(const struct plan_graph *g, bool *bits_matter);
 void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
                  int *count);
 
-/* Arrays and numbers that one part of a kernel takes are the kernel's arguments, too, once each. number: of a node that is a
- * number, + 1; of an array that is read, anything. *count: numbers so far. */
+/* Arrays and numbers that one part of a kernel takes are the kernel's arguments, too, once each. number: of a node
+ * that is a number, + 1; of an array that is read, anything. *count: numbers so far. */
 void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,
                   bool *failed);
 /* The numbers that a part takes: as it declares them, and as the kernel passes them. */
 void emit_numbers(struct text *t, const struct emitter *e);
 void emit_numbers_passed(struct text *t, const struct emitter *e, const int *number);
+
+/* The end of a kernel's text and its arguments: good: out has them; else they are freed. */
+void emit_hand_over(bool good, struct text *t, struct arguments *a, struct kernel_text *out);
 
 /* What the prelude is told. */
 void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane);

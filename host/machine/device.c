@@ -93,8 +93,8 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
     return count;
 }
 
-/* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory as GPUs have it (a CPU says how
- * large a cache is). */
+/* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory as GPUs have it (a
+ * CPU says how large a cache is). */
 enum { GROUP_USUAL = 256, GROUP_LEAST = 32, LOCAL_BYTES_CPU = 48 << 10 };
 
 static void shape_tiles(const struct device *d, const struct settings *s,
@@ -115,8 +115,8 @@ static void shape_tiles(const struct device *d, const struct settings *s,
     if (d->is_cpu && local > LOCAL_BYTES_CPU)
         local = LOCAL_BYTES_CPU;
     shape->local_bytes = local < (cl_ulong)INT32_MAX ? (int)local : INT32_MAX;
-    /* CPUs have vectors, which are several times as fast: there tiles are for tests. So are tiles in what is called local and is
-     * not. */
+    /* CPUs have vectors, which are several times as fast: there tiles are for tests. So are tiles in what is called
+     * local and is not. */
     bool wanted = d->is_cpu ? shape->always_strips : kind == CL_LOCAL || shape->always_strips;
     if (shape->vector > 1 || (size_t)shape->group > items || !wanted)
         shape->group = 0;

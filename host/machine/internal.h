@@ -780,9 +780,9 @@ enum { DEVICE_OPTIONS_BYTES = 300 };
 void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES]);
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
-/* Starts it, unless error says that its arguments are wrong, in work-groups of that size; local NULL: the driver decides,
- * and on a CPU one is one item. The first time, waits: the compiler may still be at it in a thread of the driver's, and a program that
- * ended meanwhile would pull it down. */
+/* Starts it, unless error says that its arguments are wrong, in work-groups of that size; local NULL: the driver
+ * decides, and on a CPU one is one item. The first time, waits: the compiler may still be at it in a thread of the
+ * driver's, and a program that ended meanwhile would pull it down. */
 enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what);

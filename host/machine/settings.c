@@ -11,44 +11,6 @@
 
 enum { TILE_SIDE_MOST = 1024 };
 
-static const struct setting {
-    const char *variable;
-    size_t at;                   /* in struct settings */
-    uint64_t usual, least, most; /* usual: where nobody says anything */
-    uint64_t multiple;           /* of which it is one; 0: any number */
-    const char *may_be;
-} table[] = {
-#define SETTING(variable, name) "LUTETIA_" #variable, offsetof(struct settings, name)
-    {SETTING(EAGER, eager), 0, 0, 1, 0, "0 or 1"},
-    {SETTING(REPLAY, replay), 1, 0, 1, 0, "0 or 1"},
-    {SETTING(FLUSH_AFTER, flush_after), PENDING_MANY, 1, 1 << 30, 0, "a number from 1 to 2^30"},
-    {SETTING(OPTIMISE_AFTER, optimise_after), 4 << 20, 0, UINT64_MAX - 1, 0, "a number"},
-    {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
-    {SETTING(BACKGROUND, background), 1, 0, 1, 0, "0 or 1"},
-    {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(TILE, tile), SETTING_FREE, 0, UINT64_MAX, 0,
-     "a width and a height from 1 to 1024, as 64x16"},
-    {SETTING(IN_PLACE, in_place), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(NARROW, narrow), 1, 0, 1, 0, "0 or 1"},
-    {SETTING(KEEPS_NAN, keeps_nan), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
-     "a power of two from 1 to 2^30"},
-    {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
-    {SETTING(KEEP, keep), SETTING_FREE, 0, 1, 0, "0 or 1"},
-    {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},
-/* The knobs, which a file of tuning.c may say too: */
-#define KNOB(variable, which) SETTING(variable, knob[which]), SETTING_FREE
-    {KNOB(VECTOR, MACHINE_VECTOR), 1, 16, 0, "1, 4, 8 or 16"},
-    {KNOB(RUN, MACHINE_RUN), 1, 1 << 20, 0, "1, or a multiple of 16 up to 2^20"},
-    {KNOB(STREAMS, MACHINE_STREAMS), 0, 1, 0, "0 or 1"},
-    {KNOB(TURNS, MACHINE_TURNS), 1, 64, 0, "a number from 1 to 64"},
-    {KNOB(COLUMNS, MACHINE_COLUMNS), 16, 1 << 16, 16, "a multiple of 16 from 16 to 65536"},
-    {KNOB(STRIPS_EACH, MACHINE_STRIPS_EACH), 1, 64, 0, "a number from 1 to 64"},
-#undef KNOB
-#undef SETTING
-};
-
 bool settings_number(const char *text, uint64_t *out)
 {
     char *end;
@@ -75,11 +37,47 @@ static bool sides_read(const char *text, uint64_t *out)
     return w >= 1 && w <= TILE_SIDE_MOST && h >= 1 && h <= TILE_SIDE_MOST;
 }
 
-static bool value_read(const struct setting *s, const char *text, uint64_t *out)
-{
-    return s->at == offsetof(struct settings, tile) ? sides_read(text, out)
-                                                    : settings_number(text, out);
-}
+static const struct setting {
+    const char *variable;
+    size_t at; /* in struct settings */
+    bool (*read)(const char *text, uint64_t *out);
+    uint64_t usual, least, most; /* usual: where nobody says anything */
+    uint64_t multiple;           /* of which it is one; 0: any number */
+    const char *may_be;
+} table[] = {
+#define SETTING_READ(variable, name, read)                                                     \
+    "LUTETIA_" #variable, offsetof(struct settings, name), read
+#define SETTING(variable, name) SETTING_READ(variable, name, settings_number)
+    {SETTING(EAGER, eager), 0, 0, 1, 0, "0 or 1"},
+    {SETTING(REPLAY, replay), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(FLUSH_AFTER, flush_after), PENDING_MANY, 1, 1 << 30, 0, "a number from 1 to 2^30"},
+    {SETTING(OPTIMISE_AFTER, optimise_after), 4 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
+    {SETTING(BACKGROUND, background), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(STRIPS, strips), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING_READ(TILE, tile, sides_read), SETTING_FREE, 0, UINT64_MAX, 0,
+     "a width and a height from 1 to 1024, as 64x16"},
+    {SETTING(IN_PLACE, in_place), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(NARROW, narrow), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(KEEPS_NAN, keeps_nan), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(SCATTER, scatter), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(PROCESSORS, processors), SETTING_FREE, 1, 1 << 30, 0,
+     "a power of two from 1 to 2^30"},
+    {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
+    {SETTING(KEEP, keep), SETTING_FREE, 0, 1, 0, "0 or 1"},
+    {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},
+/* The knobs, which a file of tuning.c may say too: */
+#define KNOB(variable, which) SETTING(variable, knob[which]), SETTING_FREE
+    {KNOB(VECTOR, MACHINE_VECTOR), 1, 16, 0, "1, 4, 8 or 16"},
+    {KNOB(RUN, MACHINE_RUN), 1, 1 << 20, 0, "1, or a multiple of 16 up to 2^20"},
+    {KNOB(STREAMS, MACHINE_STREAMS), 0, 1, 0, "0 or 1"},
+    {KNOB(TURNS, MACHINE_TURNS), 1, 64, 0, "a number from 1 to 64"},
+    {KNOB(COLUMNS, MACHINE_COLUMNS), 16, 1 << 16, 16, "a multiple of 16 from 16 to 65536"},
+    {KNOB(STRIPS_EACH, MACHINE_STRIPS_EACH), 1, 64, 0, "a number from 1 to 64"},
+#undef KNOB
+#undef SETTING
+#undef SETTING_READ
+};
 
 static bool suits(const struct setting *s, uint64_t value)
 {
@@ -100,7 +98,7 @@ enum machine_status settings_read(struct machine *m)
         const struct setting *s = &table[i];
         const char *text = getenv(s->variable);
         uint64_t value = s->usual;
-        if (text && *text && (!value_read(s, text, &value) || !suits(s, value)))
+        if (text && *text && (!s->read(text, &value) || !suits(s, value)))
             return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is \"%.40s\")",
                                 s->variable, s->may_be, text);
         memcpy((char *)&m->settings + s->at, &value, sizeof value);

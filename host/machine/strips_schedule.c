@@ -491,12 +491,10 @@ int strips_columns(const struct strips *s, const struct device_shape *shape)
     return columns ? columns : s->vector;
 }
 
+/* All rows begin a line of the caches; not all the same one. */
 int strips_near_columns(const struct strips *s, int columns)
 {
-    enum {
-        LINE = 64,
-        STEPS = 8
-    }; /* all rows begin a line of the caches; not all the same one */
+    enum { LINE = 64, STEPS = 8 };
     int least = (2 * columns < s->set->width ? 2 * columns : s->set->width) + 2 * s->margin +
                 s->vector,
         step = LINE;

@@ -770,13 +770,8 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
         describe(&s, shape, out);
         good = !s.failed && !t.failed;
     }
-    if (good) {
-        out->text = t.data;
-        out->arguments = s.arguments.list;
-        out->arguments_count = s.arguments.count;
-    } else {
-        free(t.data);
-        free(s.arguments.list);
+    emit_hand_over(good, &t, &s.arguments, out);
+    if (!good) {
         free(s.in_place.pairs);
         out->in_place.pairs = NULL;
     }

@@ -439,14 +439,7 @@ bool emit_tiles(const struct plan_graph *g, const int *stores, int count,
         describe(&s, out);
         good = !s.failed && !t.failed;
     }
-    if (good) {
-        out->text = t.data;
-        out->arguments = s.arguments.list;
-        out->arguments_count = s.arguments.count;
-    } else {
-        free(t.data);
-        free(s.arguments.list);
-    }
+    emit_hand_over(good, &t, &s.arguments, out);
     tiles_finish(&s);
     return good;
 }

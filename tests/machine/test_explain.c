@@ -223,32 +223,45 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_int_equal(found, 1);
 }
 
-/* The same in strips: a row of the dear value is used while it is still near. */
-static void strips_keep_rows_in_no_array(void **state)
+/* How the sum of v's neighbours is computed, v being dear: in one kernel. */
+static const struct machine_explained_kernel *neighbours_of(struct machine_value *v)
 {
-    uint32_t a = field_of(1), c = field_of(3);
-    struct machine_value *v;
+    uint32_t c = field_of(3);
     float out[COUNT];
 
-    (void)state;
-    v = machine_unary(machine, MACHINE_FEXP, machine_unary(machine, MACHINE_FLN, value(a)));
-    v = machine_unary(machine, MACHINE_FLN, v);
     store(c, machine_binary(machine, MACHINE_FADD, machine_shift(machine, v, 0, 1),
                             machine_shift(machine, v, 0, -1)));
     assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
     const struct machine_explained *x = explained();
     assert_int_equal(x->kernels_count, 1);
-    const struct machine_explained_kernel *k = &x->kernels[0];
-    if (k->stages == 1)
-        skip(); /* a device without vectors has no strips */
+    return &x->kernels[0];
+}
+
+/* v, of 3 operations, is in no array. */
+static void assert_is_kept_near(const struct machine_explained_kernel *k)
+{
     assert_int_equal(k->stages, 2);
     assert_int_equal(k->rings, 1);
     assert_int_equal(k->stores_count, 2);
     assert_int_equal(k->stores[0].in_ring + k->stores[1].in_ring, 1);
-    assert_int_equal(k->stores[k->stores[0].in_ring ? 0 : 1].why, MACHINE_CUT_NEIGHBOURS);
     assert_int_equal(k->operations, 4);
     assert_int_equal(k->bytes_read, 4);
     assert_int_equal(k->bytes_written, 4);
+}
+
+/* The same in strips: a row of the dear value is used while it is still near. */
+static void strips_keep_rows_in_no_array(void **state)
+{
+    struct machine_value *v = value(field_of(1));
+
+    (void)state;
+    v = machine_unary(machine, MACHINE_FEXP, machine_unary(machine, MACHINE_FLN, v));
+    v = machine_unary(machine, MACHINE_FLN, v);
+    const struct machine_explained_kernel *k = neighbours_of(v);
+    if (k->stages == 1)
+        skip(); /* a device without vectors has no strips */
+    assert_is_kept_near(k);
+    assert_int_equal(k->stores[k->stores[0].in_ring ? 0 : 1].why, MACHINE_CUT_NEIGHBOURS);
     assert_null(strstr(k->name, "FLN"));
     assert_non_null(strstr(k->name, "FADD"));
 }
@@ -256,27 +269,14 @@ static void strips_keep_rows_in_no_array(void **state)
 /* The same in tiles, cheaper to compile: of what is stored in no array, tiles are kept. */
 static void tiles_are_kept_in_no_array(void **state)
 {
-    uint32_t a = field_of(1), c = field_of(3);
-    struct machine_value *v = value(a);
-    float out[COUNT];
+    struct machine_value *v = value(field_of(1));
 
     (void)state;
     for (int i = 0; i < 3; i++)
         v = machine_unary(machine, MACHINE_FSQRT, v);
-    store(c, machine_binary(machine, MACHINE_FADD, machine_shift(machine, v, 0, 1),
-                            machine_shift(machine, v, 0, -1)));
-    assert_ok(machine_field_download(machine, c, MACHINE_F32, out), machine);
-    const struct machine_explained *x = explained();
-    assert_int_equal(x->kernels_count, 1);
-    const struct machine_explained_kernel *k = &x->kernels[0];
-    assert_int_equal(k->stages, 2);
-    assert_int_equal(k->rings, 1);
+    const struct machine_explained_kernel *k = neighbours_of(v);
+    assert_is_kept_near(k);
     assert_true(k->tile_width > 0 && k->tile_height > 0);
-    assert_int_equal(k->stores_count, 2);
-    assert_int_equal(k->stores[0].in_ring + k->stores[1].in_ring, 1);
-    assert_int_equal(k->operations, 4);
-    assert_int_equal(k->bytes_read, 4);
-    assert_int_equal(k->bytes_written, 4);
 }
 
 /* ---- calls ---- */
