@@ -304,6 +304,18 @@ static void show_copies(struct trace *out, const struct copies *c)
 }
 
 static int present = -1; /* the machine there is: eager or not; -1: none that may be used */
+static struct paris_counts counts;
+
+/* Adds what the machine has done so far, or takes it away. */
+static void count(int sign)
+{
+    struct machine_stats now;
+
+    machine_stats_get(paris_machine(), &now);
+    counts.kernels_built += sign * (long)now.kernels_built;
+    counts.kernels_of_stages += sign * (long)(now.kernels_in_strips + now.kernels_in_tiles);
+    counts.calls_foreseen += sign * (long)now.calls_foreseen;
+}
 
 void paris_force(const char *const *variables)
 {
@@ -338,6 +350,8 @@ void paris_run(const struct program *p, struct trace *out, bool eager)
         }
         present = eager;
     }
+    if (!eager)
+        count(-1);
     CM_init();
     CM_initialize_random_generator((unsigned int)p->seed);
     for (int k = 0; k < p->sets_count; k++)
@@ -354,28 +368,11 @@ void paris_run(const struct program *p, struct trace *out, bool eager)
         copy_set(&x, &left);
     }
     show_copies(out, &left);
+    if (!eager)
+        count(1);
 }
 
-uint64_t paris_kernels_built(void)
+struct paris_counts paris_counts(void)
 {
-    struct machine_stats now;
-
-    machine_stats_get(paris_machine(), &now);
-    return now.kernels_built;
-}
-
-uint64_t paris_calls_foreseen(void)
-{
-    struct machine_stats now;
-
-    machine_stats_get(paris_machine(), &now);
-    return now.calls_foreseen;
-}
-
-uint64_t paris_kernels_of_stages(void)
-{
-    struct machine_stats now;
-
-    machine_stats_get(paris_machine(), &now);
-    return now.kernels_in_strips + now.kernels_in_tiles;
+    return counts;
 }

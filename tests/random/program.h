@@ -210,15 +210,17 @@ void oracle_run(const struct program *p, struct trace *out, enum sabotage sabota
 /* C/Paris calls. */
 void paris_run(const struct program *p, struct trace *out, bool eager);
 
-/* By the machine at hand, since it was made. */
-uint64_t paris_kernels_built(void);
 /* From now on machines have these environment variables, NAME=value, NULL at the end, and not those of the call
  * before. */
 void paris_force(const char *const *variables);
-/* Calls that were not recorded again: of a step seen before. */
-uint64_t paris_calls_foreseen(void);
-/* ... runs of several stages in one kernel, of strips or tiles. */
-uint64_t paris_kernels_of_stages(void);
+
+struct paris_counts {
+    long kernels_built;
+    long kernels_of_stages; /* runs of several stages in one kernel, of strips or tiles */
+    long calls_foreseen;    /* not recorded again: of a step seen before */
+};
+/* Of all programs so far that were fused. */
+struct paris_counts paris_counts(void);
 
 /* ---- shrinking ---- */
 

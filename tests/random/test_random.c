@@ -201,16 +201,18 @@ static long in_shapes(const struct options *o, long *done)
          i++) {
         long of_shape;
         double start = clock_now_s();
+        struct paris_counts before = paris_counts();
         paris_force(shapes[i]);
         failed = many(o, o->seconds / SHAPES_COUNT, &of_shape);
         *done += of_shape;
         for (int k = 0; shapes[i][k]; k++)
             printf("%s ", shapes[i][k] + strlen("LUTETIA_"));
-        printf("\n    %ld programs, %llu kernels built, %llu of several stages run, %llu calls "
+        struct paris_counts now = paris_counts();
+        printf("\n    %ld programs, %ld kernels built, %ld of several stages run, %ld calls "
                "foreseen, %.1f s%s\n",
-               of_shape, (unsigned long long)paris_kernels_built(),
-               (unsigned long long)paris_kernels_of_stages(),
-               (unsigned long long)paris_calls_foreseen(), clock_now_s() - start,
+               of_shape, now.kernels_built - before.kernels_built,
+               now.kernels_of_stages - before.kernels_of_stages,
+               now.calls_foreseen - before.calls_foreseen, clock_now_s() - start,
                failed ? ": differs" : "");
         fflush(stdout);
     }
@@ -275,9 +277,10 @@ int main(int argc, char **argv)
         }
     }
     failed = o.shapes ? in_shapes(&o, &done) : many(&o, o.seconds, &done);
-    printf("%ld programs from seed %ld, %ld instructions each at most: %ld differ, %llu "
-           "kernels built, %llu calls foreseen, %.1f s\n",
-           done, o.seed, o.length, failed, (unsigned long long)paris_kernels_built(),
-           (unsigned long long)paris_calls_foreseen(), clock_now_s() - start);
+    struct paris_counts counts = paris_counts();
+    printf("%ld programs from seed %ld, %ld instructions each at most: %ld differ, %ld "
+           "kernels built, %ld calls foreseen, %.1f s\n",
+           done, o.seed, o.length, failed, counts.kernels_built, counts.calls_foreseen,
+           clock_now_s() - start);
     return failed != 0;
 }
