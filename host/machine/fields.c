@@ -252,6 +252,7 @@ static int slot_at(const struct field *f, uint32_t offset)
 
 static void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
 {
+    loops_slot_accessed(m, slot, overwrites);
     if (slot->epoch_accessed == m->epoch)
         return;
     slot->epoch_accessed = m->epoch;
@@ -317,6 +318,7 @@ static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t off
     memmove(&f->slots[i + 1], &f->slots[i], (size_t)(f->slots_count - i) * sizeof *f->slots);
     f->slots_count++;
     f->slots[i] = (struct slot){.offset = offset, .bits = bits, .epoch_created = m->epoch};
+    loops_slot_accessed(m, &f->slots[i], false);
     return &f->slots[i];
 }
 
@@ -338,8 +340,10 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
                                       ? machine_extract(m, high.value, (int)(end - high.offset),
                                                         (int)(high.offset + high.bits - end))
                                       : NULL;
-    for (int i = first; i < last; i++)
+    for (int i = first; i < last; i++) {
+        loops_slot_accessed(m, &f->slots[i], true);
         graph_unref(m, f->slots[i].value);
+    }
     f->slots_count -= last - first;
     memmove(&f->slots[first], &f->slots[last],
             (size_t)(f->slots_count - first) * sizeof *f->slots);

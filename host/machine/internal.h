@@ -164,6 +164,7 @@ struct slot {
     uint32_t epoch_accessed; /* ... when it was last accessed for the first time since an
                                 evaluation */
     bool overwritten_first;  /* that first access overwrote it: a temporary */
+    uint32_t call_accessed;  /* calls performed so far when it was last accessed: see loops.c */
 };
 
 /* Where an alias has its bits: VP r's first one is start + r div parts * outer + r mod parts * inner in
@@ -289,6 +290,9 @@ struct vanished {
 
 enum { TRACE_LENGTH = 128 };
 
+/* A plan's kernels: of one turn of a loop; of many, which must be one kernel. */
+enum rehearsal { REHEARSING_NOTHING, REHEARSING_ONE, REHEARSING_TURNS };
+
 struct machine {
     struct device device;
     bool device_open;
@@ -340,7 +344,7 @@ struct machine {
     int plans_size;
     struct background *background; /* background.c; NULL: nothing was wanted so far */
     struct plan *improving;        /* whose better kernels are being compiled there */
-    bool rehearsing;               /* evaluations see to their plan's kernels, and run none */
+    enum rehearsal rehearsing;     /* evaluations see to their plan's kernels, and run none */
     bool silent; /* what calls do is told to nobody: they will be performed once more */
     struct plan *rehearsed; /* by the last rehearsal; NULL: there was nothing to compute */
 
@@ -625,15 +629,19 @@ struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 /* Its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
+/* It is of many turns, and they cannot be one kernel. */
+bool plan_is_hopeless(const struct plan *p);
 /* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
 void plans_see_to(struct machine *m);
 const int *plan_stored(const struct plan *p, int *count);
 int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. dies (may be NULL): whose buffers nobody will look at afterwards if these are the only references:
- * what is stored may take their place. On failure none is put. */
+ * what is stored may take their place. kept (NULL: all): which of those stored are put there at all; the others are
+ * let go of when they have been used. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes, const bool *dies);
+                             struct machine_value *const *nodes, const bool *dies,
+                             const bool *kept);
 void plans_finish(struct machine *m);
 
 /* replay.c */
@@ -653,7 +661,9 @@ void replay_impure(struct machine *m);
 /* Before fields die, or VP sets change their shape. */
 void replay_forget(struct machine *m);
 bool replay_in_call(const struct machine *m);
-bool replay_in_loop(const struct machine *m);  /* then evaluations become due after calls */
+bool replay_in_loop(const struct machine *m); /* then evaluations become due after calls */
+/* In the call that is being performed. */
+void loops_slot_accessed(struct machine *m, struct slot *slot, bool overwrites);
 bool replay_thorough(const struct machine *m); /* evaluations are to leave nothing to compute */
 void replay_looked(struct machine *m);         /* somebody has, or something else begins */
 void replay_resolve(struct machine *m);        /* ... no lazy overflow either */

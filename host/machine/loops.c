@@ -2,7 +2,9 @@
  *
  * Until the calls of a loop are known as an edge they are performed one by one. Where the last few were met
  * before, by hash, tells a period; a whole period more tells that it is one. From then on evaluations come
- * after whole turns, always at the same call, so that they lead from a state to itself.
+ * after whole turns, always at the same call, so that they lead from a state to itself. Where a turn begins
+ * is told by whoever looks. If nobody does, it is where least has to be kept: in the program's own order, as
+ * a rule, for there its temporaries are overwritten before they are read.
  *
  * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
  * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
@@ -33,7 +35,8 @@ void loops_call(struct machine *m, const struct machine_call *call)
     if (h->period && h->hashes[(at - h->period) % HISTORY] == hash)
         h->match++;
     else
-        h->period = h->match = 0;
+        h->period = h->match = h->turn_at = h->looked_at = 0;
+    h->dead[h->count % HISTORY] = 0;
     uint64_t old = at >= WINDOW ? h->hashes[(at - WINDOW) % HISTORY] : 0;
     h->window = h->window * WINDOW_FACTOR + hash - old * WINDOW_LEAVES;
     h->hashes[at % HISTORY] = hash;
@@ -51,11 +54,60 @@ bool replay_in_loop(const struct machine *m)
     return h && h->period && h->match >= (h->period < LOOP_SURE ? h->period : LOOP_SURE);
 }
 
+void loops_slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
+{
+    struct history *h = m->replay ? &m->replay->history : NULL;
+    if (!h)
+        return;
+    if (overwrites && slot->call_accessed && h->count - slot->call_accessed < HISTORY) {
+        int32_t bytes = (int32_t)(slot->bits + 7) / 8;
+        h->dead[slot->call_accessed % HISTORY] += bytes;
+        h->dead[h->count % HISTORY] -= bytes;
+    }
+    slot->call_accessed = h->count;
+}
+
+/* Of the turn before the last one, for what is going to be overwritten is known there: after which call most is dead;
+ * where it makes no difference, where whole turns have gone since the last evaluation. */
+static uint32_t turn_at(const struct history *h, uint32_t since)
+{
+    uint32_t from = h->count - 2 * h->period + 1, usual = h->count - since % h->period,
+             best = usual;
+    int64_t dead = 0, most = INT64_MIN, here = 0;
+    for (uint32_t at = from; at != from + h->period; at++) {
+        dead += h->dead[at % HISTORY];
+        if ((usual - at) % h->period == 0)
+            here = dead;
+        if (dead > most) {
+            most = dead;
+            best = at;
+        }
+    }
+    return here == most ? usual : best;
+}
+
+/* Turns end after calls that are whole turns away from there. Whoever has looked once in the loop is expected to do so
+ * again, after the same call. */
+static uint32_t turns_end(struct replay *p)
+{
+    struct history *h = &p->history;
+    uint32_t in_loop = h->period + h->match;
+    if (p->since <= in_loop && p->looked)
+        return h->count - p->since;
+    if (h->looked_at && h->count - h->looked_at <= in_loop)
+        return h->looked_at;
+    if (h->match < h->period || 2 * h->period > HISTORY) /* what is kept where is not known */
+        return h->count - p->since;
+    if (!h->turn_at)
+        h->turn_at = turn_at(h, p->since);
+    return h->turn_at;
+}
+
 bool loop_turn_ends(const struct machine *m)
 {
-    const struct replay *p = m->replay;
-    return replay_in_loop(m) && p->since % p->history.period == 0 &&
-           m->nodes_pending >= m->settings.flush_after / 8;
+    if (!replay_in_loop(m) || m->nodes_pending < m->settings.flush_after / 8)
+        return false;
+    return (m->replay->history.count - turns_end(m->replay)) % m->replay->history.period == 0;
 }
 
 /* ---- many turns at once ---- */
@@ -73,9 +125,11 @@ static int evaluations(int turns, int at_once)
 
 /* How many turns of such a plan are evaluated at once: where nobody has said how many, up to a quarter more or fewer than
  * usual if that makes fewer evaluations for one who always looks after as many turns. */
-static int turns_at_once(const struct machine *m, const struct plan *plan)
+static int turns_at_once(const struct machine *m, const struct edge *e)
 {
-    int most = plan_turns(plan), usual = m->device.shape.turns, looks = m->turns_between_looks;
+    int most = plan_turns(e->deed.plan), usual = m->device.shape.turns,
+        looks = m->turns_between_looks;
+    most = e->turns_most && e->turns_most < most ? e->turns_most : most;
     int turns = most < usual ? most : usual;
     if (m->settings.knob[MACHINE_TURNS] != SETTING_FREE || m->looks_alike < LOOKS_SURE ||
         looks < 2 * usual || turns < usual)
@@ -96,7 +150,7 @@ int loop_turns_noted(struct machine *m, struct edge *e)
     if (!loop_is(m, e) || !p->thorough || e->runs < TURNS_SEEN)
         return 1;
     if (m->calls_noted <= e->calls_count || !e->turns_count) {
-        int turns = turns_at_once(m, e->deed.plan);
+        int turns = turns_at_once(m, e);
         if (turns != e->turns_count && (m->looks_alike >= LOOKS_SURE || !e->turns.plan)) {
             deed_finish(m, &e->turns);
             e->turns_count = turns;
@@ -114,7 +168,7 @@ static bool become_thorough(struct machine *m, struct edge *e)
     if (p->thorough || m->device.shape.turns < 2 || m->flushes < p->not_before ||
         e->runs < TURNS_SEEN || !e->alone)
         return false;
-    int turns = turns_at_once(m, e->deed.plan);
+    int turns = turns_at_once(m, e);
     if (turns < 2 || m->turns_in_row < 2 * turns) /* who looks more often gains nothing */
         return false;
     if (!e->rehearsed_thorough && background_on(m)) {
@@ -159,7 +213,7 @@ static void turns_in_vain(struct machine *m)
 
 /* All that is noted is performed, and evaluated but for running the plan; then the state is entered again, and it is as if
  * nothing had been. False: it cannot be entered, and all has been performed. */
-static bool rehearse(struct machine *m)
+static bool rehearse(struct machine *m, enum rehearsal what)
 {
     struct replay *p = m->replay;
     int active = p->active, edge = (int)(p->edge - p->states[active].edges);
@@ -171,10 +225,10 @@ static bool rehearse(struct machine *m)
     m->hold_flush = false;
     bool back = p->from == active && m->flushes == flushes;
     if (back) {
-        m->rehearsing = true;
+        m->rehearsing = what;
         m->rehearsed = NULL;
         run_evaluate(m, NULL, 0, false);
-        m->rehearsing = false;
+        m->rehearsing = REHEARSING_NOTHING;
         machine_error_clear(m); /* it will be said when it matters */
         graph_give_back(m);
         state_activate(m, active, p->from_buffers);
@@ -193,9 +247,9 @@ static bool rehearse(struct machine *m)
 }
 
 /* False: all has been performed, and is in memory. *plan: whose kernels are seen to; NULL: there is nothing to compute. */
-static bool rehearse_or_perform(struct machine *m, struct plan **plan)
+static bool rehearse_or_perform(struct machine *m, enum rehearsal what, struct plan **plan)
 {
-    bool back = rehearse(m);
+    bool back = rehearse(m, what);
     if (back) {
         *plan = m->rehearsed;
     } else {
@@ -215,7 +269,7 @@ bool loop_thorough_see_to(struct machine *m)
         return true;
     e->wants_thorough = false;
     p->thorough = true;
-    bool back = rehearse_or_perform(m, &e->rehearsed_thorough);
+    bool back = rehearse_or_perform(m, REHEARSING_ONE, &e->rehearsed_thorough);
     p->thorough = false;
     if (back && !e->rehearsed_thorough)
         p->not_before = m->flushes + TRY_AGAIN;
@@ -226,13 +280,19 @@ enum loop_turns loop_turns_see_to(struct machine *m)
 {
     struct replay *p = m->replay;
     struct edge *e = p->edge;
-    if (!background_on(m))
-        return TURNS_AT_HAND;
     if (!e->rehearsed && !background_busy(m)) {
-        if (!rehearse_or_perform(m, &e->rehearsed))
+        if (!rehearse_or_perform(m, REHEARSING_TURNS, &e->rehearsed))
             return TURNS_PERFORMED;
         if (!e->rehearsed)
             return TURNS_AT_HAND;
+    }
+    if (e->rehearsed && plan_is_hopeless(e->rehearsed)) { /* but fewer may be one kernel */
+        e->turns_most = e->turns_count / 2;
+        e->turns_count = e->turns_most > 1 ? 0 : 1;
+        e->rehearsed = NULL;
+        if (e->turns_count)
+            p->not_before = m->flushes + TRY_AGAIN;
+        return TURNS_WAIT;
     }
     if (e->rehearsed && !plan_waits(m, e->rehearsed))
         return TURNS_AT_HAND;
@@ -259,6 +319,9 @@ void loop_build_turns(struct machine *m)
 
 void replay_looked(struct machine *m)
 {
+    struct history *h = m->replay ? &m->replay->history : NULL;
+    if (h && h->period && !h->looked_at)
+        h->looked_at = h->count;
     if (!m->turns_in_row)
         return;
     m->looks_alike = m->turns_in_row == m->turns_between_looks ? m->looks_alike + 1 : 0;

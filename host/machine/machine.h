@@ -299,10 +299,10 @@ struct machine_explained {
     double copy_bytes_per_s; /* ... how fast; 0: none was */
 };
 
-/* What has happened so far, without calls that are noted and wait. Waits for the device; measures how fast it copies the first time that there is
- * something to compare it with, if measure. Valid until the next call or the machine's end. NULL: the
- * configuration did not ask for it, or not enough memory, or the exit comes from where machine_leave() must not
- * wait. */
+/* What has happened so far, without calls that are noted and wait. Waits for the device; measures how fast it copies
+ * the first time that there is something to compare it with, if measure. Valid until the next call or the machine's
+ * end. NULL: the configuration did not ask for it, or not enough memory, or the exit comes from where
+ * machine_leave() must not wait. */
 const struct machine_explained *machine_explain(struct machine *m, bool measure);
 
 /* Called between instructions from now on, where the machine is asked to explain. */

@@ -32,14 +32,20 @@ struct launch {
     int arguments_count;
 };
 
+/* What a plan stores. Of launches: the one that stores it, and the last that takes it. */
+struct array {
+    struct rows rows;
+    int first, last;
+};
+
 struct plan {
     uint32_t *signature;
     uint32_t signature_length;
     uint64_t hash;
     struct launch *launches;
     int launches_count;
-    int *stored; /* nodes that get a buffer */
-    struct rows *stored_rows;
+    int *stored; /* nodes that get a buffer, in the order of the launches */
+    struct array *arrays;
     int stored_count;
     uint32_t version;
     uint64_t worked; /* processors it has run on, all runs together */
@@ -51,6 +57,7 @@ struct plan {
     bool later;          /* its kernels are compiled in the background */
     struct plan *better; /* that one's are; it takes this one's place */
     bool empty;          /* there is nothing yet but a better one */
+    bool hopeless;       /* of many turns, that cannot be one kernel */
     struct plan *next;
 };
 
@@ -67,7 +74,7 @@ static void plan_free(struct plan *p)
     plan_free(p->better);
     free(p->launches);
     free(p->stored);
-    free(p->stored_rows);
+    free(p->arrays);
     free(p->signature);
     free(p);
 }
@@ -403,9 +410,20 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
         const struct plan_node *n = &g->nodes[stores[i]];
         if (g->strips && !n->target)
             continue;
-        p->stored_rows[p->stored_count] = observe_rows(&m->sets[n->set], n->type);
+        p->arrays[p->stored_count] = (struct array){observe_rows(&m->sets[n->set], n->type),
+                                                    p->launches_count, p->launches_count};
         p->stored[p->stored_count++] = stores[i];
     }
+}
+
+static void find_last_launches(struct plan *p)
+{
+    for (int i = 0; i < p->stored_count; i++)
+        for (int l = p->arrays[i].first + 1; l < p->launches_count; l++)
+            for (int k = 0; k < p->launches[l].arguments_count; k++)
+                if (p->launches[l].arguments[k].kind == ARGUMENT_INPUT &&
+                    p->launches[l].arguments[k].node == p->stored[i])
+                    p->arrays[i].last = l;
 }
 
 static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_graph *g,
@@ -428,6 +446,7 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
             if (count && !plan_kernel(m, p, g, stores, count))
                 return false;
         }
+    find_last_launches(p);
     return true;
 }
 
@@ -450,8 +469,8 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         p->quality = quality;
         p->later = later;
         p->stored = calloc((size_t)r->count, sizeof *p->stored);
-        p->stored_rows = calloc((size_t)r->count, sizeof *p->stored_rows);
-        good = p->stored && p->stored_rows;
+        p->arrays = calloc((size_t)r->count, sizeof *p->arrays);
+        good = p->stored && p->arrays;
     }
     if (good) {
         g.boxes = quality == BOXED;
@@ -482,12 +501,28 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
     return p;
 }
 
-/* later: its kernels are only wanted of the background. */
+static bool is_one_kernel(const struct plan *p)
+{
+    return p->launches_count == 1 && (p->launches[0].strip_bytes || p->launches[0].group);
+}
+
+/* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
                               enum quality quality, bool later)
 {
     bool strips = quality == BOXED || m->device.shape.always_strips;
     struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
+    if (m->rehearsing == REHEARSING_TURNS) {
+        if (p && !is_one_kernel(p)) {
+            if (later)
+                notes_settle(m, p);
+            plan_free(p);
+            p = NULL;
+        }
+        if (!p && later)
+            background_drop(m);
+        return p;
+    }
     if (!p && strips) { /* it cannot be done so */
         machine_error_clear(m);
         if (later)
@@ -535,7 +570,7 @@ static void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;
-    better->stored_rows = old.stored_rows;
+    better->arrays = old.arrays;
     better->signature = NULL;
     plan_free(better);
 }
@@ -613,6 +648,11 @@ const int *plan_stored(const struct plan *p, int *count)
     return p->stored;
 }
 
+bool plan_is_hopeless(const struct plan *p)
+{
+    return p->hopeless;
+}
+
 bool plan_waits(const struct machine *m, const struct plan *p)
 {
     return p == m->improving;
@@ -671,7 +711,8 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struc
     p->quality = BOXED;
     if (!plan_keep(m, p, r, hash))
         return NULL;
-    improvement_begin(m, p, r, t, BOXED);
+    bool made = background_on(m) ? improvement_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
+    p->hopeless = !made && m->rehearsing == REHEARSING_TURNS;
     return p;
 }
 
@@ -853,23 +894,48 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
+/* For what that launch stores. */
+static enum machine_status arrays_get(struct machine *m, const struct plan *p, int launch,
+                                      struct device_buffer **buffers)
+{
+    for (int i = 0; i < p->stored_count; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (p->arrays[i].first == launch && !*b &&
+            !(*b = device_rows_get(m, p->arrays[i].rows)))
+            return m->status;
+    }
+    return MACHINE_OK;
+}
+
+/* Of what no later launch takes, and nobody keeps: the next one may write there, for it runs later. */
+static void arrays_let_go(struct machine *m, const struct plan *p, int launch,
+                          struct device_buffer **buffers, const bool *kept)
+{
+    for (int i = 0; i < p->stored_count; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (p->arrays[i].last == launch && !kept[p->stored[i]] && *b) {
+            device_buffer_unref(m, *b);
+            *b = NULL;
+        }
+    }
+}
+
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes, const bool *dies)
+                             struct machine_value *const *nodes, const bool *dies,
+                             const bool *kept)
 {
     enum machine_status status = MACHINE_OK;
     double start = watch_clock(m);
     for (int i = 0; i < p->stored_count; i++)
         buffers[p->stored[i]] = NULL;
     uint32_t in_place = take_places(m, p, buffers, dies);
-    for (int i = 0; i < p->stored_count && !status; i++) {
-        struct device_buffer **b = &buffers[p->stored[i]];
-        if (!*b)
-            *b = device_rows_get(m, p->stored_rows[i]);
-        if (!*b)
-            status = m->status;
+    for (int i = 0; i < p->launches_count && !status; i++) {
+        status = arrays_get(m, p, i, buffers);
+        if (!status)
+            status = launch(m, &p->launches[i], buffers, nodes, in_place);
+        if (!status && kept)
+            arrays_let_go(m, p, i, buffers, kept);
     }
-    for (int i = 0; i < p->launches_count && !status; i++)
-        status = launch(m, &p->launches[i], buffers, nodes, in_place);
     m->kernels_in_place += in_place && !status;
     m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
     m->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;

@@ -61,6 +61,7 @@ void deed_finish(struct machine *m, struct deed *d)
     free(d->values);
     free(d->next);
     free(d->dies);
+    free(d->kept);
     *d = (struct deed){.plan = NULL};
 }
 
@@ -118,9 +119,8 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
         buffers[i] = d->from[i] >= 0 ? s->buffers[d->from[i]]
                      : d->values[i]  ? d->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, d->plan, buffers, d->values,
-                 d->dies)) /* it is going to be tried, and said, once more */
-        return false;
+    if (plan_run(m, d->plan, buffers, d->values, d->dies, d->kept))
+        return false; /* it is going to be tried, and said, once more */
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];
         device_buffer_ref(next[k]);
@@ -128,8 +128,10 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
     int count;
     const int *stored = plan_stored(d->plan, &count);
     for (int i = 0; i < count; i++)
-        device_buffer_unref(m, buffers[stored[i]]);
+        if (d->kept[stored[i]])
+            device_buffer_unref(m, buffers[stored[i]]);
     p->since = 0;
+    p->looked = !p->edge->alone;
     m->stores += d->stores;
     m->stores_evaluated = m->stores;
     m->flushes++;
@@ -465,11 +467,15 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
         buffers[stored[k]]->number = ~(uint32_t)stored[k];
     }
     int32_t *next = machine_allocated((size_t)w->buffers_count, sizeof *next);
+    bool *kept = machine_allocated((size_t)e->deed.nodes_count, sizeof *kept);
     e->deed.next = next;
+    e->deed.kept = kept;
     for (int k = 0; k < w->buffers_count; k++) {
         if (w->buffers[k]->mark != m->mark)
             return false;
         next[k] = (int32_t)w->buffers[k]->number;
+        if (next[k] < 0)
+            kept[~next[k]] = true;
     }
     e->deed.dies = machine_allocated((size_t)e->deed.nodes_count, sizeof *e->deed.dies);
     for (int i = 0; i < e->deed.nodes_count; i++) {
@@ -530,8 +536,10 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
     struct replay *p = m->replay;
     if (!p)
         return;
-    if (!p->depth)
+    if (!p->depth) {
         p->since = 0;
+        p->looked = !m->flushing;
+    }
     if (p->active >= 0) /* it changed nothing that is kept */
         return;
     if (p->depth) { /* in the middle of a call: what follows is no state's beginning */

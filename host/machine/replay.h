@@ -19,6 +19,7 @@ struct deed {
     int32_t *from;                 /* each node's buffer in the first state; -1: none */
     struct machine_value **values; /* each node that is a number, or keeps its own buffer */
     bool *dies;                    /* each node: its buffer is in no later state */
+    bool *kept;                    /* ... what the plan has stored is in the second state */
     int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
 };
 
@@ -31,6 +32,7 @@ struct edge {
     /* Of a loop, which is alone and leads back to its state: many turns of it in one evaluation. */
     struct deed turns;
     int turns_count; /* of them; 0: not decided, 1: none are worth it */
+    int turns_most;  /* more cannot be one kernel; 0: that is not known */
     /* Plans whose kernels are being built: of many turns; of one that leaves nothing to compute. NULL: none. */
     struct plan *rehearsed, *rehearsed_thorough;
     bool wants_thorough; /* the latter is to be rehearsed with the next turn */
@@ -67,6 +69,11 @@ enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128 };
 struct history {
     uint64_t hashes[HISTORY], window;
     uint32_t count, period, match;
+    /* Bytes of slots that are overwritten before they are read again, after so many calls: how many more than one
+     * call before. */
+    int32_t dead[HISTORY];
+    /* Calls so far where a turn ends: when most are dead; when somebody first looked. 0: that is not known. */
+    uint32_t turn_at, looked_at;
     struct {
         uint64_t window;
         uint32_t at;
@@ -76,6 +83,7 @@ struct history {
 struct replay {
     struct history history;
     uint32_t since; /* calls performed one by one since the last evaluation */
+    bool looked;    /* ... which was for somebody who looked */
     struct state states[STATES_MOST];
     int states_count, active; /* -1: none */
     uint64_t seen[HASHES_SEEN];

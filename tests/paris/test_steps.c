@@ -35,10 +35,8 @@ static uint64_t kernels_run(void)
     return now.kernels_run;
 }
 
-static void start(struct sheet *s)
+static void begin_sheet(struct sheet *s)
 {
-    unsigned int dimensions[2] = {HIGH, WIDE};
-    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
     s->cell = CM_allocate_heap_field(32);
     s->flow = CM_allocate_heap_field(32);
     s->neighbour = CM_allocate_heap_field(32);
@@ -46,6 +44,13 @@ static void start(struct sheet *s)
         s->wanted[i] = i * 2654435761u >> 7;
     assert_int_equal(
         machine_field_upload(paris_machine(), s->cell, MACHINE_UINT(32), s->wanted), 0);
+}
+
+static void start(struct sheet *s)
+{
+    unsigned int dimensions[2] = {HIGH, WIDE};
+    CM_set_vp_set(CM_allocate_vp_set(CM_create_geometry(dimensions, 2)));
+    begin_sheet(s);
 }
 
 /* Each takes up what its upper neighbour has more than its left one, but every other column keeps still. */
@@ -320,6 +325,167 @@ static void what_nobody_wants_is_written_over(void **state)
     expect(&s);
 }
 
+/* ---- where turns begin ---- */
+
+enum { SHORT_CALLS = 5 };
+
+/* Its temporaries are written before they are read. */
+static void short_turn(struct sheet *s)
+{
+    CM_get_from_news_1L(s->flow, s->cell, 0, CM_downward, 32);
+    CM_u_add_constant_2_1L(s->flow, 3, 32);
+    CM_get_from_news_1L(s->neighbour, s->cell, 1, CM_downward, 32);
+    CM_u_subtract_2_1L(s->neighbour, s->flow, 32);
+    CM_u_add_2_1L(s->cell, s->neighbour, 32);
+}
+
+static void short_turn_wanted(struct sheet *s)
+{
+    static uint32_t old[CELLS];
+    memcpy(old, s->wanted, sizeof old);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            s->wanted[y * WIDE + x] += old[y * WIDE + (x + WIDE - 1) % WIDE] -
+                                       (old[(y + HIGH - 1) % HIGH * WIDE + x] + 3);
+}
+
+/* Whatever was called before the loop, its turns are evaluated where they end: what they leave is the sheet alone. */
+static void only_the_sheet_is_stored(void **state)
+{
+    (void)state;
+    for (int before = 0; before < SHORT_CALLS; before++) {
+        struct machine_config config = machine_config_default();
+        config.explain = 1;
+        assert_true(paris_reset(&config));
+        struct sheet s;
+        start(&s);
+        for (int i = 0; i < before; i++)
+            CM_set_context();
+        for (int i = 0; i < 200; i++) {
+            short_turn(&s);
+            short_turn_wanted(&s);
+        }
+        expect(&s);
+        const struct machine_explained *x = machine_explain(paris_machine(), false);
+        assert_non_null(x);
+        uint64_t runs = 0, alone = 0;
+        for (int i = 0; i < x->kernels_count; i++) {
+            runs += x->kernels[i].generated ? x->kernels[i].runs : 0;
+            alone += x->kernels[i].arrays_written == 1 ? x->kernels[i].runs : 0;
+        }
+        assert_true(runs >= 200 / 4);
+        if (alone < runs * 9 / 10)
+            fail_msg("after %d calls: %d of %d runs store the sheet alone", before, (int)alone,
+                     (int)runs);
+    }
+}
+
+/* Where they ended before, what is looked at is in memory already; but then no look is after whole turns. */
+static void turns_end_where_somebody_looks(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    for (int i = 0; i < 60; i++) {
+        short_turn(&s);
+        short_turn_wanted(&s);
+    }
+    uint64_t before = 0;
+    for (int i = 0; i < 600; i++) {
+        CM_get_from_news_1L(s.flow, s.cell, 0, CM_downward, 32);
+        CM_u_add_constant_2_1L(s.flow, 3, 32);
+        if (i % 20 == 0) {
+            expect(&s);
+            before = i == 560 ? kernels_run() : before;
+        }
+        CM_get_from_news_1L(s.neighbour, s.cell, 1, CM_downward, 32);
+        CM_u_subtract_2_1L(s.neighbour, s.flow, 32);
+        CM_u_add_2_1L(s.cell, s.neighbour, 32);
+        short_turn_wanted(&s);
+        if (i == 580)
+            break;
+    }
+    assert_int_equal(kernels_run() - before, 2);
+    expect(&s);
+}
+
+/* Two sheets, each of which takes up what lies around in the other; somebody may look in between. */
+static void coupled_turn(struct sheet s[2], bool looks)
+{
+    for (int k = 0; k < 2; k++) {
+        CM_u_move_1L(s[k].flow, s[k].cell, 32);
+        for (unsigned int axis = 0; axis < 2; axis++)
+            for (int way = 0; way < 2; way++) {
+                CM_get_from_news_1L(s[0].neighbour, s[k].cell, axis,
+                                    way ? CM_upward : CM_downward, 32);
+                CM_u_add_2_1L(s[k].flow, s[0].neighbour, 32);
+                if (looks && k == 1 && axis == 1 && way == 0)
+                    CM_u_read_from_processor_1L(0, s[0].flow, 32);
+            }
+    }
+    CM_u_add_2_1L(s[0].cell, s[1].flow, 32);
+    CM_u_add_2_1L(s[1].cell, s[0].flow, 32);
+}
+
+static void coupled_turn_wanted(struct sheet s[2])
+{
+    static uint32_t flow[2][CELLS];
+    for (int k = 0; k < 2; k++)
+        for (int y = 0; y < HIGH; y++)
+            for (int x = 0; x < WIDE; x++) {
+                const uint32_t *old = s[k].wanted;
+                flow[k][y * WIDE + x] =
+                    old[y * WIDE + x] + old[(y + HIGH - 1) % HIGH * WIDE + x] +
+                    old[(y + 1) % HIGH * WIDE + x] + old[y * WIDE + (x + WIDE - 1) % WIDE] +
+                    old[y * WIDE + (x + 1) % WIDE];
+            }
+    for (int i = 0; i < CELLS; i++) {
+        s[0].wanted[i] += flow[1][i];
+        s[1].wanted[i] += flow[0][i];
+    }
+}
+
+/* Sixteen turns that begin in the middle need more columns around a strip than there are; eight do not. */
+static void as_many_turns_as_can_be_are_one_kernel(void **state)
+{
+    (void)state;
+    struct sheet s[2];
+    start(&s[0]);
+    begin_sheet(&s[1]);
+    uint64_t before = 0;
+    for (int i = 0; i < 320; i++) {
+        if (i == 160)
+            before = kernels_run();
+        coupled_turn(s, i == 3);
+        coupled_turn_wanted(s);
+    }
+    for (int k = 0; k < 2; k++)
+        expect(&s[k]);
+    assert_true(kernels_run() - before <= 160 / 4);
+}
+
+static int one_turn_at_a_time(void **state)
+{
+    static const char *const unset[] = {"LUTETIA_STRIPS", "LUTETIA_COLUMNS",
+                                        "LUTETIA_IN_PLACE"};
+    (void)state;
+    for (size_t i = 0; i < sizeof unset / sizeof unset[0]; i++)
+        unsetenv(unset[i]);
+    setenv("LUTETIA_TURNS", "1", 1);
+    setenv("LUTETIA_BOX_AFTER", "0", 1);
+    return 0;
+}
+
+static int eight_turns_at_a_time(void **state)
+{
+    (void)state;
+    setenv("LUTETIA_STRIPS", "1", 1);
+    setenv("LUTETIA_COLUMNS", "32", 1);
+    setenv("LUTETIA_TURNS", "8", 1); /* twice two of the program's */
+    setenv("LUTETIA_FLUSH_AFTER", "240", 1);
+    return paris_reset(NULL) ? 0 : -1;
+}
+
 static int forced_whole_rows(void **state)
 {
     (void)state;
@@ -375,9 +541,12 @@ int main(void)
         cmocka_unit_test_setup(what_nobody_wants_is_written_over, forced_whole_rows),
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test_setup(none_is_left_over, usual_turns_in_strips),
+        cmocka_unit_test(turns_end_where_somebody_looks),
         cmocka_unit_test(what_comes_between_is_seen),
         cmocka_unit_test_setup(a_loop_without_boxes_is_many_turns_at_once,
                                better_after_a_while),
+        cmocka_unit_test_setup(only_the_sheet_is_stored, one_turn_at_a_time),
+        cmocka_unit_test_setup(as_many_turns_as_can_be_are_one_kernel, eight_turns_at_a_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
