@@ -416,14 +416,17 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
     }
 }
 
+/* Of a stage that was split, each launch stores a part. */
 static void find_last_launches(struct plan *p)
 {
     for (int i = 0; i < p->stored_count; i++)
         for (int l = p->arrays[i].first + 1; l < p->launches_count; l++)
-            for (int k = 0; k < p->launches[l].arguments_count; k++)
-                if (p->launches[l].arguments[k].kind == ARGUMENT_INPUT &&
-                    p->launches[l].arguments[k].node == p->stored[i])
+            for (int k = 0; k < p->launches[l].arguments_count; k++) {
+                const struct kernel_argument *a = &p->launches[l].arguments[k];
+                if ((a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT) &&
+                    a->node == p->stored[i])
                     p->arrays[i].last = l;
+            }
 }
 
 static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_graph *g,
