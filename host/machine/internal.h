@@ -635,6 +635,8 @@ bool plan_is_hopeless(const struct plan *p);
 void plans_see_to(struct machine *m);
 const int *plan_stored(const struct plan *p, int *count);
 int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
+
+/* plan_run.c */
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
  * that are numbers. dies (may be NULL): whose buffers nobody will look at afterwards if these are the only references:
  * what is stored may take their place. kept (NULL: all): which of those stored are put there at all; the others are
