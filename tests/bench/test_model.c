@@ -10,7 +10,7 @@
 
 #include "model.h"
 
-static const int SIDE = 1024, ROUNDS = 3;
+static const int SIDE = 1024, ROUNDS = 9;
 static const double DEARER_MOST = 1.4, WRONG_MOST = 4;
 
 static double lesser(double a, double b)
