@@ -315,8 +315,8 @@ static bool all_agree(struct sheet *s, struct runner *runners, int runners_count
 static bool runner_ready(void *context)
 {
     struct runner *r = context;
-    /* As many as are one pipeline. */
-    return r->steps(r->sheet, r->which, r->steps == peer_steps && r->which == 2 ? 4 : 1);
+    /* As many as are one pipeline; else two, for many read one copy of the sheet and write another. */
+    return r->steps(r->sheet, r->which, r->steps == peer_steps && r->which == 2 ? 4 : 2);
 }
 
 static bool runner_work(void *context)

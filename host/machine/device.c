@@ -22,8 +22,9 @@
 enum {
     PROGRAMS_SIZE = 1024,
     LARGE_PAGE_BYTES = 2 << 20,
-    SKEW_BYTES = 128,
-    SKEWS = 61,
+    SKEW_BYTES = 7 * 128,
+    SKEW_PAGE_BYTES = 4096,
+    SKEW_LARGE_BYTES = 64 << 10,
     POOL_BYTES_MAX = 1 << 30
 };
 
@@ -436,9 +437,23 @@ static cl_mem memory_get(const struct device *d, struct rows rows, cl_int *error
     return NULL;
 }
 
+/* How far behind a page's beginning the next array begins at most. Processors compare addresses by their last 12 bits first,
+ * and hold back what reads where something a little before it seems to write: nine arrays in a row are 384 bytes apart
+ * in this or more (sub-buffers begin at multiples of 128). And of many large ones, rows are not all in the same places
+ * of a cache. */
+static size_t skew_room(size_t bytes)
+{
+    return bytes < LARGE_PAGE_BYTES ? SKEW_PAGE_BYTES : SKEW_LARGE_BYTES;
+}
+
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
 {
     return device_rows_get(m, (struct rows){bytes, 0});
+}
+
+bool device_rows_fit(const struct device_buffer *b, struct rows rows)
+{
+    return b->bytes == rows.bytes && b->first == rows.first % LINE_BYTES;
 }
 
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
@@ -447,7 +462,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     size_t bytes = rows.bytes;
     rows.first %= LINE_BYTES;
     for (int i = d->pool_count - 1; i >= 0; i--)
-        if (d->pool[i]->bytes == bytes && d->pool[i]->first == rows.first) {
+        if (device_rows_fit(d->pool[i], rows)) {
             struct device_buffer *b = d->pool[i];
             d->pool[i] = d->pool[--d->pool_count];
             d->pool_bytes -= bytes;
@@ -455,7 +470,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
             b->refs = 1;
             return b;
         }
-    size_t whole = bytes + SKEW_BYTES * SKEWS + 2 * DEVICE_GUARD_BYTES;
+    size_t whole = bytes + skew_room(bytes) + 2 * DEVICE_GUARD_BYTES;
     if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
         pool_empty(d);
         machine_fail(
@@ -476,8 +491,9 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
         parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     }
     if (!error) {
-        cl_buffer_region region = {
-            .origin = DEVICE_GUARD_BYTES + SKEW_BYTES * (d->skew++ % SKEWS), .size = bytes};
+        cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES +
+                                             SKEW_BYTES * d->skew++ % skew_room(bytes),
+                                   .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
         if (error) { /* an alignment that the device does not like */

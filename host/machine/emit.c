@@ -15,21 +15,37 @@
 #include "kernels.h"
 #include "narrow.h"
 
-/* A loop with the body; head: what it begins with, which declares x. */
-static void emit_loop(const struct emitter *e, struct text *t, const char *head, bool boxes)
+/* Of all columns from `begin` to `end`; the last vector may overlap the one before it. boxes: whole vectors from `from` to
+ * `to` are inside all boxes. Such columns are neighbours: they are looked for from both ends, where most boxes end. */
+static void emit_loop(const struct emitter *e, struct text *t, bool boxes)
 {
-    const char *body = e->body.data ? e->body.data : "";
-    if (boxes)
-        text_put(t, "    const int row_inside = 1%s;\n",
-                 e->row_tests.data ? e->row_tests.data : "");
-    text_put(t, "%s", head);
+    const char *body = e->body.data ? e->body.data : "",
+               *tests = e->column_tests.data ? e->column_tests.data : "";
     if (boxes)
         text_put(
             t,
-            "        if (row_inside%s) {\n#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        "
-            "continue;\n        }\n",
-            e->column_tests.data ? e->column_tests.data : "", body);
-    text_put(t, "#define BOX(e) (e)\n%s#undef BOX\n    }\n", body);
+            "    int from = end, to = end;\n"
+            "    if (1%s) {\n"
+            "        for (from = begin; from < end; from += VECTOR) {\n"
+            "            const int x = from;\n"
+            "            if (x + VECTOR <= W%s)\n                break;\n        }\n"
+            "        to = begin + (end - begin) / VECTOR * VECTOR;\n"
+            "        for (; to > from; to -= VECTOR) {\n"
+            "            const int x = to - VECTOR;\n"
+            "            if (x + VECTOR <= W%s)\n                break;\n        }\n    }\n",
+            e->row_tests.data ? e->row_tests.data : "", tests, tests);
+    text_put(t, "    for (int at = begin; at < end; at += VECTOR) {\n");
+    if (boxes)
+        text_put(t,
+                 "        for (; at >= from && at < to; at += VECTOR) {\n"
+                 "            const int x = at;\n"
+                 "#define BOX(e) ((VI)(-1))\n%s#undef BOX\n        }\n"
+                 "        if (at >= end)\n            break;\n",
+                 body);
+    text_put(t,
+             "        const int x = min(at, W - VECTOR);\n"
+             "#define BOX(e) (e)\n%s#undef BOX\n    }\n",
+             body);
 }
 
 static void header(struct emitter *e, struct text *t)
@@ -110,10 +126,7 @@ static bool rows_kernel(const struct plan_graph *g, const int *stores, int store
              e->constants.data ? e->constants.data : "");
     text_put(&t, "    const int begin = get_global_id(0) * RUN, end = min(begin + RUN, W);\n");
     out->has_boxes = (e->row_tests.data || e->column_tests.data) && out->vector > 1;
-    emit_loop(e, &t,
-              "    for (int at = begin; at < end; at += VECTOR) {\n"
-              "        const int x = min(at, W - VECTOR);\n",
-              out->has_boxes && g->boxes);
+    emit_loop(e, &t, out->has_boxes && g->boxes);
     text_put(&t, "}\n");
     out->text = t.data;
     out->arguments = e->arguments.list;

@@ -629,6 +629,8 @@ struct plan;
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 /* Its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
+/* It is as good as it will be, and takes a kernel or more of each VP set for each of so many turns. */
+bool plan_saves_nothing(const struct plan *p, int turns);
 /* It is of many turns, and they cannot be one kernel. */
 bool plan_is_hopeless(const struct plan *p);
 /* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
@@ -637,13 +639,21 @@ const int *plan_stored(const struct plan *p, int *count);
 int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
 
 /* plan_run.c */
+/* What is known of buffers before a run that has been foreseen. */
+struct fates {
+    /* Of a node: nobody will look at its buffer afterwards, if this is the only reference. What is stored may take its
+     * place. */
+    const bool *dies;
+    const bool *
+        kept; /* of a node that is stored: who asked wants it; else it is let go of when it has been used */
+    /* What nobody will look at any more, nor this plan, where there is no other reference: room for what is stored. */
+    struct device_buffer *const *spare;
+    int spare_count;
+};
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
- * that are numbers. dies (may be NULL): whose buffers nobody will look at afterwards if these are the only references:
- * what is stored may take their place. kept (NULL: all): which of those stored are put there at all; the others are
- * let go of when they have been used. On failure none is put. */
+ * that are numbers. fates: NULL: nothing is known. On failure none is put, and nothing has been written over. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes, const bool *dies,
-                             const bool *kept);
+                             struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);
 
 /* replay.c */
@@ -772,6 +782,7 @@ struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
 /* On CPUs the first column is where a line of the caches begins. */
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows);
+bool device_rows_fit(const struct device_buffer *b, struct rows rows);
 void device_buffer_ref(struct device_buffer *b);
 void device_buffer_unref(struct machine *m, struct device_buffer *b);
 /* The kernel of that name in a program of these parts, all but the last the same for many; from

@@ -24,6 +24,12 @@ enum { TURNS_SEEN = 6, TRY_AGAIN = 8192, LOOKS_SURE = 8 };
 #define WINDOW_LEAVES SQUARE(SQUARE(SQUARE(WINDOW_FACTOR)))
 _Static_assert(WINDOW == 8, "WINDOW_LEAVES is the factor to that power");
 
+static void loop_forget(struct history *h)
+{
+    h->period = h->match = h->turn_at = h->looked_at = 0;
+    h->one_by_one = false;
+}
+
 void loops_call(struct machine *m, const struct machine_call *call)
 {
     struct history *h = &m->replay->history;
@@ -35,7 +41,7 @@ void loops_call(struct machine *m, const struct machine_call *call)
     if (h->period && h->hashes[(at - h->period) % HISTORY] == hash)
         h->match++;
     else
-        h->period = h->match = h->turn_at = h->looked_at = 0;
+        loop_forget(h);
     h->dead[h->count % HISTORY] = 0;
     uint64_t old = at >= WINDOW ? h->hashes[(at - WINDOW) % HISTORY] : 0;
     h->window = h->window * WINDOW_FACTOR + hash - old * WINDOW_LEAVES;
@@ -105,9 +111,21 @@ static uint32_t turns_end(struct replay *p)
 
 bool loop_turn_ends(const struct machine *m)
 {
-    if (!replay_in_loop(m) || m->nodes_pending < m->settings.flush_after / 8)
+    if (!replay_in_loop(m) || !m->nodes_pending)
+        return false;
+    if (!m->replay->history.one_by_one && m->nodes_pending < m->settings.flush_after / 8)
         return false;
     return (m->replay->history.count - turns_end(m->replay)) % m->replay->history.period == 0;
+}
+
+bool loops_evaluate(struct machine *m, const struct plan *plan)
+{
+    struct history *h = &m->replay->history;
+    if (!m->flushing || m->building || !replay_in_loop(m) || h->one_by_one)
+        return false;
+    uint32_t turns = m->replay->since / h->period;
+    h->one_by_one = turns > 1 && plan_saves_nothing(plan, (int)turns);
+    return h->one_by_one;
 }
 
 /* ---- many turns at once ---- */

@@ -582,6 +582,18 @@ const int *plan_stored(const struct plan *p, int *count)
     return p->stored;
 }
 
+bool plan_saves_nothing(const struct plan *p, int turns)
+{
+    int sets = 0;
+    for (int i = 0; i < p->launches_count; i++) {
+        bool first = true;
+        for (int k = 0; k < i; k++)
+            first = first && p->launches[k].set != p->launches[i].set;
+        sets += first;
+    }
+    return p->quality == BOXED && p->launches_count >= turns * sets;
+}
+
 bool plan_is_hopeless(const struct plan *p)
 {
     return p->hopeless;

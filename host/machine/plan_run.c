@@ -179,14 +179,31 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
+/* Where the only kernel of a plan may write at once. It is the least that caches have to hold: of what is in memory
+ * otherwise they hold nothing. NULL: nowhere. */
+static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
+                                       const struct fates *fates)
+{
+    for (int i = 0; fates && p->launches_count == 1 && i < fates->spare_count; i++) {
+        struct device_buffer *b = fates->spare[i];
+        if (b->refs == 1 && device_rows_fit(b, rows)) {
+            device_buffer_ref(b);
+            return b;
+        }
+    }
+    return NULL;
+}
+
 /* For what that launch stores. */
 static enum machine_status arrays_get(struct machine *m, const struct plan *p, int launch,
-                                      struct device_buffer **buffers)
+                                      struct device_buffer **buffers, const struct fates *fates)
 {
     for (int i = 0; i < p->stored_count; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
-        if (p->arrays[i].first == launch && !*b &&
-            !(*b = device_rows_get(m, p->arrays[i].rows)))
+        if (p->arrays[i].first != launch || *b)
+            continue;
+        *b = spare_get(p, p->arrays[i].rows, fates);
+        if (!*b && !(*b = device_rows_get(m, p->arrays[i].rows)))
             return m->status;
     }
     return MACHINE_OK;
@@ -206,20 +223,19 @@ static void arrays_let_go(struct machine *m, const struct plan *p, int launch,
 }
 
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
-                             struct machine_value *const *nodes, const bool *dies,
-                             const bool *kept)
+                             struct machine_value *const *nodes, const struct fates *fates)
 {
     enum machine_status status = MACHINE_OK;
     double start = watch_clock(m);
     for (int i = 0; i < p->stored_count; i++)
         buffers[p->stored[i]] = NULL;
-    uint32_t in_place = take_places(m, p, buffers, dies);
+    uint32_t in_place = take_places(m, p, buffers, fates ? fates->dies : NULL);
     for (int i = 0; i < p->launches_count && !status; i++) {
-        status = arrays_get(m, p, i, buffers);
+        status = arrays_get(m, p, i, buffers, fates);
         if (!status)
             status = launch(m, &p->launches[i], buffers, nodes, in_place);
-        if (!status && kept)
-            arrays_let_go(m, p, i, buffers, kept);
+        if (!status && fates)
+            arrays_let_go(m, p, i, buffers, fates->kept);
     }
     m->kernels_in_place += in_place && !status;
     m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;

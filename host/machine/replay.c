@@ -62,6 +62,7 @@ void deed_finish(struct machine *m, struct deed *d)
     free(d->next);
     free(d->dies);
     free(d->kept);
+    free(d->spare);
     *d = (struct deed){.plan = NULL};
 }
 
@@ -109,17 +110,21 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
     if (!d->plan || plan_version(m, d->plan) != d->version)
         return false;
     graph_give_back(m);
-    if (d->nodes_count + t->buffers_count > p->scratch_capacity) {
-        p->scratch_capacity = d->nodes_count + t->buffers_count;
+    if (d->nodes_count + t->buffers_count + d->spare_count > p->scratch_capacity) {
+        p->scratch_capacity = d->nodes_count + t->buffers_count + d->spare_count;
         free(p->scratch);
         p->scratch = machine_allocated((size_t)p->scratch_capacity, sizeof *p->scratch);
     }
-    struct device_buffer **buffers = p->scratch, **next = p->scratch + d->nodes_count;
+    struct device_buffer **buffers = p->scratch, **next = p->scratch + d->nodes_count,
+                         **spare = next + t->buffers_count;
     for (int i = 0; i < d->nodes_count; i++)
         buffers[i] = d->from[i] >= 0 ? s->buffers[d->from[i]]
                      : d->values[i]  ? d->values[i]->buffer
                                      : NULL;
-    if (plan_run(m, d->plan, buffers, d->values, d->dies, d->kept))
+    for (int i = 0; i < d->spare_count; i++)
+        spare[i] = s->buffers[d->spare[i]];
+    const struct fates fates = {d->dies, d->kept, spare, d->spare_count};
+    if (plan_run(m, d->plan, buffers, d->values, &fates))
         return false; /* it is going to be tried, and said, once more */
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];
@@ -424,7 +429,8 @@ void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value
     struct replay *p = m->replay;
     if (!p)
         return;
-    if (p->depth)
+    p->forgets = loops_evaluate(m, plan);
+    if (p->depth || p->forgets)
         replay_from_forget(m);
     if (p->from < 0)
         return;
@@ -442,6 +448,20 @@ void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value
         p->made = e;
     else
         edge_finish(m, &e);
+}
+
+static void find_spare(struct deed *d, int from_count, int to_count)
+{
+    d->spare = machine_allocated((size_t)from_count, sizeof *d->spare);
+    for (int k = 0; k < from_count; k++) {
+        bool spare = true;
+        for (int i = 0; i < d->nodes_count; i++)
+            spare = spare && d->from[i] != k;
+        for (int i = 0; i < to_count; i++)
+            spare = spare && d->next[i] != k;
+        if (spare)
+            d->spare[d->spare_count++] = k;
+    }
 }
 
 /* The edge that has been made leads to the state walked. */
@@ -483,6 +503,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
         for (int k = 0; k < w->buffers_count && e->deed.dies[i]; k++)
             e->deed.dies[i] = next[k] != e->deed.from[i];
     }
+    find_spare(&e->deed, p->from_buffers_count, w->buffers_count);
     e->to = to;
     e->calls = machine_allocated((size_t)e->calls_count, sizeof *e->calls);
     memcpy(e->calls, p->log, (size_t)e->calls_count * sizeof *e->calls);
@@ -540,6 +561,9 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
         p->since = 0;
         p->looked = !m->flushing;
     }
+    if (p->forgets)
+        states_forget(m);
+    p->forgets = false;
     if (p->active >= 0) /* it changed nothing that is kept */
         return;
     if (p->depth) { /* in the middle of a call: what follows is no state's beginning */

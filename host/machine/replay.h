@@ -21,6 +21,9 @@ struct deed {
     bool *dies;                    /* each node: its buffer is in no later state */
     bool *kept;                    /* ... what the plan has stored is in the second state */
     int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
+    int32_t *
+        spare; /* buffers of the first state that the plan does not take, and that are not in the second */
+    int spare_count;
 };
 
 struct edge {
@@ -74,6 +77,8 @@ struct history {
     int32_t dead[HISTORY];
     /* Calls so far where a turn ends: when most are dead; when somebody first looked. 0: that is not known. */
     uint32_t turn_at, looked_at;
+    bool
+        one_by_one; /* each turn is evaluated, however little it is: several together take no fewer kernels */
     struct {
         uint64_t window;
         uint32_t at;
@@ -108,6 +113,7 @@ struct replay {
     bool catching_up;
     struct edge made; /* by the evaluation under way */
     bool making;
+    bool forgets; /* when it is over: the loop has been evaluated otherwise until now */
 
     struct device_buffer **scratch;
     int scratch_capacity;
@@ -149,6 +155,9 @@ void states_forget(struct machine *m);
 void loops_call(struct machine *m, const struct machine_call *call);
 /* After a call: a turn of the loop is complete, or several if they are short. */
 bool loop_turn_ends(const struct machine *m);
+/* What has been recorded since the last evaluation is going to be evaluated so. True: several turns of a loop, which are
+ * evaluated one by one from now on. */
+bool loops_evaluate(struct machine *m, const struct plan *plan);
 /* How many turns of it are noted before any is performed. */
 int loop_turns_noted(struct machine *m, struct edge *e);
 /* Many turns of the loop, for the first time: performed call by call, and evaluated at the end. */

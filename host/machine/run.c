@@ -126,7 +126,7 @@ static enum machine_status execute(struct machine *m, struct plan *p, const stru
     for (int i = 0; i < r->count; i++)
         buffers[i] = r->nodes[i]->buffer;
     replay_evaluates(m, p, r->nodes, r->count, buffers);
-    enum machine_status status = plan_run(m, p, buffers, r->nodes, NULL, NULL);
+    enum machine_status status = plan_run(m, p, buffers, r->nodes, NULL);
     const int *stored = plan_stored(p, &count);
     /* Users first: a node whose inputs are let go may be the last to hold them. */
     for (int i = count - 1; i >= 0 && !status; i--) {

@@ -246,10 +246,11 @@ static void find_inside(struct strips *s, struct pass *pass)
 }
 
 /* Of the rows of an array that a pass reads, the one that it comes to first. */
-static bool is_fetched(const struct strips *s, const struct pass *pass, const struct pointer *p)
+static bool comes_first(const struct strips *s, const struct pass *pass,
+                        const struct pointer *p)
 {
     const struct emitter *e = &pass->e;
-    bool newest = s->g->nodes[p->node].leaf && pass->inside[p->node];
+    bool newest = s->g->nodes[p->node].leaf;
     for (int k = 0; k < e->pointers_count; k++)
         newest = newest && (e->seen_pointers[k].node != p->node ||
                             (emit_rows_down(e, &e->seen_pointers[k]) - emit_rows_down(e, p)) *
@@ -258,19 +259,53 @@ static bool is_fetched(const struct strips *s, const struct pass *pass, const st
     return newest;
 }
 
+static bool is_fetched(const struct strips *s, const struct pass *pass, const struct pointer *p)
+{
+    return pass->inside[p->node] && comes_first(s, pass, p);
+}
+
+static char next_row(const struct strips *s)
+{
+    return s->downward > 0 ? '+' : '-';
+}
+
 /* What the next turn of the loop over columns is going to want of the next row. */
 static void prefetch_columns(const struct strips *s, struct pass *pass, struct text *t)
 {
     const struct emitter *e = &pass->e;
-    char next = s->downward > 0 ? '+' : '-';
     for (int i = 0; i < e->pointers_count; i++)
         if (is_fetched(s, pass, &e->seen_pointers[i]))
-            text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next,
+            text_put(t, "        PREFETCH(p%d %c PITCH + x + %d, 0);\n", i, next_row(s),
                      e->seen_pointers[i].high);
     for (int i = 0; i < pass->outputs_count; i++)
         if (pass->outputs[i].array)
-            text_put(t, "        PREFETCH_STORE(q%d %c PITCH + x + %d);\n", i, next,
+            text_put(t, "        PREFETCH_STORE(q%d %c PITCH + x + %d);\n", i, next_row(s),
                      s->ahead[pass->outputs[i].node] * s->vector);
+}
+
+/* What is looked at outside of boxes only: a vector or two of a row, each of which would be waited for. */
+static void prefetch_outside(const struct strips *s, struct pass *pass, struct text *t)
+{
+    const struct emitter *e = &pass->e;
+    for (int i = 0; i < e->pointers_count; i++)
+        if (!pass->inside[e->seen_pointers[i].node] &&
+            comes_first(s, pass, &e->seen_pointers[i]))
+            text_put(t, "        PREFETCH(p%d %c PITCH + x, 0);\n", i, next_row(s));
+}
+
+/* What is looked at beyond the columns that a loop goes over. */
+static void prefetch_beyond(const struct strips *s, struct pass *pass, struct text *t)
+{
+    const struct emitter *e = &pass->e;
+    for (int i = 0; i < e->pointers_count; i++) {
+        const struct pointer *p = &e->seen_pointers[i];
+        if (comes_first(s, pass, p) && p->low < 0)
+            text_put(t, "    PREFETCH(p%d %c PITCH + first - %d, 0);\n", i, next_row(s),
+                     pass->before + 1);
+        if (comes_first(s, pass, p) && p->high > 0)
+            text_put(t, "    PREFETCH(p%d %c PITCH + last + %d, 0);\n", i, next_row(s),
+                     pass->after);
+    }
 }
 
 /* Rows one after the other: which rows there are, and what a turn fetches of them. */
@@ -278,7 +313,7 @@ static void prefetch_rows(const struct strips *s, struct pass *pass, struct text
                           struct text *turn)
 {
     const struct emitter *e = &pass->e;
-    char next = s->downward > 0 ? '+' : '-';
+    char next = next_row(s);
     text_put(before, "    const struct row_ahead ahead[] = {\n");
     for (int i = 0; i < e->pointers_count; i++)
         if (is_fetched(s, pass, &e->seen_pointers[i]))
@@ -319,7 +354,8 @@ static void columns_loop(const struct strips *s, struct text *t, const char *fro
 /* The loops over columns; fetch: what a turn fetches. */
 static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
 {
-    struct text *t = &pass->text;
+    struct text *t = &pass->text, outside = {0};
+    prefetch_outside(s, pass, &outside);
     const char *body = pass->e.body.data, *store = pass->even ? "STORE_EVEN" : "STORE_INSIDE";
     int lead = s->rightward > 0 ? pass->before + pass->columns : pass->after - pass->columns;
     if (pass->even && lead > 0) {
@@ -329,9 +365,9 @@ static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
             columns_loop(s, t, "last", -pass->columns, "last", pass->after);
         text_put(t,
                  "#define BOX(e) (e)\n#define RING_STORE NOT_STORED\n"
-                 "#define ROW_STORE NOT_STORED\n%s"
+                 "#define ROW_STORE NOT_STORED\n%s%s%s"
                  "#undef BOX\n#undef RING_STORE\n#undef ROW_STORE\n    }\n",
-                 body);
+                 fetch ? fetch : "", outside.data ? outside.data : "", body);
     }
     text_put(t, "#define RING_STORE(kind, q, i, v) OUT_##kind(q, i, v)\n");
     if (pass->even)
@@ -349,11 +385,13 @@ static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
                  pass->even         ? -pass->columns
                  : s->rightward > 0 ? pass->after
                                     : -pass->before);
-    text_put(t, "%s", fetch ? fetch : "");
+    text_put(t, "%s%s", fetch ? fetch : "", outside.data ? outside.data : "");
     text_put(t,
              "#define BOX(e) (e)\n#define ROW_STORE %s\n"
              "%s#undef BOX\n#undef ROW_STORE\n    }\n#undef RING_STORE\n",
              pass->even ? store : "STORE_AT_EDGE", body);
+    s->failed = s->failed || outside.failed;
+    free(outside.data);
     int own = 0;
     for (int i = 0; i < pass->outputs_count && pass->even; i++) {
         own = pass->outputs[i].asks ? i : own;
@@ -453,6 +491,7 @@ static void pass_text(struct strips *s, struct pass *pass)
         prefetch_rows(s, pass, t, &fetch);
     else
         prefetch_columns(s, pass, &fetch);
+    prefetch_beyond(s, pass, t);
     loops_text(s, pass, fetch.data);
     s->failed = s->failed || fetch.failed;
     free(fetch.data);

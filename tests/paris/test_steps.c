@@ -12,7 +12,7 @@
 #include "paris_internal.h"
 #include <cm/paris.h>
 
-#include "machine.h"
+#include "internal.h"
 
 enum { HIGH = 96, WIDE = 64, CELLS = HIGH * WIDE };
 
@@ -464,6 +464,63 @@ static void as_many_turns_as_can_be_are_one_kernel(void **state)
     assert_true(kernels_run() - before <= 160 / 4);
 }
 
+static struct device_buffer *buffer_of(CM_field_id_t id)
+{
+    const struct machine *m = paris_machine();
+    for (int i = 0; i < m->fields_count; i++)
+        if (m->fields[i]->base == id)
+            return m->fields[i]->slots[0].value->buffer;
+    return NULL;
+}
+
+/* Temporaries are not computed, and hold on to what the sheet was before; but one turn later nobody does. */
+static void two_arrays_take_turns(void **state)
+{
+    (void)state;
+    struct sheet s;
+    static uint32_t before[CELLS], wanted[CELLS], got[CELLS];
+    struct device_buffer *last[2] = {NULL, NULL};
+    start(&s);
+    for (int i = 0; i < 40; i++) {
+        short_turn(&s);
+        memcpy(before, s.wanted, sizeof before);
+        short_turn_wanted(&s);
+        assert_int_equal(machine_flush(paris_machine()), 0);
+        struct device_buffer *now = buffer_of(s.cell);
+        assert_non_null(now);
+        if (i >= 20)
+            assert_ptr_equal(now, last[i % 2]);
+        last[i % 2] = now;
+    }
+    assert_ptr_not_equal(last[0], last[1]);
+    expect(&s);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            wanted[y * WIDE + x] = before[(y + HIGH - 1) % HIGH * WIDE + x] + 3;
+    machine_begin(paris_machine());
+    assert_int_equal(machine_field_download(paris_machine(), s.flow, MACHINE_UINT(32), got), 0);
+    assert_memory_equal(got, wanted, sizeof got);
+}
+
+/* Where there are no strips, two turns would be two kernels, and a third array. */
+static void turns_that_save_nothing_are_evaluated_one_by_one(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    struct machine_stats before, after;
+    for (int i = 0; i < 200; i++) {
+        if (i == 100)
+            machine_stats_get(paris_machine(), &before);
+        short_turn(&s);
+        short_turn_wanted(&s);
+    }
+    machine_stats_get(paris_machine(), &after);
+    assert_in_range(after.flushes - before.flushes, 98, 102);
+    assert_in_range(after.kernels_run - before.kernels_run, 98, 102);
+    expect(&s);
+}
+
 static int one_turn_at_a_time(void **state)
 {
     static const char *const unset[] = {"LUTETIA_STRIPS", "LUTETIA_COLUMNS",
@@ -474,6 +531,14 @@ static int one_turn_at_a_time(void **state)
     setenv("LUTETIA_TURNS", "1", 1);
     setenv("LUTETIA_BOX_AFTER", "0", 1);
     return 0;
+}
+
+static int in_rows(void **state)
+{
+    one_turn_at_a_time(state);
+    setenv("LUTETIA_STRIPS", "0", 1);
+    unsetenv("LUTETIA_FLUSH_AFTER");
+    return paris_reset(NULL) ? 0 : -1;
 }
 
 static int eight_turns_at_a_time(void **state)
@@ -546,6 +611,8 @@ int main(void)
         cmocka_unit_test_setup(a_loop_without_boxes_is_many_turns_at_once,
                                better_after_a_while),
         cmocka_unit_test_setup(only_the_sheet_is_stored, one_turn_at_a_time),
+        cmocka_unit_test_setup(two_arrays_take_turns, in_rows),
+        cmocka_unit_test_setup(turns_that_save_nothing_are_evaluated_one_by_one, in_rows),
         cmocka_unit_test_setup(as_many_turns_as_can_be_are_one_kernel, eight_turns_at_a_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
