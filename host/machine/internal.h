@@ -651,7 +651,7 @@ struct fates {
     int spare_count;
 };
 /* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
- * that are numbers. fates: NULL: nothing is known. On failure none is put, and nothing has been written over. */
+ * that are numbers. fates: NULL: nothing is known. On failure none is put. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
                              struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);

@@ -27,7 +27,7 @@ _Static_assert(WINDOW == 8, "WINDOW_LEAVES is the factor to that power");
 static void loop_forget(struct history *h)
 {
     h->period = h->match = h->turn_at = h->looked_at = 0;
-    h->one_by_one = false;
+    h->one_by_one = h->one_by_one_known = false;
 }
 
 void loops_call(struct machine *m, const struct machine_call *call)
@@ -109,13 +109,34 @@ static uint32_t turns_end(struct replay *p)
     return h->turn_at;
 }
 
+/* The same wherever a turn begins. */
+static uint64_t loop_sum(const struct history *h)
+{
+    uint64_t sum = h->period;
+    for (uint32_t i = 1; i <= h->period; i++)
+        sum += h->hashes[(h->count - i) % HISTORY];
+    return sum;
+}
+
+static bool is_one_by_one(struct history *h)
+{
+    if (h->one_by_one_known || !h->sums_count)
+        return h->one_by_one;
+    uint64_t sum = loop_sum(h);
+    for (uint32_t i = 0; i < h->sums_count && i < LOOPS_ONE_BY_ONE; i++)
+        h->one_by_one = h->one_by_one || h->sums[i] == sum;
+    h->one_by_one_known = true;
+    return h->one_by_one;
+}
+
 bool loop_turn_ends(const struct machine *m)
 {
     if (!replay_in_loop(m) || !m->nodes_pending)
         return false;
-    if (!m->replay->history.one_by_one && m->nodes_pending < m->settings.flush_after / 8)
+    struct history *h = &m->replay->history;
+    if (m->nodes_pending < m->settings.flush_after / 8 && !is_one_by_one(h))
         return false;
-    return (m->replay->history.count - turns_end(m->replay)) % m->replay->history.period == 0;
+    return (h->count - turns_end(m->replay)) % h->period == 0;
 }
 
 bool loops_evaluate(struct machine *m, const struct plan *plan)
@@ -125,6 +146,8 @@ bool loops_evaluate(struct machine *m, const struct plan *plan)
         return false;
     uint32_t turns = m->replay->since / h->period;
     h->one_by_one = turns > 1 && plan_saves_nothing(plan, (int)turns);
+    if (h->one_by_one)
+        h->sums[h->sums_count++ % LOOPS_ONE_BY_ONE] = loop_sum(h);
     return h->one_by_one;
 }
 

@@ -67,7 +67,7 @@ struct state {
 
 /* The last calls that were performed one by one, by hash, to see that they repeat: those that the last few
  * were met with before tell a period, and a whole period more that it is one. */
-enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128 };
+enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128, LOOPS_ONE_BY_ONE = 16 };
 
 struct history {
     uint64_t hashes[HISTORY], window;
@@ -77,8 +77,11 @@ struct history {
     int32_t dead[HISTORY];
     /* Calls so far where a turn ends: when most are dead; when somebody first looked. 0: that is not known. */
     uint32_t turn_at, looked_at;
-    bool
-        one_by_one; /* each turn is evaluated, however little it is: several together take no fewer kernels */
+    /* Each turn is evaluated, however little it is: several together take no fewer kernels. Loops of which that is known, as
+     * sums of their calls' hashes. */
+    bool one_by_one, one_by_one_known;
+    uint64_t sums[LOOPS_ONE_BY_ONE];
+    uint32_t sums_count;
     struct {
         uint64_t window;
         uint32_t at;
@@ -113,7 +116,8 @@ struct replay {
     bool catching_up;
     struct edge made; /* by the evaluation under way */
     bool making;
-    bool forgets; /* when it is over: the loop has been evaluated otherwise until now */
+    bool
+        forgets; /* all states, when it is over: the loop has been evaluated otherwise in them */
 
     struct device_buffer **scratch;
     int scratch_capacity;

@@ -521,6 +521,29 @@ static void turns_that_save_nothing_are_evaluated_one_by_one(void **state)
     expect(&s);
 }
 
+/* That is not found out each time anew. */
+static void so_they_are_when_they_come_again(void **state)
+{
+    (void)state;
+    struct sheet s;
+    start(&s);
+    CM_field_id_t drawn = CM_allocate_heap_field(32);
+    uint64_t before = 0;
+    for (int i = 0; i < 20; i++) {
+        if (i == 10)
+            before = foreseen();
+        for (int k = 0; k < 60; k++) {
+            short_turn(&s);
+            short_turn_wanted(&s);
+        }
+        CM_u_multiply_constant_3_1L(drawn, s.cell, 5, 32);
+        CM_u_add_constant_2_1L(drawn, 1, 32);
+        assert_int_equal(CM_u_read_from_processor_1L(3, drawn, 32), s.wanted[3] * 5 + 1);
+    }
+    expect(&s);
+    assert_true(foreseen() - before >= (60 * SHORT_CALLS + 2) * 10 * 9 / 10);
+}
+
 static int one_turn_at_a_time(void **state)
 {
     static const char *const unset[] = {"LUTETIA_STRIPS", "LUTETIA_COLUMNS",
@@ -613,6 +636,7 @@ int main(void)
         cmocka_unit_test_setup(only_the_sheet_is_stored, one_turn_at_a_time),
         cmocka_unit_test_setup(two_arrays_take_turns, in_rows),
         cmocka_unit_test_setup(turns_that_save_nothing_are_evaluated_one_by_one, in_rows),
+        cmocka_unit_test_setup(so_they_are_when_they_come_again, in_rows),
         cmocka_unit_test_setup(as_many_turns_as_can_be_are_one_kernel, eight_turns_at_a_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
