@@ -644,8 +644,8 @@ struct fates {
     /* Of a node: nobody will look at its buffer afterwards, if this is the only reference. What is stored may take its
      * place. */
     const bool *dies;
-    const bool *
-        kept; /* of a node that is stored: who asked wants it; else it is let go of when it has been used */
+    /* Of a node that is stored: who asked wants it; else it is let go of when it has been used. */
+    const bool *kept;
     /* What nobody will look at any more, nor this plan, where there is no other reference: room for what is stored. */
     struct device_buffer *const *spare;
     int spare_count;

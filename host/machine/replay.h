@@ -21,8 +21,8 @@ struct deed {
     bool *dies;                    /* each node: its buffer is in no later state */
     bool *kept;                    /* ... what the plan has stored is in the second state */
     int32_t *next; /* each buffer of the second state: in the first one, or ~node of the plan */
-    int32_t *
-        spare; /* buffers of the first state that the plan does not take, and that are not in the second */
+    /* Buffers of the first state that the plan does not take, and that are not in the second. */
+    int32_t *spare;
     int spare_count;
 };
 

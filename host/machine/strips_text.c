@@ -351,11 +351,11 @@ static void columns_loop(const struct strips *s, struct text *t, const char *fro
                  to, to_at, from, from_at);
 }
 
-/* The loops over columns; fetch: what a turn fetches. */
-static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
+/* The loops over columns; what a turn fetches: inside all boxes, and elsewhere. */
+static void loops_text(struct strips *s, struct pass *pass, const char *fetch_inside,
+                       const char *fetch)
 {
-    struct text *t = &pass->text, outside = {0};
-    prefetch_outside(s, pass, &outside);
+    struct text *t = &pass->text;
     const char *body = pass->e.body.data, *store = pass->even ? "STORE_EVEN" : "STORE_INSIDE";
     int lead = s->rightward > 0 ? pass->before + pass->columns : pass->after - pass->columns;
     if (pass->even && lead > 0) {
@@ -365,9 +365,9 @@ static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
             columns_loop(s, t, "last", -pass->columns, "last", pass->after);
         text_put(t,
                  "#define BOX(e) (e)\n#define RING_STORE NOT_STORED\n"
-                 "#define ROW_STORE NOT_STORED\n%s%s%s"
+                 "#define ROW_STORE NOT_STORED\n%s%s"
                  "#undef BOX\n#undef RING_STORE\n#undef ROW_STORE\n    }\n",
-                 fetch ? fetch : "", outside.data ? outside.data : "", body);
+                 fetch, body);
     }
     text_put(t, "#define RING_STORE(kind, q, i, v) OUT_##kind(q, i, v)\n");
     if (pass->even)
@@ -380,18 +380,15 @@ static void loops_text(struct strips *s, struct pass *pass, const char *fetch)
                  "%s#define BOX(e) ((VI)(-1))\n#define ROW_STORE %s\n"
                  "%s#undef BOX\n#undef ROW_STORE\n        }\n"
                  "        if (%s + (%d))\n            break;\n",
-                 s->rightward > 0 ? '+' : '-', fetch ? fetch : "", store, body,
+                 s->rightward > 0 ? '+' : '-', fetch_inside, store, body,
                  s->rightward > 0 ? "x >= last" : "x < first",
                  pass->even         ? -pass->columns
                  : s->rightward > 0 ? pass->after
                                     : -pass->before);
-    text_put(t, "%s%s", fetch ? fetch : "", outside.data ? outside.data : "");
     text_put(t,
-             "#define BOX(e) (e)\n#define ROW_STORE %s\n"
+             "%s#define BOX(e) (e)\n#define ROW_STORE %s\n"
              "%s#undef BOX\n#undef ROW_STORE\n    }\n#undef RING_STORE\n",
-             pass->even ? store : "STORE_AT_EDGE", body);
-    s->failed = s->failed || outside.failed;
-    free(outside.data);
+             fetch, pass->even ? store : "STORE_AT_EDGE", body);
     int own = 0;
     for (int i = 0; i < pass->outputs_count && pass->even; i++) {
         own = pass->outputs[i].asks ? i : own;
@@ -486,14 +483,18 @@ static void pass_text(struct strips *s, struct pass *pass)
              boxes && e->row_tests.data ? e->row_tests.data : "");
     /* The next row of arrays is on its way to the caches while this one is computed: rows are shorter than what hardware
      * needs to find out that they follow each other. */
-    struct text fetch = {0};
+    struct text inside = {0}, fetch = {0};
     if (arrays_of(s, pass) > ARRAYS_MANY)
-        prefetch_rows(s, pass, t, &fetch);
+        prefetch_rows(s, pass, t, &inside);
     else
-        prefetch_columns(s, pass, &fetch);
+        prefetch_columns(s, pass, &inside);
     prefetch_beyond(s, pass, t);
-    loops_text(s, pass, fetch.data);
-    s->failed = s->failed || fetch.failed;
+    text_put(&fetch, "%s", inside.data ? inside.data : "");
+    prefetch_outside(s, pass, &fetch);
+    s->failed = s->failed || inside.failed || fetch.failed;
+    if (!s->failed)
+        loops_text(s, pass, inside.data ? inside.data : "", fetch.data);
+    free(inside.data);
     free(fetch.data);
     for (int i = 0; i < pass->outputs_count; i++) {
         const struct output *o = &pass->outputs[i];
