@@ -87,14 +87,27 @@ static int row_moved(struct emitter *e, int from, int axis, int distance)
     if (e->failed)
         return 0;
     e->row_offsets[e->rows_count] = wanted;
+    for (int a = 0; a < e->set->rank - 1; a++)
+        if (wanted.d[a])
+            text_put(&e->rows, "    const int y%d_%d = wrap(c%d + (%d), D%d);\n", a,
+                     e->rows_count, a, wanted.d[a], a);
     text_put(&e->rows, "    const int r%d = row", e->rows_count);
     for (int a = 0; a < e->set->rank - 1; a++)
         if (wanted.d[a])
-            text_put(&e->rows, " + (wrap(c%d + (%d), D%d) - c%d) * S%d", a, wanted.d[a], a, a,
-                     a);
+            text_put(&e->rows, " + (y%d_%d - c%d) * S%d", a, e->rows_count, a, a);
     text_put(&e->rows, ";\n");
     e->axes_used = true;
     return e->rows_count++;
+}
+
+/* Where a row is along an axis. */
+static void row_place(struct emitter *e, char *out, size_t size, int row, int axis)
+{
+    e->axes_used = true;
+    if (e->row_offsets[row].d[axis])
+        snprintf(out, size, "y%d_%d", axis, row);
+    else
+        snprintf(out, size, "c%d", axis);
 }
 
 int emit_row(struct emitter *e, int axis, int distance)
@@ -232,10 +245,8 @@ static bool note_box(struct emitter *e, const struct plan_node *n, int row, int 
         text_put(t, " && %s >= 0 && %s + VECTOR <= W", ends[0], ends[0]);
         snprintf(ends[1], sizeof ends[1], "(x + (%d) + VECTOR - 1)", dx);
     } else {
-        e->axes_used = true;
         for (int i = 0; i < 2; i++)
-            snprintf(ends[i], sizeof ends[i], "wrap(c%d + (%d), D%d)", place->axis,
-                     e->row_offsets[row].d[place->axis], place->axis);
+            row_place(e, ends[i], sizeof ends[i], row, place->axis);
     }
     if (bits < 31)
         text_put(t, " && %s >> %d == 0", ends[1], bits);
@@ -255,9 +266,9 @@ static void emit_generated(struct emitter *e, char *out, size_t size, const stru
     char index[96], raw[300];
     int last = e->set->rank - 1;
     if (n->op == NODE_COORDINATE && n->axis != last) {
-        e->axes_used = true;
-        snprintf(index, sizeof index, "(VU)((uint)wrap(c%d + (%d), D%d))", n->axis,
-                 e->row_offsets[row].d[n->axis], n->axis);
+        char place[32];
+        row_place(e, place, sizeof place, row, n->axis);
+        snprintf(index, sizeof index, "(VU)((uint)%s)", place);
     } else if (n->op == NODE_COORDINATE) {
         snprintf(index, sizeof index, "column(x + (%d), W)", dx);
     } else {
@@ -554,7 +565,8 @@ void emit_axes(const struct emitter *e, struct text *t)
     text_put(t, "    const int S%d = 1;\n", set->rank - 2);
     for (int a = set->rank - 3; a >= 0; a--)
         text_put(t, "    const int S%d = S%d * D%d;\n", a, a + 1, a + 1);
-    for (int a = 0; a < set->rank - 1; a++)
+    text_put(t, "    const int c0 = row / S0;\n");
+    for (int a = 1; a < set->rank - 1; a++)
         text_put(t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
 }
 

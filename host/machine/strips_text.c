@@ -1,4 +1,5 @@
 /* strips_text.c - the text of kernels in strips. See strips.h. */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -597,26 +598,60 @@ static void ring_row(const struct strips *s, struct text *t, const struct ring_r
              rings->at + row->first, row->down, rings->rows, rings->bytes);
 }
 
-static void array_row(struct text *t, char letter, int node, int down)
+/* The lowest row of arrays from `from` on, so far below its own, that the pass looks at or stores; INT_MAX: there is none. */
+static int row_from(const struct strips *s, const struct pass *pass, int from)
 {
-    text_put(t, ",\n                %c%d + ((size_t)wrap(y + (%d), D0) * PITCH + HALO)", letter,
-             node, down);
+    const struct emitter *e = &pass->e;
+    int lowest = INT_MAX;
+    for (int i = 0; i < e->pointers_count + pass->outputs_count; i++) {
+        bool reads = i < e->pointers_count;
+        const struct output *o = reads ? NULL : &pass->outputs[i - e->pointers_count];
+        if (reads ? !s->g->nodes[e->seen_pointers[i].node].leaf : !o->array)
+            continue;
+        int down = reads ? emit_rows_down(e, &e->seen_pointers[i]) : s->down[o->node];
+        lowest = down >= from && down < lowest ? down : lowest;
+    }
+    return lowest;
+}
+
+/* Where a pass's rows are in arrays, and in what has been copied of such as are written in place: once for all arrays, for in
+ * each one's own address compilers would make questions of it again. Returns the lowest of them. */
+static int row_places(const struct strips *s, const struct pass *pass, struct text *t)
+{
+    int lowest = row_from(s, pass, INT_MIN);
+    for (int down = lowest; down < INT_MAX; down = row_from(s, pass, down + 1)) {
+        int row = down - lowest;
+        text_put(t,
+                 "                const size_t row%d = (size_t)wrap(y + (%d), D0) * PITCH;\n",
+                 row, down);
+        if (s->in_place.pairs_count)
+            text_put(
+                t,
+                "                const bool out%d = y + (%d) < top || y + (%d) >= bottom;\n"
+                "                const size_t copy%d = border_row(y + (%d), top, bottom) * "
+                "PITCH;\n",
+                row, down, down, row, down);
+    }
+    return lowest;
+}
+
+static void array_row(struct text *t, char letter, int node, int row)
+{
+    text_put(t, ",\n                    %c%d + row%d + HALO", letter, node, row);
 }
 
 /* One that may be written in place. */
-static void bordered_row(const struct strips *s, struct text *t, int border, int down)
+static void bordered_row(const struct strips *s, struct text *t, int border, int row)
 {
     const struct in_place *in = &s->in_place;
     int node = in->leaves[border], before = 0;
     for (int i = 0; i < border; i++)
         before += (int)type_bytes(s->g->nodes[in->leaves[i]].type);
-    const char *type = memory_type(s->g->nodes[node].type);
     text_put(t,
-             ",\n                (borders >> %d & 1 && (y + (%d) < top || y + (%d) >= bottom)"
-             "\n                    ? (const __global %s *)(around + (size_t)PITCH * %d * "
-             "BORDERS) +\n                          border_row(y + (%d), top, bottom) * PITCH"
-             "\n                    : b%d + (size_t)wrap(y + (%d), D0) * PITCH) + HALO",
-             border, down, down, type, before, down, node, down);
+             ",\n                    (out%d && borders >> %d & 1\n"
+             "                        ? (const __global %s *)(around + (size_t)PITCH * %d * "
+             "BORDERS) + copy%d\n                        : b%d + row%d) + HALO",
+             row, border, memory_type(s->g->nodes[node].type), before, row, node, row);
 }
 
 static void pass_call(struct strips *s, struct text *t, int k)
@@ -625,28 +660,30 @@ static void pass_call(struct strips *s, struct text *t, int k)
     const struct emitter *e = &pass->e;
     text_put(t,
              "        {\n            const int y = i %c %d;\n"
-             "            if (y >= top - %d && y < bottom + %d)\n"
+             "            if (y >= top - %d && y < bottom + %d) {\n",
+             s->downward > 0 ? '-' : '+', pass->delay, pass->above, pass->below);
+    int lowest = row_places(s, pass, t);
+    text_put(t,
              "                s%d(W, PITCH, PLOG2, RATIO, D0, y, top, bottom, first, last, "
              "inside%d",
-             s->downward > 0 ? '-' : '+', pass->delay, pass->above, pass->below, pass->same, k);
+             pass->same, k);
     for (int i = 0; i < e->pointers_count; i++) {
         const struct pointer *p = &e->seen_pointers[i];
-        int down = emit_rows_down(e, p);
-        int border = border_of(s, p->node);
+        int row = emit_rows_down(e, p) - lowest, border = border_of(s, p->node);
         if (border >= 0)
-            bordered_row(s, t, border, down);
+            bordered_row(s, t, border, row);
         else if (s->g->nodes[p->node].leaf)
-            array_row(t, 'b', p->node, down);
+            array_row(t, 'b', p->node, row);
     }
     for (int i = 0; i < pass->outputs_count; i++) {
         int node = pass->outputs[i].node;
         if (pass->outputs[i].array)
-            array_row(t, 'o', node, s->down[node]);
+            array_row(t, 'o', node, s->down[node] - lowest);
     }
     for (int i = 0; i < pass->ring_rows_count; i++)
         ring_row(s, t, &pass->ring_rows[i]);
     emit_numbers_passed(t, e, s->number);
-    text_put(t, ");\n        }\n");
+    text_put(t, ");\n            }\n        }\n");
 }
 
 /* What has lanes beyond a row's ends: each kind that is stored. */
@@ -680,9 +717,7 @@ static void kernel_text(struct strips *s, const struct device_shape *shape, stru
                  s->in_place.below);
     text_put(t, "%s", kernel_strips_cl);
     text_put(t, "enum { NEAR = %d, MARGIN = %d }; /* columns of a ring's row, and beyond */\n",
-             strips_near_columns(s, strips_columns(s, shape)) +
-                 (getenv("NEARP") ? atoi(getenv("NEARP")) : 0),
-             s->margin);
+             strips_near_columns(s, strips_columns(s, shape)), s->margin);
     edges_text(s, t);
     for (int k = 0; k < s->passes_count; k++) {
         if (s->passes[k].same == k && has_boxes(s, &s->passes[k].e))
