@@ -6,6 +6,8 @@
  * is told by whoever looks. If nobody does, it is where least has to be kept: in the program's own order, as
  * a rule, for there its temporaries are overwritten before they are read.
  *
+ * Short turns are evaluated several at a time, unless that has been seen to take no fewer kernels.
+ *
  * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
  * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
  * (they leave nothing to compute) while such loops run. */

@@ -179,8 +179,8 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
-/* Where the only kernel of a plan may write at once. It is the least that caches have to hold: of what is in memory
- * otherwise they hold nothing. NULL: nowhere. */
+/* What the only kernel of a plan may write over, so that caches have one array less to hold. With more kernels one of them
+ * could fail when another has written there, and the calls could not be performed after all. NULL: there is none. */
 static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
                                        const struct fates *fates)
 {

@@ -116,8 +116,7 @@ struct replay {
     bool catching_up;
     struct edge made; /* by the evaluation under way */
     bool making;
-    bool
-        forgets; /* all states, when it is over: the loop has been evaluated otherwise in them */
+    bool forgets; /* all states, after it: the loop was evaluated otherwise in them */
 
     struct device_buffer **scratch;
     int scratch_capacity;
