@@ -1,6 +1,8 @@
 /* harness.c - see harness.h. */
 #include "harness.h"
 
+#include <output_file.h>
+
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -316,31 +318,9 @@ bool bench_can_write(const char *path)
 
 bool bench_report_write(const struct bench_report *r, const char *path)
 {
-    size_t length = strlen(path) + sizeof ".XXXXXX";
-    char *part = malloc(length);
-    if (!part)
-        return bench_fail("no memory for a path");
-    snprintf(part, length, "%s.XXXXXX", path);
-    int descriptor = mkstemp(part);
-    if (descriptor < 0) {
-        bench_fail("%s cannot be written: %s", path, strerror(errno));
-        free(part);
-        return false;
-    }
-    fchmod(descriptor, 0644);
-    FILE *f = fdopen(descriptor, "w");
-    bool ok = f != NULL;
-    if (ok)
-        json_report(f, r);
-    else
-        close(descriptor);
-    ok = ok && !ferror(f);
-    if (f && fclose(f))
-        ok = false;
-    if (!ok || rename(part, path)) {
-        ok = bench_fail("%s cannot be written: %s", path, strerror(errno));
-        unlink(part);
-    }
-    free(part);
-    return ok;
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return bench_fail("%s cannot be written: %s", path, out.why);
+    json_report(out.stream, r);
+    return output_file_commit(&out) || bench_fail("%s cannot be written: %s", path, out.why);
 }

@@ -1,19 +1,16 @@
 /* display_png_write.c - whole PNG files or none.
  *
- * libpng writes through png_write() below, which keeps the system's errno; the file is flushed, synchronised
- * and closed, each checked, before it is renamed over the final name. A name that stands for a device or a pipe
- * cannot be renamed over and is written to as it is. */
+ * libpng writes through sink_write() below, which keeps the system's errno. output_file.h brings the file under its name. */
 #include "display_internal.h"
 
+#include <output_file.h>
+
 #include <errno.h>
-#include <fcntl.h>
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 struct png_sink {
     FILE *file;
@@ -92,60 +89,6 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
     return 1;
 }
 
-/* Opens a file beside path, its name in *temporary, or path itself (with *temporary NULL) if it is a device. */
-static FILE *sink_open(const char *path, char **temporary)
-{
-    struct stat status;
-    *temporary = NULL;
-    if (stat(path, &status) == 0) {
-        if (S_ISDIR(status.st_mode)) {
-            errno = EISDIR;
-            return NULL;
-        }
-        if (!S_ISREG(status.st_mode))
-            return fopen(path, "wb");
-    }
-    char *name;
-    if (asprintf(&name, "%s.%ld.part", path, (long)getpid()) < 0) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    int descriptor = open(name, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
-    if (!file) {
-        int error = errno;
-        if (descriptor >= 0) {
-            close(descriptor);
-            unlink(name);
-        }
-        free(name);
-        errno = error;
-        return NULL;
-    }
-    *temporary = name;
-    return file;
-}
-
-static const char *advice(int error)
-{
-    switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-        return "; free some space or write elsewhere";
-    case ENOENT:
-        return "; the folder must exist";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-        return "; choose a folder that you may write to";
-    case EISDIR:
-        return "; name a file in it";
-    default:
-        return "";
-    }
-}
-
 static enum display_status source_write(const char *path, const struct png_source *image)
 {
     if (!path || !image->pixels || image->width_px < 1 || image->height_px < 1 ||
@@ -153,35 +96,20 @@ static enum display_status source_write(const char *path, const struct png_sourc
         return display_fail(DISPLAY_BAD_ARGUMENT, "%s: there is no image to write",
                             path ? path : "(no file name)");
 
-    struct png_sink sink = {0};
-    char *temporary;
-    errno = 0;
-    sink.file = sink_open(path, &temporary);
-    if (!sink.file) {
-        int error = errno ? errno : EIO;
-        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s%s", path, strerror(error),
-                            advice(error));
-    }
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    struct png_sink sink = {.file = out.stream};
     errno = 0;
     int encoded = png_encode(&sink, image);
-    if (fflush(sink.file) != 0 && !sink.error)
-        sink.error = errno ? errno : EIO;
-    if (temporary && !sink.error && fsync(fileno(sink.file)) != 0 && errno != EINVAL)
-        sink.error = errno;
-    if (fclose(sink.file) != 0 && !sink.error)
-        sink.error = errno ? errno : EIO;
-    if (encoded && !sink.error && temporary && rename(temporary, path) != 0)
-        sink.error = errno;
-    if (temporary && (!encoded || sink.error))
-        unlink(temporary);
-    free(temporary);
-    if (sink.error)
-        return display_fail(sink.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
-                            "%s: cannot write: %s%s", path, strerror(sink.error),
-                            advice(sink.error));
-    if (!encoded)
-        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", path, sink.message);
-    return DISPLAY_OK;
+    if (encoded && output_file_commit(&out))
+        return DISPLAY_OK;
+    if (encoded)
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    output_file_abandon(&out);
+    return display_fail(sink.error == ENOMEM ? DISPLAY_NO_MEMORY : DISPLAY_IO_FAILED,
+                        "%s: cannot write: %s", path,
+                        sink.error ? output_file_explain(sink.error) : sink.message);
 }
 
 enum display_status display_png_write(const char *path, const struct display_image *image)

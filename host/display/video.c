@@ -9,6 +9,8 @@
 
 #include "display_internal.h"
 
+#include <output_file.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -16,17 +18,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <strings.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SIDE_MOST = 16384, FPS_MOST = 240, ENDING_MOST = 8 };
+enum { SIDE_MOST = 16384, FPS_MOST = 240 };
+
+/* What a name may end with, and what ffmpeg calls that; NULL: written by us. */
+static const struct container {
+    const char *ending, *format;
+} containers[] = {
+    {".mp4", "mp4"}, {".m4v", "mp4"}, {".mkv", "matroska"}, {".webm", "webm"}, {".mov", "mov"},
+    {".avi", "avi"}, {".ogv", "ogg"}, {".gif", "gif"},      {".y4m", NULL},
+};
+enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
 
 struct video {
-    char *path, *part; /* its name in the end, and while it is written */
+    char *path; /* its name in the end */
+    struct output_file out;
+    const struct container *container;
     int width, height;
     long frames;
-    FILE *file;      /* or the pipe to ffmpeg */
+    FILE *file;      /* out's stream, or the pipe to ffmpeg */
     pid_t encoder;   /* 0: none, the file is written by us */
     FILE *complaint; /* what ffmpeg says */
     uint8_t *planes;
@@ -52,17 +65,24 @@ static bool program_is_there(const char *name)
     return there;
 }
 
+/* ffmpeg is given no name: it reads from a pipe, and writes to a descriptor of ours by the system's name for it, in a format
+ * that is said. So nothing in a film's name can be an option, a pattern of names or a protocol to it. */
 _Noreturn static void encoder_become(const struct video *v, int input, int fps)
 {
-    char rate[16];
-    int nowhere = open("/dev/null", O_WRONLY);
+    enum { OUTPUT = 3 };
+    char rate[16], output[32];
+    int nowhere = open("/dev/null", O_WRONLY), complaint = dup(fileno(v->complaint)),
+        file = dup(fileno(v->out.stream));
     snprintf(rate, sizeof rate, "%d", fps);
+    snprintf(output, sizeof output, "/proc/self/fd/%d", OUTPUT);
     dup2(input, STDIN_FILENO);
     dup2(nowhere, STDOUT_FILENO);
-    dup2(fileno(v->complaint), STDERR_FILENO);
-    execlp("ffmpeg", "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f",
-           "yuv4mpegpipe", "-i", "pipe:0", "-r", rate, "-pix_fmt", "yuv420p", "-colorspace",
-           "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", v->part, (char *)NULL);
+    dup2(complaint, STDERR_FILENO);
+    dup2(file, OUTPUT);
+    execlp("ffmpeg", "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
+           "-protocol_whitelist", "pipe,file", "-f", "yuv4mpegpipe", "-i", "pipe:0", "-r", rate,
+           "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709",
+           "-color_trc", "bt709", "-f", v->container->format, output, (char *)NULL);
     dprintf(STDERR_FILENO, "cannot be run: %s", strerror(errno));
     _exit(127);
 }
@@ -88,7 +108,7 @@ static enum display_status encoder_start(struct video *v, int fps)
                         strerror(error));
 }
 
-/* Waits for it; the first line that it said, or how it ended, in `said`. False: it failed. */
+/* Waits for it; the last line that it said, or how it ended, in `said`. False: it failed. */
 static bool encoder_end(struct video *v, char said[200])
 {
     int status = 0;
@@ -106,7 +126,10 @@ static bool encoder_end(struct video *v, char said[200])
     }
     char line[160] = "";
     rewind(v->complaint);
-    if (!fgets(line, sizeof line, v->complaint))
+    for (char more[sizeof line]; fgets(more, sizeof more, v->complaint);)
+        if (*more != '\n')
+            memcpy(line, more, sizeof line);
+    if (!*line)
         snprintf(line, sizeof line, "status %d", WEXITSTATUS(status));
     line[strcspn(line, "\r\n")] = '\0';
     snprintf(said, 200, "ffmpeg: %s", line);
@@ -117,7 +140,7 @@ static bool encoder_end(struct video *v, char said[200])
 
 static void video_free(struct video *v)
 {
-    if (v->file)
+    if (v->file && v->file != v->out.stream)
         fclose(v->file);
     if (v->encoder > 0) {
         kill(v->encoder, SIGKILL);
@@ -126,10 +149,8 @@ static void video_free(struct video *v)
     }
     if (v->complaint)
         fclose(v->complaint);
-    if (v->part)
-        unlink(v->part);
+    output_file_abandon(&v->out);
     free(v->planes);
-    free(v->part);
     free(v->path);
     free(v);
 }
@@ -155,29 +176,57 @@ static enum display_status io_failed(struct video *v, int error)
     return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(error));
 }
 
-/* film.mp4 is written as film.PID.part.mp4: ffmpeg looks at the ending. */
-static bool names_make(struct video *v, const char *path, bool *ours)
+/* The name's ending says what the file is; a name without one gets .mp4. Where there is no ffmpeg, all become .y4m. */
+static enum display_status name_make(struct video *v, const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    if (!dot || dot[1] == '\0' || strlen(dot) > ENDING_MOST)
+    if (!dot)
         dot = path + strlen(path);
-    *ours = strcmp(dot, ".y4m") == 0 || !program_is_there("ffmpeg");
-    int stem = (int)(dot - path);
-    if (asprintf(&v->path, "%.*s%s", stem, path, *ours ? ".y4m" : *dot ? dot : ".mp4") < 0) {
-        v->path = NULL;
-        return false;
+    for (int i = 0; i < CONTAINERS && !v->container; i++)
+        if (strcasecmp(*dot ? dot : ".mp4", containers[i].ending) == 0)
+            v->container = &containers[i];
+    if (!v->container) {
+        char known[100] = "";
+        for (int i = 0; i < CONTAINERS; i++)
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "",
+                     containers[i].ending);
+        return display_fail(DISPLAY_BAD_ARGUMENT, "%s: a video's name ends with one of %s",
+                            path, known);
     }
-    if (asprintf(&v->part, "%.*s.%ld.part%s", stem, path, (long)getpid(), v->path + stem) < 0) {
-        v->part = NULL;
-        return false;
+    bool as_it_is = *dot && !v->container->format;
+    if (!program_is_there("ffmpeg"))
+        v->container = &containers[OURS];
+    const char *ending =
+        as_it_is || (*dot && v->container->format) ? dot : v->container->ending;
+    if (asprintf(&v->path, "%.*s%s", (int)(dot - path), path, ending) >= 0)
+        return DISPLAY_OK;
+    v->path = NULL;
+    return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
+}
+
+/* That the file can be made is known at once, not when ffmpeg gets there. */
+static enum display_status video_open(struct video *v, int fps)
+{
+    signal(SIGPIPE, SIG_IGN);
+    if (!output_file_open(&v->out, v->path))
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, v->out.why);
+    v->file = v->out.stream;
+    if (v->container->format) {
+        v->file = NULL;
+        enum display_status status = encoder_start(v, fps);
+        if (status != DISPLAY_OK)
+            return status;
     }
-    return true;
+    if (fprintf(v->file, "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C444\n", v->width, v->height, fps) <
+            0 ||
+        fflush(v->file) != 0)
+        return io_failed(v, errno);
+    return DISPLAY_OK;
 }
 
 enum display_status video_create(const char *path, int width_px, int height_px, int fps,
                                  struct video **out)
 {
-    bool ours;
     *out = NULL;
     if (width_px < 2 || height_px < 2 || width_px > SIDE_MOST || height_px > SIDE_MOST ||
         width_px % 2 || height_px % 2 || fps < 1 || fps > FPS_MOST)
@@ -190,30 +239,11 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
     v->width = width_px;
     v->height = height_px;
-    v->planes = malloc(3 * (size_t)width_px * (size_t)height_px);
-    if (!v->planes || !names_make(v, path, &ours)) {
-        video_free(v);
-        return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
-    }
-    signal(SIGPIPE, SIG_IGN);
-    enum display_status status = DISPLAY_OK;
-    /* that the file can be made is known at once, not when ffmpeg gets there */
-    int descriptor = open(v->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        status =
-            display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(errno));
-    else if (ours)
-        v->file = fdopen(descriptor, "wb");
-    else
-        close(descriptor);
-    if (status == DISPLAY_OK && !ours)
-        status = encoder_start(v, fps);
-    if (status == DISPLAY_OK && !v->file)
+    enum display_status status = name_make(v, path);
+    if (status == DISPLAY_OK && !(v->planes = malloc(3 * (size_t)width_px * (size_t)height_px)))
         status = display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
-    if (status == DISPLAY_OK && (fprintf(v->file, "YUV4MPEG2 W%d H%d F%d:1 Ip A1:1 C444\n",
-                                         width_px, height_px, fps) < 0 ||
-                                 fflush(v->file) != 0))
-        status = io_failed(v, errno);
+    if (status == DISPLAY_OK)
+        status = video_open(v, fps);
     if (status != DISPLAY_OK) {
         video_free(v);
         return status;
@@ -271,21 +301,20 @@ enum display_status video_finish(struct video *v)
         video_free(v);
         return status;
     }
-    bool synced = v->encoder > 0 || fsync(fileno(v->file)) == 0 || errno == EINVAL;
-    int error = errno;
-    if (fclose(v->file) != 0 && synced) {
-        synced = false;
-        error = errno;
+    if (v->encoder > 0) {
+        int error = fclose(v->file) == 0 ? 0 : errno;
+        v->file = NULL;
+        bool encoded = encoder_end(v, said);
+        if (!encoded || error) {
+            status = display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path,
+                                  encoded ? output_file_explain(error) : said);
+            video_free(v);
+            return status;
+        }
     }
     v->file = NULL;
-    if (v->encoder > 0 && !encoder_end(v, said))
-        status = display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, said);
-    else if (!synced)
-        status =
-            display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(error));
-    else if (rename(v->part, v->path) != 0)
-        status =
-            display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(errno));
+    if (!output_file_commit(&v->out))
+        status = display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, v->out.why);
     video_free(v);
     return status;
 }

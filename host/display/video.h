@@ -1,4 +1,5 @@
-/* video.h - pictures in a row to a file: MP4 and whatever else ffmpeg knows, where it is installed, and YUV4MPEG2 (.y4m) by us.
+/* video.h - pictures in a row to a file: MP4, Matroska, WebM, QuickTime, AVI, Ogg and GIF by ffmpeg, where it is installed, and
+ * YUV4MPEG2 (.y4m) by us.
  *
  *     struct video *video;
  *     if (video_create("film.mp4", 640, 480, 30, &video) != DISPLAY_OK)
@@ -9,8 +10,9 @@
  *     if (video_finish(video) != DISPLAY_OK)
  *         die(display_error());
  *
- * Both are written beside their name first; video_finish() puts the whole file there. A file's ending says what it is; where ffmpeg
- * is missing, film.mp4 becomes film.y4m (video_path() tells), which every player and encoder takes.
+ * The file is written beside its name first (output_file.h); video_finish() puts the whole file there. ffmpeg never sees the
+ * name. A name's ending says what the file is (.mp4 .m4v .mkv .webm .mov .avi .ogv .gif .y4m; none: .mp4); where ffmpeg is
+ * missing, film.mp4 becomes film.y4m (video_path() tells), which every player and encoder takes.
  *
  * Errors and threads: as display.h says; SIGPIPE is ignored from the first video on. */
 #ifndef LUTETIA_DISPLAY_VIDEO_H

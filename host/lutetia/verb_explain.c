@@ -6,6 +6,8 @@
 #include "lutetia.h"
 #include "options.h"
 
+#include <output_file.h>
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -105,22 +107,25 @@ static int pour(const char *from, const char *out)
 {
     char bytes[1 << 14];
     size_t count;
-    FILE *in = fopen(from, "rb"), *to = out ? fopen(out, "wb") : stdout;
-    bool good = in && to;
-    while (good && (count = fread(bytes, 1, sizeof bytes, in)) > 0)
-        good = fwrite(bytes, 1, count, to) == count;
-    int error = errno;
-    good = !(in && ferror(in)) && good;
+    struct output_file file = {0};
+    FILE *in = fopen(from, "rb"), *to = stdout;
+    if (out)
+        to = output_file_open(&file, out) ? file.stream : NULL;
+    errno = 0;
+    while (in && to && (count = fread(bytes, 1, sizeof bytes, in)) > 0)
+        if (fwrite(bytes, 1, count, to) != count)
+            break;
+    bool good = in && !ferror(in) && to && !ferror(to);
+    const char *why = out && !to ? file.why : output_file_explain(errno ? errno : EIO);
     if (in)
         fclose(in);
-    if (out && to && fclose(to) != 0) {
-        error = errno;
-        good = false;
-    }
-    if (good)
-        return EXIT_SUCCESS;
-    return fail("explain", "%s: cannot write: %s", out ? out : "the standard output",
-                strerror(error));
+    if (out && to && !good)
+        output_file_abandon(&file);
+    else if (out && to && !(good = output_file_commit(&file)))
+        why = file.why;
+    return good ? EXIT_SUCCESS
+                : fail("explain", "%s: cannot write: %s", out ? out : "the standard output",
+                       why);
 }
 
 static long bytes_of(const char *path)
@@ -178,13 +183,10 @@ static int explain(struct explain *e, char **arguments)
 /* Said before the program runs, not after. The file stays as it was. */
 static int json_check(const char *path)
 {
-    bool was = access(path, F_OK) == 0;
-    int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0)
-        return fail("explain", "%s: cannot write: %s", path, strerror(errno));
-    close(file);
-    if (!was)
-        unlink(path);
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return fail("explain", "%s: cannot write: %s", path, out.why);
+    output_file_abandon(&out);
     return EXIT_SUCCESS;
 }
 

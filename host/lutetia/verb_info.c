@@ -18,11 +18,14 @@ static void device_print(void *context, int index, const char *platform, const c
 
 static void cache_print(void)
 {
-    char folder[512];
-    if (machine_cache_folder(folder, sizeof folder))
-        printf("kernel cache: %s\n", folder);
+    char folder[MACHINE_CACHE_FOLDER_MAX];
+    const char *why;
+    if (!machine_cache_folder(folder, &why))
+        printf("kernel cache: in memory only (%s)\n", why);
+    else if (why)
+        printf("kernel cache: %s, for this process alone (%s)\n", folder, why);
     else
-        puts("kernel cache: in memory only (neither XDG_CACHE_HOME nor HOME is set)");
+        printf("kernel cache: %s\n", folder);
 }
 
 static void fields_print(int width, int height)

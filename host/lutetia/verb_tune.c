@@ -7,6 +7,8 @@
 #include "options.h"
 #include "tune_work.h"
 
+#include <output_file.h>
+
 #include <errno.h>
 #include <harness.h>
 #include <math.h>
@@ -265,9 +267,10 @@ static void table_print(const struct tune *t)
 
 static int json_write(const char *path, const struct tune *t, struct machine *m)
 {
-    FILE *f = fopen(path, "w");
-    if (!f)
-        return fail("tune", "%s: cannot write: %s", path, strerror(errno));
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return fail("tune", "%s: cannot write: %s", path, out.why);
+    FILE *f = out.stream;
     fputs("{\"device\": \"", f);
     for (const char *c = machine_device_name(m); *c; c++)
         if (*c == '"' || *c == '\\')
@@ -291,9 +294,8 @@ static int json_write(const char *path, const struct tune *t, struct machine *m)
         fputs("}", f);
     }
     fputs("\n ]}\n", f);
-    bool good = !ferror(f);
-    good = fclose(f) == 0 && good;
-    return good ? EXIT_SUCCESS : fail("tune", "%s: cannot write: %s", path, strerror(errno));
+    return output_file_commit(&out) ? EXIT_SUCCESS
+                                    : fail("tune", "%s: cannot write: %s", path, out.why);
 }
 
 /* What is forced cannot be measured beside other values. */

@@ -18,6 +18,8 @@
  * to the machine, which compiles while the program waits, from then on. */
 #include "background.h"
 
+#include <user_folder.h>
+
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -27,7 +29,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,14 +72,6 @@ struct background {
 
 /* ---- the process ---- */
 
-static bool compiler_is(const char *path)
-{
-    struct stat file;
-    return stat(path, &file) == 0 && S_ISREG(file.st_mode) &&
-           (file.st_uid == 0 || file.st_uid == geteuid()) && !(file.st_mode & S_IWOTH) &&
-           access(path, X_OK) == 0;
-}
-
 /* From where this code lies upwards: as it is installed, and as it was built. Nobody else's. */
 static bool compiler_find(char path[PATH_MAX])
 {
@@ -89,7 +82,7 @@ static bool compiler_find(char path[PATH_MAX])
     Dl_info info;
     if (said) {
         snprintf(path, PATH_MAX, "%s", said);
-        return *said != '\0';
+        return *said != '\0'; /* the user's own choice */
     }
     bool known = dladdr((void *)(uintptr_t)background_finish, &info) &&
                  *info.dli_fname == '/' && realpath(info.dli_fname, here);
@@ -103,7 +96,7 @@ static bool compiler_find(char path[PATH_MAX])
         for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
             int n = *places[i] == '/' ? snprintf(path, PATH_MAX, "%s", places[i])
                                       : snprintf(path, PATH_MAX, "%s/%s", here, places[i]);
-            if (n < PATH_MAX && compiler_is(path))
+            if (n < PATH_MAX && !user_program_wrong(path))
                 return true;
         }
     }

@@ -1,6 +1,6 @@
 /* cache.c - what is kept on disk from run to run: compiled programs, and what `lutetia tune` found (tuning.c).
  *
- * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia. A program's is named by a hash of text, options,
+ * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if that is this user's alone (user_folder.h). A program's is named by a hash of text, options,
  * device and driver, which it begins with, to be compared as a whole:
  *
  *     two lengths, 8 bytes each | driver, device, options, text | binary
@@ -8,6 +8,9 @@
  * Each appears under its name only when it is complete. What cannot be read or written is done without. An empty file,
  * named in the same way, is a mark: background.c notes what the driver has in a cache of its own. */
 #include "internal.h"
+
+#include <output_file.h>
+#include <user_folder.h>
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -22,45 +25,30 @@ uint64_t cache_hash(uint64_t h, const char *s)
     return (h ^ 0xff) * 0x100000001b3u;
 }
 
-bool machine_cache_folder(char *out, size_t size)
+bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char **why)
 {
-    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    int n = -1;
-    if (base && *base == '/')
-        n = snprintf(out, size, "%s/lutetia", base);
-    else if (home && *home == '/')
-        n = snprintf(out, size, "%s/.cache/lutetia", home);
-    return n >= 0 && (size_t)n < size;
+    return user_cache_folder("lutetia", out, why);
 }
 
-void cache_folder_make(char *folder)
+FILE *cache_file_read(const char *path)
 {
-    for (size_t i = 1; folder[0] && folder[i]; i++)
-        if (folder[i] == '/') {
-            folder[i] = 0;
-            mkdir(folder, 0700);
-            folder[i] = '/';
-        }
-    mkdir(folder, 0700);
-}
-
-FILE *cache_temporary(const char *path, char *temporary, size_t size)
-{
-    int n = snprintf(temporary, size, "%s.XXXXXX", path);
-    int file = n > 0 && (size_t)n < size ? mkostemp(temporary, O_CLOEXEC) : -1;
-    FILE *f = file >= 0 ? fdopen(file, "wb") : NULL;
-    if (!f && file >= 0) {
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    struct stat status;
+    if (file >= 0 && (fstat(file, &status) != 0 || !S_ISREG(status.st_mode))) {
         close(file);
-        unlink(temporary);
+        return NULL;
     }
+    FILE *f = file >= 0 ? fdopen(file, "rb") : NULL;
+    if (!f && file >= 0)
+        close(file);
     return f;
 }
 
 static bool path_of(char *out, size_t size, const struct device *d, const char *key,
                     const char *suffix)
 {
-    char folder[512];
-    if (!machine_cache_folder(folder, sizeof folder))
+    char folder[MACHINE_CACHE_FOLDER_MAX];
+    if (!machine_cache_folder(folder, NULL))
         return false;
     uint64_t a = cache_hash(cache_hash(cache_hash(CACHE_HASH_BEGIN, key), d->name), d->driver);
     uint64_t b = cache_hash(cache_hash(cache_hash(0x84222325cbf29ce4u, d->platform_name), key),
@@ -81,7 +69,7 @@ static char *whole_key(const struct device *d, const char *key)
 
 static unsigned char *binary_read(const char *path, const char *key, size_t *size)
 {
-    FILE *f = fopen(path, "rb");
+    FILE *f = cache_file_read(path);
     if (!f)
         return NULL;
     unsigned char *binary = NULL;
@@ -109,19 +97,15 @@ static void binary_write(const char *path, const char *key, cl_program program)
     if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL) || !size)
         return;
     unsigned char *binary = malloc(size);
-    char temporary[720];
-    FILE *f =
-        binary && !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL)
-            ? cache_temporary(path, temporary, sizeof temporary)
-            : NULL;
-    if (f) {
+    struct output_file out;
+    if (binary &&
+        !clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) &&
+        output_file_open(&out, path)) {
         uint64_t length[2] = {strlen(key), size};
-        bool good = fwrite(length, sizeof length, 1, f) == 1 &&
-                    fwrite(key, 1, length[0], f) == length[0] &&
-                    fwrite(binary, 1, size, f) == size;
-        good = fclose(f) == 0 && good;
-        if (!good || rename(temporary, path))
-            unlink(temporary);
+        fwrite(length, sizeof length, 1, out.stream);
+        fwrite(key, 1, length[0], out.stream);
+        fwrite(binary, 1, size, out.stream);
+        output_file_commit(&out);
     }
     free(binary);
 }
@@ -139,13 +123,10 @@ unsigned char *cache_program_read(const struct device *d, const char *key, size_
 
 void cache_program_write(const struct device *d, const char *key, cl_program program)
 {
-    char path[700], folder[512];
+    char path[700];
     char *whole = whole_key(d, key);
-    if (whole && machine_cache_folder(folder, sizeof folder) &&
-        path_of(path, sizeof path, d, key, ".bin")) {
-        cache_folder_make(folder);
+    if (whole && path_of(path, sizeof path, d, key, ".bin"))
         binary_write(path, whole, program);
-    }
     free(whole);
 }
 
@@ -163,13 +144,10 @@ bool cache_mark_is_there(const struct device *d, const char *key)
 
 void cache_mark_write(const struct device *d, const char *key)
 {
-    char path[700], folder[512];
+    char path[700];
     int file = -1;
-    if (machine_cache_folder(folder, sizeof folder) &&
-        path_of(path, sizeof path, d, key, ".has")) {
-        cache_folder_make(folder);
-        file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-    }
+    if (path_of(path, sizeof path, d, key, ".has"))
+        file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
     if (file >= 0)
         close(file);
 }

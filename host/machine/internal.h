@@ -763,10 +763,8 @@ bool reshape_forget_set(struct machine *m, int set);
 /* cache.c */
 #define CACHE_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
 uint64_t cache_hash(uint64_t h, const char *s);
-void cache_folder_make(char *folder); /* and those above it, where they are missing */
-/* A new file beside path, to be renamed to it when it is complete; temporary: its name. NULL: errno. */
-FILE *cache_temporary(const char *path, char *temporary, size_t size);
-/* A program's binary, by its key. Owns: the caller frees it; NULL: there is none. */
+/* Opens a regular file of the cache for reading; NULL where there is none, and for pipes, links and devices. */
+FILE *cache_file_read(const char *path);
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
 void cache_program_write(const struct device *d, const char *key, cl_program program);
 bool cache_program_is_there(const struct device *d, const char *key);

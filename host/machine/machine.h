@@ -176,8 +176,10 @@ enum machine_status machine_flush(struct machine *m);
 /* The same, and waits for the device. */
 enum machine_status machine_finish(struct machine *m);
 
-/* Where kernels and tunings are kept from run to run. False: nowhere, neither XDG_CACHE_HOME nor HOME is set. */
-bool machine_cache_folder(char *out, size_t size);
+enum { MACHINE_CACHE_FOLDER_MAX = 512 };
+/* Where kernels and tunings are kept: $XDG_CACHE_HOME/lutetia or ~/.cache/lutetia, else a temporary folder that goes with the
+ * process; *why, if asked for, says then why, and is NULL else. False: there is nowhere. */
+bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char **why);
 
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);

@@ -16,6 +16,8 @@
  * file that is not as it should be is as if it were not there. */
 #include "internal.h"
 
+#include <output_file.h>
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -156,8 +158,8 @@ bool tuning_parse(const char *bytes, size_t length, const struct device *d,
 
 static bool file_path(char *out, size_t size, const struct device *d)
 {
-    char folder[512];
-    if (!machine_cache_folder(folder, sizeof folder))
+    char folder[MACHINE_CACHE_FOLDER_MAX];
+    if (!machine_cache_folder(folder, NULL))
         return false;
     uint64_t hash = cache_hash(cache_hash(CACHE_HASH_BEGIN, d->platform_name), d->name);
     int n = snprintf(out, size, "%s/tuning-%016llx", folder, (unsigned long long)hash);
@@ -169,7 +171,7 @@ static enum machine_tuned file_read(const struct device *d, struct machine_tunin
 {
     char path[600], bytes[TUNING_BYTES_MOST + 1];
     *out = machine_tuning_usual();
-    FILE *f = file_path(path, sizeof path, d) ? fopen(path, "rb") : NULL;
+    FILE *f = file_path(path, sizeof path, d) ? cache_file_read(path) : NULL;
     if (!f)
         return MACHINE_UNTUNED;
     size_t length = fread(bytes, 1, sizeof bytes, f);
@@ -219,36 +221,36 @@ enum machine_tuned machine_tuning_describe(const struct machine *m, char *out, s
     return tuned;
 }
 
-static bool file_write(FILE *f, const struct device *d, const struct machine_tuning *tuning)
+static void file_write(FILE *f, const struct device *d, const struct machine_tuning *tuning)
 {
     fprintf(f, FIRST_LINE "\nplatform %s\ndevice %s\ndriver %s\n", d->platform_name, d->name,
             d->driver);
     for (int k = 0; k < MACHINE_KNOBS; k++)
         fprintf(f, "%s %d\n", names[k], tuning->of[k]);
     fputs("end\n", f);
-    bool good = fflush(f) == 0 && !ferror(f) && fsync(fileno(f)) == 0;
-    return fclose(f) == 0 && good;
 }
 
 enum machine_status machine_tuning_keep(struct machine *m, const struct machine_tuning *tuning)
 {
-    char folder[512], path[600], temporary[640];
+    char folder[MACHINE_CACHE_FOLDER_MAX], path[600];
+    const char *why = NULL;
+    struct output_file out;
     for (int k = 0; k < MACHINE_KNOBS; k++)
         if (!machine_knob_allows((enum machine_knob)k, tuning->of[k]))
             return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is %d)", names[k],
                                 settings_knob_may_be((enum machine_knob)k), tuning->of[k]);
-    if (!machine_cache_folder(folder, sizeof folder) ||
-        !file_path(path, sizeof path, &m->device))
+    if (!machine_cache_folder(folder, &why) || why || !file_path(path, sizeof path, &m->device))
         return machine_fail(
             m, MACHINE_BAD_ARGUMENT,
-            "there is no folder to keep a tuning in: set XDG_CACHE_HOME, or HOME, to one");
-    cache_folder_make(folder);
-    FILE *f = cache_temporary(path, temporary, sizeof temporary);
-    if (f && file_write(f, &m->device, tuning) && rename(temporary, path) == 0)
-        return MACHINE_OK;
-    int reason = errno;
-    if (f)
-        unlink(temporary);
-    return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s cannot be written: %s", path,
-                        strerror(reason));
+            "there is no folder to keep a tuning in (%s): set XDG_CACHE_HOME, or "
+            "HOME, to one of your own",
+            why ? why : "none can be made");
+    bool done = output_file_open(&out, path);
+    if (done) {
+        file_write(out.stream, &m->device, tuning);
+        done = output_file_commit(&out);
+    }
+    return done ? MACHINE_OK
+                : machine_fail(m, MACHINE_BAD_ARGUMENT, "%s cannot be written: %s", path,
+                               out.why);
 }

@@ -1,6 +1,8 @@
 /* devices.c - see devices.h. */
 #include "devices.h"
 
+#include <user_folder.h>
+
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +23,24 @@ static void pocl_threads_tie(void)
         if (!CPU_ISSET((size_t)i, &ours))
             return;
     setenv("POCL_AFFINITY", "1", 0);
+}
+
+/* PoCL loads what lies in its cache as code. By itself it would keep it in a folder of a fixed name in /tmp where there is no
+ * HOME, and end the program where POCL_CACHE_DIR is empty. So it is always told a folder of this user's. One that the
+ * user has chosen, and that cannot be made, is left as it is: PoCL says that it has no device. */
+static void pocl_cache_settle(void)
+{
+    const char *said = getenv("POCL_CACHE_DIR");
+    char folder[USER_FOLDER_MAX];
+    if (said && *said) {
+        user_folder_make(said);
+        if (access(said, F_OK) != 0 || !user_folder_wrong(said))
+            return;
+    }
+    if (user_cache_folder("pocl/kcache", folder, NULL))
+        setenv("POCL_CACHE_DIR", folder, 1);
+    else
+        setenv("POCL_KERNEL_CACHE", "0", 1);
 }
 
 static void name_get(char *out, size_t size, cl_int error)
@@ -49,6 +69,7 @@ int opencl_devices(struct opencl_device out[static OPENCL_DEVICES_MAX], cl_platf
     if (without)
         *without = NULL;
     pocl_threads_tie();
+    pocl_cache_settle();
     if (clGetPlatformIDs(PLATFORMS_MAX, platforms, &platforms_count) != CL_SUCCESS)
         return 0;
     for (cl_uint p = 0; p < platforms_count && p < PLATFORMS_MAX; p++) {

@@ -1,9 +1,9 @@
-/* state_write.c - sheets to an HDF5 file: beside its name first, then, whole and on the disk, under it. */
+/* state_write.c - sheets to an HDF5 file, which output_file.h brings under its name. */
 #include "state_internal.h"
 
+#include <output_file.h>
+
 #include <errno.h>
-#include <fcntl.h>
-#include <libgen.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -156,6 +156,7 @@ static enum paper_status content_write(const char *path, const struct paper_stat
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     H5Pset_userblock(how, STATE_HEADER_BYTES);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_file_locking(access, false, true); /* the part file is locked by us */
     errno = 0;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
     *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
@@ -185,63 +186,43 @@ static void header_fill(char header[STATE_HEADER_BYTES], const struct paper_stat
 }
 
 /* The header, written last: a file without it is no state. */
-static bool header_write(const char *path, const struct paper_state_sheet *sheets, int count)
+static bool header_write(int descriptor, const struct paper_state_sheet *sheets, int count)
 {
     char header[STATE_HEADER_BYTES];
     uint32_t checksum = 0;
     struct stat status;
     long long bytes;
-    int descriptor = open(path, O_RDWR | O_CLOEXEC);
-    if (descriptor < 0)
-        return false;
     bool done = fstat(descriptor, &status) == 0;
     header_fill(header, sheets, count, (long long)status.st_size, 0);
     done = done && state_checksum(descriptor, header, &checksum, &bytes) &&
            bytes == (long long)status.st_size;
     header_fill(header, sheets, count, (long long)status.st_size, checksum);
-    done = done && pwrite(descriptor, header, sizeof header, 0) == sizeof header &&
-           fsync(descriptor) == 0;
-    int error = done ? 0 : errno;
-    done = close(descriptor) == 0 && done;
-    if (error)
-        errno = error;
-    return done;
-}
-
-/* The name itself must be on the disk too. */
-static void folder_sync(const char *path)
-{
-    char *copy = strdup(path);
-    int descriptor = copy ? open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (descriptor >= 0) {
-        fsync(descriptor);
-        close(descriptor);
-    }
-    free(copy);
+    return done && pwrite(descriptor, header, sizeof header, 0) == sizeof header;
 }
 
 enum paper_status paper_state_save(const char *path, const struct paper_state_sheet *sheets,
                                    int count)
 {
-    char *part;
+    struct output_file out;
     bool written = false;
     if (count < 0 || count > PAPER_STATE_SHEETS_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "a state holds up to %d sheets (got %d)",
                           PAPER_STATE_SHEETS_MAX, count);
-    if (asprintf(&part, "%s.%ld.part", path, (long)getpid()) < 0)
-        return paper_fail(PAPER_NO_MEMORY, "no memory to save a state");
-    enum paper_status status = content_write(part, sheets, count, &written);
-    if (status == PAPER_OK) {
-        errno = written ? 0 : errno;
-        written = written && header_write(part, sheets, count) && rename(part, path) == 0;
-        if (!written)
-            status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path,
-                                errno ? strerror(errno) : "HDF5 failed");
+    if (!output_file_open(&out, path))
+        return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
+    enum paper_status status = content_write(out.part, sheets, count, &written);
+    int error = errno;
+    if (status == PAPER_OK && written) {
+        errno = 0;
+        written = header_write(fileno(out.stream), sheets, count);
+        error = errno;
     }
-    if (status != PAPER_OK)
-        unlink(part);
-    else
-        folder_sync(path);
-    free(part);
-    return status;
+    if (status == PAPER_OK && written)
+        return output_file_commit(&out)
+                   ? PAPER_OK
+                   : paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
+    output_file_abandon(&out);
+    return status != PAPER_OK ? status
+                              : paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path,
+                                           error ? output_file_explain(error) : "HDF5 failed");
 }

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -127,10 +128,73 @@ static void threads_have_a_processor_each_unless_told(void **state)
     assert_int_equal(0, tied_in_child(NULL, NULL, true));
 }
 
+/* Runs in a child: which cache PoCL is told, given what the environment says (NULL: nothing). Its path, or "" where there was no
+ * answer: the child has ended by a signal. */
+static void pocl_cache_of(const char *home, const char *said, char path[static 512],
+                          mode_t *mode)
+{
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        struct opencl_device all[OPENCL_DEVICES_MAX];
+        char told[512] = "";
+        struct stat status = {0};
+        unsetenv("XDG_CACHE_HOME");
+        unsetenv("POCL_CACHE_DIR");
+        unsetenv("HOME");
+        if (home)
+            setenv("HOME", home, 1);
+        if (said)
+            setenv("POCL_CACHE_DIR", said, 1);
+        opencl_devices(all, NULL);
+        snprintf(told, sizeof told, "%s", getenv("POCL_CACHE_DIR"));
+        stat(told, &status);
+        (void)!write(ends[1], told, sizeof told);
+        (void)!write(ends[1], &status.st_mode, sizeof status.st_mode);
+        exit(0);
+    }
+    close(ends[1]);
+    if (read(ends[0], path, 512) != 512 || read(ends[0], mode, sizeof *mode) != sizeof *mode)
+        path[0] = '\0';
+    close(ends[0]);
+    assert_int_equal(waitpid(child, NULL, 0), child);
+}
+
+/* What lies in the cache is loaded as code: it is never where another user can put something. */
+static void pocl_keeps_its_programs_where_only_we_can_write(void **state)
+{
+    (void)state;
+    char home[] = "/tmp/test-devices-XXXXXX", open_to_all[64], path[512], wanted[64];
+    mode_t mode = 0;
+    assert_non_null(mkdtemp(home));
+    snprintf(wanted, sizeof wanted, "%s/.cache/pocl/kcache", home);
+    snprintf(open_to_all, sizeof open_to_all, "%s/all", home);
+    assert_int_equal(mkdir(open_to_all, 0700), 0);
+    assert_int_equal(chmod(open_to_all, 0777), 0);
+
+    pocl_cache_of(home, NULL, path, &mode);
+    assert_string_equal(path, wanted);
+    assert_int_equal(mode & 0777, 0700);
+    pocl_cache_of(home, "", path, &mode); /* PoCL ends the program if it sees an empty one */
+    assert_string_equal(path, wanted);
+    pocl_cache_of(home, open_to_all, path, &mode);
+    assert_string_equal(path, wanted);
+    pocl_cache_of(NULL, NULL, path, &mode); /* a private one, gone with the child */
+    assert_non_null(strstr(path, "/lutetia-cache-"));
+    assert_int_equal(mode & 0777, 0700);
+    assert_int_equal(access(path, F_OK), -1);
+
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf '%s'", home);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_is_chosen_by_number_or_name),
+        cmocka_unit_test(pocl_keeps_its_programs_where_only_we_can_write),
         cmocka_unit_test(threads_have_a_processor_each_unless_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,90 @@
+/* confine.c - see confine.h. */
+#include "confine.h"
+
+#include <errno.h>
+#include <seccomp.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long memory_bytes)
+{
+    struct rlimit seconds = {cpu_seconds, cpu_seconds}, none = {0, 0};
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) /* it died before that */
+        _exit(1);
+    setrlimit(RLIMIT_CPU, &seconds);
+    setrlimit(RLIMIT_CORE, &none);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(LUTETIA_FUZZ)
+    long pages = 0;
+    FILE *sizes = memory_bytes ? fopen("/proc/self/statm", "r") : NULL;
+    if (sizes && fscanf(sizes, "%ld", &pages) == 1) {
+        rlim_t most = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + memory_bytes;
+        setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
+    }
+    if (sizes)
+        fclose(sizes);
+#else
+    (void)memory_bytes;
+#endif
+}
+
+/* What reading files that are open, memory and an orderly end take, in glibc. */
+static const int allowed[] = {
+    SCMP_SYS(read),
+    SCMP_SYS(pread64),
+    SCMP_SYS(readv),
+    SCMP_SYS(lseek),
+    SCMP_SYS(_llseek),
+    SCMP_SYS(write),
+    SCMP_SYS(writev),
+    SCMP_SYS(close),
+    SCMP_SYS(fstat),
+    SCMP_SYS(fstat64),
+    SCMP_SYS(newfstatat),
+    SCMP_SYS(fstatat64),
+    SCMP_SYS(statx),
+    SCMP_SYS(flock),
+    SCMP_SYS(fcntl),
+    SCMP_SYS(fcntl64),
+    SCMP_SYS(mmap),
+    SCMP_SYS(mmap2),
+    SCMP_SYS(munmap),
+    SCMP_SYS(mremap),
+    SCMP_SYS(madvise),
+    SCMP_SYS(mprotect),
+    SCMP_SYS(brk),
+    SCMP_SYS(futex),
+    SCMP_SYS(getpid),
+    SCMP_SYS(gettid),
+    SCMP_SYS(clock_gettime),
+    SCMP_SYS(gettimeofday),
+    SCMP_SYS(time),
+    SCMP_SYS(clock_gettime64),
+    SCMP_SYS(rt_sigaction),
+    SCMP_SYS(rt_sigprocmask),
+    SCMP_SYS(rt_sigreturn),
+    SCMP_SYS(sigaltstack),
+    SCMP_SYS(sched_yield),
+    SCMP_SYS(getrandom),
+    SCMP_SYS(exit),
+    SCMP_SYS(exit_group),
+    SCMP_SYS(restart_syscall),
+};
+
+bool confine_calls(void)
+{
+    scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
+    bool done = filter != NULL;
+    for (size_t i = 0; i < sizeof allowed / sizeof *allowed && done; i++) {
+        int added = seccomp_rule_add(filter, SCMP_ACT_ALLOW, allowed[i], 0);
+        done = added == 0 ||
+               added == -EDOM; /* a call that this processor's system does not have */
+    }
+    done = done && seccomp_load(filter) == 0;
+    seccomp_release(filter);
+    return done;
+}

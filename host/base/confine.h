@@ -1,0 +1,29 @@
+/* confine.h - a process that reads bytes which anybody may have made, and that gives up all that reading does not need.
+ *
+ *     pid_t parent = getpid(), child = fork();
+ *     if (child == 0) {
+ *         confine_resources(parent, 300, memory_bytes);
+ *         ... open the one file that is to be read
+ *         confine_calls();
+ *         ... read it; send what was found through a pipe
+ *     }
+ *
+ * If the library that reads the file is made to do something else by it, that something is: computing, for at most so many seconds in
+ * at most so much memory, and writing to the descriptors that are open. */
+#ifndef LUTETIA_CONFINE_H
+#define LUTETIA_CONFINE_H
+
+#include <stdbool.h>
+#include <sys/types.h>
+
+/* The process ends with its parent (SIGKILL), leaves no core file, takes at most so many seconds of a processor, and its
+ * memory grows by at most so many bytes from now on (0: any number). Memory is not limited where the address sanitizer
+ * keeps terabytes of addresses for itself. Called in a child, soon after fork(). */
+void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long memory_bytes);
+
+/* From now on the process can read and write what it has open, ask for memory, tell the time and exit. Every other call of
+ * the system (open, socket, fork, exec, kill, ...) fails with EPERM, for good: seccomp. False: the system has no seccomp; nothing
+ * has changed. */
+bool confine_calls(void);
+
+#endif

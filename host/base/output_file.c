@@ -1,0 +1,281 @@
+/* output_file.c - see output_file.h. */
+#include "output_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { RANDOM_DIGITS = 16, TRIES = 16, FOLDERS_REMEMBERED = 16 };
+
+static const char part_end[] = ".part";
+
+const char *output_file_explain(int error)
+{
+    switch (error) {
+    case ENOSPC:
+        return "No space left on device; free some space or write elsewhere";
+    case EDQUOT:
+        return "Disk quota exceeded; free some space or write elsewhere";
+    case EFBIG:
+        return "File too large; write elsewhere";
+    case ENOENT:
+        return "No such file or directory; the folder must exist";
+    case EACCES:
+        return "Permission denied; choose a folder that you may write to";
+    case EPERM:
+        return "Operation not permitted; choose a folder that you may write to";
+    case EROFS:
+        return "Read-only file system; choose a folder that you may write to";
+    case EISDIR:
+        return "Is a directory; name a file in it";
+    case ELOOP:
+        return "Is a symbolic link, and links are not followed; name the file itself";
+    case ENOTSUP:
+        return "Is not a regular file; name a file";
+    default:
+        return strerror(error);
+    }
+}
+
+static bool output_fail(struct output_file *out, int error)
+{
+    output_file_abandon(out);
+    out->error = error ? error : EIO;
+    out->why = output_file_explain(out->error);
+    return false;
+}
+
+/* ---- part files of dead processes ---- */
+
+/* .NAME.0123456789abcdef.part */
+static bool is_part_name(const char *name)
+{
+    size_t length = strlen(name), end = sizeof part_end - 1;
+    if (name[0] != '.' || length < RANDOM_DIGITS + end + 4 ||
+        strcmp(name + length - end, part_end) != 0)
+        return false;
+    const char *digits = name + length - end - RANDOM_DIGITS;
+    return digits[-1] == '.' && strspn(digits, "0123456789abcdef") == RANDOM_DIGITS;
+}
+
+static void part_sweep(int folder, const char *name)
+{
+    int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    struct stat status;
+    if (file < 0)
+        return;
+    if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == geteuid() &&
+        flock(file, LOCK_EX | LOCK_NB) == 0)
+        unlinkat(folder, name, 0);
+    close(file);
+}
+
+void output_file_sweep(int folder_descriptor)
+{
+    int again = openat(folder_descriptor, ".",
+                       O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* its own position */
+    DIR *names = again < 0 ? NULL : fdopendir(again);
+    if (!names) {
+        if (again >= 0)
+            close(again);
+        return;
+    }
+    for (struct dirent *e; (e = readdir(names));)
+        if (is_part_name(e->d_name))
+            part_sweep(folder_descriptor, e->d_name);
+    closedir(names);
+}
+
+/* A film writes thousands of pictures into one folder: a process sweeps it once. The folders last swept are remembered. */
+static void sweep_once(int folder)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    static struct {
+        dev_t device;
+        ino_t inode;
+    } swept[FOLDERS_REMEMBERED];
+    static unsigned count;
+    static pid_t process;
+    struct stat status;
+    bool known = fstat(folder, &status) != 0;
+    pthread_mutex_lock(&lock);
+    if (process != getpid()) { /* a child has swept nothing */
+        process = getpid();
+        count = 0;
+    }
+    for (unsigned i = 0; i < count && i < FOLDERS_REMEMBERED && !known; i++)
+        known = swept[i].device == status.st_dev && swept[i].inode == status.st_ino;
+    if (!known) {
+        swept[count % FOLDERS_REMEMBERED].device = status.st_dev;
+        swept[count++ % FOLDERS_REMEMBERED].inode = status.st_ino;
+    }
+    pthread_mutex_unlock(&lock);
+    if (!known)
+        output_file_sweep(folder);
+}
+
+/* ---- a file's life ---- */
+
+/* Of the path "a/b.png" the folder "a", open, and the name "b.png". */
+static int path_split(struct output_file *out, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    if (!*name || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+        return *path ? EISDIR : ENOENT;
+    if (strlen(name) + RANDOM_DIGITS + sizeof part_end + 2 > 255)
+        return ENAMETOOLONG;
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    out->name = strdup(name);
+    if (!folder || !out->name) {
+        free(folder);
+        return ENOMEM;
+    }
+    out->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC); /* it need not be readable */
+    int error = out->folder < 0 ? errno : 0;
+    out->part = folder; /* its name is added when it has one */
+    if (!slash)
+        *folder = '\0';
+    return error;
+}
+
+/* What has the name now may be replaced: a regular file, or nothing. */
+static int target_check(const struct output_file *out)
+{
+    struct stat status;
+    if (fstatat(out->folder, out->name, &status, AT_SYMLINK_NOFOLLOW) != 0)
+        return errno == ENOENT ? 0 : errno;
+    if (S_ISREG(status.st_mode))
+        return 0;
+    return S_ISDIR(status.st_mode) ? EISDIR : S_ISLNK(status.st_mode) ? ELOOP : ENOTSUP;
+}
+
+/* Makes the part file and locks it; its descriptor, or -1 with errno. Another process that sweeps may have taken it for a dead
+ * one's before it was locked: then it has no name any more, and another is made. */
+static int part_make(struct output_file *out)
+{
+    for (int i = 0; i < TRIES; i++) {
+        unsigned long long number;
+        struct stat status;
+        if (getrandom(&number, sizeof number, 0) != sizeof number)
+            return -1;
+        free(out->part_name);
+        out->part_name = NULL;
+        if (asprintf(&out->part_name, ".%s.%016llx%s", out->name, number, part_end) < 0) {
+            out->part_name = NULL;
+            errno = ENOMEM;
+            return -1;
+        }
+        int file = openat(out->folder, out->part_name,
+                          O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file < 0 && errno == EEXIST)
+            continue;
+        if (file < 0)
+            return -1;
+        flock(file, LOCK_EX); /* a file system without locks: then nothing there is swept */
+        if (fstat(file, &status) == 0 && status.st_nlink > 0)
+            return file;
+        close(file);
+    }
+    errno = EEXIST;
+    return -1;
+}
+
+bool output_file_open(struct output_file *out, const char *path)
+{
+    *out = (struct output_file){.folder = -1};
+    int error = path_split(out, path);
+    if (!error)
+        error = target_check(out);
+    if (error)
+        return output_fail(out, error);
+    sweep_once(out->folder);
+    int file = part_make(out);
+    char *whole = NULL;
+    if (file < 0 || asprintf(&whole, "%s%s", out->part, out->part_name) < 0) {
+        error = file < 0 ? errno : ENOMEM;
+        if (file >= 0) {
+            unlinkat(out->folder, out->part_name, 0);
+            close(file);
+        }
+        free(out->part_name);
+        out->part_name = NULL;
+        return output_fail(out, error);
+    }
+    free(out->part);
+    out->part = whole;
+    out->stream = fdopen(file, "w+b");
+    if (out->stream)
+        return true;
+    error = errno;
+    close(file);
+    return output_fail(out, error);
+}
+
+/* Nothing of it is left in memory, nor its part file if that has not got its name. */
+static void output_release(struct output_file *out)
+{
+    if (out->part_name)
+        unlinkat(out->folder, out->part_name, 0);
+    if (out->stream)
+        fclose(out->stream);
+    if (out->folder >= 0)
+        close(out->folder);
+    free(out->part);
+    free(out->part_name);
+    free(out->name);
+    *out = (struct output_file){.folder = -1};
+}
+
+void output_file_abandon(struct output_file *out)
+{
+    if (out->name || out->stream)
+        output_release(out);
+}
+
+/* The stream only remembers that a write failed, not why: another byte fails for the same reason. */
+static int write_error(FILE *stream)
+{
+    struct stat status;
+    int file = fileno(stream);
+    errno = EIO;
+    return fstat(file, &status) == 0 && pwrite(file, "", 1, status.st_size) == 1 ? EIO : errno;
+}
+
+/* The name, too, is brought to the disk; a folder that cannot be synced is left to the system. */
+static void folder_sync(int folder)
+{
+    int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (again >= 0) {
+        fsync(again);
+        close(again);
+    }
+}
+
+bool output_file_commit(struct output_file *out)
+{
+    int error = ferror(out->stream) ? write_error(out->stream) : 0;
+    errno = 0;
+    if (!error && fflush(out->stream) != 0)
+        error = errno ? errno : EIO;
+    if (!error && fsync(fileno(out->stream)) != 0 && errno != EINVAL)
+        error = errno; /* EINVAL: a file system that has nothing to bring to a disk */
+    if (!error)
+        error = target_check(out);
+    if (!error && renameat(out->folder, out->part_name, out->folder, out->name) != 0)
+        error = errno;
+    if (error)
+        return output_fail(out, error);
+    free(out->part_name);
+    out->part_name = NULL;
+    folder_sync(out->folder);
+    output_release(out);
+    return true;
+}

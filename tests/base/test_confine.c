@@ -1,0 +1,122 @@
+/* test_confine.c - a confined process reads and writes what it has open, and can do nothing else. */
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <confine.h>
+
+enum { SKIPPED = 77 };
+
+/* The line of the first claim that does not hold becomes the child's status. */
+#define HOLDS(claim)                                                                           \
+    do {                                                                                       \
+        if (!(claim))                                                                          \
+            _exit(__LINE__ % 70 + 1);                                                          \
+    } while (0)
+
+static void child_confined(pid_t parent)
+{
+    char byte, *memory;
+    int file = open("/proc/self/exe", O_RDONLY);
+    confine_resources(parent, 10, 1 << 30);
+    HOLDS(file >= 0);
+    if (!confine_calls())
+        _exit(SKIPPED);
+    HOLDS(read(file, &byte, 1) == 1 && pread(file, &byte, 1, 1) == 1 && byte == 'E');
+    HOLDS(lseek(file, 0, SEEK_END) > 0);
+    memory = malloc(1 << 24);
+    HOLDS(memory != NULL);
+    memset(memory, 1, 1 << 24);
+    free(memory);
+    HOLDS(open("/etc/passwd", O_RDONLY) < 0 && errno == EPERM);
+    HOLDS(open("/tmp/confined", O_WRONLY | O_CREAT, 0600) < 0 && errno == EPERM);
+    HOLDS(socket(AF_UNIX, SOCK_STREAM, 0) < 0 && errno == EPERM);
+    HOLDS(kill(parent, 0) < 0 && errno == EPERM);
+    HOLDS(unlink("/tmp/confined") < 0 && errno == EPERM);
+    execl("/bin/true", "true", (char *)NULL);
+    HOLDS(errno == EPERM);
+    HOLDS(fork() < 0 && errno == EPERM);
+    _exit(0);
+}
+
+static void confined_process_can_only_read_and_write_what_is_open(void **state)
+{
+    (void)state;
+    int status;
+    pid_t parent = getpid(), child = fork();
+    if (child == 0)
+        child_confined(parent);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    if (WEXITSTATUS(status) == SKIPPED)
+        skip();
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+static void memory_is_limited(void **state)
+{
+    (void)state;
+    int status;
+    pid_t parent = getpid(), child = fork();
+    if (child == 0) {
+        confine_resources(parent, 10, 64 << 20);
+        void *some = malloc(32 << 20), *more = malloc(128 << 20);
+        _exit(some && !more ? 0 : 1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+#endif
+
+/* A parent that is killed takes its child with it: the child's end of a pipe closes. */
+static void it_ends_with_its_parent(void **state)
+{
+    (void)state;
+    int ends[2], ready[2];
+    char byte;
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(pipe(ready), 0);
+    pid_t parent = fork();
+    if (parent == 0) {
+        pid_t self = getpid();
+        if (fork() == 0) {
+            confine_resources(self, 10, 0);
+            (void)!write(ready[1], "x", 1);
+        }
+        for (;;)
+            pause();
+    }
+    close(ends[1]);
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    kill(parent, SIGKILL);
+    assert_int_equal(waitpid(parent, NULL, 0), parent);
+    assert_int_equal(read(ends[0], &byte, 1), 0); /* waits for ever if the child lives */
+    close(ends[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(confined_process_can_only_read_and_write_what_is_open),
+#if !defined(__SANITIZE_ADDRESS__)
+        cmocka_unit_test(memory_is_limited),
+#endif
+        cmocka_unit_test(it_ends_with_its_parent),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
