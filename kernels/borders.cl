@@ -1,4 +1,4 @@
-/* borders.cl - the rows around strips, copied before strips write where they read: see host/machine/strips.h.
+/* borders.cl - the rows around strips, copied before strips write where they read: see host/machine/codegen/strips.h.
  *
  * to: one array after the other, those whose bit is set in `which` and room for the others; of each array, for each
  * strip of `run` rows, the `above` rows before it and the `below` rows after it. bytes: of an array's elements, four

@@ -1,4 +1,4 @@
-/* formats.cl - floats of short formats (s <= 24, e <= 9: see host/machine/soft.c) on vectors.
+/* formats.cl - floats of short formats (s <= 24, e <= 9: see host/machine/values/soft.c) on vectors.
  * Their values are doubles that the format has; soft.cl does the same and all other formats, one
  * lane at a time. */
 #define SHORT_SIGN ((ulong)1 << 63)

@@ -27,8 +27,8 @@
 #pragma GCC visibility pop
 #endif
 
+#include "base/scalar.h"
 #include "paris_internal.h"
-#include "scalar.h"
 
 /* One entry point. */
 struct paris_instruction {

@@ -51,8 +51,8 @@
 #include <pthread.h>
 #include <stdio.h>
 
+#include "base/scalar.h"
 #include "machine.h"
-#include "scalar.h"
 
 /* Stays in release builds: a broken invariant of ours, never of the caller. */
 #define INVARIANT(condition)                                                                   \

@@ -2,8 +2,8 @@
  * machine that waits for them; where it cannot, the machine does wait; and machines and programs end in the middle of it. */
 #include "support.h"
 
-#include "background.h"
-#include "compiler.h"
+#include "build/background.h"
+#include "build/compiler.h"
 
 #include <dirent.h>
 #include <errno.h>

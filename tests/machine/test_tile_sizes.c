@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "tiles.h"
+#include "plan/tiles.h"
 
 enum { TRIES = 300, STAGES_MOST = 9, ARRAYS_MOST = 24 };
 

@@ -1,0 +1,689 @@
+/* plan_kernels.c - plans kept: their kernels, made when a graph is first seen, and made better when it has been seen
+ * often.
+ *
+ * Plans are kept by signature; numbers' values are no part of it. */
+#include "build/plan_kernels.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "build/background.h"
+#include "build/plans.h"
+#include "device/call.h"
+#include "kernels.h"
+#include "watch/watch.h"
+
+/* ---- life ---- */
+
+static void plan_free(struct plan *p)
+{
+    if (!p)
+        return;
+    for (int i = 0; i < p->launches_count; i++) {
+        free(p->launches[i].arguments);
+        free(p->launches[i].in_place.pairs);
+    }
+    plan_free(p->better);
+    free(p->launches);
+    free(p->stored);
+    free(p->arrays);
+    free(p->signature);
+    free(p);
+}
+
+/* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
+static void notes_settle(struct machine *m, struct plan *p)
+{
+    for (int i = 0; m->watch && i < p->launches_count; i++) {
+        struct launch *l = &p->launches[i];
+        l->note = watch_kernel_built(m, l->note, l->kernel);
+    }
+}
+
+/* It does not take the other's place. */
+static void better_give_up(struct machine *m, struct plan *p)
+{
+    if (p->better)
+        notes_settle(m, p->better);
+    plan_free(p->better);
+    p->better = NULL;
+}
+
+void plans_finish(struct machine *m)
+{
+    for (int i = 0; i < m->plans_size; i++)
+        for (struct plan *p = m->plans[i], *next; p; p = next) {
+            next = p->next;
+            plan_free(p);
+        }
+    free(m->plans);
+}
+
+/* ---- a look inside ---- */
+
+/* NULL: it cannot be written. That is said once, and the program goes on without dumps. */
+static FILE *dump_open(struct machine *m, int number, const char *suffix)
+{
+    char path[600];
+    mkdir(m->dump_dir, 0777);
+    snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
+    FILE *f = fopen(path, "w");
+    if (!f) {
+        fprintf(stderr,
+                "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
+                strerror(errno));
+        free(m->dump_dir);
+        m->dump_dir = NULL;
+    }
+    return f;
+}
+
+static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
+                      const char *text)
+{
+    FILE *f = dump_open(m, number, suffix);
+    if (!f)
+        return;
+    if (options)
+        fprintf(f, "/* %s */\n", options);
+    fputs(text, f);
+    fclose(f);
+}
+
+static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
+{
+    FILE *f = dump_open(m, number, ".graph");
+    if (!f)
+        return;
+    for (int i = 0; i < g->count; i++) {
+        const struct plan_node *n = &g->nodes[i];
+        fprintf(f, "%4d %-14s %s%d", i, n->leaf ? "buffer" : node_ops[n->op].name,
+                n->type.kind == MACHINE_FLOAT ? "f" : "u", n->type.width);
+        if (n->op == NODE_SHIFT && !n->leaf)
+            fprintf(f, " axis %d by %d", n->axis, n->detail);
+        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
+            fprintf(f, " %d", n->in[k]);
+        if (!n->leaf && !n->constant)
+            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "",
+                    n->target ? ", asked for" : "");
+        fprintf(f, "\n");
+    }
+    fclose(f);
+}
+
+/* ---- kernels ---- */
+
+/* What a device is sure to take: 1024 bytes. Reserved: the fixed arguments and lengths of axes.
+ */
+static bool too_many_arguments(const struct kernel_text *k)
+{
+    size_t bytes = (5 + MACHINE_AXES_MAX) * sizeof(cl_int);
+    for (int i = 0; i < k->arguments_count; i++)
+        bytes += k->arguments[i].size ? k->arguments[i].size : sizeof(cl_mem);
+    return bytes > 1024;
+}
+
+/* Those are fetched ahead. */
+static bool many_streams(const struct machine *m, const struct vpset *set,
+                         const struct kernel_text *k)
+{
+    enum { FETCH_FROM_BYTES = 4 << 20 };
+    int arrays = 0;
+    for (int i = 0; i < k->arguments_count; i++)
+        arrays += k->arguments[i].kind == ARGUMENT_INPUT;
+    return m->device.is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
+           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
+}
+
+/* Functions like exp take hundreds of operations, each of which is a call where nothing is optimised: a microsecond for each
+ * processor, where it is a tenth else. Of them fewer make up for the compiler's time, which is not much more either. */
+static bool much_math(const struct machine *m, const struct kernel_text *k,
+                      const struct vpset *set)
+{
+    enum { MATH_WEIGHT = 32 };
+    return k->math && set->count >= m->settings.optimise_after / 4 / MATH_WEIGHT;
+}
+
+/* In the background, for later (its number there; -1: no memory), or now; what it takes is what launch() says. */
+static int kernel_want(struct machine *m, const struct vpset *set, const struct kernel_text *k,
+                       const char *const parts[DEVICE_PARTS], bool later)
+{
+    size_t numbers = 5 + (size_t)set->rank - 1 + (k->strip_bytes ? 1 : 0),
+           count = numbers + (size_t)k->arguments_count,
+           across = k->group ? plan_tiles_across(set, k->tile_width) * (size_t)k->group
+                             : (size_t)set->width / plan_run_columns(m, k->vector) + 1,
+           widest = k->strip_bytes       ? 1
+                    : set->rows > across ? set->rows
+                                         : across;
+    int number = -1;
+    char *arguments = malloc(count + 1);
+    if (!arguments)
+        return -1;
+    memset(arguments, '4', numbers);
+    for (int i = 0; i < k->arguments_count; i++) {
+        const struct kernel_argument *a = &k->arguments[i];
+        arguments[numbers + (size_t)i] = a->kind == ARGUMENT_INPUT ||
+                                                 a->kind == ARGUMENT_OUTPUT ||
+                                                 a->kind == ARGUMENT_SCRATCH
+                                             ? 'm'
+                                         : a->kind != ARGUMENT_BORDERS && a->size == 8 ? '8'
+                                                                                       : '4';
+    }
+    arguments[count] = '\0';
+    const struct background_wish wish = {.parts = parts,
+                                         .options = k->options,
+                                         .name = "k",
+                                         .arguments = arguments,
+                                         .dimensions = 2,
+                                         .group = (uint32_t)k->group,
+                                         .widest = widest};
+    if (later)
+        number = background_want(m, &wish);
+    else
+        background_foresee(m, &wish);
+    free(arguments);
+    return number;
+}
+
+/* A plan that writes where it reads needs that kernel, too: see copy_borders(). */
+static bool borders_want(struct machine *m)
+{
+    const char *parts[DEVICE_PARTS];
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        parts[i] = "";
+    parts[DEVICE_PARTS - 1] = kernel_borders_cl;
+    return background_want(m,
+                           &(struct background_wish){.parts = parts,
+                                                     .options = "",
+                                                     .name = "borders",
+                                                     .arguments = "44444488mmmmmmmmmmmmmmmmm",
+                                                     .dimensions = 3,
+                                                     .widest = 1}) >= 0;
+}
+
+static bool plan_text(const struct machine *m, const struct plan_graph *g, const int *stores,
+                      int count, struct kernel_text *k)
+{
+    const struct vpset *set = &m->sets[g->nodes[stores[0]].set];
+    const struct device_shape *shape = &m->device.shape;
+    return !g->strips          ? emit_kernel(g, stores, count, set, shape, k)
+           : shape->vector < 2 ? emit_tiles(g, stores, count, set, shape, k)
+                               : emit_strips(g, stores, count, set, shape, k);
+}
+
+static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
+                        const int *stores, int stores_count)
+{
+    int set = g->nodes[stores[0]].set;
+    struct kernel_text k;
+    double start = watch_clock(m);
+    if (!plan_text(m, g, stores, stores_count, &k)) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to write a kernel");
+        return false;
+    }
+    if (g->strips && too_many_arguments(&k)) {
+        kernel_text_finish(&k);
+        return false; /* plan_make() does without */
+    }
+    if (stores_count > 1 && too_many_arguments(&k)) { /* two kernels, each with what it needs */
+        int half = stores_count / 2;
+        kernel_text_finish(&k);
+        if (m->watch)
+            watch_split(m);
+        return plan_kernel(m, p, g, stores, half) &&
+               plan_kernel(m, p, g, stores + half, stores_count - half);
+    }
+    if (m->watch)
+        watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
+    if (m->dump_dir) {
+        char said[sizeof k.options + 40];
+        int n = snprintf(said, sizeof said, "%s", k.options);
+        if (k.strip_bytes)
+            snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns",
+                     k.strip_columns);
+        if (k.group)
+            snprintf(said + n, sizeof said - (size_t)n, ", tiles of %d x %d", k.tile_width,
+                     k.tile_height);
+        dump_text(m, m->dump_count++, ".cl", said, k.text);
+    }
+    struct launch *launches =
+        realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
+                                       k.wide ? kernel_wide_cl : "",
+                                       k.soft ? kernel_soft_cl : "",
+                                       k.formats ? kernel_formats_cl : "",
+                                       k.math ? kernel_math_tables_cl : "",
+                                       k.math ? kernel_math_cl : "",
+                                       k.text};
+    if (many_streams(m, &m->sets[set], &k))
+        strcat(k.options, " -DAHEAD=128");
+    bool quick = p->quality == QUICK && !much_math(m, &k, &m->sets[set]) &&
+                 !device_kernel_at_hand(m, parts, k.options, "k");
+    if (quick)
+        strcat(k.options, " -cl-opt-disable");
+    int number = -1;
+    cl_kernel kernel = NULL;
+    if (launches)
+        p->launches = launches;
+    if (launches && (p->later || quick))
+        number = kernel_want(m, &m->sets[set], &k, parts, p->later);
+    if (launches && !p->later)
+        kernel = device_kernel(m, parts, k.options, "k");
+    if (kernel && k.group && !device_takes_group(&m->device, kernel, k.group))
+        kernel = NULL; /* plan_make() does without */
+    p->could_be_optimised |= quick;
+    p->could_be_boxed |= k.has_boxes && !g->boxes;
+    p->work += m->sets[set].count;
+    if (!kernel && number < 0) {
+        kernel_text_finish(&k);
+        return false;
+    }
+    const char *made = quick ? "quick" : g->boxes && k.has_boxes ? "boxed" : "optimised";
+    struct kernel_note *note =
+        m->watch ? watch_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
+    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
+                                                       .number = number,
+                                                       .note = note,
+                                                       .set = set,
+                                                       .vector = k.vector,
+                                                       .strip_bytes = k.strip_bytes,
+                                                       .strip_margin = k.strip_margin,
+                                                       .strip_columns = k.strip_columns,
+                                                       .group = k.group,
+                                                       .tile_width = k.tile_width,
+                                                       .tile_height = k.tile_height,
+                                                       .in_place = k.in_place,
+                                                       .arguments = k.arguments,
+                                                       .arguments_count = k.arguments_count};
+    k.arguments = NULL;
+    k.in_place.pairs = NULL;
+    kernel_text_finish(&k);
+    return true;
+}
+
+static bool plan_graph_init(struct plan_graph *g, const struct reach *r,
+                            const struct targets *t)
+{
+    *g = (struct plan_graph){.nodes = calloc((size_t)r->count, sizeof *g->nodes),
+                             .count = r->count};
+    for (int i = 0; g->nodes && i < r->count; i++) {
+        const struct machine_value *v = r->nodes[i];
+        struct plan_node *n = &g->nodes[i];
+        *n = (struct plan_node){.op = v->buffer ? NODE_BUFFER : v->op,
+                                .type = v->type,
+                                .axis = v->axis,
+                                .generator = v->buffer ? GENERATOR_NONE : v->generator,
+                                .maybe_nan = v->maybe_nan,
+                                .leaf = v->buffer != NULL,
+                                .constant = v->op == NODE_CONSTANT && !v->buffer,
+                                .set = v->set,
+                                .detail = v->detail};
+        for (int k = 0; !v->buffer && k < node_ops[v->op].inputs; k++)
+            n->in[k] = (int32_t)v->in[k]->local;
+    }
+    for (int i = 0; g->nodes && i < t->count; i++)
+        g->nodes[t->values[i]->local].target = true;
+    return g->nodes != NULL;
+}
+
+/* What is stored in that stage (-1: in all) and VP set; in stages' order. */
+static int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
+{
+    int count = 0;
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].stored && (stage < 0 || g->nodes[i].stage == stage) &&
+            g->nodes[i].set == set)
+            stores[count++] = i;
+    return count;
+}
+
+/* In strips, what only neighbours look at is in no array. */
+static void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
+                        const int *stores, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const struct plan_node *n = &g->nodes[stores[i]];
+        if (g->strips && !n->target)
+            continue;
+        p->arrays[p->stored_count] = (struct array){observe_rows(&m->sets[n->set], n->type),
+                                                    p->launches_count, p->launches_count};
+        p->stored[p->stored_count++] = stores[i];
+    }
+}
+
+/* Of a stage that was split, each launch stores a part. */
+static void find_last_launches(struct plan *p)
+{
+    for (int i = 0; i < p->stored_count; i++)
+        for (int l = p->arrays[i].first + 1; l < p->launches_count; l++)
+            for (int k = 0; k < p->launches[l].arguments_count; k++) {
+                const struct kernel_argument *a = &p->launches[l].arguments[k];
+                if ((a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT) &&
+                    a->node == p->stored[i])
+                    p->arrays[i].last = l;
+            }
+}
+
+static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_graph *g,
+                         int *stores)
+{
+    int last = 0;
+    uint64_t work = 0;
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].stored) {
+            last = g->nodes[i].stage > last ? g->nodes[i].stage : last;
+            work =
+                m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
+        }
+    if (p->quality == QUICK && work >= m->settings.optimise_after / 4)
+        p->quality = OPTIMISED;
+    for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
+        for (int set = 1; set < m->sets_count; set++) {
+            int count = plan_stores(g, stage, set, stores);
+            plan_arrays(m, p, g, stores, count);
+            if (count && !plan_kernel(m, p, g, stores, count))
+                return false;
+        }
+    find_last_launches(p);
+    return true;
+}
+
+static struct plan *plan_attempt(struct machine *m, const struct reach *r,
+                                 const struct targets *t, enum quality quality, bool later,
+                                 bool *strips)
+{
+    struct plan_graph g;
+    struct plan *p = calloc(1, sizeof *p);
+    int *stores = calloc((size_t)r->count, sizeof *stores);
+    bool good = plan_graph_init(&g, r, t) && p && stores;
+    if (good) {
+        p->quality = quality;
+        p->later = later;
+        p->stored = calloc((size_t)r->count, sizeof *p->stored);
+        p->arrays = calloc((size_t)r->count, sizeof *p->arrays);
+        good = p->stored && p->arrays;
+    }
+    if (good) {
+        g.boxes = quality == BOXED;
+        g.no_strips = !*strips;
+        double start = watch_clock(m);
+        plan_choose(&g, m->sets, &m->device.shape);
+        if (m->watch)
+            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
+        p->could_be_strips = g.no_strips && g.turns_most > 1;
+        *strips = g.strips;
+        p->turns_most = g.turns_most;
+        p->predicted_s = 1e-9 * g.cost_ns;
+        if (m->dump_dir)
+            dump_graph(m, m->dump_count, &g);
+        good = plan_kernels(m, p, &g, stores) &&
+               (!later || !plan_in_place_wanted(m, p) || borders_want(m));
+    } else {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+    }
+    free(g.nodes);
+    free(stores);
+    if (!good) {
+        if (p && later)
+            notes_settle(m, p);
+        plan_free(p);
+        return NULL;
+    }
+    return p;
+}
+
+static bool is_one_kernel(const struct plan *p)
+{
+    return p->launches_count == 1 && (p->launches[0].strip_bytes || p->launches[0].group);
+}
+
+/* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
+static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
+                              enum quality quality, bool later)
+{
+    bool strips = quality == BOXED || m->device.shape.always_strips;
+    struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
+    if (m->rehearsing == REHEARSING_TURNS) {
+        if (p && !is_one_kernel(p)) {
+            if (later)
+                notes_settle(m, p);
+            plan_free(p);
+            p = NULL;
+        }
+        if (!p && later)
+            background_drop(m);
+        return p;
+    }
+    if (!p && strips) { /* it cannot be done so */
+        machine_error_clear(m);
+        if (later)
+            background_drop(m);
+        strips = false;
+        p = plan_attempt(m, r, t, quality, later, &strips);
+    }
+    if (!p && later)
+        background_drop(m);
+    return p;
+}
+
+/* ---- plans ---- */
+
+/* How well a plan that has run on so many processors is to be made. */
+static enum quality quality_after(const struct machine *m, uint64_t worked)
+{
+    return worked >= m->settings.box_after        ? BOXED
+           : worked >= m->settings.optimise_after ? OPTIMISED
+                                                  : QUICK;
+}
+
+/* Better kernels would be worth it by now, and can be seen to. */
+static bool plan_is_due(const struct machine *m, const struct plan *p)
+{
+    enum quality quality = quality_after(m, p->worked);
+    return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
+           (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
+            p->could_be_strips) &&
+           !background_busy(m);
+}
+
+static void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
+{
+    struct plan old = *p;
+    *p = *better;
+    p->signature = old.signature;
+    p->signature_length = old.signature_length;
+    p->hash = old.hash;
+    p->worked = old.worked;
+    p->version = old.version + 1;
+    p->next = old.next;
+    if (m->watch && !old.empty)
+        watch_improved(m);
+    better->launches = old.launches;
+    better->launches_count = old.launches_count;
+    better->stored = old.stored;
+    better->arrays = old.arrays;
+    better->signature = NULL;
+    plan_free(better);
+}
+
+/* The same plan with better kernels, now. What cannot be had is done without. */
+static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
+                         const struct targets *t)
+{
+    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked), false);
+    p->quality = BOXED; /* not again, unless it says so itself */
+    if (better)
+        plan_becomes(m, p, better);
+    else
+        machine_error_clear(m);
+}
+
+/* What is being compiled in the background is not wanted any more. */
+static void improvement_give_up(struct machine *m)
+{
+    better_give_up(m, m->improving);
+    background_drop(m);
+    m->improving = NULL;
+}
+
+void plans_see_to(struct machine *m)
+{
+    struct plan *p = m->improving;
+    enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
+    if (state == BACKGROUND_WAITS)
+        return;
+    if (state == BACKGROUND_LOADED) {
+        struct plan *better = p->better;
+        for (int i = 0; i < better->launches_count; i++)
+            better->launches[i].kernel = background_kernel(m, better->launches[i].number);
+        notes_settle(m, better);
+        better->later = false;
+        p->better = NULL;
+        plan_becomes(m, p, better);
+    } else {
+        machine_error_clear(m);
+    }
+    improvement_give_up(m);
+}
+
+/* Better kernels for it are going to be compiled in the background. False: not so. */
+static bool improvement_begin(struct machine *m, struct plan *p, const struct reach *r,
+                              const struct targets *t, enum quality quality)
+{
+    if (!background_on(m) || background_busy(m))
+        return false;
+    p->better = plan_make(m, r, t, quality, true);
+    if (p->better && background_begin(m)) {
+        m->improving = p;
+        return true;
+    }
+    machine_error_clear(m);
+    better_give_up(m, p);
+    return false;
+}
+
+uint32_t plan_version(const struct machine *m, const struct plan *p)
+{
+    return plan_is_due(m, p) ? UINT32_MAX : p->version;
+}
+
+/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
+int plan_turns(const struct plan *p)
+{
+    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
+}
+
+const int *plan_stored(const struct plan *p, int *count)
+{
+    *count = p->stored_count;
+    return p->stored;
+}
+
+bool plan_saves_nothing(const struct plan *p, int turns)
+{
+    int sets = 0;
+    for (int i = 0; i < p->launches_count; i++) {
+        bool first = true;
+        for (int k = 0; k < i; k++)
+            first = first && p->launches[k].set != p->launches[i].set;
+        sets += first;
+    }
+    return p->quality == BOXED && p->launches_count >= turns * sets;
+}
+
+bool plan_is_hopeless(const struct plan *p)
+{
+    return p->hopeless;
+}
+
+bool plan_waits(const struct machine *m, const struct plan *p)
+{
+    return p == m->improving;
+}
+
+static struct plan *plan_find(const struct machine *m, const struct reach *r, uint64_t hash)
+{
+    struct plan *p = m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    while (p && !(p->hash == hash && p->signature_length == r->length &&
+                  !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
+        p = p->next;
+    return p;
+}
+
+/* It is known from now on. False: no memory, and it is no more. */
+static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
+{
+    struct plan **bucket = &m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    size_t bytes = r->length * sizeof *r->signature;
+    m->plans_built++;
+    p->signature = malloc(bytes);
+    if (!p->signature) {
+        plan_free(p);
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+        return false;
+    }
+    memcpy(p->signature, r->signature, bytes);
+    p->signature_length = r->length;
+    p->hash = hash;
+    p->next = *bucket;
+    *bucket = p;
+    return true;
+}
+
+/* A plan that has been rehearsed is wanted now. False: error set. */
+static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
+                      const struct targets *t)
+{
+    if (m->improving == p)
+        improvement_give_up(m);
+    struct plan *made = plan_make(m, r, t, BOXED, false);
+    if (made)
+        plan_becomes(m, p, made);
+    return made != NULL;
+}
+
+/* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
+static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struct reach *r,
+                                  const struct targets *t, uint64_t hash)
+{
+    if (p)
+        return p;
+    if (!(p = calloc(1, sizeof *p)))
+        return NULL;
+    p->empty = true;
+    p->quality = BOXED;
+    if (!plan_keep(m, p, r, hash))
+        return NULL;
+    bool made = background_on(m) ? improvement_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
+    p->hopeless = !made && m->rehearsing == REHEARSING_TURNS;
+    return p;
+}
+
+struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
+{
+    uint64_t hash = machine_words_hash(r->signature, r->length);
+    if (!m->plans) {
+        m->plans_size = 1024;
+        m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
+        if (!m->plans) {
+            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
+            return NULL;
+        }
+    }
+    if (!m->rehearsing)
+        plans_see_to(m);
+    struct plan *p = plan_find(m, r, hash);
+    if (m->rehearsing)
+        return plan_rehearse(m, p, r, t, hash);
+    if (p && p->empty)
+        return plan_fill(m, p, r, t) ? p : NULL;
+    if (p && plan_is_due(m, p) && !improvement_begin(m, p, r, t, quality_after(m, p->worked)))
+        plan_improve(m, p, r, t);
+    if (p)
+        return p;
+    p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0), false);
+    return p && plan_keep(m, p, r, hash) ? p : NULL;
+}

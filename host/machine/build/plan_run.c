@@ -1,0 +1,256 @@
+/* plan_run.c - plans run: buffers for what they store, and their kernels' launches. */
+#include <math.h>
+
+#include "build/plans.h"
+#include "device/call.h"
+#include "kernels.h"
+#include "watch/watch.h"
+
+size_t plan_run_columns(const struct machine *m, int vector)
+{
+    size_t run = (size_t)m->device.shape.run_columns, lanes = (size_t)vector;
+    return (run + lanes - 1) / lanes * lanes;
+}
+
+static size_t shared_by(size_t all, size_t parts)
+{
+    return (all + parts - 1) / parts;
+}
+
+size_t plan_tiles_across(const struct vpset *set, int tile_width)
+{
+    return shared_by((size_t)set->width, (size_t)tile_width);
+}
+
+bool plan_in_place_wanted(const struct machine *m, const struct plan *p)
+{
+    const struct launch *l = &p->launches[0];
+    return p->launches_count == 1 && l->in_place.pairs_count &&
+           (m->settings.in_place == SETTING_FREE ? l->in_place.pays : m->settings.in_place);
+}
+
+static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_value *v,
+                           const struct kernel_argument *a)
+{
+    uint64_t bits = a->kind == ARGUMENT_SECOND ? v->imm.hi : v->imm.lo;
+    if (a->size == 8)
+        return clSetKernelArg(kernel, at, 8, &bits);
+    uint32_t low = (uint32_t)bits;
+    if (v->type.kind == MACHINE_BITS && v->type.width == 1)
+        low = bits ? UINT32_MAX : 0;
+    return clSetKernelArg(kernel, at, 4, &low);
+}
+
+/* How many strips there are and how many rows each has: those that are done soonest. The unit with most strips takes so
+ * long as these have rows, besides their own half of the margin's on average; and a tenth of a strip goes by until the last
+ * unit is ready. */
+static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
+                         size_t global[2], size_t *rows)
+{
+    size_t units = (size_t)m->device.units, most = (size_t)m->device.shape.strips_each * units,
+           height = (size_t)s->rows;
+    double soonest = HUGE_VAL;
+    global[0] = (size_t)(s->width / l->strip_columns);
+    global[0] = global[0] ? global[0] : 1;
+    for (size_t down = 1; down <= shared_by(most, global[0]) && down <= height; down++) {
+        size_t each = shared_by(height, down);
+        double strips = (double)shared_by(global[0] * shared_by(height, each), units);
+        double time = (strips + 0.1) * ((double)each + 0.5 * l->strip_margin);
+        if (time < soonest) {
+            soonest = time;
+            *rows = each;
+        }
+    }
+    global[1] = shared_by(height, *rows);
+}
+
+/* Puts the buffers of what is in no need of them any more where they will be written. Returns which borders it takes,
+ * a bit each. */
+static uint32_t take_places(const struct machine *m, const struct plan *p,
+                            struct device_buffer **buffers, const bool *dies)
+{
+    const struct launch *l = &p->launches[0];
+    size_t global[2], rows;
+    uint32_t which = 0;
+    if (!dies || !plan_in_place_wanted(m, p))
+        return 0;
+    strips_count(m, l, &m->sets[l->set], global, &rows);
+    for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {
+        int output = l->in_place.pairs[i].output, leaf = l->in_place.pairs[i].leaf;
+        uint32_t bit = UINT32_C(1) << l->in_place.pairs[i].border;
+        if (buffers[output] || which & bit || !dies[leaf] || buffers[leaf]->refs != 1)
+            continue;
+        buffers[output] = buffers[leaf];
+        device_buffer_ref(buffers[output]);
+        which |= bit;
+    }
+    return which;
+}
+
+static enum machine_status copy_borders(struct machine *m, const struct launch *l,
+                                        uint32_t which, const size_t global[2], size_t rows,
+                                        const struct device_buffer *to,
+                                        struct device_buffer *const *buffers)
+{
+    const struct vpset *s = &m->sets[l->set];
+    const struct in_place *in = &l->in_place;
+    struct kernel_call c = call_begin(m, kernel_borders_cl, "", "borders");
+    uint64_t bytes = 0;
+    for (int i = 0; i < in->leaves_count; i++)
+        bytes |= (uint64_t)(buffers[in->leaves[i]]->bytes / (s->pitch * (size_t)s->rows))
+                 << 4 * i;
+    call_uint(&c, s->pitch);
+    call_int(&c, (int)s->rows);
+    call_int(&c, (int)rows);
+    call_int(&c, in->above);
+    call_int(&c, in->below);
+    call_uint(&c, which);
+    call_ulong(&c, bytes);
+    call_ulong(&c, global[0] * global[1] * l->strip_bytes);
+    call_buffer(&c, to);
+    for (int i = 0; i < BORDERS_MOST; i++)
+        call_buffer(&c, buffers[in->leaves[i < in->leaves_count ? i : 0]]);
+    c.bytes = 0;
+    for (int i = 0; i < in->leaves_count; i++)
+        if (which >> i & 1)
+            c.bytes += 2 * s->pitch * global[1] * (size_t)(in->above + in->below) *
+                       (size_t)(bytes >> 4 * i & 15);
+    return call_start_3d(&c, m, (size_t)(in->above + in->below), global[1],
+                         (size_t)in->leaves_count, "what strips read of each other");
+}
+
+/* in_place: which borders are needed: see take_places(). */
+static enum machine_status launch(struct machine *m, const struct launch *l,
+                                  struct device_buffer *const *buffers,
+                                  struct machine_value *const *nodes, uint32_t in_place)
+{
+    const struct vpset *s = &m->sets[l->set];
+    struct device_buffer *scratch = NULL;
+    size_t run = plan_run_columns(m, l->vector);
+    size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows},
+           local[2] = {(size_t)l->group, 1};
+    if (l->group) {
+        run = (size_t)l->tile_height;
+        global[0] = plan_tiles_across(s, l->tile_width) * local[0];
+        global[1] = shared_by(s->rows, run);
+    }
+    if (l->strip_bytes) {
+        strips_count(m, l, s, global, &run);
+        size_t borders = (size_t)(l->in_place.above + l->in_place.below) * s->pitch *
+                         (size_t)l->in_place.bytes;
+        scratch = device_buffer_get(m, global[0] * global[1] *
+                                           (l->strip_bytes + (in_place ? borders : 0)));
+        if (!scratch)
+            return m->status;
+        enum machine_status status =
+            in_place ? copy_borders(m, l, in_place, global, run, scratch, buffers) : MACHINE_OK;
+        if (status) {
+            device_buffer_unref(m, scratch);
+            return status;
+        }
+    }
+    cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->processors_log2,
+                       (cl_int)s->ratio};
+    cl_uint at = 0;
+    cl_int error = CL_SUCCESS;
+    for (int i = 0; i < 5; i++)
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &fixed[i]);
+    for (int a = 0; a < s->rank - 1; a++)
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &s->dimensions[a]);
+    if (l->strip_bytes)
+        error |= clSetKernelArg(l->kernel, at++, sizeof(cl_int), &l->strip_columns);
+    for (int i = 0; i < l->arguments_count; i++, at++) {
+        const struct kernel_argument *a = &l->arguments[i];
+        if (a->kind == ARGUMENT_SCRATCH)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &scratch->mem);
+        else if (a->kind == ARGUMENT_BORDERS)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_uint), &in_place);
+        else if (a->kind == ARGUMENT_INPUT || a->kind == ARGUMENT_OUTPUT)
+            error |= clSetKernelArg(l->kernel, at, sizeof(cl_mem), &buffers[a->node]->mem);
+        else
+            error |= set_constant(l->kernel, at, nodes[a->node], a);
+    }
+    if (m->watch)
+        watch_launch(m, l->note);
+    enum machine_status status = device_launch(
+        m, l->kernel, error, 2, global, l->group ? local : NULL, "a kernel cannot be started");
+    if (scratch)
+        device_buffer_unref(m, scratch); /* the queue is in order */
+    return status;
+}
+
+/* What the only kernel of a plan may write over, so that caches have one array less to hold. With more kernels one of them
+ * could fail when another has written there, and the calls could not be performed after all. NULL: there is none. */
+static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
+                                       const struct fates *fates)
+{
+    for (int i = 0; fates && p->launches_count == 1 && i < fates->spare_count; i++) {
+        struct device_buffer *b = fates->spare[i];
+        if (b->refs == 1 && device_rows_fit(b, rows)) {
+            device_buffer_ref(b);
+            return b;
+        }
+    }
+    return NULL;
+}
+
+/* For what that launch stores. */
+static enum machine_status arrays_get(struct machine *m, const struct plan *p, int launch,
+                                      struct device_buffer **buffers, const struct fates *fates)
+{
+    for (int i = 0; i < p->stored_count; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (p->arrays[i].first != launch || *b)
+            continue;
+        *b = spare_get(p, p->arrays[i].rows, fates);
+        if (!*b && !(*b = device_rows_get(m, p->arrays[i].rows)))
+            return m->status;
+    }
+    return MACHINE_OK;
+}
+
+/* Of what no later launch takes, and nobody keeps: the next one may write there, for it runs later. */
+static void arrays_let_go(struct machine *m, const struct plan *p, int launch,
+                          struct device_buffer **buffers, const bool *kept)
+{
+    for (int i = 0; i < p->stored_count; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (p->arrays[i].last == launch && !kept[p->stored[i]] && *b) {
+            device_buffer_unref(m, *b);
+            *b = NULL;
+        }
+    }
+}
+
+enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
+                             struct machine_value *const *nodes, const struct fates *fates)
+{
+    enum machine_status status = MACHINE_OK;
+    double start = watch_clock(m);
+    for (int i = 0; i < p->stored_count; i++)
+        buffers[p->stored[i]] = NULL;
+    uint32_t in_place = take_places(m, p, buffers, fates ? fates->dies : NULL);
+    for (int i = 0; i < p->launches_count && !status; i++) {
+        status = arrays_get(m, p, i, buffers, fates);
+        if (!status)
+            status = launch(m, &p->launches[i], buffers, nodes, in_place);
+        if (!status && fates)
+            arrays_let_go(m, p, i, buffers, fates->kept);
+    }
+    m->kernels_in_place += in_place && !status;
+    m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
+    m->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;
+    m->predicted_s += status ? 0 : p->predicted_s;
+    p->worked += p->work;
+    device_flush(m);
+    if (m->watch)
+        watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
+    status = status ? status : device_pace(m);
+    for (int i = 0; i < p->stored_count && status; i++) {
+        struct device_buffer **b = &buffers[p->stored[i]];
+        if (*b)
+            device_buffer_unref(m, *b);
+        *b = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,672 @@
+/* body.c - the text of what a kernel computes.
+ *
+ * Comparing a coordinate with a number says that a processor is on one side of a line, and a context made of such
+ * comparisons is a box. They are written BOX(...), and the body stands there twice: for vectors that are inside on
+ * all lines at every offset, where BOX(...) is true and the compiler drops what only the outside needs, and for
+ * the others. */
+#include "codegen/body.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "codegen/narrow.h"
+#include "codegen/spell.h"
+
+enum { STREAM_BYTES = 48 << 20 };
+
+void text_put(struct text *t, const char *format, ...)
+{
+    for (;;) {
+        va_list arguments;
+        va_start(arguments, format);
+        size_t room = t->capacity - t->length;
+        int n = t->data ? vsnprintf(t->data + t->length, room, format, arguments) : -1;
+        va_end(arguments);
+        if (t->data && n >= 0 && (size_t)n < room) {
+            t->length += (size_t)n;
+            return;
+        }
+        size_t capacity = t->capacity ? 2 * t->capacity : 8192;
+        char *data = realloc(t->data, capacity);
+        if (!data) {
+            t->failed = true;
+            return;
+        }
+        t->data = data;
+        t->capacity = capacity;
+    }
+}
+
+bool text_same(const struct text *a, const struct text *b)
+{
+    return a->length == b->length && (!a->length || !memcmp(a->data, b->data, a->length));
+}
+
+const char *memory_kind(struct machine_type t)
+{
+    if (t.kind == MACHINE_FLOAT)
+        return t.width == 32 ? "f32" : "f64";
+    return t.width == 1    ? "bit"
+           : t.width <= 8  ? "u8"
+           : t.width <= 16 ? "u16"
+           : t.width <= 32 ? "u32"
+           : t.width <= 64 ? "u64"
+                           : "u128";
+}
+
+const char *memory_type(struct machine_type t)
+{
+    if (t.kind == MACHINE_FLOAT)
+        return t.width == 32 ? "float" : "double";
+    return t.width <= 8 ? "uchar" : t.width <= 16 ? "ushort" : t.width <= 32 ? "uint" : "ulong";
+}
+
+void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed)
+{
+    if (to->count == to->capacity)
+        to->list = machine_more(to->list, &to->capacity, sizeof *to->list, failed);
+    if (!*failed)
+        to->list[to->count++] = (struct kernel_argument){
+            .kind = (uint8_t)kind, .size = (uint8_t)size, .node = node};
+}
+
+/* ---- rows and pointers ---- */
+
+static int row_moved(struct emitter *e, int from, int axis, int distance)
+{
+    struct row_offset wanted = e->row_offsets[from];
+    int length = e->set->dimensions[axis];
+    wanted.d[axis] = (wanted.d[axis] + distance) % length;
+    for (int i = 0; i < e->rows_count; i++)
+        if (!memcmp(&e->row_offsets[i], &wanted, sizeof wanted))
+            return i;
+    if (e->rows_count == e->rows_capacity)
+        e->row_offsets =
+            machine_more(e->row_offsets, &e->rows_capacity, sizeof *e->row_offsets, &e->failed);
+    if (e->failed)
+        return 0;
+    e->row_offsets[e->rows_count] = wanted;
+    for (int a = 0; a < e->set->rank - 1; a++)
+        if (wanted.d[a])
+            text_put(&e->rows, "    const int y%d_%d = wrap(c%d + (%d), D%d);\n", a,
+                     e->rows_count, a, wanted.d[a], a);
+    text_put(&e->rows, "    const int r%d = row", e->rows_count);
+    for (int a = 0; a < e->set->rank - 1; a++)
+        if (wanted.d[a])
+            text_put(&e->rows, " + (y%d_%d - c%d) * S%d", a, e->rows_count, a, a);
+    text_put(&e->rows, ";\n");
+    e->axes_used = true;
+    return e->rows_count++;
+}
+
+/* Where a row is along an axis. */
+static void row_place(struct emitter *e, char *out, size_t size, int row, int axis)
+{
+    e->axes_used = true;
+    if (e->row_offsets[row].d[axis])
+        snprintf(out, size, "y%d_%d", axis, row);
+    else
+        snprintf(out, size, "c%d", axis);
+}
+
+int emit_row(struct emitter *e, int axis, int distance)
+{
+    return distance ? row_moved(e, 0, axis, distance) : 0;
+}
+
+static int input_of(struct emitter *e, int node)
+{
+    if (!e->input_number[node]) {
+        emit_argument(&e->arguments, ARGUMENT_INPUT, node, 0, &e->failed);
+        e->input_number[node] = ++e->inputs;
+    }
+    return e->input_number[node] - 1;
+}
+
+static int pointer_of(struct emitter *e, int node, int row)
+{
+    for (int i = 0; i < e->pointers_count; i++)
+        if (e->seen_pointers[i].node == node && e->seen_pointers[i].row == row)
+            return i;
+    if (e->pointers_count == e->pointers_capacity)
+        e->seen_pointers = machine_more(e->seen_pointers, &e->pointers_capacity,
+                                        sizeof *e->seen_pointers, &e->failed);
+    if (e->failed)
+        return 0;
+    struct machine_type type = e->g->nodes[node].type;
+    e->seen_pointers[e->pointers_count] = (struct pointer){.node = node, .row = row};
+    if (e->bare)
+        return e->pointers_count++;
+    text_put(&e->pointers,
+             "    const __global %s *p%d = b%d + ((size_t)r%d * PITCH + HALO)%s;\n",
+             memory_type(type), e->pointers_count, input_of(e, node), row,
+             type.width > 64 ? " * 2" : "");
+    return e->pointers_count++;
+}
+
+/* ---- variables ---- */
+
+static uint32_t chain_of(int node, int row, int dx)
+{
+    uint32_t h =
+        (uint32_t)node * 0x9e3779b1u ^ (uint32_t)row * 0x85ebca6bu ^ (uint32_t)dx * 0xc2b2ae35u;
+    return h >> 22;
+}
+
+static int variable_find(const struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    for (uint32_t i = e->chains[chain_of(node, row, dx)]; i; i = e->variables[i - 1].next) {
+        const struct variable *v = &e->variables[i - 1];
+        if (v->node == node && v->row == row && v->dx == dx && v->canonical == canonical)
+            return v->name;
+    }
+    return -1;
+}
+
+static int variable_add(struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    if (e->variables_count == e->variables_capacity) {
+        int capacity = (int)e->variables_capacity;
+        e->variables = machine_more(e->variables, &capacity, sizeof *e->variables, &e->failed);
+        e->variables_capacity = (uint32_t)capacity;
+    }
+    if (e->failed)
+        return 0;
+    uint32_t h = chain_of(node, row, dx);
+    e->variables[e->variables_count] =
+        (struct variable){node, row, dx, canonical, e->names, e->chains[h]};
+    e->chains[h] = ++e->variables_count;
+    return e->names++;
+}
+
+/* A number: an argument, made a vector once, before the loop. */
+static int constant_of(struct emitter *e, int node)
+{
+    if (e->constant_number[node])
+        return e->constant_number[node] - 1;
+    struct machine_type t = e->g->nodes[node].type;
+    int k = e->constants_count++;
+    switch (spell_letter(t)) {
+    case 'I':
+    case 'U':
+    case 'F':
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 4, &e->failed);
+        break;
+    default:
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 8, &e->failed);
+        break;
+    }
+    if (spell_letter(t) == 'Q') {
+        emit_argument(&e->arguments, ARGUMENT_SECOND, node, 8, &e->failed);
+        text_put(&e->constants, "    const VQ k%d = q_of((VL)(a%d), (VL)(h%d));\n", k, k, k);
+        e->wide = true;
+    } else {
+        text_put(&e->constants, "    const %s k%d = (%s)(a%d);\n", spell_container(t), k,
+                 spell_container(t), k);
+    }
+    e->constant_number[node] = k + 1;
+    return k;
+}
+
+bool emit_is_box(const struct plan_graph *g, const struct plan_node *n)
+{
+    if (n->leaf || n->op < MACHINE_ULT || n->op > MACHINE_SLE)
+        return false;
+    const struct plan_node *a = &g->nodes[n->in[0]], *b = &g->nodes[n->in[1]];
+    const struct plan_node *place = a->constant ? b : a;
+    return a->constant != b->constant && place->op == NODE_COORDINATE && !place->leaf &&
+           place->type.width <= 32;
+}
+
+/* Writes the scalar test that it holds for a whole vector, which, since it holds on one side of a line, is that it
+ * holds at both ends. */
+static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
+{
+    static const char *const symbols[] = {
+        [MACHINE_ULT] = "<", [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
+    if (!emit_is_box(e->g, n))
+        return false;
+    const struct plan_node *a = &e->g->nodes[n->in[0]], *b = &e->g->nodes[n->in[1]];
+    const struct plan_node *place = a->constant ? b : a;
+    int width = place->type.width;
+    bool is_signed = n->op == MACHINE_SLT || n->op == MACHINE_SLE;
+    int k = constant_of(e, a->constant ? n->in[0] : n->in[1]),
+        bits = is_signed ? width - 1 : width;
+    char number[64], ends[2][64];
+    if (is_signed)
+        snprintf(number, sizeof number, "((int)(a%d << %d) >> %d)", k, 32 - width, 32 - width);
+    else
+        snprintf(number, sizeof number, "a%d", k);
+    bool column = place->axis == e->set->rank - 1;
+    struct text *t = column ? &e->column_tests : &e->row_tests;
+    if (column) {
+        snprintf(ends[0], sizeof ends[0], "(x + (%d))", dx);
+        text_put(t, " && %s >= 0 && %s + VECTOR <= W", ends[0], ends[0]);
+        snprintf(ends[1], sizeof ends[1], "(x + (%d) + VECTOR - 1)", dx);
+    } else {
+        for (int i = 0; i < 2; i++)
+            row_place(e, ends[i], sizeof ends[i], row, place->axis);
+    }
+    if (bits < 31)
+        text_put(t, " && %s >> %d == 0", ends[1], bits);
+    for (int i = 0; i < (column ? 2 : 1); i++) {
+        const char *sign = is_signed ? "" : "(uint)";
+        if (a->constant)
+            text_put(t, " && %s %s %s%s", number, symbols[n->op], sign, ends[i]);
+        else
+            text_put(t, " && %s%s %s %s", sign, ends[i], symbols[n->op], number);
+    }
+    return true;
+}
+
+static void emit_generated(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                           int node, int row, int dx)
+{
+    char index[96], raw[300];
+    int last = e->set->rank - 1;
+    if (n->op == NODE_COORDINATE && n->axis != last) {
+        char place[32];
+        row_place(e, place, sizeof place, row, n->axis);
+        snprintf(index, sizeof index, "(VU)((uint)%s)", place);
+    } else if (n->op == NODE_COORDINATE) {
+        snprintf(index, sizeof index, "column(x + (%d), W)", dx);
+    } else {
+        snprintf(index, sizeof index, "(column(x + (%d), W) + (uint)(r%d * W))", dx, row);
+    }
+    int reach = abs(dx);
+    e->reach = reach > e->reach ? reach : e->reach;
+    if (n->op == NODE_RANDOM) {
+        int k = e->constants_count++;
+        emit_argument(&e->arguments, ARGUMENT_CONSTANT, node, 8, &e->failed);
+        emit_argument(&e->arguments, ARGUMENT_SECOND, node, 8, &e->failed);
+        text_put(&e->constants, "    /* draw: key a%d, limit h%d */\n", k, k);
+        if (n->detail == 0)
+            snprintf(raw, sizeof raw, "(random_bits(%s, a%d) >> %dUL)", index, k,
+                     64 - n->type.width);
+        else if (n->detail == 1)
+            snprintf(raw, sizeof raw, "(((random_bits(%s, a%d) >> 32UL) * h%d) >> 32UL)", index,
+                     k, k);
+        else
+            snprintf(raw, sizeof raw, "mul_hi(random_bits(%s, a%d), (VL)(h%d))", index, k, k);
+        if (n->type.width == 1)
+            snprintf(out, size, "CMP_L((%s & 1UL) != 0UL)", raw);
+        else {
+            char w[340];
+            spell_widened(w, sizeof w, raw, MACHINE_UINT(64), spell_letter(n->type));
+            spell_cut(out, size, w, n->type.width);
+        }
+        return;
+    }
+    if (n->op == NODE_SEND_ADDRESS)
+        snprintf(raw, sizeof raw, "((%s & ((1u << PLOG2) - 1u)) * (uint)RATIO + (%s >> PLOG2))",
+                 index, index);
+    else
+        snprintf(raw, sizeof raw, "%s", index);
+    if (n->type.width == 1)
+        snprintf(out, size, "CMP_U((%s & 1u) != 0u)", raw);
+    else {
+        char w[340];
+        spell_widened(w, sizeof w, raw, MACHINE_UINT(32), spell_letter(n->type));
+        if (n->type.width < 32)
+            spell_cut(out, size, w, n->type.width);
+        else
+            snprintf(out, size, "%s", w);
+    }
+}
+
+/* Some of it may be a NaN whose bits are the program's, not an operation's. */
+static bool holds_bits(const struct plan_graph *g, int node)
+{
+    const struct plan_node *n = &g->nodes[node];
+    if (!n->maybe_nan)
+        return true;
+    if (n->leaf || n->op != NODE_SELECT)
+        return n->op == NODE_SHIFT && !n->leaf ? holds_bits(g, n->in[0]) : n->leaf;
+    return holds_bits(g, n->in[1]) || holds_bits(g, n->in[2]);
+}
+
+static struct operand named(int name)
+{
+    struct operand o;
+    snprintf(o.text, sizeof o.text, "v%d", name);
+    return o;
+}
+
+/* ---- what other stages have in variables ---- */
+
+static bool in_variables(const struct emitter *e, int node, int row)
+{
+    const struct together *t = e->together;
+    const struct plan_node *n = &e->g->nodes[node];
+    return t && !n->leaf && n->stage >= t->first && e->row_offsets[row].d[0] == t->down[node];
+}
+
+static struct operand earlier_vector(struct emitter *e, int node, int back)
+{
+    struct together *t = e->together;
+    struct operand o;
+    int i = 0;
+    while (i < t->carried_count && t->carried[i].node != node)
+        i++;
+    if (i == t->carried_count) {
+        if (i == t->carried_capacity)
+            t->carried =
+                machine_more(t->carried, &t->carried_capacity, sizeof *t->carried, &e->failed);
+        if (e->failed)
+            return named(0);
+        t->carried[t->carried_count++] = (struct carried){.node = node};
+    }
+    t->carried[i].back = back > t->carried[i].back ? back : t->carried[i].back;
+    snprintf(o.text, sizeof o.text, "c%d_%d", i, back);
+    return o;
+}
+
+/* The node's vector number `at` from x, of the row that it is computed in. */
+static struct operand vector_at(struct emitter *e, int node, int row, int at)
+{
+    const struct plan_node *n = &e->g->nodes[node];
+    int ahead = e->together->ahead[node];
+    int back = (ahead - at) * e->together->direction;
+    if (back > 0)
+        return earlier_vector(e, node, back);
+    int name = variable_find(e, node, row, ahead * e->together->vector,
+                             n->maybe_nan && e->together->bits_matter[node]);
+    e->failed = e->failed || back < 0 || name < 0;
+    return named(name);
+}
+
+/* Lanes of two vectors side by side, from that one of the first on. */
+static void spell_between(char *out, size_t size, const char *type, int lanes, int from,
+                          const char *a, const char *b)
+{
+    static const char digits[] = "0123456789abcdef";
+    bool named = lanes <= 16; /* lanes have names */
+    size_t at = named ? (size_t)snprintf(out, size, "(%s)(", type)
+                      : (size_t)snprintf(out, size, "__builtin_shufflevector(%s, %s, ", a, b);
+    for (int i = 0; i < lanes; i++) {
+        int lane = from + i;
+        if (named)
+            at += (size_t)snprintf(out + at, size - at, "%s%s.s%c", i ? ", " : "",
+                                   lane < lanes ? a : b, digits[lane % lanes]);
+        else
+            at += (size_t)snprintf(out + at, size - at, "%s%d", i ? ", " : "", lane);
+    }
+    snprintf(out + at, size - at, ")");
+}
+
+/* true: the value is another's variable as it is, else an expression. */
+static bool emit_between(struct emitter *e, int node, int row, int dx, struct operand *whole,
+                         char *expression, size_t size)
+{
+    int lanes = e->together->vector, at = dx >= 0 ? dx / lanes : -((lanes - 1 - dx) / lanes);
+    struct operand a = vector_at(e, node, row, at);
+    if (at * lanes == dx) {
+        *whole = a;
+        return true;
+    }
+    struct operand b = vector_at(e, node, row, at + 1);
+    spell_between(expression, size, spell_container(e->g->nodes[node].type), lanes,
+                  dx - at * lanes, a.text, b.text);
+    e->cost++;
+    return false;
+}
+
+struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical)
+{
+    const struct plan_node *n = &e->g->nodes[node];
+    struct operand result;
+    if (e->failed)
+        return named(0);
+    if (n->constant) {
+        snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
+        return result;
+    }
+    /* What another stage has in a variable is the form that it keeps, not one that it may have computed besides. */
+    bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row);
+    canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !loads);
+    int known = variable_find(e, node, row, dx, canonical);
+    if (known >= 0)
+        return named(known);
+    char expression[1200];
+    const char *type = spell_container(n->type);
+    e->wide = e->wide || type[1] == 'Q';
+    if (kept) {
+        if (emit_between(e, node, row, dx, &result, expression, sizeof expression))
+            return result;
+    } else if (loads) {
+        int p = pointer_of(e, node, row);
+        if (e->failed)
+            return named(0);
+        struct pointer *seen = &e->seen_pointers[p];
+        seen->low = dx < seen->low ? dx : seen->low;
+        seen->high = dx > seen->high ? dx : seen->high;
+        e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
+        snprintf(expression, sizeof expression, "LOAD_%s(p%d, %s(%d))", memory_kind(n->type), p,
+                 e->near && !n->leaf ? "NEAR" : "AT", dx);
+        e->loads++;
+    } else if (n->op == NODE_SHIFT) {
+        bool along_row = n->axis == e->set->rank - 1;
+        int moved_row = along_row ? row : row_moved(e, row, n->axis, n->detail);
+        return emit_value(e, n->in[0], moved_row, along_row ? dx + n->detail : dx, canonical);
+    } else if (canonical && !(n->op == NODE_SELECT && holds_bits(e->g, node))) {
+        struct operand a = emit_value(e, node, row, dx, false);
+        snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
+    } else if (node_ops[n->op].inputs == 0) {
+        emit_generated(e, expression, sizeof expression, n, node, row, dx);
+        e->cost += node_cost(n->op, n->type);
+    } else {
+        struct operand in[3] = {{""}, {""}, {""}};
+        for (int i = 0; i < node_ops[n->op].inputs; i++) {
+            bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
+            in[i] = emit_value(e, plan_input(e->g, n, i, e->stage), row, dx, want);
+        }
+        struct machine_type from = e->g->nodes[n->in[0]].type;
+        const char *a = in[0].text, *b = in[1].text;
+        e->ops++;
+        e->cost += node_cost(n->op, n->type);
+        e->wide = e->wide || spell_letter(from) == 'Q';
+        enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
+        bool spelt = soft != SPELL_SOFT_NOT;
+        if (e->lane < LANE_WIDE) {
+            narrow_spell(expression, sizeof expression, e->g, n, e->lane, a, b, in[2].text);
+            spelt = true;
+        } else if (spelt)
+            ; /* by that */
+        else if (n->op == NODE_SELECT)
+            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
+                     in[2].text);
+        else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG) {
+            char raw[100];
+            if (type[1] == 'Q')
+                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg",
+                         a);
+            else
+                snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+            if (type[1] == 'I')
+                snprintf(expression, sizeof expression, "%s", raw);
+            else
+                spell_cut(expression, sizeof expression, raw, n->type.width);
+        } else if (op_is_integer(n->op)) {
+            e->integers = true;
+            spell_integer(expression, sizeof expression, n->op, from, a, b);
+        } else if (n->op < MACHINE_FNEG)
+            spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
+        else if (op_is_math(n->op)) {
+            spell_math(expression, sizeof expression, n->op, from, a, b);
+            e->math = true;
+        } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
+            spell_float(expression, sizeof expression, n->op, from, a, b);
+        else if (n->op >= NODE_OVERFLOW_UADD) {
+            spell_overflow(expression, sizeof expression, n->op, from, a, b);
+            e->wide = e->wide || from.width > 32;
+        } else if (n->op == NODE_CONCAT) {
+            char low[120], high[120];
+            struct machine_type to = e->g->nodes[n->in[1]].type;
+            spell_widened(low, sizeof low, a, from, type[1]);
+            spell_widened(high, sizeof high, b, to, type[1]);
+            if (type[1] == 'Q')
+                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high,
+                         from.width);
+            else
+                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high,
+                         from.width, type[1] == 'L' ? "UL" : "");
+        } else {
+            spell_conversion(expression, sizeof expression, n, from, a);
+        }
+        if (!spelt)
+            soft = spell_soft_rounding(expression, sizeof expression, n);
+        e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
+        e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
+    }
+    int name = variable_add(e, node, row, dx, canonical);
+    bool box = !loads && note_box(e, n, row, dx);
+    text_put(&e->body,
+             box ? "        const %s v%d = BOX(%s);\n" : "        const %s v%d = %s;\n", type,
+             name, expression);
+    return named(name);
+}
+
+/* ---- what the shapes share ---- */
+
+bool emitter_init(struct emitter *e, const struct plan_graph *g, const struct vpset *set,
+                  int stage)
+{
+    *e = (struct emitter){.g = g, .set = set, .stage = stage, .lane = 32};
+    e->input_number = calloc((size_t)g->count, sizeof *e->input_number);
+    e->constant_number = calloc((size_t)g->count, sizeof *e->constant_number);
+    e->row_offsets = calloc(64, sizeof *e->row_offsets);
+    e->rows_capacity = 64;
+    e->rows_count = 1; /* row 0: where we are */
+    e->failed = !e->input_number || !e->constant_number || !e->row_offsets;
+    return !e->failed;
+}
+
+void emitter_finish(struct emitter *e)
+{
+    free(e->body.data);
+    free(e->rows.data);
+    free(e->pointers.data);
+    free(e->constants.data);
+    free(e->row_tests.data);
+    free(e->column_tests.data);
+    free(e->variables);
+    free(e->row_offsets);
+    free(e->seen_pointers);
+    free(e->input_number);
+    free(e->constant_number);
+}
+
+void emit_axes(const struct emitter *e, struct text *t)
+{
+    const struct vpset *set = e->set;
+    if (!e->axes_used || set->rank < 2)
+        return;
+    text_put(t, "    const int S%d = 1;\n", set->rank - 2);
+    for (int a = set->rank - 3; a >= 0; a--)
+        text_put(t, "    const int S%d = S%d * D%d;\n", a, a + 1, a + 1);
+    text_put(t, "    const int c0 = row / S0;\n");
+    for (int a = 1; a < set->rank - 1; a++)
+        text_put(t, "    const int c%d = row / S%d %% D%d;\n", a, a, a);
+}
+
+void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
+                 int *count)
+{
+    static const char letters[] = "IUFDLQ";
+    static const char *const names[] = {"int", "uint", "float", "double", "ulong", "ulong"};
+    const struct plan_node *n = &g->nodes[a->node];
+    if (a->kind == ARGUMENT_SECOND)
+        text_put(t, ", ulong h%d", *count - 1);
+    else if (n->op == NODE_RANDOM)
+        text_put(t, ", ulong a%d", (*count)++);
+    else
+        text_put(t, ", %s a%d", names[strchr(letters, spell_letter(n->type)) - letters],
+                 (*count)++);
+}
+
+/* Row offsets are modulo the height. */
+int emit_rows_down(const struct emitter *e, const struct pointer *p)
+{
+    int height = e->set->dimensions[0], down = e->row_offsets[p->row].d[0] % height;
+    return down > height / 2 ? down - height : down < -(height / 2) ? down + height : down;
+}
+
+void emit_find_bits(const struct plan_graph *g, bool *bits_matter)
+{
+    for (int i = g->count - 1; i >= 0; i--) {
+        const struct plan_node *n = &g->nodes[i];
+        bool bits =
+            n->op == NODE_REINTERPRET ||
+            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || bits_matter[i]));
+        for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
+            bits_matter[n->in[k]] = true;
+            if (n->instead[k] >= 0)
+                bits_matter[n->instead[k]] = true;
+        }
+    }
+}
+
+void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,
+                  bool *failed)
+{
+    for (int i = 0; i < e->pointers_count; i++) {
+        int node = e->seen_pointers[i].node;
+        if (e->g->nodes[node].leaf && !number[node]) {
+            emit_argument(to, ARGUMENT_INPUT, node, 0, failed);
+            number[node] = node + 1;
+        }
+    }
+    bool fresh = false;
+    for (int i = 0; i < e->arguments.count; i++) {
+        const struct kernel_argument *a = &e->arguments.list[i];
+        if (a->kind == ARGUMENT_CONSTANT) {
+            fresh = !number[a->node];
+            number[a->node] = fresh ? ++*count : number[a->node];
+        }
+        if (fresh)
+            emit_argument(to, a->kind, a->node, a->size, failed);
+    }
+}
+
+void emit_numbers(struct text *t, const struct emitter *e)
+{
+    int count = 0;
+    for (int i = 0; i < e->arguments.count; i++)
+        emit_number(t, e->g, &e->arguments.list[i], &count);
+}
+
+void emit_numbers_passed(struct text *t, const struct emitter *e, const int *number)
+{
+    for (int i = 0; i < e->arguments.count; i++)
+        text_put(t, ", %c%d", e->arguments.list[i].kind == ARGUMENT_CONSTANT ? 'a' : 'h',
+                 number[e->arguments.list[i].node] - 1);
+}
+
+void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane)
+{
+    int n =
+        snprintf(k->options, sizeof k->options, "-DVECTOR=%d -DHALO=%d -DWRAPS=%d -DSTREAMS=%d",
+                 k->vector, halo, wraps, streams);
+    if (lane < 32)
+        snprintf(k->options + n, sizeof k->options - (size_t)n, " -DLANE=%d", lane);
+}
+
+void emit_hand_over(bool good, struct text *t, struct arguments *a, struct kernel_text *out)
+{
+    if (good) {
+        out->text = t->data;
+        out->arguments = a->list;
+        out->arguments_count = a->count;
+    } else {
+        free(t->data);
+        free(a->list);
+    }
+}
+
+bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,
+                  double bytes)
+{
+    return shape->streams && vector > 1 && set->width % vector == 0 &&
+           bytes > (double)STREAM_BYTES;
+}

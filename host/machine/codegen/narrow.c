@@ -1,0 +1,237 @@
+/* narrow.c - kernels in narrow lanes: of nothing but short integers and bits, which fit 8 or 16 bits each. A vector of
+ * 512 bits is 64 or 32 of them then, not 16.
+ *
+ * Bits are held as they are in wide lanes: VI one bit, as 0 or -1     VU 2..16, unused high bits 0. Literals are cast,
+ * since an int is no operand of shorter lanes. */
+#include <stdlib.h>
+
+#include "codegen/narrow.h"
+
+enum { NARROWEST = 8, NARROW_MOST = 16 };
+
+int narrow_lane_of(const struct plan_graph *g, int node, bool loaded)
+{
+    const struct plan_node *n = &g->nodes[node];
+    if (n->type.kind != MACHINE_BITS || n->type.width > NARROW_MOST)
+        return LANE_WIDE;
+    int lane = n->type.width > NARROWEST ? NARROW_MOST : NARROWEST;
+    if (loaded || n->constant)
+        return lane;
+    bool of_bits = g->nodes[n->in[0]].type.width == 1;
+    switch (n->op) {
+    case NODE_SHIFT:
+    case NODE_SELECT:
+    case NODE_SIGN_EXTEND:
+    case NODE_CONCAT:
+    case MACHINE_NOT:
+    case MACHINE_AND:
+    case MACHINE_OR:
+    case MACHINE_XOR:
+        return lane;
+    case NODE_ZERO_EXTEND:
+        return n->type.width > 1 ? lane : LANE_WIDE;
+    case NODE_EXTRACT:
+    case MACHINE_NEG:
+    case MACHINE_ADD:
+    case MACHINE_SUB:
+    case MACHINE_EQ:
+    case MACHINE_NE:
+    case MACHINE_ULT:
+    case MACHINE_ULE:
+    case MACHINE_SLT:
+    case MACHINE_SLE:
+    case MACHINE_UMIN:
+    case MACHINE_UMAX:
+    case MACHINE_SMIN:
+    case MACHINE_SMAX:
+    case NODE_OVERFLOW_UADD:
+    case NODE_OVERFLOW_USUB:
+    case NODE_OVERFLOW_SADD:
+    case NODE_OVERFLOW_SSUB:
+        return of_bits ? LANE_WIDE : lane;
+    default:
+        return LANE_WIDE;
+    }
+}
+
+int narrow_lane(const struct plan_graph *g, const int *stores, int count, int stage)
+{
+    bool *needed = calloc((size_t)g->count, sizeof *needed);
+    int lane = needed ? NARROWEST : LANE_WIDE;
+    for (int i = 0; needed && i < count; i++)
+        needed[stores[i]] = true;
+    for (int i = g->count - 1; i >= 0 && lane < LANE_WIDE; i--) {
+        const struct plan_node *n = &g->nodes[i];
+        if (!needed[i])
+            continue;
+        bool loads = stage < 0 ? n->leaf : plan_loads(n, stage);
+        int own = narrow_lane_of(g, i, loads);
+        lane = own > lane ? own : lane;
+        for (int k = 0; !loads && k < node_ops[n->op].inputs; k++) {
+            needed[n->in[k]] = true;
+            if (n->instead[k] >= 0)
+                needed[n->instead[k]] = true;
+        }
+    }
+    free(needed);
+    return lane;
+}
+
+/* ---- the text of one operation ---- */
+
+/* An unsigned number is that at most, as far as a few operations before it tell. */
+static uint32_t most(const struct plan_graph *g, int node, int operations)
+{
+    const struct plan_node *n = &g->nodes[node];
+    uint32_t any = (1u << n->type.width) - 1, a, b;
+    if (n->leaf || n->constant || !operations--)
+        return any;
+    switch (n->op) {
+    case NODE_SHIFT:
+    case NODE_ZERO_EXTEND:
+        a = most(g, n->in[0], operations);
+        return a < any ? a : any;
+    case NODE_SELECT:
+        a = most(g, n->in[1], operations);
+        b = most(g, n->in[2], operations);
+        return a > b ? a : b;
+    case MACHINE_ADD:
+        a = most(g, n->in[0], operations) + most(g, n->in[1], operations);
+        return a < any ? a : any;
+    default:
+        return any;
+    }
+}
+
+/* Of unsigned numbers of width bits, none of them is cut. */
+static bool sum_fits(const struct plan_graph *g, const struct plan_node *n, int width)
+{
+    enum { OPERATIONS = 6 };
+    return most(g, n->in[0], OPERATIONS) + most(g, n->in[1], OPERATIONS) < 1u << width;
+}
+
+static void cut(char *out, size_t size, const char *from, int width, int lane)
+{
+    if (width == lane)
+        snprintf(out, size, "(%s)", from);
+    else
+        snprintf(out, size, "((%s) & (VU)(0x%x))", from, (1u << width) - 1);
+}
+
+/* A bit from memory was 0 or 1 there, and negated twice is that again. Of others a bit is cut out: compilers make a
+ * negated comparison a load under a mask, of a constant in a page that nothing else may ever have touched; while no
+ * lane is set it stays so, and processors take hundreds of cycles for each such load. */
+static void widened(char *out, size_t size, const struct plan_graph *g, int node, const char *a)
+{
+    bool bit = g->nodes[node].type.width == 1;
+    while (!g->nodes[node].leaf && g->nodes[node].op == NODE_SHIFT)
+        node = g->nodes[node].in[0];
+    snprintf(out, size,
+             !bit                  ? "%s"
+             : g->nodes[node].leaf ? "AS_U(-%s)"
+                                   : "AS_U(%s & (VI)(1))",
+             a);
+}
+
+static void extended(char *out, size_t size, const char *a, struct machine_type t, int lane)
+{
+    if (t.width == 1 || t.width == lane)
+        snprintf(out, size, "AS_S(%s)", a);
+    else
+        snprintf(out, size, "(AS_S(%s << (VU)(%d)) >> (VI)(%d))", a, lane - t.width,
+                 lane - t.width);
+}
+
+static void extremum(char *out, size_t size, const char *symbol, const char *x, const char *y,
+                     const char *a, const char *b)
+{
+    snprintf(out, size, "SEL_U(%s %s %s, %s, %s)", x, symbol, y, a, b);
+}
+
+void narrow_spell(char *out, size_t size, const struct plan_graph *g, const struct plan_node *n,
+                  int lane, const char *a, const char *b, const char *c)
+{
+    static const char *const symbols[] = {
+        [MACHINE_AND] = "&",  [MACHINE_OR] = "|",  [MACHINE_XOR] = "^", [MACHINE_ADD] = "+",
+        [MACHINE_SUB] = "-",  [MACHINE_EQ] = "==", [MACHINE_NE] = "!=", [MACHINE_ULT] = "<",
+        [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
+    struct machine_type from = g->nodes[n->in[0]].type;
+    char raw[160], x[64], y[64];
+    int width = n->type.width;
+    switch (n->op) {
+    case NODE_SELECT:
+        snprintf(out, size, width == 1 ? "SEL_I(%s, %s, %s)" : "SEL_U(%s, %s, %s)", a, b, c);
+        return;
+    case NODE_ZERO_EXTEND:
+        widened(x, sizeof x, g, n->in[0], a);
+        cut(out, size, x, width < from.width ? width : lane, lane);
+        return;
+    case NODE_SIGN_EXTEND:
+        extended(x, sizeof x, a, from, lane);
+        if (width == 1)
+            snprintf(out, size, "%s", x);
+        else {
+            snprintf(raw, sizeof raw, "AS_U(%s)", x);
+            cut(out, size, raw, width, lane);
+        }
+        return;
+    case NODE_CONCAT:
+        widened(x, sizeof x, g, n->in[0], a);
+        widened(y, sizeof y, g, n->in[1], b);
+        snprintf(out, size, "(%s | (%s << (VU)(%d)))", x, y, from.width);
+        return;
+    case NODE_EXTRACT:
+        snprintf(raw, sizeof raw, "%s >> (VU)(%d)", a, n->detail);
+        if (width == 1)
+            snprintf(out, size, "(((%s) & (VU)(1)) != (VU)(0))", raw);
+        else
+            cut(out, size, raw, width, lane);
+        return;
+    case MACHINE_NOT:
+    case MACHINE_NEG:
+        snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+        cut(out, size, raw, width == 1 ? lane : width, lane);
+        return;
+    case MACHINE_SLT:
+    case MACHINE_SLE:
+    case MACHINE_SMIN:
+    case MACHINE_SMAX:
+        extended(x, sizeof x, a, from, lane);
+        extended(y, sizeof y, b, from, lane);
+        if (n->op == MACHINE_SMIN || n->op == MACHINE_SMAX)
+            extremum(out, size, n->op == MACHINE_SMIN ? "<" : ">", x, y, a, b);
+        else
+            snprintf(out, size, "(%s %s %s)", x, symbols[n->op], y);
+        return;
+    case MACHINE_UMIN:
+    case MACHINE_UMAX:
+        extremum(out, size, n->op == MACHINE_UMIN ? "<" : ">", a, b, a, b);
+        return;
+    case MACHINE_ADD:
+    case MACHINE_SUB:
+        snprintf(raw, sizeof raw, "%s %s %s", a, symbols[n->op], b);
+        cut(out, size, raw, n->op == MACHINE_ADD && sum_fits(g, n, width) ? lane : width, lane);
+        return;
+    case NODE_OVERFLOW_UADD:
+        if (sum_fits(g, n, from.width))
+            snprintf(out, size, "(VI)(0)");
+        else
+            snprintf(out, size, "(((%s + %s) & (VU)(0x%x)) < %s)", a, b, (1u << from.width) - 1,
+                     a);
+        return;
+    case NODE_OVERFLOW_USUB:
+        snprintf(out, size, "(%s < %s)", a, b);
+        return;
+    case NODE_OVERFLOW_SADD:
+    case NODE_OVERFLOW_SSUB: { /* the signs say so */
+        bool sum = n->op == NODE_OVERFLOW_SADD;
+        snprintf(raw, sizeof raw, "(%s %s %s)", a, sum ? "+" : "-", b);
+        snprintf(out, size, "(((%s ^ %s) & (%s ^ %s) & (VU)(0x%x)) != (VU)(0))", a, raw, b,
+                 sum ? raw : a, 1u << (from.width - 1));
+        return;
+    }
+    default: /* AND, OR, XOR, comparisons */
+        snprintf(out, size, "(%s %s %s)", a, symbols[n->op], b);
+        return;
+    }
+}

@@ -1,0 +1,504 @@
+/* strips_schedule.c - kernels in strips: which stages are one pass, which rows and columns each of them handles, and
+ * what is kept in rings. See strips.h. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "codegen/strips.h"
+
+enum {
+    PASS_COST = 600
+}; /* of stages in one loop: with many more than there are registers for nothing is won */
+
+/* ---- what stages look at ---- */
+
+/* The text of a stage alone: whether it is one again that came before, and what it costs, tells which passes there are. */
+static void stage_values(struct strips *s, int k)
+{
+    struct stage *stage = &s->stages[k];
+    emitter_init(&stage->e, s->g, s->set, k);
+    stage->e.lane = s->lane;
+    stage->e.bare = true;
+    for (int i = 0; i < s->stores_count && !stage->e.failed; i++)
+        if (s->g->nodes[s->stores[i]].stage == k)
+            emit_value(&stage->e, s->stores[i], 0, 0, true);
+    s->failed = s->failed || stage->e.failed;
+}
+
+/* What costs next to nothing to compute twice: it depends on where a processor is, and on nothing else. */
+static void find_places(const struct strips *s, bool *only_place)
+{
+    for (int i = 0; i < s->g->count; i++) {
+        const struct plan_node *n = &s->g->nodes[i];
+        only_place[i] = n->constant || (!n->leaf && !n->stored && n->op != NODE_RANDOM);
+        for (int k = 0; !n->constant && only_place[i] && k < node_ops[n->op].inputs; k++)
+            only_place[i] = only_place[n->in[k]];
+    }
+}
+
+struct marks {
+    const bool *only_place;
+    int *owner; /* of a node: the store that it was first wanted for, + 1 */
+    int *with;  /* of a store: one before it that it is computed together with, or itself */
+};
+
+static int root_of(const struct marks *m, int store)
+{
+    while (m->with[store] != store)
+        store = m->with[store];
+    return store;
+}
+
+/* Marks what the node is made of in its stage as that store's. What another wants, too, makes them one unit. */
+static void mark(const struct strips *s, const struct marks *m, int node, int stage, int store)
+{
+    const struct plan_node *n = &s->g->nodes[node];
+    if (m->only_place[node] || plan_loads(n, stage))
+        return;
+    if (m->owner[node]) {
+        int a = root_of(m, m->owner[node] - 1), b = root_of(m, store);
+        m->with[a > b ? a : b] = a > b ? b : a;
+        return;
+    }
+    m->owner[node] = store + 1;
+    for (int k = 0; k < node_ops[n->op].inputs; k++)
+        mark(s, m, plan_input(s->g, n, k, stage), stage, store);
+}
+
+static void units_of_stage(struct strips *s, const struct marks *m, int stage)
+{
+    memset(m->owner, 0, (size_t)s->g->count * sizeof *m->owner);
+    for (int i = 0; i < s->stores_count; i++) {
+        m->with[i] = i;
+        if (s->g->nodes[s->stores[i]].stage == stage)
+            mark(s, m, s->stores[i], stage, i);
+    }
+    for (int i = 0; i < s->stores_count && !s->failed; i++) {
+        int node = s->stores[i], root = root_of(m, i);
+        if (s->g->nodes[node].stage != stage)
+            continue;
+        if (root == i) {
+            s->unit[node] = s->units_count;
+            emitter_init(&s->units[s->units_count].e, s->g, s->set, stage);
+            s->units[s->units_count].e.lane = s->lane;
+            s->units[s->units_count].e.bare = true;
+            s->units[s->units_count++].stage = stage;
+        }
+        struct unit *unit = &s->units[s->unit[s->stores[root]]];
+        s->unit[node] = s->unit[s->stores[root]];
+        emit_value(&unit->e, node, 0, 0, true);
+        s->failed = s->failed || unit->e.failed;
+    }
+}
+
+static void make_units(struct strips *s)
+{
+    bool *only_place = calloc((size_t)s->g->count, sizeof *only_place);
+    struct marks m = {only_place, calloc((size_t)s->g->count, sizeof *m.owner),
+                      calloc((size_t)s->stores_count, sizeof *m.with)};
+    s->failed = s->failed || !m.only_place || !m.owner || !m.with;
+    if (!s->failed)
+        find_places(s, only_place);
+    for (int k = 0; k < s->stages_count && !s->failed; k++)
+        units_of_stage(s, &m, k);
+    free(only_place);
+    free(m.owner);
+    free(m.with);
+}
+
+/* ---- which stages are one pass ---- */
+
+/* Where stages are turns of a loop: of how many stages, and which stage the first of those begins with that are all
+ * alike. The first and the last turns are not quite, since there is nothing before and after them. */
+struct turns {
+    int stages, begin; /* stages: 0: there are none */
+};
+
+static struct turns find_turns(const struct strips *s)
+{
+    struct turns best = {0, 0};
+    int best_length = s->stages_count / 3;
+    for (int turn = 1; 2 * turn < s->stages_count; turn++)
+        for (int k = turn, length = 0; k < s->stages_count; k++) {
+            bool same = text_same(&s->stages[k].e.body, &s->stages[k - turn].e.body);
+            length = same ? length + 1 : 0;
+            if (length > best_length && length >= turn) {
+                best_length = length;
+                best = (struct turns){turn, (k - length + 1) % turn};
+            }
+        }
+    return best;
+}
+
+static void make_passes(struct strips *s)
+{
+    struct turns turns = find_turns(s);
+    for (int k = 0, cost = 0, begun = 0; k < s->stages_count; k++) {
+        bool turn = turns.stages && k % turns.stages == turns.begin;
+        cost += s->stages[k].e.cost;
+        if (k == 0 || turn || (cost > PASS_COST && k > begun)) {
+            s->passes[s->passes_count++].first = begun = k;
+            cost = s->stages[k].e.cost;
+        }
+        s->stages[k].pass = s->passes_count - 1;
+        s->passes[s->passes_count - 1].last = k;
+    }
+}
+
+/* ---- which rows and columns ---- */
+
+static int up_to_vectors(const struct strips *s, int columns)
+{
+    return columns > 0 ? (columns + s->vector - 1) / s->vector * s->vector : 0;
+}
+
+/* How units are scheduled: 1 or -1 for the directions of rows and columns; aligned: all of a stage in the same row. */
+struct way {
+    int downward, rightward;
+    bool aligned;
+};
+
+static void find_delays(struct strips *s, bool aligned)
+{
+    for (int k = 0, stage = 0; k < s->units_count; k = stage) {
+        int most = 0;
+        for (; stage < s->units_count && s->units[stage].stage == s->units[k].stage; stage++) {
+            struct unit *to = &s->units[stage];
+            for (int i = 0; i < to->e.pointers_count; i++) {
+                const struct pointer *p = &to->e.seen_pointers[i];
+                if (!s->g->nodes[p->node].leaf)
+                    widen(&to->delay, s->units[s->unit[p->node]].delay +
+                                          emit_rows_down(&to->e, p) * s->downward);
+            }
+            widen(&most, to->delay);
+        }
+        for (int i = k; i < stage && aligned; i++)
+            s->units[i].delay = most;
+    }
+}
+
+/* How many rows of a ring there are from the one that is made to that which the unit looks at. */
+static int rows_between(const struct strips *s, const struct unit *to, const struct pointer *p)
+{
+    const struct unit *from = &s->units[s->unit[p->node]];
+    return to->delay - from->delay - emit_rows_down(&to->e, p) * s->downward + 1;
+}
+
+static bool same_pass(const struct strips *s, const struct unit *a, const struct unit *b)
+{
+    return s->stages[a->stage].pass == s->stages[b->stage].pass;
+}
+
+/* A row that is looked at where another is made, vector for vector, is overwritten by that: see overwritten_loads(). */
+static void find_ring_rows(struct strips *s)
+{
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *to = &s->units[k];
+        for (int i = 0; i < to->e.pointers_count; i++) {
+            const struct pointer *p = &to->e.seen_pointers[i];
+            if (s->g->nodes[p->node].leaf)
+                continue;
+            const struct unit *from = &s->units[s->unit[p->node]];
+            int rows = rows_between(s, to, p);
+            bool same = same_pass(s, from, to),
+                 in_step = same && !p->low && !p->high && to->ahead == from->ahead;
+            if (!same || rows > 1)
+                widen(&s->ring_rows[p->node], rows - in_step);
+        }
+    }
+}
+
+/* That way; returns what strips keep then: bytes for each column, in rings and in vectors of earlier turns. */
+static int schedule(struct strips *s, struct way way)
+{
+    s->downward = way.downward;
+    s->rightward = way.rightward;
+    memset(s->ring_rows, 0, (size_t)s->g->count * sizeof *s->ring_rows);
+    memset(s->wraps, 0, (size_t)s->g->count * sizeof *s->wraps);
+    for (int k = 0; k < s->units_count; k++) {
+        struct unit *to = &s->units[k];
+        to->delay = to->above = to->below = to->left = to->right = to->ahead = 0;
+    }
+    find_delays(s, way.aligned);
+    for (int k = s->units_count - 1; k >= 0; k--) {
+        struct unit *to = &s->units[k];
+        for (int i = 0; i < to->e.pointers_count; i++) {
+            const struct pointer *p = &to->e.seen_pointers[i];
+            if (s->g->nodes[p->node].leaf)
+                continue;
+            struct unit *from = &s->units[s->unit[p->node]];
+            int down = emit_rows_down(&to->e, p);
+            bool variable = same_pass(s, from, to) && rows_between(s, to, p) == 1;
+            widen(&from->above, to->above - down);
+            widen(&from->below, to->below + down);
+            if (variable || !s->whole) {
+                widen(&from->left, to->left - p->low);
+                widen(&from->right, to->right + p->high);
+            } else {
+                s->wraps[p->node] |= (to->left - p->low > 0 ? WRAPS_LEFT : 0) |
+                                     (to->right + p->high > 0 ? WRAPS_RIGHT : 0);
+            }
+            if (variable)
+                widen(&from->ahead,
+                      to->ahead +
+                          up_to_vectors(s, s->rightward > 0 ? p->high : -p->low) / s->vector);
+        }
+    }
+    find_ring_rows(s);
+    for (int i = 0; i < s->passes_count; i++) {
+        struct pass *pass = &s->passes[i];
+        pass->above = pass->below = pass->before = pass->after = 0;
+        pass->delay = INT_MAX;
+        for (int k = 0; k < s->units_count; k++)
+            if (s->stages[s->units[k].stage].pass == i && s->units[k].delay < pass->delay)
+                pass->delay = s->units[k].delay;
+    }
+    int kept = 0;
+    for (int i = 0; i < s->stores_count; i++) {
+        int node = s->stores[i];
+        const struct unit *unit = &s->units[s->unit[node]];
+        struct pass *pass = &s->passes[s->stages[unit->stage].pass];
+        s->down[node] = (pass->delay - unit->delay) * s->downward;
+        s->ahead[node] = unit->ahead * s->rightward;
+        int columns = s->ahead[node] * s->vector;
+        widen(&pass->above, unit->above + s->down[node]);
+        widen(&pass->below, unit->below - s->down[node]);
+        widen(&pass->before, up_to_vectors(s, unit->left + columns));
+        widen(&pass->after, up_to_vectors(s, unit->right - columns));
+        kept += (s->ring_rows[node] + unit->ahead) * (int)type_bytes(s->g->nodes[node].type);
+    }
+    return kept;
+}
+
+static int rings_with(struct strips *s, int rows)
+{
+    for (int i = 0; i < s->rings_count; i++)
+        if (s->rings[i].rows == rows)
+            return i;
+    if (s->rings_count == s->rings_capacity)
+        s->rings = machine_more(s->rings, &s->rings_capacity, sizeof *s->rings, &s->failed);
+    if (s->failed)
+        return 0;
+    s->rings[s->rings_count] = (struct rings){.rows = rows};
+    return s->rings_count++;
+}
+
+/* Pass by pass: turns of a loop have theirs in the same order, each at the same distance from those of the turn before. */
+static void lay_out(struct strips *s)
+{
+    s->rings_count = s->memory = 0;
+    for (int pass = 0; pass < s->passes_count; pass++)
+        for (int i = 0; i < s->stores_count && !s->failed; i++) {
+            int node = s->stores[i];
+            const struct plan_node *n = &s->g->nodes[node];
+            if (s->stages[n->stage].pass != pass || !s->ring_rows[node])
+                continue;
+            s->rings_of[node] = rings_with(s, s->ring_rows[node]);
+            if (s->failed)
+                return;
+            struct rings *rings = &s->rings[s->rings_of[node]];
+            s->ring_at[node] = rings->bytes;
+            rings->bytes += (int)type_bytes(n->type);
+        }
+    for (int i = 0; i < s->rings_count; i++) {
+        s->rings[i].at = s->memory;
+        s->memory += s->rings[i].rows * s->rings[i].bytes;
+    }
+}
+
+/* Elements of up to 64 bits; what all stages together look at lies in the halos of arrays; and there are so many
+ * rows that which one is meant is never in doubt. */
+static bool suits(const struct strips *s)
+{
+    int rows = 0;
+    for (int k = 0; k < s->stages_count; k++)
+        if (s->stages[k].e.wide || s->stages[k].e.soft)
+            return false;
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *unit = &s->units[k];
+        int behind = unit->delay - s->passes[s->stages[unit->stage].pass].delay;
+        for (int i = 0; i < unit->e.pointers_count; i++) {
+            const struct pointer *p = &unit->e.seen_pointers[i];
+            if (unit->left - p->low > s->set->halo || unit->right + p->high > s->set->halo)
+                return false;
+            widen(&rows, abs(emit_rows_down(&unit->e, p)) + behind);
+        }
+    }
+    return s->set->halo && s->set->width >= 2 * s->vector && s->set->dimensions[0] >= 2 * rows;
+}
+
+/* ---- what can be written in place ---- */
+
+/* Each row of the leaf must have been read for the last time when that of the output is written; or be read in that row
+ * by the output's unit alone, each element where it is stored: a unit stores when it has computed all. */
+static bool may_replace(const struct strips *s, int output, int leaf)
+{
+    const struct unit *out = &s->units[s->unit[output]];
+    for (int k = 0; k < s->units_count; k++) {
+        const struct unit *u = &s->units[k];
+        for (int i = 0; i < u->e.pointers_count; i++) {
+            const struct pointer *p = &u->e.seen_pointers[i];
+            if (p->node != leaf)
+                continue;
+            int late = u->delay - emit_rows_down(&u->e, p) * s->downward - out->delay;
+            bool there = u == out && !p->low && !p->high && !u->left && !u->right;
+            if (late > 0 || (late == 0 && !there))
+                return false;
+        }
+    }
+    return true;
+}
+
+static int border_add(struct in_place *in, int leaf)
+{
+    for (int i = 0; i < in->leaves_count; i++)
+        if (in->leaves[i] == leaf)
+            return i;
+    if (in->leaves_count == BORDERS_MOST)
+        return -1;
+    in->leaves[in->leaves_count] = leaf;
+    return in->leaves_count++;
+}
+
+static void pair_add(struct strips *s, int output, int leaf)
+{
+    struct in_place *in = &s->in_place;
+    int border = border_add(in, leaf);
+    if (border < 0)
+        return;
+    if (in->pairs_count == in->pairs_capacity)
+        in->pairs = machine_more(in->pairs, &in->pairs_capacity, sizeof *in->pairs, &s->failed);
+    if (s->failed)
+        return;
+    in->pairs[in->pairs_count].output = output;
+    in->pairs[in->pairs_count].leaf = leaf;
+    in->pairs[in->pairs_count++].border = border;
+}
+
+static bool is_read(const struct strips *s, int leaf)
+{
+    for (int k = 0; k < s->units_count; k++)
+        for (int i = 0; i < s->units[k].e.pointers_count; i++)
+            if (s->units[k].e.seen_pointers[i].node == leaf)
+                return true;
+    return false;
+}
+
+static void find_pairs(struct strips *s)
+{
+    struct in_place *in = &s->in_place;
+    in->leaves_count = in->pairs_count = in->above = in->below = in->bytes = 0;
+    for (int leaf = 0; leaf < s->g->count && !s->failed; leaf++) {
+        const struct plan_node *n = &s->g->nodes[leaf];
+        for (int i = 0; n->leaf && is_read(s, leaf) && i < s->stores_count; i++) {
+            const struct plan_node *to = &s->g->nodes[s->stores[i]];
+            if (to->target && type_bytes(to->type) == type_bytes(n->type) &&
+                may_replace(s, s->stores[i], leaf))
+                pair_add(s, s->stores[i], leaf);
+        }
+    }
+    for (int k = 0; k < s->units_count; k++) { /* all rows that its pass goes through */
+        const struct unit *u = &s->units[k];
+        const struct pass *pass = &s->passes[s->stages[u->stage].pass];
+        int own = (pass->delay - u->delay) * s->downward;
+        for (int i = 0; i < u->e.pointers_count; i++) {
+            int down = own + emit_rows_down(&u->e, &u->e.seen_pointers[i]);
+            widen(&in->above, pass->above - down);
+            widen(&in->below, pass->below + down);
+        }
+    }
+    for (int i = 0; i < in->leaves_count; i++)
+        in->bytes += (int)type_bytes(s->g->nodes[in->leaves[i]].type);
+}
+
+/* ---- which way ---- */
+
+/* What looks at rows above it and columns to the left of it, and is looked at by those below and to the right, keeps
+ * the least where rows are taken from the lowest up, and columns from right to left. Among ways that keep as little
+ * the one is taken where most can be written in place. */
+static void choose_way(struct strips *s)
+{
+    struct way best = {0};
+    int least = INT_MAX, most = 0;
+    for (int i = 0; i < 8 && !s->failed; i++) {
+        struct way way = {i & 4 ? -1 : 1, i & 2 ? -1 : 1, i & 1};
+        int kept = schedule(s, way);
+        find_pairs(s);
+        if (kept < least || (kept == least && s->in_place.pairs_count > most)) {
+            best = way;
+            least = kept;
+            most = s->in_place.pairs_count;
+        }
+    }
+    schedule(s, best);
+    find_pairs(s);
+}
+
+bool strips_schedule(struct strips *s, const struct device_shape *shape)
+{
+    for (int k = 0; k < s->stages_count && !s->failed; k++)
+        stage_values(s, k);
+    make_units(s);
+    if (s->failed)
+        return false;
+    emit_find_bits(s->g, s->bits_matter);
+    make_passes(s);
+    /* the last vector may reach beyond the row, but not beyond its halo */
+    int over = s->set->width % s->vector;
+    s->whole = !over || s->vector - over <= s->set->halo;
+    choose_way(s);
+    lay_out(s);
+    if (s->whole && s->set->width / strips_columns(s, shape) > 1) {
+        s->whole = false;
+        choose_way(s);
+        lay_out(s);
+    }
+    return !s->failed && suits(s);
+}
+
+/* ---- how wide ---- */
+
+/* What passes read and write of a ring's row. */
+bool strips_find_margin(struct strips *s)
+{
+    for (int k = 0; k < s->passes_count; k++) {
+        const struct pass *pass = &s->passes[k];
+        int low = 0, high = 0;
+        for (int i = 0; i < pass->e.pointers_count; i++) {
+            const struct pointer *p = &pass->e.seen_pointers[i];
+            low = p->low < low ? p->low : low;
+            widen(&high, p->high);
+        }
+        for (int i = 0; i < s->stores_count; i++)
+            if (s->stages[s->g->nodes[s->stores[i]].stage].pass == k) {
+                int columns = s->ahead[s->stores[i]] * s->vector;
+                low = columns < low ? columns : low;
+                widen(&high, columns);
+            }
+        widen(&s->margin, up_to_vectors(s, pass->before - low));
+        widen(&s->margin, up_to_vectors(s, pass->after + high + s->vector));
+    }
+    return s->margin * 8 <= DEVICE_GUARD_BYTES;
+}
+
+int strips_columns(const struct strips *s, const struct device_shape *shape)
+{
+    int columns = shape->strip_columns, width = s->set->width;
+    while (columns > STRIPS_LEAST_COLUMNS && columns * s->memory > shape->near_bytes)
+        columns = columns / 2 / s->vector * s->vector;
+    int strips = (width + columns - 1) / columns;
+    columns = width / strips / s->vector * s->vector;
+    return columns ? columns : s->vector;
+}
+
+/* All rows begin a line of the caches; not all the same one. */
+int strips_near_columns(const struct strips *s, int columns)
+{
+    enum { LINE = 64, STEPS = 8 };
+    int least = (2 * columns < s->set->width ? 2 * columns : s->set->width) + 2 * s->margin +
+                s->vector,
+        step = LINE;
+    while (step * STEPS < least)
+        step *= 2;
+    return (least + step - 1) / step * step + LINE;
+}

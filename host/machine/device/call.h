@@ -1,0 +1,168 @@
+/* call.h - starting a kernel that is written by hand in kernels/.
+ *
+ *     struct kernel_call c = call_begin(m, kernel_router_cl, "-DADDRESS=uint", "claim");
+ *     call_layout(&c, set);
+ *     call_uint(&c, mask);
+ *     call_buffer(&c, buffer);
+ *     status = call_over(&c, m, set, "sending");
+ *
+ * Arguments are given in order; an error on the way makes the start do nothing but tell of it. */
+#ifndef LUTETIA_MACHINE_CALL_H
+#define LUTETIA_MACHINE_CALL_H
+
+#include "watch/watch.h"
+
+/* For a work-item on a CPU: columns; physical processors. */
+enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
+
+struct kernel_call {
+    cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
+    cl_uint at;
+    cl_int error;
+    size_t bytes; /* of the buffers that it was given */
+};
+
+static inline struct kernel_call call_begin(struct machine *m, const char *text,
+                                            const char *options, const char *name)
+{
+    return (struct kernel_call){.kernel = device_library_kernel(m, text, options, name)};
+}
+
+static inline void call_argument(struct kernel_call *c, size_t size, const void *value)
+{
+    if (c->kernel)
+        c->error |= clSetKernelArg(c->kernel, c->at++, size, value);
+}
+
+static inline void call_int(struct kernel_call *c, int value)
+{
+    cl_int x = value;
+    call_argument(c, sizeof x, &x);
+}
+
+static inline void call_uint(struct kernel_call *c, uint64_t value)
+{
+    cl_uint x = (cl_uint)value;
+    call_argument(c, sizeof x, &x);
+}
+
+static inline void call_ulong(struct kernel_call *c, uint64_t value)
+{
+    call_argument(c, sizeof value, &value);
+}
+
+static inline void call_scalar(struct kernel_call *c, struct machine_scalar x)
+{
+    call_ulong(c, x.lo);
+    call_ulong(c, x.hi);
+}
+
+static inline void call_buffer(struct kernel_call *c, const struct device_buffer *b)
+{
+    call_argument(c, sizeof b->mem, &b->mem);
+    c->bytes += b->bytes;
+}
+
+/* How rows lie in a buffer: width, pitch, halo. */
+static inline void call_layout(struct kernel_call *c, const struct vpset *s)
+{
+    call_uint(c, (uint64_t)s->width);
+    call_uint(c, s->pitch);
+    call_uint(c, (uint64_t)s->halo);
+}
+
+/* Which row-major index an address is: count, ratio, logarithm of the processors, order. */
+static inline void call_order(struct kernel_call *c, const struct machine *m,
+                              const struct vpset *s)
+{
+    call_uint(c, s->count);
+    call_uint(c, s->ratio);
+    call_uint(c, (uint64_t)m->processors_log2);
+    call_uint(c, s->order == MACHINE_SEND_ORDER);
+}
+
+/* Lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
+static inline void call_lines(struct kernel_call *c, const struct lines *l, int run)
+{
+    call_ulong(c, l->base);
+    call_ulong(c, (uint64_t)l->step);
+    call_ulong(c, l->inner_stride);
+    call_ulong(c, l->outer_stride);
+    call_int(c, l->length);
+    call_int(c, run);
+    call_int(c, l->columns);
+}
+
+/* How these lie in rows. */
+static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
+{
+    call_int(c, l->width);
+    call_int(c, l->halo);
+    call_int(c, l->along);
+}
+
+static inline void call_set(struct kernel_call *c, const struct machine *m,
+                            const struct vpset *s)
+{
+    call_order(c, m, s);
+    call_layout(c, s);
+}
+
+/* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
+static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
+                                             size_t y, const char *what)
+{
+    size_t global[2] = {x, y};
+    if (m->watch)
+        watch_arrays(m, c->bytes);
+    return c->kernel ? device_launch(m, c->kernel, c->error, 2, global, NULL, what) : m->status;
+}
+
+static inline enum machine_status call_start_3d(struct kernel_call *c, struct machine *m,
+                                                size_t x, size_t y, size_t z, const char *what)
+{
+    size_t global[3] = {x, y, z};
+    if (m->watch)
+        watch_arrays(m, c->bytes);
+    return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, NULL, what) : m->status;
+}
+
+/* Columns that a work-item of call_over() does; the kernel wants it as an argument. */
+static inline size_t call_run(const struct machine *m)
+{
+    return m->device.is_cpu ? CALL_RUN : 1;
+}
+
+/* A work-item for each run of columns of each row. */
+static inline enum machine_status call_over(struct kernel_call *c, struct machine *m,
+                                            const struct vpset *s, const char *what)
+{
+    size_t run = call_run(m);
+    return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
+}
+
+/* Physical processors that a work-item of call_processors() does. */
+static inline size_t call_processors_run(const struct machine *m)
+{
+    return m->device.is_cpu ? CALL_PROCESSORS_RUN : 1;
+}
+
+/* A work-item for each run of physical processors, times y. */
+static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
+                                                  size_t y, const char *what)
+{
+    size_t run = call_processors_run(m), p = (size_t)m->processors_count;
+    return call_start(c, m, (p + run - 1) / run, y, what);
+}
+
+/* The C type of an element in memory of so many bytes; 16 is a pair. */
+static inline const char *call_element(size_t bytes)
+{
+    return bytes == 1   ? "uchar"
+           : bytes == 2 ? "ushort"
+           : bytes == 4 ? "uint"
+           : bytes == 8 ? "ulong"
+                        : "ulong2";
+}
+
+#endif

@@ -1,0 +1,490 @@
+/* observe.c - what the front end sees and sets: whole fields, single processors, reductions. */
+#include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/call.h"
+#include "kernels.h"
+
+enum {
+    REDUCE_RUN = 4096
+}; /* columns: part of the order of float addition, see machine_reduce() */
+
+size_t machine_element_bytes(struct machine_type type)
+{
+    return type_bytes(type);
+}
+
+size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
+{
+    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
+}
+
+struct rows observe_rows(const struct vpset *s, struct machine_type type)
+{
+    return (struct rows){observe_buffer_bytes(s, type), (size_t)s->halo * type_bytes(type)};
+}
+
+/* The position of a processor in a buffer, in elements. */
+static size_t place(const struct vpset *s, uint64_t index)
+{
+    return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
+}
+
+static bool has_strange_nan(struct machine_type type, const void *in, uint64_t count)
+{
+    size_t bytes = type_bytes(type);
+    bool has = false;
+    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++) {
+        uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
+        memcpy(&x, (const unsigned char *)in + i * bytes, bytes);
+        has = scalar_is_strange_nan(type, x);
+    }
+    return has;
+}
+
+static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type,
+                                          const void *in)
+{
+    const struct vpset *s = &m->sets[set];
+    size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
+    unsigned char *image = calloc(1, bytes);
+    struct device_buffer *b = image ? device_rows_get(m, observe_rows(s, type)) : NULL;
+    if (!b) {
+        free(image);
+        if (!m->status)
+            machine_fail(m, MACHINE_NO_MEMORY,
+                         "not enough memory to write a field of %zu bytes", bytes);
+        return NULL;
+    }
+    size_t width = (size_t)s->width * element, halo = (size_t)s->halo * element;
+    for (uint64_t row = 0; row < s->rows; row++) {
+        unsigned char *to = image + row * s->pitch * element + halo;
+        memcpy(to, (const unsigned char *)in + row * width, width);
+        memcpy(to - halo, to + width - halo, halo);
+        memcpy(to + width, to, halo);
+    }
+    double start = device_wait_begin(m);
+    cl_int error =
+        clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, bytes);
+    free(image);
+    if (device_wait_end(m, error, start, "writing a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    struct machine_value *v = graph_buffer_node(m, type, set, b);
+    v->strange_nan = has_strange_nan(type, in, s->count);
+    return v;
+}
+
+static void put_scalar(unsigned char *to, struct machine_scalar x, size_t element)
+{
+    memcpy(to, &x.lo, element < 8 ? element : 8);
+    if (element > 8)
+        memcpy(to + 8, &x.hi, 8);
+}
+
+struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
+{
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        size_t element = type_bytes(v->type);
+        unsigned char pattern[16];
+        struct device_buffer *b = device_rows_get(m, observe_rows(&m->sets[set], v->type));
+        if (!b)
+            return NULL;
+        put_scalar(pattern, v->imm, element);
+        if (device_fill(m, b, pattern, element, "filling a field")) {
+            device_buffer_unref(m, b);
+            return NULL;
+        }
+        struct machine_value *number = graph_buffer_node(m, v->type, set, b);
+        number->strange_nan = v->strange_nan;
+        return number;
+    }
+    if (!v->buffer && run_evaluate(m, &v, 1, false))
+        return NULL;
+    return v;
+}
+
+static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
+                          uint32_t *offset)
+{
+    replay_settle(m);
+    struct field *f = field_find(m, id, offset);
+    int bits = machine_type_bits(type);
+    if (f && *offset + (uint32_t)bits > f->bits) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT,
+                     "%d bits from bit %u on run over the end of a field of %u bits", bits,
+                     *offset, f->bits);
+        return NULL;
+    }
+    return f;
+}
+
+enum machine_status machine_field_download(struct machine *m, uint32_t field,
+                                           struct machine_type type, void *out)
+{
+    uint32_t offset;
+    struct field *f = part(m, field, type, &offset);
+    struct machine_value *v =
+        f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
+    if (!v)
+        return m->status;
+    const struct vpset *s = &m->sets[f->vpset];
+    size_t element = type_bytes(type);
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        for (uint64_t i = 0; i < s->count; i++)
+            put_scalar((unsigned char *)out + i * element, v->imm, element);
+        return MACHINE_OK;
+    }
+    v = observe_materialise(m, f->vpset, v);
+    if (!v)
+        return m->status;
+    size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
+    size_t region[3] = {(size_t)s->width * element, s->rows, 1};
+    double start = device_wait_begin(m);
+    cl_int error = s->pitch == (size_t)s->width
+                       ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0,
+                                             s->count * element, out, 0, NULL, NULL)
+                       : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from,
+                                                 to, region, s->pitch * element, 0, region[0],
+                                                 0, out, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, s->count * element);
+    return device_wait_end(m, error, start, "reading a field");
+}
+
+static void mask_elements(void *data, uint64_t count, struct machine_type type)
+{
+    size_t element = type_bytes(type);
+    if (type.kind == MACHINE_FLOAT || (size_t)type.width == 8 * element)
+        return;
+    for (uint64_t i = 0; i < count; i++) {
+        struct machine_scalar x = {0, 0};
+        unsigned char *at = (unsigned char *)data + i * element;
+        memcpy(&x.lo, at, element < 8 ? element : 8);
+        if (element > 8)
+            memcpy(&x.hi, at + 8, 8);
+        put_scalar(at, scalar_cut(x, type.width), element);
+    }
+}
+
+enum machine_status machine_field_upload(struct machine *m, uint32_t field,
+                                         struct machine_type type, const void *in)
+{
+    uint32_t offset;
+    struct field *f = part(m, field, type, &offset);
+    if (!f)
+        return m->status;
+    size_t bytes = m->sets[f->vpset].count * type_bytes(type);
+    void *copy = malloc(bytes);
+    if (!copy)
+        return machine_fail(m, MACHINE_NO_MEMORY,
+                            "not enough memory to write a field of %zu bytes", bytes);
+    memcpy(copy, in, bytes);
+    mask_elements(copy, m->sets[f->vpset].count, type);
+    struct machine_value *v = upload_value(m, f->vpset, type, copy);
+    free(copy);
+    return v ? machine_field_store(m, field, v, MACHINE_EVERYWHERE) : m->status;
+}
+
+enum machine_status machine_field_read(struct machine *m, uint32_t field,
+                                       struct machine_type type, uint64_t index,
+                                       struct machine_scalar *out)
+{
+    uint32_t offset;
+    struct field *f = part(m, field, type, &offset);
+    if (!f)
+        return m->status;
+    if (index >= m->sets[f->vpset].count)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
+                            (unsigned long long)index);
+    struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
+    *out = (struct machine_scalar){0, 0};
+    if (!v)
+        return m->status;
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        *out = v->imm;
+        return MACHINE_OK;
+    }
+    v = observe_materialise(m, f->vpset, v);
+    if (!v)
+        return m->status;
+    size_t element = type_bytes(type);
+    unsigned char raw[16] = {0};
+    double start = device_wait_begin(m);
+    cl_int error = clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
+                                       place(&m->sets[f->vpset], index) * element, element, raw,
+                                       0, NULL, NULL);
+    memcpy(&out->lo, raw, 8);
+    memcpy(&out->hi, raw + 8, 8);
+    if (m->watch)
+        watch_bytes(m, element);
+    return device_wait_end(m, error, start, "reading a processor");
+}
+
+/* A buffer of the same content that nobody else looks at. */
+static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
+{
+    struct rows rows = observe_rows(&m->sets[set], v->type);
+    struct device_buffer *b = device_rows_get(m, rows);
+    if (!b)
+        return NULL;
+    if (device_copy(m, v->buffer, b, rows.bytes, "copying a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    return graph_buffer_node(m, v->type, set, b);
+}
+
+enum machine_status machine_field_write(struct machine *m, uint32_t field,
+                                        struct machine_type type, uint64_t index,
+                                        struct machine_scalar value)
+{
+    uint32_t offset;
+    if (type.s && soft_type_good(type)) {
+        value = (struct machine_scalar){soft_packed_bits(value.lo, type), 0};
+        type = MACHINE_UINT(machine_type_bits(type));
+    }
+    struct field *f = part(m, field, type, &offset);
+    if (!f)
+        return m->status;
+    const struct vpset *s = &m->sets[f->vpset];
+    if (index >= s->count)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
+                            (unsigned long long)index);
+    struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
+    v = v ? observe_materialise(m, f->vpset, v) : NULL;
+    if (!v)
+        return m->status;
+    /* In place where this part of the field alone holds the buffer: the slot's reference, and those of
+     * this call. */
+    uint32_t held = 0;
+    bool strange = v->strange_nan || has_strange_nan(type, &value.lo, 1);
+    for (int i = 0; i < m->borrowed_count; i++)
+        held += m->borrowed[i] == v;
+    if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
+        v = own_copy(m, f->vpset, v);
+    if (!v)
+        return m->status;
+    v->strange_nan = strange;
+    size_t element = type_bytes(type);
+    unsigned char raw[16];
+    put_scalar(raw, scalar_cut(value, type.width), element);
+    size_t at = place(s, index), column = index % (uint64_t)s->width, width = (size_t)s->width;
+    size_t places[3] = {at, 0, 0};
+    int count = 1;
+    if (column < (size_t)s->halo)
+        places[count++] = at + width;
+    if (column >= width - (size_t)s->halo)
+        places[count++] = at - width;
+    double start = device_wait_begin(m);
+    cl_int error = CL_SUCCESS;
+    for (int i = 0; i < count && !error; i++)
+        error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
+                                     places[i] * element, element, raw, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, element);
+    if (device_wait_end(m, error, start, "writing a processor"))
+        return m->status;
+    return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
+}
+
+/* ---- reductions ---- */
+
+enum { AND, OR, XOR, ADD, LEAST, GREATEST };
+
+struct reduction_info {
+    int op;
+    bool is_float, is_signed;
+};
+
+static const struct reduction_info reductions[] = {
+    [MACHINE_REDUCE_AND] = {AND, false, false},
+    [MACHINE_REDUCE_OR] = {OR, false, false},
+    [MACHINE_REDUCE_XOR] = {XOR, false, false},
+    [MACHINE_REDUCE_ADD] = {ADD, false, false},
+    [MACHINE_REDUCE_UMIN] = {LEAST, false, false},
+    [MACHINE_REDUCE_UMAX] = {GREATEST, false, false},
+    [MACHINE_REDUCE_SMIN] = {LEAST, false, true},
+    [MACHINE_REDUCE_SMAX] = {GREATEST, false, true},
+    [MACHINE_REDUCE_FADD] = {ADD, true, false},
+    [MACHINE_REDUCE_FMIN] = {LEAST, true, false},
+    [MACHINE_REDUCE_FMAX] = {GREATEST, true, false},
+};
+
+static struct machine_scalar identity_of(const struct reduction_info *info,
+                                         struct machine_type type)
+{
+    struct machine_scalar x = {0, 0};
+    if (info->is_float && info->op != ADD) {
+        if (type.width == 32)
+            x.lo = info->op == LEAST ? 0x7f800000u : 0xff800000u;
+        else
+            x.lo = info->op == LEAST ? 0x7ff0000000000000u : 0xfff0000000000000u;
+    } else if (info->op == AND || (info->op == LEAST && !info->is_float)) {
+        x = scalar_ones(type.width);
+    }
+    return x;
+}
+
+static float as_float(uint64_t bits)
+{
+    uint32_t low = (uint32_t)bits;
+    float f;
+    memcpy(&f, &low, sizeof f);
+    return f;
+}
+
+static double as_double(uint64_t bits)
+{
+    double d;
+    memcpy(&d, &bits, sizeof d);
+    return d;
+}
+
+#define COMBINE_FLOATS(type, from, to)                                                         \
+    static struct machine_scalar combine_##type(int op, struct machine_scalar a,               \
+                                                struct machine_scalar b)                       \
+    {                                                                                          \
+        type x = from(a.lo), y = from(b.lo);                                                   \
+        type r = op == ADD ? x + y : op == LEAST ? (y < x ? y : x) : (y > x ? y : x);          \
+        to bits;                                                                               \
+        memcpy(&bits, &r, sizeof bits);                                                        \
+        return (struct machine_scalar){bits, 0};                                               \
+    }
+COMBINE_FLOATS(float, as_float, uint32_t)
+COMBINE_FLOATS(double, as_double, uint64_t)
+
+static struct machine_scalar combine_bits(int op, struct machine_scalar a,
+                                          struct machine_scalar b)
+{
+    bool less = a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
+    switch (op) {
+    case AND:
+        return (struct machine_scalar){a.lo & b.lo, a.hi & b.hi};
+    case OR:
+        return (struct machine_scalar){a.lo | b.lo, a.hi | b.hi};
+    case XOR:
+        return (struct machine_scalar){a.lo ^ b.lo, a.hi ^ b.hi};
+    case ADD:
+        return (struct machine_scalar){a.lo + b.lo, a.hi + b.hi + (a.lo + b.lo < a.lo)};
+    case LEAST:
+        return less ? a : b;
+    default:
+        return less ? b : a;
+    }
+}
+
+static struct machine_scalar combine(int op, struct machine_type type, struct machine_scalar a,
+                                     struct machine_scalar b)
+{
+    if (type.kind == MACHINE_BITS)
+        return combine_bits(op, a, b);
+    return type.width == 32 ? combine_float(op, a, b) : combine_double(op, a, b);
+}
+
+static enum machine_status reduce_buffer(struct machine *m, const struct vpset *s,
+                                         struct machine_value *v, int op,
+                                         struct machine_scalar identity,
+                                         struct machine_scalar *out)
+{
+    bool is_float = v->type.kind == MACHINE_FLOAT, wide = type_bytes(v->type) == 16;
+    const char *real = v->type.width == 32 ? "float" : "double";
+    char options[96];
+    snprintf(options, sizeof options, "-DKIND=%d -DOP=%d -DELEMENT=%s -DACC=%s",
+             wide ? 2 : is_float, op,
+             is_float ? real
+             : wide   ? "ulong"
+                      : call_element(type_bytes(v->type)),
+             is_float ? real : "ulong");
+    struct kernel_call c = call_begin(m, kernel_reduce_cl, options, "reduce");
+    size_t runs = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN, count = runs * s->rows;
+    size_t element = is_float ? type_bytes(v->type) : wide ? 16 : 8;
+    struct device_buffer *b = c.kernel ? device_buffer_get(m, count * element) : NULL;
+    unsigned char *raw = b ? malloc(count * element) : NULL;
+    struct machine_scalar *sums = raw ? malloc(count * sizeof *sums) : NULL;
+    if (!sums) {
+        if (b)
+            device_buffer_unref(m, b);
+        free(raw);
+        return m->status ? m->status
+                         : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to reduce");
+    }
+    call_layout(&c, s);
+    call_int(&c, REDUCE_RUN);
+    call_argument(&c, element > 8 ? 8 : element, &identity.lo);
+    if (wide)
+        call_ulong(&c, identity.hi);
+    call_buffer(&c, v->buffer);
+    call_buffer(&c, b);
+    double start = device_wait_begin(m);
+    enum machine_status status = call_start(&c, m, runs, s->rows, "reducing");
+    cl_int error = status ? CL_SUCCESS
+                          : clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                                                count * element, raw, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, count * element);
+    enum machine_status waited = device_wait_end(m, error, start, "reducing");
+    status = status ? status : waited;
+    for (size_t i = 0; i < count && !status; i++) {
+        sums[i] = (struct machine_scalar){0, 0};
+        memcpy(&sums[i].lo, raw + i * element, element < 8 ? element : 8);
+        if (wide)
+            memcpy(&sums[i].hi, raw + i * element + 8, 8);
+    }
+    while (count > 1 && !status) {
+        for (size_t i = 0; i < count / 2; i++)
+            sums[i] = combine(op, v->type, sums[2 * i], sums[2 * i + 1]);
+        if (count % 2)
+            sums[count / 2] = sums[count - 1];
+        count = (count + 1) / 2;
+    }
+    *out = sums[0];
+    device_buffer_unref(m, b);
+    free(raw);
+    free(sums);
+    return status;
+}
+
+enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
+                                   struct machine_value *value, struct machine_scalar *out)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    if (!value || !s)
+        return m->status;
+    if ((unsigned)op >= sizeof reductions / sizeof *reductions ||
+        reductions[op].is_float != (value->type.kind == MACHINE_FLOAT))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "this reduction does not take values of this type");
+    if (value->set && value->set != m->set_current)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
+    const struct reduction_info *info = &reductions[op];
+    struct machine_type type = value->type;
+    struct machine_scalar identity = identity_of(info, type);
+    struct machine_scalar sign = scalar_sign(type.width);
+    if (info->is_signed) /* in another order: the sign bit turned over */
+        value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
+    struct machine_value *none = machine_constant(m, type, identity);
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    value = value && none ? machine_select(m, context, value, none) : NULL;
+    value = value ? observe_materialise(m, m->set_current, value) : NULL;
+    if (!value || reduce_buffer(m, s, value, info->op, identity, out))
+        return m->status;
+    if (info->is_signed) {
+        out->lo ^= sign.lo;
+        out->hi ^= sign.hi;
+    }
+    *out = scalar_cut(*out, type.width);
+    if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
+        out->lo = NAN_32;
+    if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
+        out->lo = NAN_64;
+    if (type.s)
+        out->lo = soft_rounded(out->lo, type);
+    return MACHINE_OK;
+}

@@ -1,0 +1,215 @@
+/* rank.c - ranks along an axis: a radix sort from the lowest digit, started and not waited for.
+ *
+ * Keys become whole numbers in the order wanted, with a bit above them that puts inactive
+ * processors last; with segments, the number of the processor's segment is above all. A
+ * processor's place among all of its line, sorted by that, is then already what is asked for:
+ * segments follow each other with all their processors, so each begins where it did. Keys are cut
+ * in words of 32 bits, and these in digits; each digit is a pass (kernels/sort.cl). */
+#include "internal.h"
+
+#include "device/call.h"
+#include "kernels.h"
+
+enum { WORDS_MAX = 6, CHUNK_GPU = 2048, LONG = 1 << 15, SHORT = 64 };
+enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
+
+struct words {
+    struct machine_value *values[WORDS_MAX];
+    int bits[WORDS_MAX];
+    int count;
+};
+
+/* Only the low bits of the last word are looked at, of which there are so many. */
+static bool words_add(struct machine *m, struct words *w, struct machine_value *key, int last)
+{
+    for (int at = 0; key && at < key->type.width; at += 32) {
+        int bits = key->type.width - at < 32 ? key->type.width - at : 32;
+        struct machine_value *word =
+            machine_resize(m, machine_extract(m, key, at, bits), 32, false);
+        if (!word)
+            return false;
+        w->values[w->count] = in_memory(word);
+        w->bits[w->count++] = at + 32 < key->type.width ? 32 : last;
+    }
+    return key != NULL;
+}
+
+/* Whole numbers whose order is the one asked for. */
+static struct machine_value *key_of(struct machine *m, struct machine_value *v, bool downward,
+                                    bool is_signed)
+{
+    int width = v->type.width;
+    struct machine_type type = MACHINE_UINT(width);
+    if (v->type.kind == MACHINE_FLOAT) {
+        struct machine_type plain = width == 32 ? MACHINE_F32 : MACHINE_F64;
+        v = machine_to_float(m, v, plain, false);
+        /* -0 + 0 is 0 */
+        v = v ? machine_binary(m, MACHINE_FADD, v,
+                               machine_constant(m, plain, (struct machine_scalar){0, 0}))
+              : NULL;
+        if (!v)
+            return NULL;
+        v = float_order(m, v, downward ? 0 : scalar_ones(width).lo);
+    } else if (is_signed) {
+        v = machine_binary(m, MACHINE_XOR, v, machine_constant(m, type, scalar_sign(width)));
+    }
+    return v && downward ? machine_unary(m, MACHINE_NOT, v) : v;
+}
+
+static int bits_of(int x)
+{
+    int bits = 0;
+    for (; x; x >>= 1)
+        bits++;
+    return bits;
+}
+
+static bool words_of(struct machine *m, const struct machine_scan *how,
+                     struct machine_value *key, struct words *w)
+{
+    const struct vpset *s = &m->sets[m->set_current];
+    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    int length = s->dimensions[how->axis];
+    struct machine_value *inactive = machine_unary(m, MACHINE_NOT, context);
+    if (!key || !inactive)
+        return false;
+    bool all = inactive->op == NODE_CONSTANT && !inactive->buffer && !inactive->imm.lo;
+    int last = (key->type.width - 1) % 32 + 1, above_bits = 1;
+    if (how->segments == MACHINE_UNSEGMENTED && all)
+        return words_add(m, w, key, last);
+    if (how->segments == MACHINE_UNSEGMENTED && key->type.width < 128)
+        return words_add(m, w, machine_concat(m, key, inactive), key->type.width % 32 + 1);
+    struct machine_value *above = inactive;
+    struct machine_value *everyone =
+        machine_constant(m, MACHINE_BIT, (struct machine_scalar){1, 0});
+    if (how->segments != MACHINE_UNSEGMENTED) {
+        struct machine_scan number = {.op = MACHINE_SCAN_ADD, .axis = how->axis, .bits = NULL};
+        struct machine_value *begins = scan_boundaries(m, how);
+        struct machine_value *segment =
+            begins ? scan_where(m, &number, machine_resize(m, begins, 32, false), everyone)
+                   : NULL;
+        segment = machine_resize(m, segment, 31, false);
+        above_bits += bits_of(length);
+        above = segment ? machine_concat(m, inactive, segment) : NULL;
+    }
+    return above && words_add(m, w, key, last) && words_add(m, w, above, above_bits);
+}
+
+struct sort {
+    struct lines lines;
+    const struct vpset *set;
+    int chunk, chunks, digit; /* processors in a chunk; bits */
+    struct device_buffer *pairs[2], *counts, *ranks;
+    size_t counts_bytes;
+};
+
+static struct sort sort_of(const struct machine *m, const struct vpset *s, int axis)
+{
+    struct sort t = {.lines = lines_of(s, axis, false), .set = s, .chunks = 1};
+    int length = t.lines.length;
+    t.digit = length <= SHORT ? 4 : length < LONG || !m->device.is_cpu ? 8 : 11;
+    t.chunk = length;
+    if (!m->device.is_cpu && length > CHUNK_GPU) {
+        t.chunk = CHUNK_GPU;
+    } else if (m->device.is_cpu && length >= LONG) {
+        int wanted = 2 * m->device.units;
+        t.chunk = (length - 1) / wanted + 1;
+    }
+    t.chunks = (length - 1) / t.chunk + 1;
+    return t;
+}
+
+static struct kernel_call sort_part(struct machine *m, int number)
+{
+    char options[64];
+    snprintf(options, sizeof options, "-DPART=%d -DDIGIT=%d", number,
+             m->device.is_cpu ? 11 : 8);
+    return call_begin(m, kernel_sort_cl, options, "sort");
+}
+
+static enum machine_status sort_pass(struct machine *m, const struct sort *t,
+                                     const struct device_buffer *word, int source, int shift,
+                                     int bits, int from, bool last)
+{
+    const struct lines *l = &t->lines;
+    size_t rows = l->inner * (size_t)l->columns;
+    for (int number = 0; number < 2; number++) {
+        struct kernel_call c = sort_part(m, number);
+        call_lines(&c, l, t->chunk);
+        call_int(&c, source);
+        call_int(&c, shift);
+        call_int(&c, bits);
+        call_buffer(&c, word);
+        call_buffer(&c, t->pairs[from]);
+        call_buffer(&c, t->counts);
+        if (number == 1) {
+            call_int(&c, last);
+            call_lines_rows(&c, l);
+            call_buffer(&c, t->pairs[!from]);
+            call_buffer(&c, t->ranks);
+        }
+        enum machine_status status =
+            call_start_3d(&c, m, (size_t)t->chunks, rows, l->outer, "sorting");
+        if (!status && number == 0)
+            status = lines_sum_up(m, t->counts, lines_count(l), (size_t)t->chunks << bits);
+        if (status)
+            return status;
+    }
+    return MACHINE_OK;
+}
+
+static enum machine_status sort_words(struct machine *m, const struct sort *t,
+                                      const struct words *w)
+{
+    int from = 0;
+    for (int i = 0; i < w->count; i++) {
+        int passes = (w->bits[i] - 1) / t->digit + 1;
+        for (int k = 0; k < passes; k++) {
+            int begin = w->bits[i] * k / passes, end = w->bits[i] * (k + 1) / passes;
+            bool last = i == w->count - 1 && k == passes - 1;
+            enum machine_status status = sort_pass(m, t, w->values[i]->buffer,
+                                                   k   ? PAIR
+                                                   : i ? GATHER
+                                                       : WORD,
+                                                   begin, end - begin, from, last);
+            if (status)
+                return status;
+            from = !from;
+        }
+    }
+    return MACHINE_OK;
+}
+
+struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
+                                   enum machine_segments segments, struct machine_value *bits,
+                                   struct machine_value *value)
+{
+    struct vpset *s = vpset_get(m, m->set_current);
+    struct machine_scan how = {.axis = axis, .segments = segments, .bits = bits};
+    bool segmented = segments != MACHINE_UNSEGMENTED;
+    struct words w = {.count = 0};
+    if (!value || !s || (segmented && !bits) ||
+        !scan_arguments_good(m, s, axis, value, segmented ? bits : NULL) ||
+        !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
+        !values_materialise(m, m->set_current, w.values, w.count))
+        return NULL;
+    s = &m->sets[m->set_current];
+    struct sort t = sort_of(m, s, axis);
+    size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
+    struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
+    const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
+                             observe_buffer_bytes(s, MACHINE_UINT(32))};
+    enum machine_status status = MACHINE_OK;
+    for (int i = 0; i < 4 && !status; i++)
+        if (!(*all[i] = device_buffer_get(m, bytes[i])))
+            status = m->status;
+    if (!status)
+        status = sort_words(m, &t, &w);
+    for (int i = 0; i < 3; i++)
+        if (*all[i])
+            device_buffer_unref(m, *all[i]);
+    if (status && t.ranks)
+        device_buffer_unref(m, t.ranks);
+    device_flush(m);
+    return status ? NULL : graph_buffer_node(m, MACHINE_UINT(32), m->set_current, t.ranks);
+}

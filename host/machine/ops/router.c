@@ -1,0 +1,442 @@
+/* router.c - messages to other processors: see kernels/router.cl.
+ *
+ * With a combiner, or on a device of few compute units, the destinations are shared out among as many
+ * work-items as it has units (on a GPU some thousands), and each passes over all senders in order: no
+ * atomics, any type, and float sums have one order.
+ *
+ * Else a send is three passes: each sender writes its index to its destination; those that find a lower
+ * one there put it right with an atomic maximum; each destination fetches its owner's message. So
+ * collisions end the same way on every device. */
+#include "internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "device/call.h"
+#include "kernels.h"
+
+enum { GPU_SHARES = 4096, SCATTER_UNITS = 8, NO_PROCESSOR = -2 };
+
+struct message {
+    const struct vpset *from, *to;
+    int from_set, to_set;
+    struct machine_value *address, *source, *old, *context;
+    bool flat; /* see -DFLAT */
+    bool all;  /* the context is 1 everywhere */
+    uint32_t mask;
+};
+
+/* All that a router operation reads, in memory, by one evaluation. context may be NULL: not asked
+ * for. */
+static bool message_make(struct machine *m, struct message *g, struct machine_value *address,
+                         struct machine_value *source, int source_set,
+                         struct machine_value *other, int to_set, bool under_context,
+                         bool combines)
+{
+    /* The same bits are in memory as a float or as an integer. */
+    while (source && source->op == NODE_REINTERPRET && !source->buffer && !combines)
+        source = source->in[0];
+    while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
+        other = other->in[0];
+    g->from_set = m->set_current;
+    g->to_set = to_set;
+    g->context = under_context ? m->sets[m->set_current].flags[MACHINE_CONTEXT].value : NULL;
+    struct machine_value *wanted[4];
+    int count = 0;
+    struct machine_value *const all[4] = {address, source, other, g->context};
+    for (int i = 0; i < 4; i++)
+        if (all[i] && !node_is_leaf(all[i]))
+            wanted[count++] = all[i];
+    if (count && run_evaluate(m, wanted, count, false))
+        return false;
+    g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
+    g->address = observe_materialise(m, g->from_set, address);
+    if (g->address && source)
+        g->source = observe_materialise(m, source_set, source);
+    if (g->address && other)
+        g->old = observe_materialise(m, to_set, other);
+    if (!g->address || (source && !g->source) || (other && !g->old))
+        return false;
+    if (g->all)
+        g->context = g->address; /* something to pass */
+    else
+        g->context = observe_materialise(m, g->from_set, g->context);
+    g->from = &m->sets[g->from_set];
+    g->to = &m->sets[to_set];
+    g->flat = g->from->rows == 1 && g->to->rows == 1 &&
+              (g->to->order == MACHINE_SEND_ORDER || g->to->ratio == 1);
+    int bits = machine_address_bits(m, to_set), width = address->type.width;
+    bits = bits < width ? bits : width;
+    g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
+    return g->context != NULL;
+}
+
+/* element NULL: not asked for. Where elements are moved too a kernel of its own pays for flat sets. */
+static void address_options(char *out, size_t size, const struct message *g,
+                            const struct machine_value *element)
+{
+    size_t bytes = type_bytes(g->address->type);
+    int n = snprintf(out, size, "-DFLAT=%d -DADDRESS=%s -DLOW=%s", g->flat && element,
+                     call_element(bytes), bytes == 16 ? ".x" : "");
+    if (element && n > 0)
+        snprintf(out + n, size - (size_t)n, " -DELEMENT=%s",
+                 call_element(type_bytes(element->type)));
+}
+
+static enum machine_status zero_fill(struct machine *m, const struct device_buffer *b)
+{
+    cl_uint zero = 0;
+    return device_fill(m, b, &zero, sizeof zero, "sending");
+}
+
+/* "claim" or "route": a number for each destination, or for each sender. */
+static struct device_buffer *addresses_pass(struct machine *m, const struct message *g,
+                                            const char *name)
+{
+    char options[96];
+    bool claims = name[0] == 'c';
+    size_t bytes = (claims ? g->to : g->from)->count * sizeof(cl_uint);
+    struct device_buffer *b = device_buffer_get(m, bytes);
+    if (!b)
+        return NULL;
+    address_options(options, sizeof options, g, NULL);
+    enum machine_status status = claims ? zero_fill(m, b) : MACHINE_OK;
+    for (uint64_t pass = claims && !m->device.is_cpu; pass < (claims ? 2 : 1) && !status;
+         pass++) {
+        struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
+        call_layout(&c, g->from);
+        call_uint(&c, call_run(m));
+        call_uint(&c, g->mask);
+        call_order(&c, m, g->to);
+        call_uint(&c, g->all);
+        if (claims)
+            call_uint(&c, pass);
+        call_buffer(&c, g->address->buffer);
+        call_buffer(&c, g->context->buffer);
+        call_buffer(&c, b);
+        status = call_over(&c, m, g->from, "sending");
+    }
+    if (status) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    return b;
+}
+
+/* A new buffer for a value of the destination's set. */
+static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
+                                   struct machine_type type)
+{
+    return device_rows_get(m, observe_rows(s, type));
+}
+
+/* The columns that repeat the other end. */
+static enum machine_status edges(struct machine *m, const struct vpset *s,
+                                 struct machine_type type, const struct device_buffer *out)
+{
+    char options[64];
+    if (!s->halo)
+        return MACHINE_OK;
+    snprintf(options, sizeof options, "-DFLAT=0 -DELEMENT=%s", call_element(type_bytes(type)));
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "edges");
+    call_layout(&c, s);
+    call_buffer(&c, out);
+    return call_start(&c, m, 1, (size_t)s->rows, "sending");
+}
+
+static enum machine_status deliver(struct machine *m, const struct message *g,
+                                   const struct device_buffer *owner,
+                                   const struct device_buffer *out)
+{
+    char options[64];
+    snprintf(options, sizeof options, "-DFLAT=0 -DELEMENT=%s",
+             call_element(type_bytes(g->source->type)));
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "deliver");
+    call_layout(&c, g->to);
+    call_uint(&c, call_run(m));
+    call_layout(&c, g->from);
+    call_buffer(&c, owner);
+    call_buffer(&c, g->source->buffer);
+    call_buffer(&c, g->old->buffer);
+    call_buffer(&c, out);
+    enum machine_status status = call_over(&c, m, g->to, "sending");
+    return status ? status : edges(m, g->to, g->source->type, out);
+}
+
+/* Work-items that share out the destinations. */
+static size_t shares(const struct machine *m, const struct vpset *to)
+{
+    size_t count = m->device.is_cpu ? (size_t)m->device.units : GPU_SHARES;
+    return count < to->count ? count : (size_t)to->count;
+}
+
+static bool scatters(const struct machine *m)
+{
+    if (m->settings.scatter != SETTING_FREE)
+        return m->settings.scatter;
+    return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
+}
+
+/* out already holds the old dest. */
+static enum machine_status scatter(struct machine *m, const struct message *g,
+                                   const struct device_buffer *out,
+                                   const struct device_buffer *owner, bool notifies)
+{
+    char options[128];
+    struct machine_type type = g->source->type;
+    size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
+    address_options(options, sizeof options, g, g->source);
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "scatter");
+    call_layout(&c, g->from);
+    call_uint(&c, g->from->rows);
+    call_uint(&c, g->mask);
+    call_order(&c, m, g->to);
+    call_layout(&c, g->to);
+    call_uint(&c, g->all);
+    call_uint(&c, share);
+    call_uint(&c, notifies);
+    call_uint(&c, observe_buffer_bytes(g->to, type) / type_bytes(type));
+    call_buffer(&c, g->address->buffer);
+    call_buffer(&c, g->context->buffer);
+    call_buffer(&c, g->source->buffer);
+    call_buffer(&c, out);
+    call_buffer(&c, owner);
+    enum machine_status status = call_start(&c, m, count, 1, "sending");
+    return status ? status : edges(m, g->to, type, out);
+}
+
+static void combine_options(char *out, size_t size, const struct message *g)
+{
+    struct machine_type type = g->source->type;
+    size_t bytes = type_bytes(type);
+    if (type.kind == MACHINE_FLOAT)
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=1 -DCANONICAL=%s",
+                 type.width == 32 ? "float" : "double",
+                 type.width == 32 ? "as_float(0xffc00000u)"
+                                  : "as_double(0xfff8000000000000UL)");
+    else
+        snprintf(out, size, "-DFLAT=0 -DELEMENT=%s -DKIND=%d", call_element(bytes),
+                 bytes == 16 ? 2 : 0);
+}
+
+/* out already holds the old dest. */
+static enum machine_status combine(struct machine *m, const struct message *g, int op,
+                                   const struct device_buffer *to, struct machine_type type,
+                                   const struct device_buffer *out,
+                                   const struct device_buffer *owner, bool notifies)
+{
+    char options[160];
+    combine_options(options, sizeof options, g);
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "combine");
+    size_t count = shares(m, g->to), share = ((size_t)g->to->count + count - 1) / count;
+    call_layout(&c, g->to);
+    call_layout(&c, g->from);
+    call_uint(&c, (uint64_t)op);
+    call_uint(&c, g->from->count);
+    call_uint(&c, share);
+    call_uint(&c, notifies);
+    call_uint(&c, m->device.is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
+    call_scalar(&c, scalar_sign(type.width));
+    call_scalar(&c, scalar_ones(type.width));
+    call_buffer(&c, to);
+    call_buffer(&c, g->source->buffer);
+    call_buffer(&c, out);
+    call_buffer(&c, owner);
+    enum machine_status status = call_start(&c, m, count, 1, "sending");
+    return status ? status : edges(m, g->to, type, out);
+}
+
+/* The notification bits; NULL: error set. */
+static struct machine_value *arrivals(struct machine *m, const struct message *g,
+                                      const struct device_buffer *owner)
+{
+    struct device_buffer *b = fresh(m, g->to, MACHINE_BIT);
+    if (!b)
+        return NULL;
+    struct kernel_call c = call_begin(m, kernel_router_cl, "-DFLAT=0", "arrived");
+    call_layout(&c, g->to);
+    call_uint(&c, call_run(m));
+    call_buffer(&c, owner);
+    call_buffer(&c, b);
+    if (call_over(&c, m, g->to, "sending") || edges(m, g->to, MACHINE_BIT, b)) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    return graph_buffer_node(m, MACHINE_BIT, g->to_set, b);
+}
+
+static struct machine_value *transmit(struct machine *m, const struct message *g,
+                                      enum machine_combiner combiner, bool notifies,
+                                      struct machine_value **notification)
+{
+    struct machine_type type = g->source->type;
+    bool combines = combiner != MACHINE_COMBINE_OVERWRITE, in_order = combines || scatters(m);
+    struct rows rows = observe_rows(g->to, type);
+    size_t bytes = rows.bytes;
+    rows.bytes += in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0; /* thrown away */
+    struct device_buffer *out = device_rows_get(m, rows), *owner = NULL, *to = NULL;
+    enum machine_status status = out ? MACHINE_OK : m->status;
+    if (!status && in_order) {
+        owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);
+        status = owner ? device_copy(m, g->old->buffer, out, bytes, "sending") : m->status;
+        if (!status && notifies)
+            status = zero_fill(m, owner);
+    }
+    if (!status && combines) {
+        to = addresses_pass(m, g, "route");
+        status = to ? combine(m, g, (int)combiner, to, type, out, owner, notifies) : m->status;
+    } else if (!status && in_order) {
+        status = scatter(m, g, out, owner, notifies);
+    } else if (!status) {
+        owner = addresses_pass(m, g, "claim");
+        status = owner ? deliver(m, g, owner, out) : m->status;
+    }
+    if (!status && notifies) {
+        *notification = arrivals(m, g, owner);
+        status = *notification ? MACHINE_OK : m->status;
+    }
+    if (to)
+        device_buffer_unref(m, to);
+    if (owner)
+        device_buffer_unref(m, owner);
+    if (!status) {
+        struct machine_value *v = graph_buffer_node(m, type, g->to_set, out);
+        v->strange_nan = g->source->strange_nan || (g->old && g->old->strange_nan);
+        return v;
+    }
+    if (out)
+        device_buffer_unref(m, out);
+    return NULL;
+}
+
+static bool address_good(struct machine *m, const struct machine_value *address)
+{
+    if (!vpset_get(m, m->set_current))
+        return false;
+    if (address->type.kind != MACHINE_BITS)
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "a send address is bits");
+    else if (address->set && address->set != m->set_current)
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "the addresses belong to another VP set");
+    else
+        return true;
+    return false;
+}
+
+static bool combiner_fits(enum machine_combiner c, struct machine_type type)
+{
+    if (c == MACHINE_COMBINE_OVERWRITE)
+        return true;
+    return (c >= MACHINE_COMBINE_FADD) == (type.kind == MACHINE_FLOAT) &&
+           c <= MACHINE_COMBINE_FMAX;
+}
+
+enum machine_status machine_send(struct machine *m, uint32_t dest,
+                                 struct machine_value *send_address,
+                                 struct machine_value *source, enum machine_combiner combiner,
+                                 uint32_t notify)
+{
+    struct machine_field_info to, told;
+    if (!send_address || !source)
+        return m->status;
+    if (!address_good(m, send_address))
+        return m->status;
+    if (!combiner_fits(combiner, source->type))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "this combination does not take values of this type");
+    if (source->set && source->set != m->set_current)
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "the messages belong to another VP set");
+    if (!machine_field_lookup(m, dest, &to))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", dest);
+    if (notify && (!machine_field_lookup(m, notify, &told) || told.vpset != to.vpset))
+        return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                            "the notification bit is not a field of dest's VP set");
+    struct message g = {0};
+    struct machine_value *old = machine_field_value(m, dest, source->type, MACHINE_EVERYWHERE);
+    struct machine_value *notification = NULL, *out = NULL;
+    if (!old)
+        return m->status;
+    if (message_make(m, &g, send_address, source, m->set_current, old, to.vpset, true,
+                     combiner != MACHINE_COMBINE_OVERWRITE))
+        out = transmit(m, &g, combiner, notify != 0, &notification);
+    if (!out)
+        return m->status;
+    enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
+    if (!status && notify)
+        status = machine_field_store(m, notify, notification, MACHINE_EVERYWHERE);
+    return status;
+}
+
+static struct machine_value *fetch(struct machine *m, const struct message *g)
+{
+    char options[128];
+    struct machine_type type = g->source->type;
+    struct device_buffer *out = fresh(m, g->from, type);
+    if (!out)
+        return NULL;
+    address_options(options, sizeof options, g, g->source);
+    struct kernel_call c = call_begin(m, kernel_router_cl, options, "fetch");
+    call_layout(&c, g->from);
+    call_uint(&c, call_run(m));
+    call_uint(&c, g->mask);
+    call_order(&c, m, g->to);
+    call_layout(&c, g->to);
+    call_buffer(&c, g->address->buffer);
+    call_buffer(&c, g->source->buffer);
+    call_buffer(&c, out);
+    if (call_over(&c, m, g->from, "getting") || edges(m, g->from, type, out)) {
+        device_buffer_unref(m, out);
+        return NULL;
+    }
+    struct machine_value *v = graph_buffer_node(m, type, g->from_set, out);
+    v->strange_nan = g->source->strange_nan;
+    return v;
+}
+
+struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
+                                  uint32_t source, struct machine_type type)
+{
+    struct machine_field_info from;
+    if (!send_address || !address_good(m, send_address))
+        return NULL;
+    if (!machine_field_lookup(m, source, &from)) {
+        machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", source);
+        return NULL;
+    }
+    struct machine_value *v = machine_field_value(m, source, type, MACHINE_EVERYWHERE);
+    if (!v)
+        return NULL;
+    struct message g = {0};
+    bool made =
+        message_make(m, &g, send_address, v, from.vpset, NULL, from.vpset, false, false);
+    v = made ? fetch(m, &g) : NULL;
+    return machine_reinterpret(m, v, type);
+}
+
+enum machine_status machine_addresses_check(struct machine *m,
+                                            struct machine_value *send_address, int vpset,
+                                            uint64_t *wrong)
+{
+    *wrong = 0;
+    if (!send_address || !vpset_get(m, vpset) || !address_good(m, send_address))
+        return m->status;
+    struct message g = {0};
+    bool made = message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false);
+    struct device_buffer *b = made ? addresses_pass(m, &g, "route") : NULL;
+    size_t count = (size_t)m->sets[m->set_current].count;
+    cl_uint *to = b ? malloc(count * sizeof *to) : NULL;
+    enum machine_status status = b ? MACHINE_OK : m->status;
+    if (b && !to)
+        status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
+    if (!status) {
+        double start = device_wait_begin(m);
+        cl_int error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                                           count * sizeof *to, to, 0, NULL, NULL);
+        status = device_wait_end(m, error, start, "checking addresses");
+    }
+    for (size_t i = 0; !status && i < count; i++)
+        *wrong += to[i] == (cl_uint)NO_PROCESSOR;
+    if (b)
+        device_buffer_unref(m, b);
+    free(to);
+    return status;
+}

@@ -1,0 +1,397 @@
+/* graph.c - the value graph: nodes made once (hash-consing), counted references, release.
+ *
+ * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out
+ * of the table and lets its inputs go. Nodes live in blocks that are kept until the machine
+ * goes. */
+#include "base/scalar.h"
+#include "watch/watch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NODES_IN_BLOCK = 512, TABLE_FIRST = 4096 };
+
+bool graph_init(struct machine *m)
+{
+    m->table_size = TABLE_FIRST;
+    m->table = calloc(m->table_size, sizeof *m->table);
+    return m->table != NULL;
+}
+
+void graph_finish(struct machine *m)
+{
+    machine_begin(m);
+    for (int i = 0; i < m->node_blocks_count; i++)
+        free(m->node_blocks[i]);
+    free(m->node_blocks);
+    free(m->table);
+    free(m->borrowed);
+    free(m->release_stack);
+}
+
+/* Nodes are used again at once. A fuzzing build gives each its own memory, so that ASan sees one that
+ * is used after its release. */
+#ifdef LUTETIA_FUZZ
+static struct machine_value *node_new(struct machine *m)
+{
+    struct machine_value *v = calloc(1, sizeof *v);
+    INVARIANT(v != NULL);
+    m->nodes_live++;
+    return v;
+}
+
+static void node_free(struct machine *m, struct machine_value *v)
+{
+    free(v);
+    m->nodes_live--;
+}
+#else
+static struct machine_value *node_new(struct machine *m)
+{
+    if (!m->free_nodes) {
+        if (m->node_blocks_count == m->node_blocks_capacity)
+            m->node_blocks =
+                machine_grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
+        struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
+        INVARIANT(block != NULL);
+        m->node_blocks[m->node_blocks_count++] = block;
+        for (int i = 0; i < NODES_IN_BLOCK; i++) {
+            block[i].next = m->free_nodes;
+            m->free_nodes = &block[i];
+        }
+    }
+    struct machine_value *v = m->free_nodes;
+    m->free_nodes = v->next;
+    m->nodes_live++;
+    return v;
+}
+
+static void node_free(struct machine *m, struct machine_value *v)
+{
+    v->next = m->free_nodes;
+    m->free_nodes = v;
+    m->nodes_live--;
+}
+#endif
+
+void graph_ref(struct machine_value *v)
+{
+    v->refs++;
+}
+
+struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
+{
+    if (m->borrowed_count == m->borrowed_capacity)
+        m->borrowed = machine_grown(m->borrowed, &m->borrowed_capacity, sizeof *m->borrowed);
+    m->borrowed[m->borrowed_count++] = v;
+    v->refs++;
+    return v;
+}
+
+void graph_give_back(struct machine *m)
+{
+    for (int i = 0; i < m->borrowed_count; i++)
+        graph_unref(m, m->borrowed[i]);
+    m->borrowed_count = 0;
+}
+
+void machine_begin(struct machine *m)
+{
+    graph_give_back(m);
+    m->simplify_budget = 256;
+    if (!replay_in_call(m)) {
+        replay_settle(m);
+        run_flush_due(m);
+        replay_looked(m);
+    }
+}
+
+static uint32_t hash_of(const struct machine_value *k)
+{
+    uint64_t h = k->op | (uint64_t)k->type.kind << 8 | (uint64_t)k->type.width << 16 |
+                 (uint64_t)k->axis << 24 | (uint64_t)(uint32_t)k->detail << 32;
+    h ^= (uint64_t)k->type.s << 48 | (uint64_t)k->type.e << 56;
+    h = (h ^ k->set) * 0x9e3779b97f4a7c15u;
+    for (int i = 0; i < 3; i++)
+        h = (h ^ (h >> 29) ^ (uint64_t)(uintptr_t)k->in[i]) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 32) ^ k->imm.lo) * 0x94d049bb133111ebu;
+    h = (h ^ (h >> 30) ^ k->imm.hi) * 0x9e3779b97f4a7c15u;
+    return (uint32_t)(h >> 32);
+}
+
+static bool same_key(const struct machine_value *v, const struct machine_value *k)
+{
+    return v->op == k->op && type_equal(v->type, k->type) && v->axis == k->axis &&
+           v->set == k->set && v->detail == k->detail && v->in[0] == k->in[0] &&
+           v->in[1] == k->in[1] && v->in[2] == k->in[2] && v->imm.lo == k->imm.lo &&
+           v->imm.hi == k->imm.hi;
+}
+
+static void table_grow(struct machine *m)
+{
+    uint32_t size = m->table_size * 2;
+    struct machine_value **table = calloc(size, sizeof *table);
+    INVARIANT(table != NULL);
+    for (uint32_t i = 0; i < m->table_size; i++)
+        for (struct machine_value *v = m->table[i], *next; v; v = next) {
+            next = v->next;
+            v->next = table[v->hash & (size - 1)];
+            table[v->hash & (size - 1)] = v;
+        }
+    free(m->table);
+    m->table = table;
+    m->table_size = size;
+}
+
+static void table_remove(struct machine *m, struct machine_value *v)
+{
+    struct machine_value **link = &m->table[v->hash & (m->table_size - 1)];
+    while (*link != v)
+        link = &(*link)->next;
+    *link = v->next;
+    v->interned = false;
+    m->table_count--;
+}
+
+/* Asked for once more, a value that still waits to be computed is as good as made now, if all in it is. Otherwise what a
+ * turn of a loop makes of one that the turn before has left in a temporary would look old. */
+static void bear(struct machine_value *v, uint32_t epoch)
+{
+    v->birth = epoch;
+    for (int i = 0; i < node_ops[v->op].inputs; i++) {
+        const struct machine_value *in = v->in[i];
+        if (!node_is_leaf(in) && !node_is_cheap(in) && in->birth < v->birth)
+            v->birth = in->birth;
+    }
+}
+
+/* Which NaNs may be in it. */
+static void derive_nan(const struct machine *m, struct machine_value *v)
+{
+    enum nan kind = (enum nan)node_ops[v->op].nan;
+    bool nan = false, strange = false;
+    v->maybe_nan = v->strange_nan = false;
+    if (v->type.kind != MACHINE_FLOAT)
+        return;
+    for (int i = 0; i < node_ops[v->op].inputs; i++) {
+        nan = nan || v->in[i]->maybe_nan;
+        strange = strange || v->in[i]->strange_nan;
+    }
+    switch (v->op) {
+    case NODE_SELECT:
+    case NODE_SHIFT:
+        v->maybe_nan = nan;
+        v->strange_nan = strange;
+        break;
+    case NODE_CONSTANT:
+        v->strange_nan = scalar_is_strange_nan(v->type, v->imm.lo);
+        break;
+    case NODE_BUFFER:
+    case NODE_SLICE:
+    case NODE_REINTERPRET:
+        v->strange_nan = true;
+        break;
+    case MACHINE_FMIN: /* b where either is a NaN: with a number for b they never give one */
+    case MACHINE_FMAX:
+        v->maybe_nan = v->in[1]->op == NODE_CONSTANT
+                           ? scalar_is_nan(v->type, v->in[1]->imm.lo)
+                           : nan || strange || !m->device.shape.keeps_nan;
+        break;
+    default:
+        v->maybe_nan = kind == NAN_ANY ||
+                       (kind == NAN_KEPT && (nan || strange || !m->device.shape.keeps_nan));
+    }
+}
+
+static void derive(const struct machine *m, struct machine_value *v, uint32_t epoch)
+{
+    const struct node_op_info *info = &node_ops[v->op];
+    unsigned generator = (unsigned)node_cost(v->op, v->type), height = 0;
+    bear(v, epoch);
+    for (int i = 0; i < info->inputs; i++) {
+        const struct machine_value *in = v->in[i];
+        generator += in->generator;
+        if (in->height + 1u > height && !node_is_leaf(in))
+            height = in->height + 1u;
+    }
+    v->generator = generator > GENERATOR_NONE ? GENERATOR_NONE : (uint8_t)generator;
+    v->height = height > UINT16_MAX ? UINT16_MAX : (uint16_t)height;
+    derive_nan(m, v);
+}
+
+/* Waits to be computed: slices are views that cost nothing until somebody looks. */
+static bool is_pending(const struct machine_value *v)
+{
+    return v->op != NODE_CONSTANT && v->op != NODE_SLICE;
+}
+
+static struct machine_value *find(struct machine *m, const struct machine_value *key,
+                                  uint32_t hash)
+{
+    for (struct machine_value *v = m->table[hash & (m->table_size - 1)]; v; v = v->next)
+        if (v->hash == hash && same_key(v, key))
+            return v;
+    return NULL;
+}
+
+struct machine_value *graph_find(struct machine *m, const struct machine_value *key)
+{
+    return find(m, key, hash_of(key));
+}
+
+struct machine_value *graph_node(struct machine *m, const struct machine_value *key)
+{
+    uint32_t hash = hash_of(key);
+    struct machine_value *known = find(m, key, hash);
+    if (known) {
+        m->vanished.known += node_ops[known->op].inputs > 0;
+        if (!known->buffer)
+            bear(known, m->epoch);
+        return graph_borrow(m, known);
+    }
+    if (m->table_count >= m->table_size)
+        table_grow(m);
+    struct machine_value *v = node_new(m);
+    *v = *key;
+    v->origin = v->op;
+    v->refs = 0;
+    v->hash = hash;
+    v->mark = 0;
+    v->kept = v->told = false;
+    v->buffer = NULL;
+    for (int i = 0; i < 3; i++)
+        if (v->in[i])
+            graph_ref(v->in[i]);
+    derive(m, v, m->epoch);
+    v->interned = true;
+    v->next = m->table[hash & (m->table_size - 1)];
+    m->table[hash & (m->table_size - 1)] = v;
+    m->table_count++;
+    if (is_pending(v))
+        m->nodes_pending++;
+    return graph_borrow(m, v);
+}
+
+struct machine_value *graph_buffer_node(struct machine *m, struct machine_type type, int set,
+                                        struct device_buffer *buffer)
+{
+    struct machine_value *v = node_new(m);
+    *v = (struct machine_value){.op = NODE_BUFFER,
+                                .origin = NODE_BUFFER,
+                                .type = type,
+                                .generator = GENERATOR_NONE,
+                                .set = (uint16_t)set,
+                                .strange_nan = type.kind == MACHINE_FLOAT,
+                                .buffer = buffer};
+    return graph_borrow(m, v);
+}
+
+/* Iterative: chains can be long. */
+void graph_unref(struct machine *m, struct machine_value *v)
+{
+    if (--v->refs)
+        return;
+    m->release_count = 0;
+    for (;;) {
+        if (v->interned) {
+            if (m->watch)
+                watch_released(m, v);
+            table_remove(m, v);
+            if (is_pending(v) && !v->buffer && !v->kept)
+                m->nodes_pending--;
+        }
+        if (v->buffer)
+            device_buffer_unref(m, v->buffer);
+        for (int i = 0; i < 3; i++)
+            if (v->in[i] && --v->in[i]->refs == 0) {
+                if (m->release_count == m->release_capacity)
+                    m->release_stack = machine_grown(m->release_stack, &m->release_capacity,
+                                                     sizeof *m->release_stack);
+                m->release_stack[m->release_count++] = v->in[i];
+            }
+        node_free(m, v);
+        if (!m->release_count)
+            return;
+        v = m->release_stack[--m->release_count];
+    }
+}
+
+void graph_keep(struct machine *m, struct machine_value *v, bool kept)
+{
+    if (v->kept == kept)
+        return;
+    v->kept = kept;
+    if (v->interned && is_pending(v) && !v->buffer)
+        m->nodes_pending += kept ? UINT64_MAX : 1;
+}
+
+/* It is going to be another node: not one that a state keeps. */
+static void let_go(struct machine *m, const struct machine_value *v)
+{
+    if (v->kept)
+        replay_changes(m);
+    INVARIANT(!v->kept);
+}
+
+void graph_forget(struct machine *m, struct machine_value *v)
+{
+    INVARIANT(v->buffer && v->interned);
+    let_go(m, v);
+    table_remove(m, v);
+    struct machine_value *in[3];
+    memcpy(in, v->in, sizeof in);
+    memset(v->in, 0, sizeof v->in);
+    v->op = NODE_BUFFER;
+    v->detail = 0;
+    v->axis = 0;
+    v->imm = (struct machine_scalar){0, 0};
+    v->generator = GENERATOR_NONE;
+    v->height = 0;
+    v->maybe_nan = false;
+    for (int i = 0; i < 3; i++)
+        if (in[i])
+            graph_unref(m, in[i]);
+}
+
+void graph_become(struct machine *m, struct machine_value *v, const struct machine_value *key)
+{
+    INVARIANT(!v->buffer && v->interned && type_equal(v->type, key->type) &&
+              v->set == key->set);
+    let_go(m, v);
+    struct machine_value *in[3];
+    memcpy(in, v->in, sizeof in);
+    table_remove(m, v);
+    if (is_pending(v))
+        m->nodes_pending--;
+    v->op = key->op;
+    v->axis = key->axis;
+    v->detail = key->detail;
+    v->imm = key->imm;
+    v->hash = hash_of(key);
+    for (int i = 0; i < 3; i++)
+        if ((v->in[i] = key->in[i]))
+            graph_ref(v->in[i]);
+    derive(m, v, m->epoch);
+    if (is_pending(v))
+        m->nodes_pending++;
+    v->interned = true;
+    v->next = m->table[v->hash & (m->table_size - 1)];
+    m->table[v->hash & (m->table_size - 1)] = v;
+    m->table_count++;
+    for (int i = 0; i < 3; i++)
+        if (in[i])
+            graph_unref(m, in[i]);
+}
+
+void graph_materialised(struct machine *m, struct machine_value *v,
+                        struct device_buffer *buffer)
+{
+    INVARIANT(!v->buffer && v->interned);
+    let_go(m, v);
+    v->buffer = buffer;
+    if (is_pending(v))
+        m->nodes_pending--;
+    if (node_is_cheap(v) || v->op == NODE_SLICE)
+        return; /* keeps its name: the next one like it is the same node */
+    graph_forget(m, v);
+}

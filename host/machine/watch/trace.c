@@ -1,0 +1,241 @@
+/* trace.c - writes the file of trace.h.
+ *
+ * Events are gathered in a buffer and written at offsets of our own, so that the closing bracket can be
+ * written over by what comes after it. */
+#include "watch/trace.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BUFFER_BYTES = 1 << 16, EVENT_BYTES = 2048, NAME_BYTES = 512 };
+
+static struct {
+    pthread_mutex_t lock;
+    int file;             /* -1: none */
+    char *path, *refused; /* the last one that could not be opened: it has been said */
+    pid_t owner;          /* who opened it: a child of a fork has no say */
+    bool seekable, failed, full;
+    off_t end; /* of what has been written, without the bracket */
+    char buffer[BUFFER_BYTES];
+    size_t length;
+    double began_s;
+    int machines, open_count;
+    long events;
+} trace = {.lock = PTHREAD_MUTEX_INITIALIZER, .file = -1};
+
+static void complain(const char *path, const char *what)
+{
+    fprintf(stderr, "LUTETIA_TRACE: cannot %s %s: %s; name a file that can be written\n", what,
+            path, strerror(errno));
+}
+
+static bool bytes_write(const char *bytes, size_t count)
+{
+    off_t at = trace.end;
+    while (count > 0) {
+        ssize_t done = trace.seekable ? pwrite(trace.file, bytes, count, at)
+                                      : write(trace.file, bytes, count);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done <= 0) {
+            if (!trace.failed)
+                complain(trace.path, "write to");
+            trace.failed = true;
+            return false;
+        }
+        bytes += done;
+        at += done;
+        count -= (size_t)done;
+    }
+    trace.end = at;
+    return true;
+}
+
+static bool ours(void)
+{
+    return trace.file >= 0 && !trace.failed && trace.owner == getpid();
+}
+
+static void flush(void)
+{
+    if (trace.length && ours())
+        bytes_write(trace.buffer, trace.length);
+    trace.length = 0;
+}
+
+/* Bytes of a string of JSON; what is no plain character becomes a question mark. Cut to size. */
+static const char *quoted(char *out, size_t size, const char *text)
+{
+    size_t length = 0;
+    for (; *text && length + 3 < size; text++) {
+        unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            out[length++] = '\\';
+        out[length++] = c < 0x20 || c >= 0x7f ? '?' : (char)c;
+    }
+    out[length] = '\0';
+    return out;
+}
+
+__attribute__((format(printf, 1, 2))) static void event_write(const char *format, ...)
+{
+    if (!ours() || trace.full)
+        return;
+    if (trace.events == TRACE_EVENTS_MOST) {
+        trace.full = true;
+        fprintf(stderr, "LUTETIA_TRACE: %s has %ld events, and gets no more\n", trace.path,
+                trace.events);
+        return;
+    }
+    if (trace.length + EVENT_BYTES > BUFFER_BYTES)
+        flush();
+    char *at = trace.buffer + trace.length;
+    size_t begun = trace.events ? 2 : 0;
+    memcpy(at, ",\n", begun);
+    va_list arguments;
+    va_start(arguments, format);
+    int count = vsnprintf(at + begun, EVENT_BYTES - begun, format, arguments);
+    va_end(arguments);
+    if (count < 0 || (size_t)count >= EVENT_BYTES - begun)
+        return; /* too long: left out */
+    trace.length += begun + (size_t)count;
+    trace.events++;
+}
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool file_open(const char *path)
+{
+    struct stat status;
+    int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) {
+        if (!trace.refused || strcmp(trace.refused, path) != 0)
+            complain(path, "open");
+        free(trace.refused);
+        trace.refused = strdup(path);
+        return false;
+    }
+    if (trace.file >= 0)
+        close(trace.file);
+    free(trace.path);
+    trace.file = file;
+    trace.path = strdup(path);
+    trace.owner = getpid();
+    trace.seekable = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+    trace.failed = trace.full = false;
+    trace.end = 0;
+    trace.length = 0;
+    trace.machines = 0;
+    trace.events = 0;
+    trace.began_s = now_s();
+    return trace.path && bytes_write("[\n", 2);
+}
+
+int trace_open(const char *path)
+{
+    pthread_mutex_lock(&trace.lock);
+    bool same = trace.file >= 0 && trace.path && strcmp(trace.path, path) == 0;
+    int machine = 0;
+    if (!same && trace.open_count > 0)
+        fprintf(stderr, "LUTETIA_TRACE: %s: this process already writes %s\n", path,
+                trace.path);
+    else if (same ? !trace.failed : file_open(path))
+        machine = ++trace.machines;
+    trace.open_count += machine != 0;
+    pthread_mutex_unlock(&trace.lock);
+    return machine;
+}
+
+static void track_title(int machine, enum trace_track track, const char *title)
+{
+    event_write("{\"ph\":\"M\",\"pid\":%d,\"tid\":%d,\"name\":\"thread_name\","
+                "\"args\":{\"name\":\"%s\"}}",
+                machine, track, title);
+}
+
+void trace_title(int machine, const char *title)
+{
+    char text[NAME_BYTES];
+    pthread_mutex_lock(&trace.lock);
+    event_write("{\"ph\":\"M\",\"pid\":%d,\"name\":\"process_name\","
+                "\"args\":{\"name\":\"machine %d: %s\"}}",
+                machine, machine, quoted(text, sizeof text, title));
+    track_title(machine, TRACE_FRONT_END, "front end");
+    track_title(machine, TRACE_DEVICE, "device");
+    flush();
+    pthread_mutex_unlock(&trace.lock);
+}
+
+void trace_background(int machine)
+{
+    pthread_mutex_lock(&trace.lock);
+    track_title(machine, TRACE_BACKGROUND, "background");
+    pthread_mutex_unlock(&trace.lock);
+}
+
+void trace_event(int machine, enum trace_track track, const char *name, const char *category,
+                 double start_s, double end_s, const char *details)
+{
+    char text[NAME_BYTES], length[40];
+    bool moment = end_s < start_s;
+    pthread_mutex_lock(&trace.lock);
+    /* Both ends are rounded, so that what ends together does so in the file. */
+    long long start_ns = (long long)((start_s - trace.began_s) * 1e9),
+              end_ns = (long long)((end_s - trace.began_s) * 1e9);
+    start_ns = start_ns < 0 ? 0 : start_ns;
+    end_ns = end_ns < start_ns ? start_ns : end_ns;
+    if (moment)
+        snprintf(length, sizeof length, "\"s\":\"t\"");
+    else
+        snprintf(length, sizeof length, "\"dur\":%lld.%03d", (end_ns - start_ns) / 1000,
+                 (int)((end_ns - start_ns) % 1000));
+    event_write("{\"ph\":\"%s\",\"pid\":%d,\"tid\":%d,\"name\":\"%s\",\"cat\":\"%s\","
+                "\"ts\":%lld.%03d,%s,\"args\":{%s}}",
+                moment ? "i" : "X", machine, track, quoted(text, sizeof text, name), category,
+                start_ns / 1000, (int)(start_ns % 1000), length, details ? details : "");
+    pthread_mutex_unlock(&trace.lock);
+}
+
+void trace_flush(void)
+{
+    pthread_mutex_lock(&trace.lock);
+    flush();
+    pthread_mutex_unlock(&trace.lock);
+}
+
+static void leave(void)
+{
+    flush();
+    if (ours() && trace.seekable && bytes_write("\n]\n", 3))
+        trace.end -= 3;
+}
+
+void trace_leave(void)
+{
+    pthread_mutex_lock(&trace.lock);
+    leave();
+    pthread_mutex_unlock(&trace.lock);
+}
+
+void trace_close(int machine)
+{
+    if (!machine)
+        return;
+    pthread_mutex_lock(&trace.lock);
+    leave(); /* the file stays open: another machine's events may follow */
+    trace.open_count--;
+    pthread_mutex_unlock(&trace.lock);
+}
