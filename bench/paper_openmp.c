@@ -224,7 +224,7 @@ void paper_openmp_start(struct paper_openmp *o)
 /* ---- arithmetic; all becomes vectors ---- */
 
 #define INLINE static inline __attribute__((always_inline))
-#define WHOLE 12582912.0f /* see sheet_internal.h */
+#define WHOLE 12582912.0f /* see model/model.h */
 
 INLINE float least(float a, float b)
 {

@@ -1,0 +1,64 @@
+/* page.h - the fields of a sheet in the machine, and what every routine on them starts from.
+ *
+ * A sheet is one VP set; each fiber is a virtual processor whose memory is laid out so (w and h are the bits
+ * that hold the sheet's width and height):
+ *
+ *     bits     field
+ *     24       image            what is shown: red, green, blue at 0, 8, 16
+ *     23+8+1   absorbency
+ *     23+8+1   water
+ *     23+8+1   cyan, magenta, yellow: three fields
+ *     24       fiber_color      of the dry fiber: red, green, blue at 0, 8, 16
+ *     w, h     x_coord, y_coord
+ *     1, 1     context, inner_context
+ *     23+8+1   inflow, inward, outward, scratch: four temporaries
+ *
+ * NEWS axis 0 is y and axis 1 is x, so the front end's arrays are rows from the top.
+ */
+#ifndef LUTETIA_PAPER_PAGE_H
+#define LUTETIA_PAPER_PAGE_H
+
+#include "base/base.h"
+
+#include <cm/paris.h>
+
+enum { PAPER_AXIS_Y = 0, PAPER_AXIS_X = 1, PAPER_CHANNEL_BITS = 8, PAPER_IMAGE_BITS = 24 };
+enum { PAPER_S = 23, PAPER_E = 8, PAPER_FLOAT_BITS = PAPER_S + PAPER_E + 1 };
+
+struct paper {
+    int width, height;
+    int x_bits, y_bits;
+    CM_vp_set_id_t vp_set;
+    CM_geometry_id_t geometry;
+    CM_field_id_t image;
+    CM_field_id_t absorbency;
+    CM_field_id_t water;
+    CM_field_id_t pigment[3]; /* cyan, magenta, yellow */
+    CM_field_id_t fiber_color;
+    CM_field_id_t x_coord, y_coord;
+    CM_field_id_t context,
+        inner_context; /* contexts put aside: by a rectangle, and within it */
+    CM_field_id_t inflow, inward, outward, scratch;
+};
+
+/* Attaches the machine if nothing has yet, and takes its complaints from then on. */
+enum paper_status paper_attach(void);
+
+/* Makes the sheet's VP set current and clears what the machine last failed at. */
+void paper_enter(struct paper *p);
+/* What the machine failed at since paper_enter(), as a status with its words in paper_error(). */
+enum paper_status paper_leave(struct paper *p);
+
+/* Puts the context aside and narrows it to x1 <= x < x2, y1 <= y < y2, cut off at the sheet's edges. */
+void paper_context_rectangle(struct paper *p, int x1, int y1, int x2, int y2);
+void paper_context_restore(struct paper *p);
+
+enum paper_status paper_weather_check(const struct paper_weather *weather);
+/* One cycle on any number of pigments, with a molecular weight for each; every processor is active before and after. */
+void paper_cycle(struct paper *p, const struct paper_weather *weather,
+                 const CM_field_id_t *pigments, const double *weights, int count);
+
+/* Fills absorbency and fiber_color as the configuration says. */
+void paper_fibers_make(struct paper *p, const struct paper_config *config);
+
+#endif

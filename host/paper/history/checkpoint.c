@@ -1,0 +1,299 @@
+/* checkpoint.c - copies of the whole sheet in the front end's memory, within a budget.
+ *
+ * One is offered every CHECKPOINT_EVERY steps and operations. Planes that are as they were in the one before are shared with it: the
+ * paper itself hardly changes. When the budget is full, that one goes whose neighbours are nearest to each other, measured
+ * by how long ago they were, so that the near past is kept in fine steps and the far past in coarse ones. */
+#include "history/history_internal.h"
+#include "model/model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t plane_words(const struct paper_sheet *p)
+{
+    return (size_t)p->page.width * (size_t)p->page.height;
+}
+
+static double plane_bytes(const struct paper_sheet *p)
+{
+    return (double)(sizeof(struct plane_copy) + 4 * plane_words(p));
+}
+
+static void point_free(struct sheet_history *h, struct checkpoint *point)
+{
+    for (int i = 0; i < point->planes_count; i++)
+        if (--point->planes[i]->users == 0) {
+            free(point->planes[i]);
+            h->held_bytes -= point->plane_bytes;
+        }
+    point->planes_count = 0;
+    free(point->extras.at);
+    point->extras = (struct event_bytes){0};
+}
+
+static void point_drop(struct sheet_history *h, int number)
+{
+    point_free(h, &h->points[number]);
+    memmove(&h->points[number], &h->points[number + 1],
+            (size_t)(h->points_count - number - 1) * sizeof *h->points);
+    h->points_count--;
+}
+
+/* False: there is none that may go. */
+static bool point_drop_least(struct sheet_history *h)
+{
+    int least = -1;
+    double least_worth = 0;
+    for (int i = 0; i < h->points_count; i++) {
+        if (h->points[i].pinned)
+            continue;
+        long before = i > 0 ? h->points[i - 1].work : 0;
+        long after = i + 1 < h->points_count ? h->points[i + 1].work : h->work;
+        double worth =
+            (double)(after - before) / (double)(labs(h->work - h->points[i].work) + 1);
+        if (least < 0 || worth < least_worth) {
+            least = i;
+            least_worth = worth;
+        }
+    }
+    if (least >= 0)
+        point_drop(h, least);
+    return least >= 0;
+}
+
+void checkpoints_drop_after(struct sheet_history *h, struct position position)
+{
+    while (h->points_count > 0 &&
+           position_compare(h->points[h->points_count - 1].position, position) > 0)
+        point_free(h, &h->points[--h->points_count]);
+}
+
+void checkpoints_free(struct sheet_history *h)
+{
+    checkpoints_drop_after(h, (struct position){-1, 0});
+    checkpoint_saved_free(h);
+}
+
+const struct checkpoint *checkpoint_before(const struct sheet_history *h,
+                                           struct position position)
+{
+    for (int i = h->points_count - 1; i >= 0; i--)
+        if (position_compare(h->points[i].position, position) <= 0)
+            return &h->points[i];
+    return NULL;
+}
+
+/* ---- taking ---- */
+
+static struct plane_copy *plane_new(const struct paper_sheet *p)
+{
+    struct plane_copy *plane = malloc((size_t)plane_bytes(p));
+    if (plane)
+        plane->users = 1;
+    return plane;
+}
+
+/* Where a checkpoint at the position belongs, or -1 if there is one. */
+static int place_find(const struct sheet_history *h, struct position position)
+{
+    int place = h->points_count;
+    while (place > 0 && position_compare(h->points[place - 1].position, position) > 0)
+        place--;
+    if (place > 0 && position_compare(h->points[place - 1].position, position) == 0)
+        return -1;
+    return place;
+}
+
+/* There must be room, and no checkpoint at its position. */
+static void point_insert(struct sheet_history *h, const struct checkpoint *point)
+{
+    int place = place_find(h, point->position);
+    memmove(&h->points[place + 1], &h->points[place],
+            (size_t)(h->points_count - place) * sizeof *h->points);
+    h->points[place] = *point;
+    h->points_count++;
+}
+
+/* Fills the point from the sheet, with what planes it shares with the one before; false: it could not be. */
+static bool point_fill(struct paper_sheet *p, struct checkpoint *point,
+                       const struct checkpoint *before)
+{
+    struct sheet_history *h = p->history;
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    int count = paper_sheet_planes(p, planes);
+    struct plane_copy *plane = NULL;
+    for (int i = 0; i < count; i++) {
+        if (!plane)
+            plane = plane_new(p);
+        if (!plane || sheet_plane_fetch(p, i, plane->words) != PAPER_OK)
+            break;
+        if (before && memcmp(before->planes[i]->words, plane->words, 4 * plane_words(p)) == 0) {
+            point->planes[i] = before->planes[i];
+            point->planes[i]->users++;
+        } else {
+            point->planes[i] = plane;
+            h->held_bytes += point->plane_bytes;
+            plane = NULL;
+        }
+        point->planes_count++;
+    }
+    free(plane);
+    if (point->planes_count == count && sheet_extras_encode(p, &point->extras) == PAPER_OK &&
+        !point->extras.short_of_memory)
+        return true;
+    point_free(h, point);
+    return false;
+}
+
+void checkpoint_offer(struct paper_sheet *p, bool now)
+{
+    struct sheet_history *h = p->history;
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    if (h->at.op < 0 || place_find(h, h->at) < 0)
+        return;
+    const struct checkpoint *before = checkpoint_before(h, h->at);
+    long since = h->work - (before ? before->work : 0);
+    double bytes = plane_bytes(p) * paper_sheet_planes(p, planes);
+    if (since < (now ? 1 : CHECKPOINT_EVERY) || bytes > h->budget_bytes)
+        return;
+    while (h->held_bytes + bytes > h->budget_bytes || h->points_count == CHECKPOINTS_MAX)
+        if (!point_drop_least(h))
+            return;
+    struct checkpoint point = {
+        .position = h->at, .work = h->work, .air = p->air, .plane_bytes = plane_bytes(p)};
+    if (!point_fill(p, &point, checkpoint_before(h, h->at)))
+        return;
+    point_insert(h, &point);
+}
+
+void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
+{
+    h->points[point - h->points].pinned = false;
+}
+
+/* ---- giving back ---- */
+
+/* What the fields of any sheet may hold; a file may hold anything. */
+static enum paper_status plane_check(const struct paper_sheet *p,
+                                     const struct paper_plane *plane, const void *words)
+{
+    size_t count = plane_words(p);
+    const uint32_t *whole = words;
+    const float *values = words;
+    bool good = true;
+    if (plane->whole)
+        for (size_t i = 0; i < count; i++)
+            good &= whole[i] < 1u << SHEET_DRIED_BITS;
+    else
+        for (size_t i = 0; i < count; i++)
+            good &= values[i] >= 0 && values[i] <= 0x1p24f;
+    return good ? PAPER_OK
+                : paper_fail(PAPER_BAD_FILE, "its plane '%s' holds what no sheet can",
+                             plane->name);
+}
+
+enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point)
+{
+    paper_enter(&p->page);
+    for (int i = 0; i < point->planes_count; i++)
+        sheet_plane_write(p, i, point->planes[i]->words);
+    sheet_planes_written(p);
+    p->air = point->air;
+    enum paper_status status = paper_leave(&p->page);
+    struct event_reader r = {point->extras.at, point->extras.at + point->extras.count, false};
+    if (status == PAPER_OK)
+        status = sheet_extras_decode(p, &r);
+    p->history->at = point->position;
+    p->history->work = point->work;
+    return status;
+}
+
+enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    int count = paper_sheet_planes(p, planes);
+    uint32_t *words = malloc(4 * plane_words(p));
+    enum paper_status status = PAPER_OK;
+    if (!words)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
+                          p->page.width, p->page.height);
+    for (int i = 0; i < count && status == PAPER_OK; i++) {
+        status = source(context, i, words);
+        if (status == PAPER_OK)
+            status = plane_check(p, &planes[i], words);
+        if (status != PAPER_OK)
+            break;
+        paper_enter(&p->page);
+        sheet_plane_write(p, i, words);
+        status = paper_leave(&p->page);
+    }
+    free(words);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    sheet_planes_written(p);
+    return paper_leave(&p->page);
+}
+
+enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source source,
+                                 void *context, const struct paper_air *air,
+                                 const struct event_reader *extras)
+{
+    struct sheet_history *h = p->history;
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    int count = paper_sheet_planes(p, planes);
+    struct checkpoint *saved = malloc(sizeof *saved);
+    struct checkpoint point = {.air = *air, .plane_bytes = plane_bytes(p), .pinned = true};
+    if (!saved)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet");
+    enum paper_status status = PAPER_OK;
+    for (int i = 0; i < count && status == PAPER_OK; i++) {
+        point.planes[i] = plane_new(p);
+        if (!point.planes[i]) {
+            status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
+                                p->page.width, p->page.height);
+            break;
+        }
+        point.planes_count++;
+        h->held_bytes += point.plane_bytes;
+        status = source(context, i, point.planes[i]->words);
+        if (status == PAPER_OK)
+            status = plane_check(p, &planes[i], point.planes[i]->words);
+    }
+    event_put_bytes(&point.extras, extras->at, (size_t)(extras->end - extras->at));
+    if (status == PAPER_OK && point.extras.short_of_memory)
+        status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet's brushes");
+    if (status != PAPER_OK) {
+        point_free(h, &point);
+        free(saved);
+        return status;
+    }
+    *saved = point;
+    h->saved = saved;
+    return PAPER_OK;
+}
+
+void checkpoint_saved_place(struct sheet_history *h)
+{
+    int place = place_find(h, h->now);
+    if (!h->saved)
+        return;
+    /* somebody has looked there already, or all places are taken by what stays */
+    if (place < 0 || (h->points_count == CHECKPOINTS_MAX && !point_drop_least(h))) {
+        checkpoint_saved_free(h);
+        return;
+    }
+    h->saved->position = h->now;
+    h->saved->work = history_work(h, h->now);
+    point_insert(h, h->saved);
+    free(h->saved);
+    h->saved = NULL;
+}
+
+void checkpoint_saved_free(struct sheet_history *h)
+{
+    if (h->saved)
+        point_free(h, h->saved);
+    free(h->saved);
+    h->saved = NULL;
+}

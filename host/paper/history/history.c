@@ -1,0 +1,484 @@
+/* history.c - going back and forth in a sheet's list of operations, and bringing the sheet to where its user believes it to be. */
+#include "history/history_internal.h"
+#include "model/model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const struct position beginning = {0, 0};
+
+/* ---- life ---- */
+
+enum paper_status paper_history_begin(struct paper_sheet *p, double budget_bytes)
+{
+    if (p->history || p->touched)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "a history begins with a sheet that nothing has been done to");
+    p->history = calloc(1, sizeof *p->history);
+    if (!p->history)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
+    p->history->budget_bytes = budget_bytes;
+    p->history->inserting_at = -1;
+    p->history->resumed = -1;
+    return PAPER_OK;
+}
+
+void paper_history_end(struct paper_sheet *p)
+{
+    if (p->history && sheet_ready(p) == PAPER_OK)
+        p->steps = paper_sheet_steps(p);
+    if (p->history)
+        history_free(p->history);
+    p->history = NULL;
+}
+
+bool paper_history_has(const struct paper_sheet *p)
+{
+    return p->history != NULL;
+}
+
+double paper_history_bytes(const struct paper_sheet *p)
+{
+    return p->history ? p->history->held_bytes + p->history->ops_bytes : 0;
+}
+
+void paper_history_set_watch(struct paper_sheet *p, paper_history_watch watch, void *context)
+{
+    if (!p->history)
+        return;
+    p->history->watch = watch;
+    p->history->watch_context = context;
+}
+
+/* ---- where it is ---- */
+
+long history_time(const struct sheet_history *h, struct position position)
+{
+    long time = position.step;
+    for (int i = 0; i < position.op; i++)
+        time += h->ops[i].steps;
+    return time;
+}
+
+/* After all that was done by that time; .op < 0: there is no such time before `end`. */
+static struct position position_at(const struct sheet_history *h, long time,
+                                   struct position end)
+{
+    struct position position = beginning;
+    long passed = 0;
+    if (time < 0 || time > history_time(h, end))
+        return (struct position){-1, 0};
+    while (position_compare(position, end) < 0) {
+        int steps = h->ops[position.op].steps;
+        if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
+            if (h->ops[position.op].kind == SHEET_EVENT_STEP)
+                position.step = (int)(time - passed);
+            break;
+        }
+        passed += steps;
+        position.op++;
+    }
+    return position_compare(position, end) < 0 ? position : end;
+}
+
+long history_work(const struct sheet_history *h, struct position position)
+{
+    long work = position.step;
+    for (int i = 0; i < position.op; i++)
+        work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
+    return work;
+}
+
+int paper_history_done(const struct paper_sheet *p)
+{
+    return p->history ? p->history->now.op + (p->history->now.step > 0) : 0;
+}
+
+int paper_history_undone(const struct paper_sheet *p)
+{
+    const struct sheet_history *h = p->history;
+    return h ? h->count - h->now.op : 0;
+}
+
+long paper_sheet_steps(const struct paper_sheet *p)
+{
+    return p->history ? history_time(p->history, p->history->now) : p->steps;
+}
+
+long paper_sheet_now(const struct paper_sheet *p)
+{
+    const struct sheet_history *h = p->history;
+    return h && h->performing ? history_time(h, h->now) + (p->steps - h->steps_before)
+                              : paper_sheet_steps(p);
+}
+
+bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_moment *out)
+{
+    const struct sheet_history *h = p->history;
+    if (!h || number < 0 || number >= h->count)
+        return false;
+    *out = (struct paper_moment){.what = event_name(h->ops[number].kind),
+                                 .time = history_time(h, (struct position){number, 0}),
+                                 .steps = h->ops[number].steps};
+    return true;
+}
+
+int paper_history_following(const struct paper_sheet *p)
+{
+    return p->history && p->history->following
+               ? p->history->notes.count - p->history->notes.repeated
+               : 0;
+}
+
+long paper_history_resumed(const struct paper_sheet *p)
+{
+    return p->history ? p->history->resumed : -1;
+}
+
+bool paper_history_diverged(const struct paper_sheet *p)
+{
+    return p->history && p->history->diverged;
+}
+
+const struct paper_air *history_air(const struct paper_sheet *p)
+{
+    struct sheet_history *h = p->history;
+    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+        return &p->air;
+    h->air = paper_air_default();
+    for (int i = h->now.op - 1; i >= 0; i--) {
+        void *arguments = NULL;
+        if (h->ops[i].kind != SHEET_EVENT_AIR)
+            continue;
+        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+            h->air = *(const struct paper_air *)arguments;
+        event_free(SHEET_EVENT_AIR, arguments);
+        break;
+    }
+    return &h->air;
+}
+
+bool paper_history_brush(const struct paper_sheet *p, int number)
+{
+    const struct sheet_history *h = p->history;
+    if (!h)
+        return paper_sheet_brush_get(p, number) != NULL;
+    bool there = false;
+    for (int i = 0; i < h->now.op && !there; i++) {
+        void *arguments = NULL;
+        if (h->ops[i].kind != SHEET_EVENT_BRUSH)
+            continue;
+        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+            there = ((const struct paper_brush *)arguments)->number == number;
+        event_free(SHEET_EVENT_BRUSH, arguments);
+    }
+    return there;
+}
+
+/* ---- doing ---- */
+
+void paper_history_mark(struct paper_sheet *p)
+{
+    if (p->history)
+        p->history->open = false;
+}
+
+/* Performs `steps` steps, or one operation, where the sheet is; `at` follows. */
+static enum paper_status operation_perform(struct paper_sheet *p, const struct operation *op,
+                                           const void *arguments)
+{
+    struct sheet_history *h = p->history;
+    struct position at = h->at;
+    h->at.op = -1; /* unless it succeeds, or changes nothing */
+    h->performing = true;
+    h->steps_before = p->steps;
+    /* steps are the same kernels whatever was done before them */
+    bool step = op->kind == SHEET_EVENT_STEP || op->kind == SHEET_EVENT_STROKE;
+    enum paper_status status = step && h->unfinished ? paper_sheet_finish(p) : PAPER_OK;
+    h->unfinished = !step;
+    if (status == PAPER_OK)
+        status = event_perform(p, op->kind, arguments);
+    h->performing = false;
+    if (status == PAPER_BAD_ARGUMENT)
+        h->at = at;
+    if (status != PAPER_OK)
+        return status;
+    h->work++;
+    at.step++;
+    bool ends = op->kind != SHEET_EVENT_STEP || at.step == op->steps;
+    h->at = ends ? (struct position){at.op + 1, 0} : at;
+    return PAPER_OK;
+}
+
+/* Puts the operation at the list's end; *joined: it belongs to the one before it now. */
+static enum paper_status record(struct sheet_history *h, struct operation op, bool *joined)
+{
+    struct operation *last = h->count > 0 ? &h->ops[h->count - 1] : NULL;
+    bool steps = op.kind == SHEET_EVENT_STEP;
+    *joined = steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
+              last->steps < INT32_MAX / 2 && h->count != h->inserting_at;
+    if (*joined) {
+        /* what was its end is within it now */
+        struct checkpoint *point = h->points_count ? &h->points[h->points_count - 1] : NULL;
+        if (point && point->position.op == h->count)
+            point->position = (struct position){h->count - 1, last->steps};
+        last->steps++;
+    } else {
+        enum paper_status status = history_append(h, op);
+        if (status != PAPER_OK)
+            return status;
+        h->open = steps;
+    }
+    h->now = (struct position){h->count, 0};
+    return PAPER_OK;
+}
+
+/* A program that is run again did this before: it is listed, and computed if somebody looks. */
+static enum paper_status repeat(struct sheet_history *h, struct operation op)
+{
+    bool joined;
+    enum paper_status status = history_cut(h);
+    if (status == PAPER_OK)
+        status = record(h, op, &joined);
+    else
+        operation_free(&op);
+    if (status == PAPER_OK)
+        history_followed(h);
+    else
+        history_stray(h);
+    return status;
+}
+
+enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
+                              const void *arguments)
+{
+    struct sheet_history *h = p->history;
+    struct operation op;
+    enum paper_status status = event_check(p, kind, arguments);
+    if (status != PAPER_OK)
+        return status;
+    if (!h || h->performing) {
+        p->touched = true;
+        p->steps += kind == SHEET_EVENT_STEP;
+        return event_perform(p, kind, arguments);
+    }
+    status = operation_make(p, kind, arguments, &op);
+    if (status != PAPER_OK)
+        return status;
+    if (history_foreseen(h, (struct note){(int)kind, 0, op.digest}, &op.steps))
+        return repeat(h, op);
+    status = history_cut(h);
+    if (status == PAPER_OK)
+        status = sheet_ready(p);
+    long before = p->steps;
+    if (status == PAPER_OK)
+        status = operation_perform(p, &op, arguments);
+    if (status != PAPER_OK) {
+        operation_free(&op);
+        return status;
+    }
+    op.steps += (int)(p->steps - before);
+    bool joined;
+    status = record(h, op, &joined);
+    if (status != PAPER_OK) {
+        h->at.op = -1;
+        return status;
+    }
+    h->at = h->now;
+    if (joined && h->notes.count > 0)
+        h->notes.at[h->notes.count - 1].number++;
+    else
+        notes_add(&h->notes, (struct note){(int)kind, op.steps, op.digest});
+    checkpoint_offer(p, false);
+    return PAPER_OK;
+}
+
+/* ---- computing again ---- */
+
+/* The steps of operations from one position to another. */
+static long steps_between(const struct sheet_history *h, struct position from,
+                          struct position to)
+{
+    return history_time(h, to) - history_time(h, from);
+}
+
+/* Brings the fields from `at` on to `now`. */
+static enum paper_status catch_up(struct paper_sheet *p)
+{
+    struct sheet_history *h = p->history;
+    long total = steps_between(h, h->at, h->now), done = 0;
+    while (position_compare(h->at, h->now) < 0) {
+        const struct operation *op = &h->ops[h->at.op];
+        void *arguments;
+        enum paper_status status = operation_arguments(&p->config, op, &arguments);
+        if (status == PAPER_OK)
+            status = operation_perform(p, op, arguments);
+        event_free(op->kind, arguments);
+        if (status == PAPER_OK && op->kind == SHEET_EVENT_STEP)
+            status = paper_sheet_finish(p);
+        if (status != PAPER_OK)
+            return status;
+        done += op->kind == SHEET_EVENT_STEP;
+        checkpoint_offer(p, false);
+        if (h->watch && !h->watch(h->watch_context, done, total))
+            return paper_fail(PAPER_MACHINE_FAILED, "stopped");
+    }
+    return PAPER_OK;
+}
+
+enum paper_status sheet_ready(struct paper_sheet *p)
+{
+    struct sheet_history *h = p->history;
+    enum paper_status status = PAPER_OK;
+    if (!h || h->performing || (h->at.op >= 0 && position_compare(h->at, h->now) == 0))
+        return PAPER_OK;
+    const struct checkpoint *point = checkpoint_before(h, h->now);
+    struct position from = point ? point->position : beginning;
+    if (h->at.op < 0 || position_compare(h->at, h->now) > 0 ||
+        position_compare(h->at, from) < 0) {
+        h->at.op = -1;
+        status = point ? checkpoint_restore(p, point) : sheet_reset(p);
+        if (status != PAPER_OK) {
+            h->at.op = -1;
+            return status;
+        }
+        if (!point) {
+            h->at = beginning;
+            h->work = 0;
+        } else
+            checkpoint_reached(h, point);
+        h->loaded = false;
+    }
+    return catch_up(p);
+}
+
+/* ---- back and forth ---- */
+
+static void move_to(struct paper_sheet *p, struct position position)
+{
+    struct sheet_history *h = p->history;
+    if (position_compare(position, h->now) < 0 && h->at.op >= 0)
+        checkpoint_offer(p, true); /* the way back */
+    h->now = position;
+    h->open = false;
+    history_followed(h);
+}
+
+int paper_history_undo(struct paper_sheet *p, int count)
+{
+    struct sheet_history *h = p->history;
+    if (!h || count < 1)
+        return 0;
+    int done = paper_history_done(p), least = h->inserting_at > 0 ? h->inserting_at : 0;
+    count = count < done - least ? count : done - least;
+    if (count <= 0)
+        return 0;
+    history_moved(h, NOTE_UNDO, count);
+    move_to(p, (struct position){done - count, 0});
+    return count;
+}
+
+int paper_history_redo(struct paper_sheet *p, int count)
+{
+    struct sheet_history *h = p->history;
+    if (!h || count < 1)
+        return 0;
+    int left = paper_history_undone(p);
+    count = count < left ? count : left;
+    if (count <= 0)
+        return 0;
+    history_moved(h, NOTE_REDO, count);
+    move_to(p, (struct position){h->now.op + count, 0});
+    return count;
+}
+
+static enum paper_status time_check(const struct paper_sheet *p, long time, struct position end,
+                                    struct position *position)
+{
+    const struct sheet_history *h = p->history;
+    if (!h)
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
+    if (h->inserting_at >= 0)
+        return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
+    *position = position_at(h, time, end);
+    if (position->op < 0)
+        return paper_fail(PAPER_BAD_ARGUMENT, "a time must be 0..%ld steps (got %ld)",
+                          history_time(h, end), time);
+    return PAPER_OK;
+}
+
+enum paper_status paper_history_seek(struct paper_sheet *p, long time)
+{
+    struct position position, end = beginning;
+    if (p->history)
+        end = (struct position){p->history->count, 0};
+    enum paper_status status = time_check(p, time, end, &position);
+    if (status != PAPER_OK)
+        return status;
+    history_moved(p->history, NOTE_SEEK, time);
+    move_to(p, position);
+    return PAPER_OK;
+}
+
+/* ---- earlier ---- */
+
+enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
+{
+    struct position position;
+    enum paper_status status =
+        time_check(p, time, p->history ? p->history->now : beginning, &position);
+    if (status != PAPER_OK)
+        return status;
+    struct sheet_history *h = p->history;
+    status = history_cut(h);
+    if (status == PAPER_OK)
+        status = history_split(h, position);
+    if (status != PAPER_OK)
+        return status;
+    if (position.step > 0)
+        position = (struct position){position.op + 1, 0};
+    int count = h->count - position.op;
+    struct operation *tail = malloc((size_t)(count ? count : 1) * sizeof *tail);
+    if (!tail)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
+    if (count)
+        memcpy(tail, &h->ops[position.op], (size_t)count * sizeof *tail);
+    history_moved(h, NOTE_INSERT, time);
+    h->tail = tail;
+    h->tail_count = count;
+    h->count = position.op;
+    h->now = position;
+    h->open = false;
+    h->inserting_at = position.op;
+    checkpoints_drop_after(h, position);
+    if (position_compare(h->at, position) > 0)
+        h->at.op = -1;
+    history_followed(h);
+    return PAPER_OK;
+}
+
+enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
+{
+    struct sheet_history *h = p->history;
+    if (!h || h->inserting_at < 0)
+        return PAPER_OK;
+    history_moved(h, NOTE_INSERT_END, keep);
+    if (!keep)
+        h->now = (struct position){h->inserting_at, 0};
+    enum paper_status status = history_cut(h); /* at a boundary: takes no memory */
+    for (int i = 0; i < h->tail_count; i++) {
+        h->ops_bytes -= (double)(h->tail[i].stored + sizeof *h->tail);
+        if (status == PAPER_OK)
+            status = history_append(h, h->tail[i]);
+        else
+            operation_free(&h->tail[i]);
+    }
+    free(h->tail);
+    h->tail = NULL;
+    h->tail_count = 0;
+    h->inserting_at = -1;
+    h->now = (struct position){h->count, 0};
+    h->open = false;
+    history_followed(h);
+    return status;
+}

@@ -1,0 +1,79 @@
+/* brush_internal.h - a sheet's brushes on the machine.
+ *
+ * All brushes of a sheet share one VP set of BRUSH_ROWS x PAPER_BRISTLES_MAX processors: column b is bristle b, and its rows are the
+ * places that it touches in one exchange. What a bristle holds is the same in all rows of its column.
+ *
+ *              bristle 0   1   2   3  ...
+ *     place 0        .     .   .   .        address of the fiber; contact; force; how many touch that fiber;
+ *     place 1        .     .   .   .        in how many places the bristle touches
+ *      ...
+ *     held           w     w   w   w        in grains, doubles: whole numbers up to 2^53
+ */
+#ifndef LUTETIA_PAPER_BRUSH_INTERNAL_H
+#define LUTETIA_PAPER_BRUSH_INTERNAL_H
+
+#include "brush.h"
+#include "model/model.h"
+
+enum {
+    BRUSH_ROWS = 16,
+    BRUSH_PLACES = BRUSH_ROWS * PAPER_BRISTLES_MAX,
+    BRUSH_TEMPORARIES = 10
+};
+
+/* Where a bristle is in the tuft at rest, and what it is like. */
+struct sheet_bristle {
+    double across, along; /* -1..1 */
+    double shorter;       /* pressure from which it touches, 0..1 */
+    double gives;         /* factor on the brush's load */
+};
+
+/* One exchange, as the front end lays it out: [row][bristle]. */
+struct sheet_contacts {
+    uint32_t address[BRUSH_PLACES];
+    float contact[BRUSH_PLACES]; /* part of the way to equal levels, 0..1; 0: no touch */
+    float force[BRUSH_PLACES];   /* 0..1 */
+    float sharers[BRUSH_PLACES]; /* places on the same fiber, 1.. */
+    float places[BRUSH_PLACES];  /* of the same bristle, 1.. */
+};
+
+struct sheet_brush {
+    bool there;
+    struct paper_brush brush;
+    struct sheet_bristle bristles[PAPER_BRISTLES_MAX];
+    CM_field_id_t held[1 + PAPER_PIGMENTS_MAX];
+    CM_field_id_t gives;
+    double full;      /* grains of water in a full bristle */
+    double toward[2]; /* where it goes, a unit vector; of the present stroke */
+};
+
+struct sheet_brushes {
+    CM_geometry_id_t geometry;
+    CM_vp_set_id_t vp_set;
+    CM_field_id_t address, contact, force, sharers, places, gotten, sent, count;
+    CM_field_id_t t[BRUSH_TEMPORARIES];
+    CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
+    struct sheet_contacts contacts;
+    uint16_t
+        *touched; /* of each fiber, by how many places in this exchange; 0 between exchanges */
+    struct sheet_brush brush[PAPER_BRUSHES_MAX];
+};
+
+/* Bristles and the sheet exchange where b->contacts says; call between paper_enter() and paper_leave(). The sheet's VP set is
+ * current before and after. */
+void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
+                          const struct sheet_brush *brush);
+/* Where the bristles are, and what they are like, from the brush's description. */
+void sheet_brush_bristles_make(struct sheet_brush *brush);
+
+/* Numbers by chance, 0..1, from whatever distinguishes them. */
+static inline double sheet_chance(uint64_t seed, uint64_t a, uint64_t b)
+{
+    uint64_t z = seed * UINT64_C(0x9e3779b97f4a7c15) + a * UINT64_C(0xd1342543de82ef95) +
+                 b * UINT64_C(0xaf251af3b0f025b5) + UINT64_C(0x2545f4914f6cdd1d);
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+#endif

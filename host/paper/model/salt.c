@@ -1,0 +1,202 @@
+/* salt.c - salt on wet paint.
+ *
+ * A grain dissolves where it is wet and keeps the water on it saturated; brine spreads from fiber to fiber through what is wet and
+ * fades, so that it reaches about `reach` fibers. Along its slope pigments are pushed outwards, and surface water is drawn
+ * inwards half as fast:
+ *
+ *       salt |>                    brine c         d = strength (c(x) - c(x+1)), at most 1/8 either way
+ *            |  >                                  pigment: part max (d, 0) of x's goes up, part max (-d, 0) of x+1's down
+ *            |    > > >                            water: the other way, half of that
+ *
+ * Flows are whole grains of matter, computed once for each face, as in model/step.c: nothing is lost, and mirrored sheets give
+ * mirrored bits. Brine is no matter of the sheet's; it is only where it pushes from. */
+#include "event/event.h"
+#include "model/model.h"
+#include "techniques.h"
+
+#include "model/brush_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define PUSH_MOST 0.125
+#define SPREADING 0.2    /* of the difference, across an open wet face */
+#define DISSOLVING 0.004 /* of a grain in a step, in water */
+#define WET_FULL 0.15    /* water with which brine moves freely */
+#define DRAW 0.5         /* of water, for what is pushed of pigment */
+#define BRINE_LEAST 1e-5
+
+/* ---- strewing ---- */
+
+static double place_gray(const struct paper_place *place, double x, double y)
+{
+    const struct paper_screen *screen = place->screen;
+    if (!screen)
+        return 1;
+    double column = floor(x) - place->x, row = floor(y) - place->y;
+    if (!(column >= 0 && row >= 0 && column < screen->width_px && row < screen->height_px))
+        return 0;
+    return screen->gray[(size_t)row * (size_t)screen->width_px + (size_t)column] / 255.0;
+}
+
+static void grain_add(float *salt, int width, int height, double x, double y, double radius)
+{
+    int x1 = (int)fmax(0, floor(x - radius - 1)), x2 = (int)fmin(width, ceil(x + radius + 1));
+    int y1 = (int)fmax(0, floor(y - radius - 1)), y2 = (int)fmin(height, ceil(y + radius + 1));
+    for (int row = y1; row < y2; row++)
+        for (int column = x1; column < x2; column++) {
+            double inside = radius + 0.5 - hypot(column + 0.5 - x, row + 0.5 - y);
+            float *at = &salt[(size_t)row * (size_t)width + (size_t)column];
+            *at = fmaxf(*at, (float)fmin(1, fmax(0, inside)));
+        }
+}
+
+enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct paper_salt *s)
+{
+    return sheet_event(p, SHEET_EVENT_SALT, s);
+}
+
+enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_salt *s = arguments;
+    if (!(s->size[1] >= s->size[0]))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "salt's most size must be %g or more, its least (got %g)", s->size[0],
+                          s->size[1]);
+    if (p->config.parts == 0)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "the thesis's paper takes no salt; choose a paper with parts");
+    int width = p->page.width, height = p->page.height;
+    size_t count = (size_t)width * (size_t)height;
+    float *salt = malloc(count * sizeof *salt);
+    if (!salt)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for salt");
+    enum paper_status status = paper_sheet_layer_read(p, PAPER_LAYER_SALT, 0, salt);
+    for (int i = 0; i < s->grains && status == PAPER_OK; i++) {
+        uint64_t number = (uint64_t)i;
+        double away = s->radius * sqrt(sheet_chance(s->seed, number, 1));
+        double angle = 2 * 3.141592653589793 * sheet_chance(s->seed, number, 2);
+        double x = s->x + away * cos(angle), y = s->y + away * sin(angle);
+        double large = sheet_chance(s->seed, number, 3);
+        if (place_gray(&s->place, x, y) > 0.5)
+            grain_add(salt, width, height, x, y,
+                      s->size[0] + (s->size[1] - s->size[0]) * large * large);
+    }
+    if (status == PAPER_OK)
+        status = paper_sheet_layer_write(p, PAPER_LAYER_SALT, 0, salt);
+    free(salt);
+    if (status == PAPER_OK) {
+        p->salt_reach = s->reach;
+        p->salt_strength = s->strength;
+    }
+    return status;
+}
+
+/* ---- a step ---- */
+
+/* What flows up through each face of q is `flow`. Uses t[14]. */
+static void flow_through(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow,
+                         unsigned axis)
+{
+    CM_field_id_t arriving = p->t[14];
+    f_previous(arriving, flow, axis);
+    f_add(q, q, arriving);
+    f_sub(q, q, flow);
+}
+
+/* Grains dissolve; brine spreads and fades. wet: 0..1. */
+static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
+{
+    CM_field_id_t open = p->t[1], other = p->t[2], flow[2] = {p->t[3], p->t[4]},
+                  source = p->t[5];
+    f_times(source, wet, -DISSOLVING);
+    f_plus(source, source, 1.0);
+    f_mul(p->salt, p->salt, source);
+    f_mul(source, p->salt, wet);
+    f_times(source, source, 2.0); /* half a grain still saturates */
+    f_most(source, source, 1.0);
+    f_max(p->brine, p->brine, source);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        f_next(open, wet, axis);
+        f_min(open, open, wet);
+        /* along fibers that absorb well it goes further: its rim is ragged */
+        f_times(other, p->face[axis], SPREADING / fmax(p->config.stock.absorbency, 1e-3));
+        f_most(other, other, SPREADING);
+        f_mul(open, open, other);
+        f_next(other, p->brine, axis);
+        f_sub(flow[axis], p->brine, other);
+        f_mul(flow[axis], flow[axis], open);
+    }
+    for (unsigned axis = 0; axis < 2;
+         axis++) { /* no whole numbers: the order of sums must be alike too */
+        f_previous(other, flow[axis], axis);
+        f_sub(flow[axis], other, flow[axis]);
+    }
+    f_add(flow[0], flow[0], flow[1]);
+    f_add(p->brine, p->brine, flow[0]);
+    f_times(p->brine, p->brine, 1 - SPREADING / (p->salt_reach * p->salt_reach + 1));
+    f_plus(p->brine, p->brine, -BRINE_LEAST);
+    f_least(p->brine, p->brine, 0.0);
+}
+
+/* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
+static void pushed(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,
+                   CM_field_id_t down, CM_field_id_t q, unsigned axis)
+{
+    CM_field_id_t other = p->t[14];
+    f_next(other, q, axis);
+    f_mul(other, other, down);
+    f_mul(flow, q, up);
+    f_sub(flow, flow, other);
+    f_whole(flow);
+}
+
+void sheet_salt_step(struct paper_sheet *p)
+{
+    CM_field_id_t wet = p->t[0], room = p->t[6], other = p->t[5], flow[2] = {p->t[3], p->t[4]};
+    CM_field_id_t up[2] = {p->t[7], p->t[8]}, down[2] = {p->t[9], p->t[10]};
+    bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    if (surface)
+        f_add(wet, p->page.water, p->surface_water);
+    else
+        f_copy(wet, p->page.water);
+    f_times(wet, wet, 1 / (WET_FULL * p->unit));
+    f_most(wet, wet, 1.0);
+    brine_spread(p, wet);
+    sheet_room_make(p, room);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        f_next(other, p->brine, axis);
+        f_sub(up[axis], p->brine, other);
+        f_times(up[axis], up[axis], p->salt_strength);
+        f_next(other, wet, axis);
+        f_min(other, other, wet);
+        f_mul(up[axis], up[axis], other);
+        f_times(down[axis], up[axis], -1.0);
+        f_times(other, p->face[axis], 1e6); /* 0 where it is closed */
+        f_most(other, other, PUSH_MOST);
+        f_min(up[axis], up[axis], other);
+        f_min(down[axis], down[axis], other);
+        f_least(up[axis], up[axis], 0.0);
+        f_least(down[axis], down[axis], 0.0);
+        f_next(other, room, axis);
+        f_mul(up[axis], up[axis], other);
+        f_mul(down[axis], down[axis], room);
+    }
+    for (int i = 0; i < p->config.pigments_count; i++)
+        for (int layer = surface ? 0 : 1; layer < 2; layer++) {
+            CM_field_id_t q = layer == 0 ? p->surface[i] : p->infused[i];
+            for (unsigned axis = 0; axis < 2; axis++)
+                pushed(p, flow[axis], up[axis], down[axis], q, axis);
+            for (unsigned axis = 0; axis < 2; axis++)
+                flow_through(p, q, flow[axis], axis);
+        }
+    if (!surface)
+        return;
+    for (unsigned axis = 0; axis < 2; axis++) { /* water comes from where pigment goes */
+        f_times(up[axis], up[axis], DRAW);
+        f_times(down[axis], down[axis], DRAW);
+        pushed(p, flow[axis], down[axis], up[axis], p->surface_water, axis);
+    }
+    for (unsigned axis = 0; axis < 2; axis++)
+        flow_through(p, p->surface_water, flow[axis], axis);
+}

@@ -1,0 +1,198 @@
+/* stock.c - what a dry sheet is like: heights, absorbency, capacity and colour from the seed.
+ *
+ * Two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
+ * boxes and so nearly round bells, in three octaves, the coarsest as wide as the paper's grain:
+ *
+ *     hills = (coarse + fine / 2 + finest / 4), mean 0, deviation about 1;  height = 1/2 + roughness * hills
+ *
+ * Fibers: as thesis/fiber.c makes them, laid along x and along y, each as long as the stock says. Absorbency comes from fibers and
+ * a little from hills, so paper bleeds as it looks; capacity from height. */
+#include "model/model.h"
+
+#include <math.h>
+#include <strings.h>
+
+static const struct paper_stock stocks[] = {
+    {"cold press", {.975, .965, .94}, .25, .10, .5, {1, 1}, {.3, .75}, .16, 6, {8, 8}},
+    {"hot press", {.98, .975, .96}, .12, .09, .35, {1, 1}, {.35, .6}, .05, 2, {6, 6}},
+    {"rough", {.96, .945, .91}, .35, .10, .6, {1, 1}, {.25, .9}, .26, 11, {12, 12}},
+    {"blotting", {.95, .93, .90}, .2, .24, .3, {1, 1}, {.8, 1}, .08, 3, {4, 4}},
+    {"glass", {.97, .98, .98}, 0, .002, 0, {1, 1}, {.02, .02}, 0, 1, {1, 1}},
+};
+
+enum { STOCKS_COUNT = sizeof stocks / sizeof *stocks, RANDOM_BITS = 16 };
+#define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
+
+const struct paper_stock *paper_stock_number(int number)
+{
+    return number >= 0 && number < STOCKS_COUNT ? &stocks[number] : NULL;
+}
+
+const struct paper_stock *paper_stock_find(const char *name)
+{
+    for (int i = 0; i < STOCKS_COUNT; i++)
+        if (strcasecmp(stocks[i].name, name) == 0)
+            return &stocks[i];
+    return NULL;
+}
+
+/* Deviation 1, mean 0, another at each call. */
+static void white(CM_field_id_t d, CM_field_id_t bits)
+{
+    CM_u_random_1L(bits, RANDOM_BITS, 1ul << RANDOM_BITS);
+    CM_f_u_float_2_2L(d, bits, RANDOM_BITS, SHEET_F);
+    f_times(d, d, sqrt(12.0) / (1 << RANDOM_BITS));
+    f_plus(d, d, -0.5 * sqrt(12.0));
+}
+
+/* d += what is `distance` up the axis. */
+static void join(CM_field_id_t d, CM_field_id_t far, unsigned axis, int distance)
+{
+    f_next(far, d, axis);
+    for (int step = 1; step < distance; step++)
+        f_next(far, far, axis);
+    f_add(d, d, far);
+}
+
+/* Averages of `length` (to the next power of two) neighbours, deviation kept. */
+static void smear(CM_field_id_t d, CM_field_id_t far, unsigned axis, int length)
+{
+    for (int distance = 1; distance < length; distance *= 2) {
+        join(d, far, axis, distance);
+        f_times(d, d, sqrt(0.5));
+    }
+}
+
+/* The deviation of `boxes` boxes after each other along one axis: the root of the sum of squares of the weights. */
+static double bell_gain(int length, int boxes)
+{
+    double weights[512] = {1}, sum = 0;
+    int count = 1;
+    for (int box = 0; box < boxes; box++)
+        for (int distance = 1; distance < length; distance *= 2) {
+            for (int i = count - 1; i >= 0; i--)
+                weights[i + distance] += weights[i];
+            count += distance;
+        }
+    for (int i = 0; i < count; i++)
+        sum += weights[i] * weights[i];
+    return sqrt(sum);
+}
+
+enum { BELL_BOXES = 3, BELL_LONGEST = 64 };
+
+/* Noise smoothed by a bell about `length` wide on both axes. */
+static void bell(struct paper_sheet *p, CM_field_id_t d, double length)
+{
+    int box = 1;
+    while (box < length / 2 && box < BELL_LONGEST)
+        box *= 2;
+    white(d, p->t[7]);
+    for (int i = 0; i < BELL_BOXES; i++)
+        for (int distance = 1; distance < box; distance *= 2)
+            for (unsigned axis = 0; axis < 2; axis++)
+                join(d, p->t[6], axis, distance);
+    double gain = bell_gain(box, BELL_BOXES);
+    f_times(d, d, 1 / (gain * gain));
+}
+
+static void hills_make(struct paper_sheet *p, CM_field_id_t hills)
+{
+    double length = p->config.stock.grain_px, part = 1, squares = 0;
+    f_set(hills, 0.0);
+    for (int octave = 0; octave < 3; octave++) {
+        bell(p, p->t[5], length);
+        f_times(p->t[5], p->t[5], part);
+        f_add(hills, hills, p->t[5]);
+        squares += part * part;
+        length /= 2;
+        part /= 2;
+    }
+    f_times(hills, hills, 1 / sqrt(squares));
+}
+
+static void fibers_make(struct paper_sheet *p, CM_field_id_t fibers)
+{
+    const int *length = p->config.stock.fiber_length;
+    white(fibers, p->t[7]);
+    smear(fibers, p->t[6], PAPER_AXIS_X, length[0]);
+    white(p->t[5], p->t[7]);
+    smear(p->t[5], p->t[6], PAPER_AXIS_Y, length[1]);
+    f_add(fibers, fibers, p->t[5]);
+    white(p->t[5], p->t[7]);
+    f_times(p->t[5], p->t[5], 0.5);
+    f_add(fibers, fibers, p->t[5]);
+    f_times(fibers, fibers, 1 / 1.5);
+}
+
+/* A field within low..high. */
+static void keep(CM_field_id_t d, double low, double high)
+{
+    f_least(d, d, low);
+    f_most(d, d, high);
+}
+
+/* What pigments lie on, from display values: in linear light for Kubelka-Munk. The square of display values is near
+ * enough to it for variations of some percent about the colour itself. */
+static void color_make(struct paper_sheet *p, CM_field_id_t shade)
+{
+    const struct paper_stock *stock = &p->config.stock;
+    bool linear = p->config.rule == PAPER_RULE_KUBELKA_MUNK;
+    for (int i = 0; i < 3; i++) {
+        double color = linear ? paper_light_linear(stock->color[i]) : stock->color[i];
+        f_times(p->substrate[i], shade, color * (linear ? 2 : 1));
+        f_plus(p->substrate[i], p->substrate[i], color);
+        keep(p->substrate[i], 0, 1);
+    }
+}
+
+void sheet_faces_make(struct paper_sheet *p)
+{
+    CM_field_id_t open = p->t[0], other = p->t[1];
+    f_from(open, 1.0, p->resist);
+    f_least(open, open, 0.0);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        bool x = axis == PAPER_AXIS_X;
+        f_next(other, p->page.absorbency, axis);
+        f_add(other, other, p->page.absorbency);
+        f_times(other, other, p->config.stock.absorbency_along[x ? 0 : 1] / 2);
+        f_least(other, other, FACE_LEAST);
+        f_mul(p->face[axis], other, open);
+        f_next(other, open, axis);
+        f_mul(p->face[axis], p->face[axis], other);
+        if (!p->config.torus) {
+            CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord,
+                                (unsigned)(x ? p->page.width : p->page.height) - 1,
+                                (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+            CM_logand_context_with_test();
+            f_set(p->face[axis], 0.0);
+            CM_set_context();
+        }
+    }
+}
+
+void sheet_stock_make(struct paper_sheet *p)
+{
+    const struct paper_stock *stock = &p->config.stock;
+    CM_field_id_t hills = p->t[0], fibers = p->t[1], shade = p->t[2];
+    CM_initialize_random_generator((unsigned)(p->config.seed ^ p->config.seed >> 32));
+    hills_make(p, hills);
+    fibers_make(p, fibers);
+
+    f_times(p->height, hills, stock->roughness);
+    f_plus(p->height, p->height, 0.5);
+    keep(p->height, 0, 1);
+    f_times(p->capacity, p->height, stock->capacity[1] - stock->capacity[0]);
+    f_plus(p->capacity, p->capacity, stock->capacity[0]);
+    keep(p->capacity, 0.01, 1);
+
+    f_times(p->page.absorbency, fibers, stock->absorbency * stock->absorbency_variation);
+    f_plus(p->page.absorbency, p->page.absorbency, stock->absorbency);
+    keep(p->page.absorbency, 0.15 * stock->absorbency, PAPER_ABSORBENCY_MAX);
+
+    f_times(shade, fibers, -0.03 * stock->color_variation);
+    f_times(p->t[3], hills, 0.08 * stock->color_variation * sqrt(stock->roughness));
+    f_add(shade, shade, p->t[3]);
+    color_make(p, shade);
+    sheet_faces_make(p);
+}

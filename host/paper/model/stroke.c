@@ -1,0 +1,271 @@
+/* stroke.c - where the bristles are: the tuft, and its way over the paper.
+ *
+ *            width                     across: -1..1 from left to right, along: -1..1 from heel to toe
+ *        .-----------.
+ *       (  . . . . .  )  depth         pressure p presses bristle i down by p (1 + tilt) - shorter[i]; it touches
+ *        '-----------'                 where that is above 0, and its force is that over FORCE_FULL, at most 1
+ *
+ * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
+ * BRUSH_ROWS in one exchange. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
+ * Places are moved by chance within the bristle's thickness, by numbers that depend on the bristle and the place alone. */
+#include "event/event.h"
+#include "history.h"
+#include "model/brush_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PLACE_SPACING 0.7 /* fibers, along a bristle's way */
+#define FORCE_FULL 0.3
+#define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
+#define GOLDEN_ANGLE 2.3999632297286533
+#define CONTACT_STEPS                                                                          \
+    65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
+
+void sheet_brush_bristles_make(struct sheet_brush *own)
+{
+    const struct paper_brush *brush = &own->brush;
+    for (int i = 0; i < brush->bristles; i++) {
+        struct sheet_bristle *bristle = &own->bristles[i];
+        uint64_t number = (uint64_t)i;
+        double a = sheet_chance(brush->seed, number, 1),
+               b = sheet_chance(brush->seed, number, 2);
+        if (brush->flat) { /* additive recurrence: even, without rows */
+            bristle->across = 2 * fmod(0.5 + 0.7548776662466927 * (i + 1) + 0.1 * a, 1) - 1;
+            bristle->along = 2 * fmod(0.5 + 0.5698402909980532 * (i + 1) + 0.1 * b, 1) - 1;
+        } else {
+            double radius = sqrt((i + 0.2 + 0.6 * a) / brush->bristles);
+            double angle = GOLDEN_ANGLE * i + b;
+            bristle->across = radius * cos(angle);
+            bristle->along = radius * sin(angle);
+        }
+        double squared = bristle->across * bristle->across + bristle->along * bristle->along;
+        if (brush->flat)
+            squared /= 2;
+        bristle->shorter =
+            fmin(0.95, brush->point * 0.8 * squared +
+                           brush->uneven * 0.3 * sheet_chance(brush->seed, number, 3));
+        bristle->gives = 1 + brush->uneven * (sheet_chance(brush->seed, number, 4) - 0.5);
+    }
+}
+
+/* The tuft at one moment of a stroke. */
+struct tuft {
+    double x, y;                /* its middle, where it is pressed */
+    double across[2], along[2]; /* the tuft's axes, half its size long */
+    double pressure, lean[2];   /* lean: how much harder one side is pressed, along both axes */
+};
+
+static struct tuft tuft_make(const struct sheet_brush *own,
+                             const struct paper_stroke_sample *at)
+{
+    const struct paper_brush *brush = &own->brush;
+    double c = cos(brush->angle), s = sin(brush->angle), axis[2] = {c, s};
+    if (brush->follows) { /* across is the stroke's normal, to the right of where it goes */
+        axis[0] = -own->toward[1] * c - own->toward[0] * s;
+        axis[1] = own->toward[0] * c - own->toward[1] * s;
+    }
+    /* the tips of a pointed brush gather where it is lifted */
+    double spread =
+        (1 - 0.5 * brush->point * (1 - at->pressure)) * (1 + brush->splay * at->pressure) / 2;
+    double trail = -brush->bend * at->pressure * brush->width / 2;
+    struct tuft tuft = {.pressure = at->pressure};
+    double tilt[2] = {sin(at->tilt_x), sin(at->tilt_y)};
+    tuft.x = at->x + trail * own->toward[0] + tilt[0] * brush->width * at->pressure / 2;
+    tuft.y = at->y + trail * own->toward[1] + tilt[1] * brush->width * at->pressure / 2;
+    tuft.across[0] = axis[0] * spread * brush->width;
+    tuft.across[1] = axis[1] * spread * brush->width;
+    tuft.along[0] = axis[1] * spread * brush->depth;
+    tuft.along[1] = -axis[0] * spread * brush->depth;
+    tuft.lean[0] = axis[0] * tilt[0] + axis[1] * tilt[1];
+    tuft.lean[1] = axis[1] * tilt[0] - axis[0] * tilt[1];
+    return tuft;
+}
+
+static int wrapped(double at, int length, bool torus)
+{
+    double place = floor(at);
+    if (torus)
+        place -= length * floor(place / length);
+    return place >= 0 && place < length ? (int)place : -1;
+}
+
+/* One place of bristle `number`; false: it does not touch. */
+static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
+                       const struct tuft *tuft, int number, uint64_t moment, int fiber[2],
+                       double *force)
+{
+    const struct sheet_bristle *bristle = &own->bristles[number];
+    double across = bristle->across * (own->brush.mirrored ? -1 : 1), along = bristle->along;
+    double pressed = tuft->pressure * (1 + tuft->lean[0] * across + tuft->lean[1] * along) -
+                     bristle->shorter;
+    if (!(pressed > 0))
+        return false;
+    *force = fmin(1, pressed / FORCE_FULL);
+    double angle =
+        2 * 3.141592653589793 * sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment);
+    double away = own->brush.thickness / 2 *
+                  sqrt(sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment + 1));
+    double side = away * cos(angle) * (own->brush.mirrored ? -1 : 1), ahead = away * sin(angle);
+    double a = hypot(tuft->across[0], tuft->across[1]),
+           b = hypot(tuft->along[0], tuft->along[1]);
+    double x =
+        tuft->x + tuft->across[0] * (across + side / a) + tuft->along[0] * (along + ahead / b);
+    double y =
+        tuft->y + tuft->across[1] * (across + side / a) + tuft->along[1] * (along + ahead / b);
+    fiber[0] = wrapped(x, p->page.width, p->config.torus);
+    fiber[1] = wrapped(y, p->page.height, p->config.torus);
+    return fiber[0] >= 0 && fiber[1] >= 0;
+}
+
+struct going {
+    struct paper_sheet *sheet;
+    struct sheet_brush *own;
+    const struct paper_stroke *stroke;
+    int cursor;
+    uint64_t moment; /* places along the way so far */
+};
+
+/* Fills p->brushes->contacts for the times from..from + rows * length; false: nothing touches. */
+static bool contacts_make(struct going *g, double from, double length, int rows, double dwell)
+{
+    struct paper_sheet *p = g->sheet;
+    struct sheet_contacts *c = &p->brushes->contacts;
+    uint16_t *touched = p->brushes->touched;
+    static int fibers[BRUSH_PLACES]; /* of the places that touch, else -1 */
+    int bristles = g->own->brush.bristles, touching = 0;
+    double part = 1 - exp(-g->own->brush.flow * dwell);
+    memset(c, 0, sizeof *c);
+    for (int i = 0; i < BRUSH_PLACES; i++)
+        fibers[i] = -1;
+    for (int row = 0; row < rows; row++, g->moment++) {
+        double time = from + (row + 0.5) * length;
+        struct paper_stroke_sample at = paper_stroke_at(g->stroke, time, &g->cursor);
+        struct paper_stroke_sample next =
+            paper_stroke_at(g->stroke, time + fmax(length, 1e-6), &g->cursor);
+        double dx = next.x - at.x, dy = next.y - at.y, distance = hypot(dx, dy);
+        if (distance > 1e-9) {
+            g->own->toward[0] = dx / distance;
+            g->own->toward[1] = dy / distance;
+        }
+        struct tuft tuft = tuft_make(g->own, &at);
+        for (int i = 0; i < bristles; i++) {
+            int fiber[2], place = row * PAPER_BRISTLES_MAX + i;
+            double force;
+            if (!place_make(p, g->own, &tuft, i, g->moment, fiber, &force))
+                continue;
+            float contact = (float)(rint(part * force * CONTACT_STEPS) / CONTACT_STEPS);
+            if (!(contact > 0))
+                continue;
+            fibers[place] = fiber[1] * p->page.width + fiber[0];
+            c->contact[place] = contact;
+            c->force[place] = (float)(rint(force * CONTACT_STEPS) / CONTACT_STEPS);
+            touched[fibers[place]]++;
+            touching++;
+        }
+    }
+    for (int i = 0; i < bristles; i++) {
+        int places = 0;
+        for (int row = 0; row < rows; row++)
+            places += fibers[row * PAPER_BRISTLES_MAX + i] >= 0;
+        for (int row = 0; row < rows; row++)
+            c->places[row * PAPER_BRISTLES_MAX + i] = (float)(places > 0 ? places : 1);
+    }
+    for (int i = 0; i < BRUSH_PLACES; i++) {
+        c->places[i] = fmaxf(c->places[i], 1);
+        c->sharers[i] = fibers[i] >= 0 ? (float)touched[fibers[i]] : 1;
+    }
+    for (int i = 0; i < BRUSH_PLACES; i++) {
+        if (fibers[i] < 0)
+            continue;
+        touched[fibers[i]] = 0;
+        int x = fibers[i] % p->page.width, y = fibers[i] / p->page.width;
+        c->address[i] = CM_fe_deposit_news_coordinate(
+            p->page.geometry,
+            CM_fe_make_news_coordinate(p->page.geometry, PAPER_AXIS_Y, (unsigned)y),
+            PAPER_AXIS_X, (unsigned)x);
+    }
+    return touching > 0;
+}
+
+/* How far the stroke goes from..to. */
+static double way_length(struct going *g, double from, double to)
+{
+    enum { CHORDS = 6 };
+    double sum = 0;
+    struct paper_stroke_sample before = paper_stroke_at(g->stroke, from, &g->cursor);
+    for (int i = 1; i <= CHORDS; i++) {
+        struct paper_stroke_sample at =
+            paper_stroke_at(g->stroke, from + (to - from) * i / CHORDS, &g->cursor);
+        sum += hypot(at.x - before.x, at.y - before.y);
+        before = at;
+    }
+    return sum;
+}
+
+static void brush_go(struct going *g, double from, double to)
+{
+    double length = way_length(g, from, to), seconds = to - from;
+    int places = (int)fmin(100000, fmax(1, ceil(length / PLACE_SPACING)));
+    double thick = fmax(PLACE_SPACING, g->own->brush.thickness);
+    double dwell = length > thick ? seconds * thick / length : seconds;
+    for (int done = 0; done < places;) {
+        if (g->sheet->due && g->sheet->due(g->sheet->due_context))
+            return;
+        int rows = places - done < BRUSH_ROWS ? places - done : BRUSH_ROWS;
+        if (contacts_make(g, from + done * seconds / places, seconds / places, rows, dwell))
+            sheet_brush_exchange(g->sheet, g->sheet->brushes, g->own);
+        done += rows;
+    }
+}
+
+enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_stroke *stroke,
+                                     int *steps)
+{
+    long before = paper_sheet_steps(p);
+    enum paper_status status = sheet_event(p, SHEET_EVENT_STROKE, stroke);
+    if (steps)
+        *steps = (int)(paper_sheet_steps(p) - before);
+    return status;
+}
+
+enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_stroke *stroke = arguments;
+    if (!paper_sheet_brush_get(p, stroke->number))
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
+    enum paper_status status = paper_stroke_check(stroke);
+    if (status != PAPER_OK)
+        return status;
+    double start = stroke->samples[0].time_s,
+           end = stroke->samples[stroke->samples_count - 1].time_s;
+    double pace = stroke->pace > 0 ? stroke->pace : WAITING_PACE;
+    if ((end - start) * pace > PAPER_STROKE_STEPS_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "a stroke takes at most %d steps (got %g seconds of %g each)",
+                          PAPER_STROKE_STEPS_MAX, end - start, pace);
+    int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
+    struct going g = {.sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
+    g.own->toward[0] = 1; /* where it goes is known as soon as it does */
+    g.own->toward[1] = 0;
+    for (int i = 0; i < count && status == PAPER_OK; i++) {
+        if (p->due && p->due(p->due_context)) {
+            if (p->history) /* half a stroke is no operation: it is as if it had not been begun */
+                return paper_fail(PAPER_MACHINE_FAILED, "stopped");
+            break;
+        }
+        double from = start + i / pace, to = fmin(end, start + (i + 1) / pace);
+        paper_enter(&p->page);
+        brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
+        status = paper_leave(&p->page);
+        if (stroke->pace > 0 && status == PAPER_OK) {
+            status = paper_sheet_step(p);
+            if (status == PAPER_OK)
+                status = paper_sheet_finish(p);
+        }
+    }
+    if (status == PAPER_OK && p->history && p->due && p->due(p->due_context))
+        return paper_fail(PAPER_MACHINE_FAILED,
+                          "stopped"); /* it may have ended in its last step */
+    return status;
+}

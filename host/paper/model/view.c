@@ -1,0 +1,243 @@
+/* view.c - looking at a sheet: its colour by Kubelka-Munk or by the thesis's rule, its water, any layer.
+ *
+ * The pigments of a fiber are one layer on what they lie on; K and S are the sums over them, times their amounts. With
+ * Q = sqrt(K (K + 2 S)) and E = exp(-Q),
+ *
+ *     D = (K + S) (1 - E^2) + Q (1 + E^2)     R = S (1 - E^2) / D     T = 2 Q E / D
+ *     seen = R + T^2 below / (1 - R below)
+ *
+ * which is Kubelka and Munk's R and T (a = 1 + K/S, b S = Q) without a division by S. Q is kept from 0, where 1 - E^2
+ * would lose its digits; that changes R and T by less than 2e-5.
+ *
+ * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps); the front
+ * end takes them to display values by a table. */
+#include "event/event.h"
+#include "model/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SHADES = 65536 };
+#define Q_LEAST 2e-3
+#define EXPONENT_LEAST (-40.0)
+
+/* d = sum over pigments of amount * share[pigment], or of amount * (1 - share); amounts of all layers. Uses t[6]. */
+static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int channel,
+                    bool inverted)
+{
+    CM_field_id_t amount = p->t[6], fields[3];
+    f_set(d, 0.0);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        const double *row =
+            (const double *)(const void *)((const char *)&p->config.pigments[i] + member);
+        double share = inverted ? 1 - row[channel] : row[channel];
+        if (share == 0)
+            continue;
+        int count = sheet_pigment_fields(p, i, fields);
+        f_copy(amount, fields[0]);
+        for (int j = 1; j < count; j++)
+            f_add(amount, amount, fields[j]);
+        f_times(amount, amount, share / p->unit);
+        f_add(d, d, amount);
+    }
+}
+
+/* d = the layer over what it lies on, in one channel. Uses t[0..7]. */
+static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel)
+{
+    CM_field_id_t k = p->t[0], s = p->t[1], q = p->t[2], e = p->t[3], r = p->t[4], t = p->t[5];
+    CM_field_id_t bottom = p->t[6], part = p->t[7], below = p->substrate[channel];
+    mixture(p, k, offsetof(struct paper_pigment, k), channel, false);
+    mixture(p, s, offsetof(struct paper_pigment, s), channel, false);
+    f_add(q, s, s);
+    f_add(q, q, k);
+    f_mul(q, q, k);
+    CM_f_sqrt_1_1L(q, SHEET_F);
+    f_least(q, q, Q_LEAST);
+    f_times(e, q, -1.0);
+    f_least(e, e, EXPONENT_LEAST);
+    CM_f_exp_1_1L(e, SHEET_F);
+    f_mul(t, e, q);
+    f_add(t, t, t);
+    f_mul(e, e, e);
+    f_from(part, 1.0, e);
+    f_mul(r, s, part);
+    f_add(bottom, k, s);
+    f_mul(bottom, bottom, part);
+    f_plus(part, e, 1.0);
+    f_mul(part, part, q);
+    f_add(bottom, bottom, part);
+    f_div(r, r, bottom);
+    f_div(t, t, bottom);
+    f_mul(t, t, t);
+    f_mul(t, t, below);
+    f_mul(part, r, below);
+    f_from(part, 1.0, part);
+    f_least(part, part, 1e-6);
+    f_div(t, t, part);
+    f_add(d, r, t);
+}
+
+void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3])
+{
+    for (int i = 0; i < 3; i++) {
+        if (p->config.rule == PAPER_RULE_KUBELKA_MUNK) {
+            kubelka_munk(p, dest[i], i);
+        } else {
+            mixture(p, p->t[0], offsetof(struct paper_pigment, takes), i,
+                    p->config.rule == PAPER_RULE_LUMINOUS);
+            if (p->config.rule == PAPER_RULE_SUBTRACT)
+                f_sub(dest[i], p->substrate[i], p->t[0]);
+            else
+                f_add(dest[i], p->substrate[i], p->t[0]);
+        }
+        f_least(dest[i], dest[i], 0.0);
+        f_most(dest[i], dest[i], 1.0);
+    }
+}
+
+static void water_make(struct paper_sheet *p, CM_field_id_t d)
+{
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        f_add(d, p->page.water, p->surface_water);
+    else
+        f_copy(d, p->page.water);
+    f_times(d, d, 1 / p->unit);
+}
+
+/* d = the neighbour's level; at the edge of a sheet that is no torus one's own. */
+static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t level,
+                         unsigned axis, bool next)
+{
+    if (next)
+        f_next(d, level, axis);
+    else
+        f_previous(d, level, axis);
+    if (p->config.torus)
+        return;
+    bool x = axis == PAPER_AXIS_X;
+    int last = (x ? p->page.width : p->page.height) - 1;
+    CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord, next ? (unsigned)last : 0,
+                        (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+    CM_logand_context_with_test();
+    f_copy(d, level);
+    CM_set_context();
+}
+
+/* Light on the water's surface: where it falls away to the upper left it shines, on the other side it is darker; wet
+ * paper is a little darker too. Uses t[0..2]. */
+static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
+{
+    CM_field_id_t slope = p->t[0], level = p->t[1], other = p->t[2];
+    f_times(level, p->surface_water, 1 / p->unit);
+    f_most(level, level, 2.0);
+    f_set(slope, 0.0);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        level_beside(p, other, level, axis, true);
+        f_add(slope, slope, other);
+        level_beside(p, other, level, axis, false);
+        f_sub(slope, slope, other);
+    }
+    f_times(slope, slope, 0.8);
+    f_least(slope, slope, -0.25);
+    f_most(slope, slope, 0.6);
+    f_most(other, level, 0.5);
+    f_times(other, other, -0.25);
+    f_plus(other, other, 1.0);
+    for (int i = 0; i < 3; i++) {
+        f_mul(color[i], color[i], other);
+        f_add(color[i], color[i], slope);
+    }
+}
+
+/* One table for each way from 16 bits to display values. */
+static void table_make(uint16_t *table, bool linear)
+{
+    for (int i = 0; i < SHADES; i++) {
+        double value = (double)i / (SHADES - 1);
+        table[i] = (uint16_t)lround((linear ? paper_light_display(value * value) : value) *
+                                    (SHADES - 1));
+    }
+}
+
+/* The field's 0..1 as 16 bits of the picture. */
+static void shade_store(struct paper_sheet *p, int channel, CM_field_id_t value, bool linear)
+{
+    f_least(value, value, 0.0);
+    f_most(value, value, 1.0);
+    if (linear)
+        CM_f_sqrt_1_1L(value, SHEET_F);
+    f_times(value, value, SHADES - 1);
+    CM_u_f_round_2_2L(p->shown[channel], value, 16, SHEET_F);
+}
+
+static enum paper_status shades_read(struct paper_sheet *p, int channels, const uint16_t *table,
+                                     uint16_t *one, uint16_t *rgb)
+{
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    for (int channel = 0; channel < 3; channel++) {
+        if (channel < channels)
+            u_array_read(p, one, p->shown[channel], 16, CM_16_bit);
+        for (size_t i = 0; i < count; i++)
+            rgb[3 * i + (size_t)channel] = table[one[i]];
+    }
+    return paper_leave(&p->page);
+}
+
+enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
+                                   uint16_t *rgb)
+{
+    CM_field_id_t layer = 0;
+    if (view->show == PAPER_SHOW_LAYER) {
+        layer = sheet_layer_field(p, view->layer, view->pigment);
+        if (!layer)
+            return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no such layer to show");
+        if (!(isfinite(view->low) && isfinite(view->high) && view->high != view->low))
+            return paper_fail(PAPER_BAD_ARGUMENT,
+                              "black and white must be two numbers (got %g and %g)", view->low,
+                              view->high);
+    }
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    uint16_t *one = calloc(count, sizeof *one), *table = malloc(SHADES * sizeof *table);
+    if (!one || !table) {
+        free(one);
+        free(table);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->page.width,
+                          p->page.height);
+    }
+    enum paper_status status = sheet_ready(p);
+    if (status != PAPER_OK) {
+        free(one);
+        free(table);
+        return status;
+    }
+    bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
+    bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
+    table_make(table, linear);
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]};
+    if (colored) {
+        sheet_color_make(p, color);
+        if (view->show == PAPER_SHOW_WET && sheet_has(p, PAPER_PART_SURFACE))
+            shine(p, color);
+        if (p->varnished)
+            sheet_varnish_shine(p, color);
+    } else if (view->show == PAPER_SHOW_WATER) {
+        water_make(p, color[0]);
+    } else {
+        if (view->layer == PAPER_LAYER_DRIED_WATER)
+            CM_f_u_float_2_2L(color[0], layer, SHEET_DRIED_BITS, SHEET_F);
+        else
+            f_copy(color[0], layer);
+        double unit = view->layer >= PAPER_LAYER_SURFACE_WATER ? p->unit : 1;
+        f_times(color[0], color[0], 1 / (unit * (view->high - view->low)));
+        f_plus(color[0], color[0], -view->low / (view->high - view->low));
+    }
+    for (int i = 0; i < (colored ? 3 : 1); i++)
+        shade_store(p, i, color[i], linear);
+    status = shades_read(p, colored ? 3 : 1, table, one, rgb);
+    free(one);
+    free(table);
+    return status;
+}

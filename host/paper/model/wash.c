@@ -1,0 +1,160 @@
+/* wash.c - amounts that are not the same everywhere: graded washes, printed amounts; and lifting them again. */
+#include "event/event.h"
+#include "model/model.h"
+#include "techniques.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define AMOUNT_MOST 4.0
+
+static enum paper_status amount_check(const struct paper_sheet *p, int substance, double amount)
+{
+    if (amount >= 0 && amount <= AMOUNT_MOST)
+        return PAPER_OK;
+    return paper_fail(
+        PAPER_BAD_ARGUMENT, "the amount of %.*s must be 0..%g (got %g)", PAPER_NAME_MAX,
+        substance == 0 ? "water" : p->config.pigments[substance - 1].name, AMOUNT_MOST, amount);
+}
+
+/* d = how far a fiber is on the way from..to, 0..1. Uses t[5]. */
+static void grade_make(struct paper_sheet *p, const struct paper_wash *w, CM_field_id_t d)
+{
+    double dx = w->to[0] - w->from[0], dy = w->to[1] - w->from[1], squared = dx * dx + dy * dy;
+    if (!(squared > 0)) {
+        f_set(d, 0.0);
+        return;
+    }
+    CM_f_u_float_2_2L(d, p->page.x_coord, (unsigned)p->page.x_bits, SHEET_F);
+    f_plus(d, d, 0.5 - w->from[0]);
+    f_times(d, d, dx / squared);
+    CM_f_u_float_2_2L(p->t[5], p->page.y_coord, (unsigned)p->page.y_bits, SHEET_F);
+    f_plus(p->t[5], p->t[5], 0.5 - w->from[1]);
+    f_times(p->t[5], p->t[5], dy / squared);
+    f_add(d, d, p->t[5]);
+    f_least(d, d, 0.0);
+    f_most(d, d, 1.0);
+}
+
+enum paper_status paper_sheet_wash(struct paper_sheet *p, const struct paper_wash *w)
+{
+    return sheet_event(p, SHEET_EVENT_WASH, w);
+}
+
+enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_wash *w = arguments;
+    enum paper_status status = PAPER_OK;
+    for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
+        status = amount_check(p, i, w->amount[i]);
+        if (status == PAPER_OK)
+            status = amount_check(p, i, w->end[i]);
+    }
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t share = p->t[1], part = p->t[2], grade = p->t[4];
+    status = sheet_share_make(p, &w->place, share);
+    if (status != PAPER_OK)
+        return status;
+    sheet_resist_heed(p, share, part);
+    grade_make(p, w, grade);
+    for (int i = 0; i <= p->config.pigments_count; i++) {
+        if (w->amount[i] == 0 && w->end[i] == 0)
+            continue;
+        f_times(part, grade, (w->end[i] - w->amount[i]) * p->unit);
+        f_plus(part, part, w->amount[i] * p->unit);
+        f_mul(part, part, share);
+        sheet_amount_put(p, i, part);
+    }
+    sheet_wet_around_make(p);
+    return paper_leave(&p->page);
+}
+
+/* The print's numbers as an array of the whole sheet, 0 beside it. */
+static enum paper_status print_lay(const struct paper_sheet *p, const struct paper_print *print,
+                                   int substance, float *whole)
+{
+    enum paper_status status = PAPER_OK;
+    for (size_t i = 0; i < (size_t)p->page.width * (size_t)p->page.height; i++)
+        whole[i] = 0;
+    for (int row = 0; row < print->height && status == PAPER_OK; row++)
+        for (int column = 0; column < print->width && status == PAPER_OK; column++) {
+            float amount =
+                print->amount[substance][(size_t)row * (size_t)print->width + (size_t)column];
+            int64_t x = (int64_t)print->x + column, y = (int64_t)print->y + row;
+            status = amount_check(p, substance, (double)amount);
+            if (x >= 0 && y >= 0 && x < p->page.width && y < p->page.height)
+                whole[(size_t)y * (size_t)p->page.width + (size_t)x] = amount;
+        }
+    return status;
+}
+
+enum paper_status paper_sheet_print(struct paper_sheet *p, const struct paper_print *print)
+{
+    return sheet_event(p, SHEET_EVENT_PRINT, print);
+}
+
+enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_print *print = arguments;
+    if (print->width < 1 || print->height < 1 || print->width > PAPER_SIDE_MAX ||
+        print->height > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "a print is 1..%d wide and high (got %dx%d)",
+                          PAPER_SIDE_MAX, print->width, print->height);
+    float *whole = malloc((size_t)p->page.width * (size_t)p->page.height * sizeof *whole);
+    if (!whole)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a print of %dx%d", print->width,
+                          print->height);
+    enum paper_status status = PAPER_OK;
+    for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++)
+        if (print->amount[i]) /* before anything is put */
+            status = print_lay(p, print, i, whole);
+    CM_field_id_t open = p->t[1], part = p->t[2];
+    for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
+        if (!print->amount[i])
+            continue;
+        print_lay(p, print, i, whole);
+        paper_enter(&p->page);
+        CM_set_context();
+        f_array_write(p, part, whole);
+        sheet_resist_heed(p, part, open);
+        f_times(part, part, p->unit);
+        sheet_amount_put(p, i, part);
+        sheet_wet_around_make(p);
+        status = paper_leave(&p->page);
+    }
+    free(whole);
+    return status;
+}
+
+enum paper_status paper_sheet_lift(struct paper_sheet *p, const struct paper_lift *lift)
+{
+    return sheet_event(p, SHEET_EVENT_LIFT, lift);
+}
+
+enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_lift *lift = arguments;
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t share = p->t[1], lost = p->t[2];
+    enum paper_status status = sheet_share_make(p, &lift->place, share);
+    if (status != PAPER_OK)
+        return status;
+    sheet_resist_heed(p, share, lost);
+    sheet_amount_lose(p, p->page.water, share, lift->part, lost);
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        sheet_amount_lose(p, p->surface_water, share, lift->part, lost);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        /* what stains twice as much stays twice as long */
+        double held = fmax(1, p->config.pigments[i].staining);
+        sheet_amount_lose(p, p->infused[i], share, lift->part, lost);
+        if (sheet_has(p, PAPER_PART_SURFACE))
+            sheet_amount_lose(p, p->surface[i], share, lift->part, lost);
+        if (sheet_has(p, PAPER_PART_FIXING))
+            sheet_amount_lose(p, p->fixed[i], share, lift->part / held, lost);
+    }
+    return paper_leave(&p->page);
+}

@@ -1,0 +1,228 @@
+/* state_write.c - sheets to an HDF5 file, which output_file.h brings under its name. */
+#include "states/state_internal.h"
+
+#include <output_file.h>
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <hdf5.h>
+#include <zlib.h>
+
+enum { CHUNK_SIDE = 256, DEFLATE_LEVEL = 1 };
+
+/* The header with 0 for the digits of the checksum. */
+static uLong header_checksum(uLong sum, const char *header)
+{
+    char copy[STATE_HEADER_BYTES];
+    static const char label[] = "\nchecksum ";
+    memcpy(copy, header, sizeof copy);
+    char *digits = memmem(copy, sizeof copy - 8, label, sizeof label - 1);
+    if (digits)
+        memset(digits + sizeof label - 1, '0', 8);
+    return crc32(sum, (const Bytef *)copy, sizeof copy);
+}
+
+bool state_checksum(int descriptor, const char *header, uint32_t *checksum, long long *bytes)
+{
+    enum { PIECE = 1 << 18 };
+    static uint8_t piece[PIECE];
+    uLong sum = crc32(0, NULL, 0);
+    off_t at = STATE_HEADER_BYTES;
+    for (;;) {
+        ssize_t count = pread(descriptor, piece, PIECE, at);
+        if (count < 0)
+            return false;
+        if (count == 0)
+            break;
+        sum = crc32(sum, piece, (uInt)count);
+        at += count;
+    }
+    *checksum = (uint32_t)header_checksum(sum, header);
+    *bytes = (long long)at;
+    return true;
+}
+
+static bool number_note(hid_t at, const char *name, long long number)
+{
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t note = H5Acreate2(at, name, H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT);
+    bool done = note >= 0 && H5Awrite(note, H5T_NATIVE_LLONG, &number) >= 0;
+    H5Aclose(note);
+    H5Sclose(space);
+    return done;
+}
+
+static bool text_note(hid_t at, const char *name, const char *text)
+{
+    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text) + 1);
+    hid_t note = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    bool done = note >= 0 && H5Awrite(note, type, text) >= 0;
+    H5Aclose(note);
+    H5Sclose(space);
+    H5Tclose(type);
+    return done;
+}
+
+static bool bytes_write(hid_t group, const uint8_t *bytes, size_t count)
+{
+    hsize_t size = count;
+    hid_t space = H5Screate_simple(1, &size, NULL);
+    hid_t set =
+        H5Dcreate2(group, "run", H5T_STD_U8LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    bool done =
+        set >= 0 && H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
+    H5Dclose(set);
+    H5Sclose(space);
+    return done;
+}
+
+static bool plane_write(hid_t group, const struct paper_plane *plane, const hsize_t size[2],
+                        const void *words)
+{
+    hsize_t chunk[2];
+    for (int i = 0; i < 2; i++)
+        chunk[i] = size[i] < CHUNK_SIDE ? size[i] : CHUNK_SIDE;
+    hid_t space = H5Screate_simple(2, size, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(how, 2, chunk);
+    H5Pset_shuffle(how);
+    H5Pset_deflate(how, DEFLATE_LEVEL);
+    hid_t set = H5Dcreate2(group, plane->name, plane->whole ? H5T_STD_U32LE : H5T_IEEE_F32LE,
+                           space, H5P_DEFAULT, how, H5P_DEFAULT);
+    bool done = set >= 0 && H5Dwrite(set, plane->whole ? H5T_NATIVE_UINT32 : H5T_NATIVE_FLOAT,
+                                     H5S_ALL, H5S_ALL, H5P_DEFAULT, words) >= 0;
+    H5Dclose(set);
+    H5Pclose(how);
+    H5Sclose(space);
+    return done;
+}
+
+/* *written false: HDF5 could not. */
+static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet *s,
+                                     bool *written)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
+    hsize_t size[2] = {(hsize_t)config->height, (hsize_t)config->width};
+    char name[32];
+    uint8_t *run = NULL;
+    size_t run_count = 0;
+    void *words = malloc(4 * (size_t)(size[0] * size[1]));
+    if (!words)
+        return paper_fail(PAPER_NO_MEMORY, "no memory to save a sheet of %dx%d", config->width,
+                          config->height);
+    snprintf(name, sizeof name, "sheet-%d", s->number);
+    hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t inner = H5Gcreate2(group, "planes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    int count = paper_sheet_planes(s->sheet, planes);
+    enum paper_status status = PAPER_OK;
+    *written = group >= 0 && inner >= 0;
+    for (int i = 0; i < count && status == PAPER_OK && *written; i++) {
+        status = paper_sheet_plane_read(s->sheet, i, words);
+        if (status == PAPER_OK)
+            *written = plane_write(inner, &planes[i], size, words);
+    }
+    if (status == PAPER_OK)
+        status = paper_history_encode(s->sheet, &run, &run_count);
+    if (status == PAPER_OK)
+        *written = *written && bytes_write(group, run, run_count) &&
+                   number_note(group, "width", config->width) &&
+                   number_note(group, "height", config->height) &&
+                   number_note(group, "seed", (long long)config->seed) &&
+                   number_note(group, "steps", paper_sheet_steps(s->sheet)) &&
+                   number_note(group, "operations", paper_history_done(s->sheet)) &&
+                   number_note(group, "grains_per_unit", config->parts ? PAPER_GRAINS : 1);
+    for (int i = 0; i < config->pigments_count && *written && status == PAPER_OK; i++) {
+        snprintf(name, sizeof name, "pigment_%d", i + 1);
+        *written = text_note(group, name, config->pigments[i].name);
+    }
+    H5Gclose(inner);
+    H5Gclose(group);
+    free(run);
+    free(words);
+    return status;
+}
+
+static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
+                                       int count, bool *written)
+{
+    H5dont_atexit(); /* what could not be written, on a full disk, it would try again at exit, and fall */
+    hid_t how = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+    enum paper_status status = PAPER_OK;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    H5Pset_userblock(how, STATE_HEADER_BYTES);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_file_locking(access, false, true); /* the part file is locked by us */
+    errno = 0;
+    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
+    *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
+               number_note(file, "model", PAPER_MODEL_VERSION) &&
+               text_note(file, "program", "lutetia " LUTETIA_VERSION);
+    for (int i = 0; i < count && status == PAPER_OK && *written; i++)
+        status = sheet_write(file, &sheets[i], written);
+    if (file >= 0 && H5Fclose(file) < 0)
+        *written = false;
+    H5Pclose(access);
+    H5Pclose(how);
+    return status;
+}
+
+static void header_fill(char header[STATE_HEADER_BYTES], const struct paper_state_sheet *sheets,
+                        int count, long long bytes, uint32_t checksum)
+{
+    memset(header, 0, STATE_HEADER_BYTES);
+    int length = snprintf(header, STATE_HEADER_BYTES,
+                          "LUTETIA STATE %d\nmodel %d\nprogram %s\nbytes %lld\nchecksum "
+                          "%08x\nsheets",
+                          STATE_VERSION, PAPER_MODEL_VERSION, LUTETIA_VERSION, bytes, checksum);
+    for (int i = 0; i < count; i++)
+        length += snprintf(header + length, STATE_HEADER_BYTES - (size_t)length, " %d",
+                           sheets[i].number);
+    snprintf(header + length, STATE_HEADER_BYTES - (size_t)length, "\n");
+}
+
+/* The header, written last: a file without it is no state. */
+static bool header_write(int descriptor, const struct paper_state_sheet *sheets, int count)
+{
+    char header[STATE_HEADER_BYTES];
+    uint32_t checksum = 0;
+    struct stat status;
+    long long bytes;
+    bool done = fstat(descriptor, &status) == 0;
+    header_fill(header, sheets, count, (long long)status.st_size, 0);
+    done = done && state_checksum(descriptor, header, &checksum, &bytes) &&
+           bytes == (long long)status.st_size;
+    header_fill(header, sheets, count, (long long)status.st_size, checksum);
+    return done && pwrite(descriptor, header, sizeof header, 0) == sizeof header;
+}
+
+enum paper_status paper_state_save(const char *path, const struct paper_state_sheet *sheets,
+                                   int count)
+{
+    struct output_file out;
+    bool written = false;
+    if (count < 0 || count > PAPER_STATE_SHEETS_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "a state holds up to %d sheets (got %d)",
+                          PAPER_STATE_SHEETS_MAX, count);
+    if (!output_file_open(&out, path))
+        return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
+    enum paper_status status = content_write(out.part, sheets, count, &written);
+    int error = errno;
+    if (status == PAPER_OK && written) {
+        errno = 0;
+        written = header_write(fileno(out.stream), sheets, count);
+        error = errno;
+    }
+    if (status == PAPER_OK && written)
+        return output_file_commit(&out)
+                   ? PAPER_OK
+                   : paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path, out.why);
+    output_file_abandon(&out);
+    return status != PAPER_OK ? status
+                              : paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot write: %s", path,
+                                           error ? output_file_explain(error) : "HDF5 failed");
+}
