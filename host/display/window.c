@@ -7,61 +7,12 @@
  *
  * GLFW is never terminated: it would unload the driver, and what drivers keep to the end of the
  * process would be lost with each last window. */
-#include "window.h"
 #include "display_internal.h"
+#include "window_internal.h"
 
-#include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#ifndef GL_CLAMP_TO_EDGE /* OpenGL 1.2 */
-#define GL_CLAMP_TO_EDGE 0x812F
-#endif
-
-#define GL_FUNCTIONS(X)                                                                        \
-    X(Begin, (GLenum))                                                                         \
-    X(BindTexture, (GLenum, GLuint))                                                           \
-    X(BlendFunc, (GLenum, GLenum))                                                             \
-    X(Clear, (GLbitfield))                                                                     \
-    X(ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                        \
-    X(DeleteTextures, (GLsizei, const GLuint *))                                               \
-    X(Disable, (GLenum))                                                                       \
-    X(Enable, (GLenum))                                                                        \
-    X(End, (void))                                                                             \
-    X(GenTextures, (GLsizei, GLuint *))                                                        \
-    X(GetIntegerv, (GLenum, GLint *))                                                          \
-    X(PixelStorei, (GLenum, GLint))                                                            \
-    X(TexCoord2f, (GLfloat, GLfloat))                                                          \
-    X(TexEnvi, (GLenum, GLenum, GLint))                                                        \
-    X(TexImage2D,                                                                              \
-      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
-    X(TexParameteri, (GLenum, GLenum, GLint))                                                  \
-    X(TexSubImage2D,                                                                           \
-      (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
-    X(Vertex2f, (GLfloat, GLfloat))                                                            \
-    X(Viewport, (GLint, GLint, GLsizei, GLsizei))
-
-struct gl {
-#define GL_MEMBER(name, parameters) void(*name) parameters;
-    GL_FUNCTIONS(GL_MEMBER)
-    GLenum (*GetError)(void);
-    void (*GenerateMipmap)(
-        GLenum); /* NULL before OpenGL 3: shrunk images are then less smooth */
-};
-
-struct window {
-    GLFWwindow *glfw;
-    struct gl gl;
-    GLuint texture;
-    int side_max_px;
-    int image_width_px, image_height_px, channels; /* of the texture; 0: there is none */
-    bool mipmaps;                                  /* those of the present image are made */
-    bool stale;                                    /* must be drawn again */
-    bool closing_told, resized;
-    struct window_event keys[WINDOW_EVENTS_MAX];
-    int keys_first, keys_count;
-};
 
 struct window_config window_config_default(void)
 {
@@ -74,6 +25,9 @@ bool window_possible(void)
     const char *x = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");
     return (x && *x) || (wayland && *wayland);
 }
+
+/* A display finer than this is said to be fine; below, a pixel is a pixel. */
+#define SCALE_LEAST 1.5f
 
 /* ---- drawing ---- */
 
@@ -105,11 +59,13 @@ static void filter_choose(struct window *window, double scale)
                       scale == 1 ? GL_NEAREST : GL_LINEAR);
 }
 
-static void draw(struct window *window)
+void window_draw(struct window *window)
 {
     const struct gl *gl = &window->gl;
     int width, height;
     window->stale = false;
+    if (window->drawn_by_caller)
+        return;
     glfwMakeContextCurrent(window->glfw);
     glfwGetFramebufferSize(window->glfw, &width, &height);
     if (width < 1 || height < 1)
@@ -176,94 +132,59 @@ enum display_status window_show(struct window *window, const struct display_imag
     window->image_height_px = image->height_px;
     window->channels = image->channels;
     window->mipmaps = false;
-    draw(window);
+    window_draw(window);
     return DISPLAY_OK;
 }
 
-/* ---- events ---- */
+/* ---- what others draw ---- */
 
-static void size_take(GLFWwindow *glfw, int width, int height)
+void (*(*window_functions(void))(const char *))(void)
 {
-    struct window *window = glfwGetWindowUserPointer(glfw);
-    (void)width;
-    (void)height;
-    window->resized = window->stale = true;
+    return glfwGetProcAddress;
 }
 
-static void refresh_take(GLFWwindow *glfw)
+void window_frame_begin(struct window *window)
 {
-    struct window *window = glfwGetWindowUserPointer(glfw);
-    window->stale = true;
+    glfwMakeContextCurrent(window->glfw);
 }
 
-static int key_of(int key)
+void window_frame_end(struct window *window)
 {
-    static const struct {
-        int glfw, key;
-    } names[] = {{GLFW_KEY_ESCAPE, WINDOW_KEY_ESCAPE},
-                 {GLFW_KEY_ENTER, WINDOW_KEY_ENTER},
-                 {GLFW_KEY_KP_ENTER, WINDOW_KEY_ENTER},
-                 {GLFW_KEY_TAB, WINDOW_KEY_TAB},
-                 {GLFW_KEY_BACKSPACE, WINDOW_KEY_BACKSPACE},
-                 {GLFW_KEY_DELETE, WINDOW_KEY_DELETE},
-                 {GLFW_KEY_LEFT, WINDOW_KEY_LEFT},
-                 {GLFW_KEY_RIGHT, WINDOW_KEY_RIGHT},
-                 {GLFW_KEY_UP, WINDOW_KEY_UP},
-                 {GLFW_KEY_DOWN, WINDOW_KEY_DOWN}};
-    if (key >= GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT)
-        return key; /* GLFW's are ASCII, too */
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (names[i].glfw == key)
-            return names[i].key;
-    return WINDOW_KEY_OTHER;
+    window->stale = false;
+    glfwSwapBuffers(window->glfw);
 }
 
-static void key_take(GLFWwindow *glfw, int key, int scancode, int action, int modifiers)
+double window_scale(const struct window *window)
 {
-    struct window *window = glfwGetWindowUserPointer(glfw);
-    (void)scancode;
-    if (action == GLFW_RELEASE || window->keys_count == WINDOW_EVENTS_MAX)
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window->glfw, &x, &y);
+    return x >= SCALE_LEAST ? x : 1;
+}
+
+bool window_fullscreen(const struct window *window)
+{
+    return window->fullscreen;
+}
+
+void window_fullscreen_set(struct window *window, bool full)
+{
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    int *b = window->before;
+    if (full == window->fullscreen || !mode)
         return;
-    int at = (window->keys_first + window->keys_count++) % WINDOW_EVENTS_MAX;
-    window->keys[at] = (struct window_event){.kind = WINDOW_EVENT_KEY,
-                                             .key = key_of(key),
-                                             .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
-                                             .control = (modifiers & GLFW_MOD_CONTROL) != 0};
+    if (full) {
+        glfwGetWindowPos(window->glfw, &b[0], &b[1]);
+        glfwGetWindowSize(window->glfw, &b[2], &b[3]);
+        glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
+                             mode->refreshRate);
+    } else {
+        glfwSetWindowMonitor(window->glfw, NULL, b[0], b[1], b[2], b[3], GLFW_DONT_CARE);
+    }
+    window->fullscreen = full;
 }
 
-static bool event_pop(struct window *window, struct window_event *event)
-{
-    *event = (struct window_event){0};
-    if (window->resized) {
-        window->resized = false;
-        event->kind = WINDOW_EVENT_SIZE;
-        window_size(window, &event->width_px, &event->height_px);
-    } else if (window->keys_count > 0) {
-        *event = window->keys[window->keys_first];
-        window->keys_first = (window->keys_first + 1) % WINDOW_EVENTS_MAX;
-        window->keys_count--;
-    } else if (window_closing(window) && !window->closing_told) {
-        window->closing_told = true;
-        event->kind = WINDOW_EVENT_CLOSE;
-    }
-    return event->kind != WINDOW_EVENT_NONE;
-}
-
-bool window_event_take(struct window *window, double wait_s, struct window_event *event)
-{
-    double until_s = glfwGetTime() + wait_s;
-    glfwPollEvents();
-    for (;;) {
-        if (window->stale)
-            draw(window);
-        double left_s = until_s - glfwGetTime();
-        if (event_pop(window, event))
-            return true;
-        if (!(left_s > 0))
-            return false;
-        glfwWaitEventsTimeout(left_s);
-    }
-}
+/* ---- sizes, closing, names ---- */
 
 void window_size(const struct window *window, int *width_px, int *height_px)
 {
@@ -273,11 +194,6 @@ void window_size(const struct window *window, int *width_px, int *height_px)
 bool window_closing(const struct window *window)
 {
     return glfwWindowShouldClose(window->glfw) != 0;
-}
-
-void window_close(struct window *window)
-{
-    glfwSetWindowShouldClose(window->glfw, GLFW_TRUE);
 }
 
 void window_title_set(struct window *window, const char *title)
@@ -312,9 +228,6 @@ static bool functions_find(struct gl *gl)
         gl->GenerateMipmap = NULL;
     return all && gl->GetError;
 }
-
-/* A display finer than this is said to be fine; below, a pixel is a pixel. */
-#define SCALE_LEAST 1.5f
 
 static GLFWwindow *glfw_window_make(const struct window_config *config)
 {
@@ -387,12 +300,10 @@ enum display_status window_create(const struct window_config *config, struct win
     window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
     window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glfwSetWindowUserPointer(window->glfw, window);
-    glfwSetFramebufferSizeCallback(window->glfw, size_take);
-    glfwSetWindowRefreshCallback(window->glfw, refresh_take);
-    glfwSetKeyCallback(window->glfw, key_take);
+    window->drawn_by_caller = config->drawn_by_caller;
+    window_input_begin(window);
     glfwShowWindow(window->glfw);
-    draw(window);
+    window_draw(window);
     *out = window;
     return DISPLAY_OK;
 
@@ -411,5 +322,7 @@ void window_destroy(struct window *window)
             window->gl.DeleteTextures(1, &window->texture);
         glfwDestroyWindow(window->glfw);
     }
+    pen_close(window->pen);
+    input_queue_finish(&window->queue);
     free(window);
 }

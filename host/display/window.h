@@ -1,14 +1,14 @@
-/* window.h - a window that shows images, and what happens to it: keys, another size, closing.
+/* window.h - a window that shows images, and what happens to it: what people do there (input.h).
  *
  *     struct window_config config = window_config_default();
  *     struct window *window;
- *     struct window_event event;
+ *     struct input_event event;
  *     config.title = "page";
  *     if (window_create(&config, &window) != DISPLAY_OK ||
  *         window_show(window, &page) != DISPLAY_OK)
  *         die(display_error());
  *     while (!window_closing(window))
- *         if (window_event_take(window, 0.1, &event) && event.key == WINDOW_KEY_ESCAPE)
+ *         if (window_input_take(window, 0.1, &event) && event.key == INPUT_KEY_ESCAPE)
  *             window_close(window);
  *     window_destroy(window);
  *
@@ -24,6 +24,7 @@
 #define LUTETIA_WINDOW_H
 
 #include "display.h"
+#include "input.h"
 
 #include <stdbool.h>
 
@@ -32,8 +33,9 @@ enum { WINDOW_SIDE_MIN = 16, WINDOW_SIDE_MAX = 16384 };
 struct window_config {
     const char *title; /* UTF-8, copied; "lutetia" */
     int width_px,
-        height_px; /* WINDOW_SIDE_MIN..MAX; 960x960. Made smaller where the screen is */
-    bool vsync;    /* a picture waits for the screen to be ready for it; true */
+        height_px;        /* WINDOW_SIDE_MIN..MAX; 960x960. Made smaller where the screen is */
+    bool vsync;           /* a picture waits for the screen to be ready for it; true */
+    bool drawn_by_caller; /* not window_show() but the caller draws, see below; false */
 };
 struct window_config window_config_default(void);
 
@@ -61,37 +63,27 @@ void window_size(const struct window *window, int *width_px, int *height_px);
 bool window_closing(const struct window *window);
 void window_close(struct window *window);
 
-enum window_event_kind {
-    WINDOW_EVENT_NONE,
-    WINDOW_EVENT_CLOSE, /* window_closing() from now on */
-    WINDOW_EVENT_KEY,   /* pressed, or repeated while it is held */
-    WINDOW_EVENT_SIZE
-};
+/* The next event of the window (input.h), waiting for one wait_s seconds at most (0: not at all). False: there is none, and
+ * *event is NONE. */
+bool window_input_take(struct window *window, double wait_s, struct input_event *event);
 
-/* Keys that write a character are that character, capital letters for letters: 'A', '1', ' '. */
-enum {
-    WINDOW_KEY_ESCAPE = 0x110000, /* above Unicode */
-    WINDOW_KEY_ENTER,
-    WINDOW_KEY_TAB,
-    WINDOW_KEY_BACKSPACE,
-    WINDOW_KEY_DELETE,
-    WINDOW_KEY_LEFT,
-    WINDOW_KEY_RIGHT,
-    WINDOW_KEY_UP,
-    WINDOW_KEY_DOWN,
-    WINDOW_KEY_OTHER
-};
+/* ---- windows that another draws in: config.drawn_by_caller ----
+ *
+ *     window_frame_begin(window);   // the window's GL context is the current one
+ *     ...draw, with the functions that window_functions() finds...
+ *     window_frame_end(window);     // and it is seen
+ */
 
-struct window_event {
-    enum window_event_kind kind;
-    int key;                 /* KEY: a WINDOW_KEY_ or a character; else 0 */
-    bool shift, control;     /* KEY: held with it */
-    int width_px, height_px; /* SIZE: what window_size() says now; else 0 */
-};
+/* Finds functions of OpenGL by their names, while a window's context is the current one. */
+void (*(*window_functions(void))(const char *name))(void);
+void window_frame_begin(struct window *window);
+void window_frame_end(struct window *window);
 
-/* The next event, waiting for one wait_s seconds at most (0: not at all). False: there is none, and
- * *event is NONE. Keys are dropped where WINDOW_EVENTS_MAX are waiting; sizes become one, the last. */
-bool window_event_take(struct window *window, double wait_s, struct window_event *event);
-enum { WINDOW_EVENTS_MAX = 64 };
+/* Pixels in one of a screen of 96 dpi: lines are drawn so much wider. 1 on screens that are not fine. */
+double window_scale(const struct window *window);
+
+/* Fills the screen, or goes back to where and how large the window was. */
+void window_fullscreen_set(struct window *window, bool full);
+bool window_fullscreen(const struct window *window);
 
 #endif

@@ -64,10 +64,46 @@ void window_close(struct window *window)
     abort();
 }
 
-bool window_event_take(struct window *window, double wait_s, struct window_event *event)
+bool window_input_take(struct window *window, double wait_s, struct input_event *event)
 {
     (void)window;
     (void)wait_s;
     (void)event;
+    abort();
+}
+
+void (*(*window_functions(void))(const char *))(void)
+{
+    abort();
+}
+
+void window_frame_begin(struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+void window_frame_end(struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+double window_scale(const struct window *window)
+{
+    (void)window;
+    abort();
+}
+
+void window_fullscreen_set(struct window *window, bool full)
+{
+    (void)window;
+    (void)full;
+    abort();
+}
+
+bool window_fullscreen(const struct window *window)
+{
+    (void)window;
     abort();
 }

@@ -13,8 +13,7 @@ static enum display_status draw(struct leds_window *window)
     if (status == DISPLAY_OK)
         status = window_show(window->window, &window->image);
     memcpy(window->drawn, window->lights, sizeof window->drawn);
-    double now_s = clock_s();
-    window->due_s = fmax(began_s + window->least_s, now_s + (now_s - began_s));
+    frame_pace_drawn(&window->pace, began_s, clock_s());
     return status;
 }
 
@@ -22,7 +21,7 @@ enum display_status leds_window_open(const char *title, int width_px, int height
                                      struct leds_window *window)
 {
     struct window_config config = window_config_default();
-    *window = (struct leds_window){.least_s = 1 / fps};
+    *window = (struct leds_window){.pace.least_s = 1 / fps};
     config.title = title;
     config.width_px = width_px;
     config.height_px = height_px;
@@ -53,24 +52,59 @@ void leds_window_light(struct leds_window *window, const uint8_t lights[FRONT_PA
     memcpy(window->lights, lights, sizeof window->lights);
 }
 
+/* True: the clock was changed, which whoever waits must know at once. */
+static bool key_take(struct leds_window *window, int key)
+{
+    struct frame_clock *clock = &window->clock;
+    if (key == INPUT_KEY_ESCAPE)
+        window_close(window->window);
+    if (!window->clock_began)
+        return false;
+    if (key == ' ')
+        clock->paused = !clock->paused;
+    else if (key == '.')
+        clock->paused = window->next_wanted = true;
+    else if (key == '-' || key == '=')
+        frame_clock_rate_set(clock, clock->rate * (key == '-' ? 0.5 : 2));
+    else
+        return false;
+    return true;
+}
+
+double leds_window_wait_s(struct leds_window *window, double time_s)
+{
+    struct frame_clock *clock = &window->clock;
+    if (!window->clock_began) {
+        *clock = frame_clock_begin(0.001, clock_s());
+        clock->frame_max_s = INFINITY; /* a recording that was late catches up */
+        window->clock_began = true;
+    }
+    frame_clock_advance(clock, clock_s());
+    if (window->next_wanted)
+        frame_clock_skip(clock, time_s);
+    window->next_wanted = false;
+    return frame_clock_wait_s(clock, time_s);
+}
+
 enum display_status leds_window_turn(struct leds_window *window, double wait_s, bool *open)
 {
-    struct window_event event;
+    struct input_event event;
     double until_s = clock_s() + wait_s;
+    *open = true;
     do {
         double left_s = until_s - clock_s();
         bool waiting = memcmp(window->lights, window->drawn, sizeof window->lights) != 0;
-        if (waiting && clock_s() >= window->due_s) {
+        if (waiting && clock_s() >= window->pace.due_s) {
             enum display_status status = draw(window);
             if (status != DISPLAY_OK)
                 return status;
             left_s = until_s - clock_s();
         } else if (waiting) {
-            left_s = fmin(left_s, window->due_s - clock_s());
+            left_s = fmin(left_s, window->pace.due_s - clock_s());
         }
-        if (window_event_take(window->window, fmax(left_s, 0), &event) &&
-            event.kind == WINDOW_EVENT_KEY && event.key == WINDOW_KEY_ESCAPE)
-            window_close(window->window);
+        if (window_input_take(window->window, fmax(left_s, 0), &event) &&
+            event.kind == INPUT_KEY_DOWN && key_take(window, event.key))
+            return DISPLAY_OK;
         *open = !window_closing(window->window);
     } while (*open && clock_s() < until_s);
     return DISPLAY_OK;

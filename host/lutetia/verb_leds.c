@@ -41,7 +41,6 @@ struct leds {
     struct leds_window the_window, *window; /* NULL: there is none */
     bool closed;                            /* it was there, and someone closed it */
     bool paced;                             /* frames wait for their time */
-    double began_s;                         /* when the first was shown */
     pid_t watched;                          /* the program that shows itself here; 0: none */
     char name[64];                          /* of the source, for the title */
 
@@ -112,12 +111,10 @@ static void turn(struct leds *leds, double wait_s)
         leds->closed = true;
 }
 
-/* Waits until so much time has passed since the first frame. */
+/* Waits until so much time has passed since the first frame, as the window's clock goes. */
 static void pace(struct leds *leds, double time_s)
 {
-    if (!leds->taken)
-        leds->began_s = clock_s();
-    for (double left_s; go_on(leds) && (left_s = leds->began_s + time_s - clock_s()) > 0;)
+    for (double left_s; go_on(leds) && (left_s = leds_window_wait_s(leds->window, time_s)) > 0;)
         turn(leds, left_s < 0.1 ? left_s : 0.1);
 }
 
@@ -495,14 +492,18 @@ int verb_leds(int argc, char **argv)
     if (!options_parse("leds", rows, own, argv, &words))
         return EXIT_USAGE;
     if (words.help) {
-        puts("usage: lutetia leds [options] prog [arguments]\n"
-             "       lutetia leds [options] recording (- is the standard input)\n"
-             "       lutetia leds [options] --pattern random\n\n"
-             "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
-             "them, in a\n"
-             "window or in PNG pictures. Closing the window, or Esc in it, stops the program.\n"
-             "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
-             "recording.\n");
+        puts(
+            "usage: lutetia leds [options] prog [arguments]\n"
+            "       lutetia leds [options] recording (- is the standard input)\n"
+            "       lutetia leds [options] --pattern random\n\n"
+            "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
+            "them, in a\n"
+            "window or in PNG pictures. Closing the window, or Esc in it, stops the program. "
+            "A\n"
+            "recording stops and goes on with Space, steps with a full stop, slows with - and\n"
+            "quickens with =.\n"
+            "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
+            "recording.\n");
         options_help(rows);
         return EXIT_SUCCESS;
     }

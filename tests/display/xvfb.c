@@ -157,6 +157,11 @@ void screen_resize(Window window, int width_px, int height_px)
     XSync(display, False);
 }
 
+Display *screen_display(void)
+{
+    return display;
+}
+
 void screen_key(Window window, KeySym key)
 {
     XEvent event = {.xkey = {.window = window,

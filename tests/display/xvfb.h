@@ -33,6 +33,7 @@ bool screen_shows(Window window, const struct display_image *image, double wait_
 
 void screen_resize(Window window, int width_px, int height_px);
 void screen_key(Window window, KeySym key); /* pressed and released */
+Display *screen_display(void);              /* this program's connection */
 void screen_close(Window window);           /* as a click on its cross does */
 
 #endif

@@ -1,0 +1,69 @@
+/* window_internal.h - what window.c (OpenGL) and window_input.c (events) share of a window. */
+#ifndef LUTETIA_WINDOW_INTERNAL_H
+#define LUTETIA_WINDOW_INTERNAL_H
+
+#include "pen.h"
+#include "window.h"
+
+#include <GLFW/glfw3.h>
+
+#ifndef GL_CLAMP_TO_EDGE /* OpenGL 1.2 */
+#define GL_CLAMP_TO_EDGE 0x812F
+#endif
+
+#define GL_FUNCTIONS(X)                                                                        \
+    X(Begin, (GLenum))                                                                         \
+    X(BindTexture, (GLenum, GLuint))                                                           \
+    X(BlendFunc, (GLenum, GLenum))                                                             \
+    X(Clear, (GLbitfield))                                                                     \
+    X(ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                        \
+    X(DeleteTextures, (GLsizei, const GLuint *))                                               \
+    X(Disable, (GLenum))                                                                       \
+    X(Enable, (GLenum))                                                                        \
+    X(End, (void))                                                                             \
+    X(GenTextures, (GLsizei, GLuint *))                                                        \
+    X(GetIntegerv, (GLenum, GLint *))                                                          \
+    X(PixelStorei, (GLenum, GLint))                                                            \
+    X(TexCoord2f, (GLfloat, GLfloat))                                                          \
+    X(TexEnvi, (GLenum, GLenum, GLint))                                                        \
+    X(TexImage2D,                                                                              \
+      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
+    X(TexParameteri, (GLenum, GLenum, GLint))                                                  \
+    X(TexSubImage2D,                                                                           \
+      (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
+    X(Vertex2f, (GLfloat, GLfloat))                                                            \
+    X(Viewport, (GLint, GLint, GLsizei, GLsizei))
+
+struct gl {
+#define GL_MEMBER(name, parameters) void(*name) parameters;
+    GL_FUNCTIONS(GL_MEMBER)
+    GLenum (*GetError)(void);
+    void (*GenerateMipmap)(
+        GLenum); /* NULL before OpenGL 3: shrunk images are then less smooth */
+};
+
+struct window {
+    GLFWwindow *glfw;
+    struct gl gl;
+    bool drawn_by_caller;
+    GLuint texture;
+    int side_max_px;
+    int image_width_px, image_height_px, channels; /* of the texture; 0: there is none */
+    bool mipmaps;                                  /* those of the present image are made */
+    bool stale;                                    /* must be drawn again */
+    /* Events. */
+    struct input_queue queue;
+    struct input_event pointer; /* the pointer and the modifiers as they are now */
+    struct pen *pen;            /* NULL: no pen reports its pressure here */
+    /* Where the window was before it filled the screen. */
+    bool fullscreen;
+    int before[4];
+};
+
+/* Draws the image again, as large as fits. */
+void window_draw(struct window *window);
+
+/* Sets the callbacks that put events into the queue. */
+void window_input_begin(struct window *window);
+
+#endif

@@ -1,0 +1,20 @@
+/* hand.h - a hand on the tests' screen: the pointer, its buttons and the keyboard as a person moves them (XTest), so that
+ * grabs, focus and modifiers are the real ones.
+ *
+ *     hand_move(window, 100, 50);
+ *     hand_button(1, true);
+ *     hand_move(window, 180, 90);
+ *     hand_button(1, false);
+ */
+#ifndef LUTETIA_TEST_HAND_H
+#define LUTETIA_TEST_HAND_H
+
+#include "xvfb.h"
+
+void hand_move(Window window, int x_px, int y_px);
+void hand_button(unsigned button,
+                 bool down); /* X11's: 1 left, 2 middle, 3 right, 4 and 5 the wheel */
+void hand_key(KeySym key, bool down);
+void hand_type(KeySym key); /* down and up */
+
+#endif
