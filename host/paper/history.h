@@ -27,8 +27,6 @@
 /* Records from here on. A sheet's checkpoints take up to `budget_bytes` (0: none; what is undone is then computed from the
  * beginning). Errors: BAD_ARGUMENT unless the sheet is as it was made, NO_MEMORY. */
 enum paper_status paper_history_begin(struct paper_sheet *sheet, double budget_bytes);
-/* Forgets everything; the sheet stays as it is. */
-void paper_history_end(struct paper_sheet *sheet);
 bool paper_history_has(const struct paper_sheet *sheet);
 
 /* Operations that are done, and those undone that can be done again. */

@@ -1,11 +1,8 @@
 /* members.c - the rows of arguments/members.h, and checking by them. */
 #include "arguments/members.h"
 
+#include "arguments/arguments.h"
 #include "base/base.h"
-#include "brush.h"
-#include "event/event.h"
-#include "sheet.h"
-#include "techniques.h"
 
 #define PLACE_MAX 1e6
 #define TIME_MAX 1e5

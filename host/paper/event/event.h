@@ -15,10 +15,8 @@
 #ifndef LUTETIA_PAPER_EVENT_H
 #define LUTETIA_PAPER_EVENT_H
 
+#include "arguments/arguments.h"
 #include "base/base.h"
-#include "brush.h"
-#include "sheet.h"
-#include "techniques.h"
 
 struct members;
 
@@ -41,32 +39,6 @@ enum sheet_event_kind {
     SHEET_EVENT_VARNISH,
     SHEET_EVENT_KINDS
 };
-
-struct event_put {
-    struct paper_place place;
-    double amount[1 + PAPER_PIGMENTS_MAX];
-};
-
-struct event_blot {
-    struct paper_place place;
-    double part, lift;
-};
-
-struct event_resist {
-    struct paper_place place;
-    bool on;
-};
-
-struct event_layer {
-    int layer, pigment;
-    const float *values; /* one for each fiber */
-};
-
-/* Checks, performs and, where there is a history, records it; or takes note that it is done already (history/history.c). */
-enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
-                              const void *arguments);
-/* Sees that the sheet is what its history says: before every look at it. */
-enum paper_status sheet_ready(struct paper_sheet *p);
 
 const char *event_name(enum sheet_event_kind kind);
 /* By name; -1: none. */
@@ -129,27 +101,5 @@ struct event_scaling {
 enum paper_status event_scale(enum sheet_event_kind kind, void *arguments,
                               const struct event_scaling *scaling);
 void event_config_scale(struct paper_sheet_config *config, const struct event_scaling *scaling);
-
-/* ---- the kinds' functions, each beside its operation ---- */
-
-enum paper_status sheet_step(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_put_check(const struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_put(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_blot_check(const struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_blot(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_resist_check(const struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_print(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments);
-enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments);
 
 #endif

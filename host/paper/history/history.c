@@ -23,13 +23,25 @@ enum paper_status paper_history_begin(struct paper_sheet *p, double budget_bytes
     return PAPER_OK;
 }
 
-void paper_history_end(struct paper_sheet *p)
+static void history_free(struct sheet_history *h)
 {
-    if (p->history && sheet_ready(p) == PAPER_OK)
-        p->steps = paper_sheet_steps(p);
-    if (p->history)
+    for (int i = 0; i < h->count; i++)
+        operation_free(&h->ops[i]);
+    for (int i = 0; i < h->tail_count; i++)
+        operation_free(&h->tail[i]);
+    free(h->ops);
+    free(h->tail);
+    notes_free(&h->notes);
+    checkpoints_free(h);
+    free(h);
+}
+
+void history_sheet_destroy(struct paper_sheet *p)
+{
+    if (p && p->history)
         history_free(p->history);
-    p->history = NULL;
+    if (p)
+        sheet_destroy(p);
 }
 
 bool paper_history_has(const struct paper_sheet *p)
@@ -51,43 +63,6 @@ void paper_history_set_watch(struct paper_sheet *p, paper_history_watch watch, v
 }
 
 /* ---- where it is ---- */
-
-long history_time(const struct sheet_history *h, struct position position)
-{
-    long time = position.step;
-    for (int i = 0; i < position.op; i++)
-        time += h->ops[i].steps;
-    return time;
-}
-
-/* After all that was done by that time; .op < 0: there is no such time before `end`. */
-static struct position position_at(const struct sheet_history *h, long time,
-                                   struct position end)
-{
-    struct position position = beginning;
-    long passed = 0;
-    if (time < 0 || time > history_time(h, end))
-        return (struct position){-1, 0};
-    while (position_compare(position, end) < 0) {
-        int steps = h->ops[position.op].steps;
-        if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
-            if (h->ops[position.op].kind == SHEET_EVENT_STEP)
-                position.step = (int)(time - passed);
-            break;
-        }
-        passed += steps;
-        position.op++;
-    }
-    return position_compare(position, end) < 0 ? position : end;
-}
-
-long history_work(const struct sheet_history *h, struct position position)
-{
-    long work = position.step;
-    for (int i = 0; i < position.op; i++)
-        work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
-    return work;
-}
 
 int paper_history_done(const struct paper_sheet *p)
 {
@@ -162,7 +137,7 @@ bool paper_history_brush(const struct paper_sheet *p, int number)
 {
     const struct sheet_history *h = p->history;
     if (!h)
-        return paper_sheet_brush_get(p, number) != NULL;
+        return sheet_brush_get(p, number) != NULL;
     bool there = false;
     for (int i = 0; i < h->now.op && !there; i++) {
         void *arguments = NULL;
@@ -194,7 +169,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     h->steps_before = p->steps;
     /* steps are the same kernels whatever was done before them */
     bool step = op->kind == SHEET_EVENT_STEP || op->kind == SHEET_EVENT_STROKE;
-    enum paper_status status = step && h->unfinished ? paper_sheet_finish(p) : PAPER_OK;
+    enum paper_status status = step && h->unfinished ? sheet_finish(p) : PAPER_OK;
     h->unfinished = !step;
     if (status == PAPER_OK)
         status = event_perform(p, op->kind, arguments);
@@ -259,7 +234,6 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
         return status;
     if (!h || h->performing) {
         p->touched = true;
-        p->steps += kind == SHEET_EVENT_STEP;
         return event_perform(p, kind, arguments);
     }
     status = operation_make(p, kind, arguments, &op);
@@ -277,7 +251,8 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
         operation_free(&op);
         return status;
     }
-    op.steps += (int)(p->steps - before);
+    if (kind != SHEET_EVENT_STEP) /* a stroke */
+        op.steps += (int)(p->steps - before);
     bool joined;
     status = record(h, op, &joined);
     if (status != PAPER_OK) {
@@ -315,7 +290,7 @@ static enum paper_status catch_up(struct paper_sheet *p)
             status = operation_perform(p, op, arguments);
         event_free(op->kind, arguments);
         if (status == PAPER_OK && op->kind == SHEET_EVENT_STEP)
-            status = paper_sheet_finish(p);
+            status = sheet_finish(p);
         if (status != PAPER_OK)
             return status;
         done += op->kind == SHEET_EVENT_STEP;
@@ -400,7 +375,7 @@ static enum paper_status time_check(const struct paper_sheet *p, long time, stru
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no history");
     if (h->inserting_at >= 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "something is being inserted already");
-    *position = position_at(h, time, end);
+    *position = history_position(h, time, end);
     if (position->op < 0)
         return paper_fail(PAPER_BAD_ARGUMENT, "a time must be 0..%ld steps (got %ld)",
                           history_time(h, end), time);

@@ -113,16 +113,30 @@ enum paper_status history_append(struct sheet_history *h, struct operation op);
 enum paper_status history_cut(struct sheet_history *h);
 /* Makes a boundary between operations at the position. Errors: NO_MEMORY. */
 enum paper_status history_split(struct sheet_history *h, struct position position);
-void history_free(struct sheet_history *h);
-/* Of the sheet as it is to its user, who may not have looked yet. */
-const struct paper_air *history_air(const struct paper_sheet *p);
+uint64_t operation_bytes_digest(const uint8_t *bytes, size_t count);
+
+/* ---- positions (history/positions.c) ---- */
+
 /* Steps before the position; operations and steps before it. */
 long history_time(const struct sheet_history *h, struct position position);
 long history_work(const struct sheet_history *h, struct position position);
+/* After all that was done by that time; .op < 0: there is no such time before `end`. */
+struct position history_position(const struct sheet_history *h, long time, struct position end);
+
+/* ---- doing (history/history.c) ---- */
+
+/* Checks, performs and, where there is a history, records it; or takes note that it is done already. */
+enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
+                              const void *arguments);
+/* Sees that the sheet is what its history says: before every look at it. */
+enum paper_status sheet_ready(struct paper_sheet *p);
+/* Of the sheet as it is to its user, who may not have looked yet. */
+const struct paper_air *history_air(const struct paper_sheet *p);
+/* The sheet with its history. NULL is fine. */
+void history_sheet_destroy(struct paper_sheet *p);
 
 /* ---- notes (history/notes.c) ---- */
 
-uint64_t note_digest(const uint8_t *bytes, size_t count);
 void notes_add(struct notes *n, struct note note);
 /* Those of a program that did the operations up to `now`. False: no memory. */
 bool notes_derive(struct sheet_history *h);
@@ -163,20 +177,11 @@ void checkpoint_saved_free(struct sheet_history *h);
 enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context);
 void checkpoints_free(struct sheet_history *h);
 
-/* ---- planes (model/planes.c) ---- */
+/* ---- what is in no plane, as bytes (history/extras.c) ---- */
 
-/* As the fields hold it. */
-enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words);
-/* Between paper_enter() and paper_leave(). */
-void sheet_plane_write(struct paper_sheet *p, int number, const void *words);
-/* After all have been written: what follows from them. */
-void sheet_planes_written(struct paper_sheet *p);
-/* What is in no plane: brushes with what they hold, whether there is salt or varnish. */
+/* Brushes with what they hold, whether there is salt or varnish. */
 enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes *b);
 /* Errors: BAD_FILE (only what bytes from outside can bring about), NO_MEMORY, MACHINE_FAILED. */
 enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r);
-void sheet_extras_reset(struct paper_sheet *p);
-/* The sheet is as it was made. */
-enum paper_status sheet_reset(struct paper_sheet *p);
 
 #endif

@@ -1,5 +1,6 @@
 /* list.c - the list of operations itself. Arguments are deflated where that saves much: masks are mostly empty. */
 #include "history/history_internal.h"
+#include "model/model.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,12 +24,25 @@ static void operation_deflate(struct operation *op)
     free(packed);
 }
 
+uint64_t operation_bytes_digest(const uint8_t *bytes, size_t count)
+{
+    uint64_t digest = UINT64_C(0xcbf29ce484222325) ^ count, word;
+    for (size_t at = 0; at < count; at += sizeof word) {
+        size_t left = count - at;
+        word = 0;
+        memcpy(&word, bytes + at, left < sizeof word ? left : sizeof word);
+        digest = (digest ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+        digest ^= digest >> 29;
+    }
+    return digest;
+}
+
 enum paper_status operation_make(const struct paper_sheet *p, enum sheet_event_kind kind,
                                  const void *arguments, struct operation *op)
 {
     struct event_bytes b = {0};
     *op = (struct operation){.kind = kind, .steps = kind == SHEET_EVENT_STEP};
-    event_encode(&b, paper_sheet_get_config(p), kind, arguments);
+    event_encode(&b, &p->config, kind, arguments);
     if (b.short_of_memory) {
         free(b.at);
         return paper_fail(PAPER_NO_MEMORY, "no memory to record an operation (%s)",
@@ -37,7 +51,7 @@ enum paper_status operation_make(const struct paper_sheet *p, enum sheet_event_k
     uint8_t *fitted = b.count ? realloc(b.at, b.count) : b.at;
     op->bytes = fitted ? fitted : b.at;
     op->raw = op->stored = b.count;
-    op->digest = note_digest(op->bytes, op->raw);
+    op->digest = operation_bytes_digest(op->bytes, op->raw);
     if (op->raw >= DEFLATE_FROM)
         operation_deflate(op);
     return PAPER_OK;
@@ -69,7 +83,7 @@ uint64_t operation_digest(const struct operation *op)
 {
     uint8_t *made = NULL;
     const uint8_t *bytes = op->raw ? operation_bytes(op, &made) : NULL;
-    uint64_t digest = note_digest(bytes, bytes ? op->raw : 0);
+    uint64_t digest = operation_bytes_digest(bytes, bytes ? op->raw : 0);
     free(made);
     return digest;
 }
@@ -161,17 +175,4 @@ enum paper_status history_cut(struct sheet_history *h)
     if (position_compare(h->at, h->now) > 0)
         h->at.op = -1;
     return PAPER_OK;
-}
-
-void history_free(struct sheet_history *h)
-{
-    for (int i = 0; i < h->count; i++)
-        operation_free(&h->ops[i]);
-    for (int i = 0; i < h->tail_count; i++)
-        operation_free(&h->tail[i]);
-    free(h->ops);
-    free(h->tail);
-    notes_free(&h->notes);
-    checkpoints_free(h);
-    free(h);
 }

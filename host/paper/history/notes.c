@@ -13,19 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint64_t note_digest(const uint8_t *bytes, size_t count)
-{
-    uint64_t digest = UINT64_C(0xcbf29ce484222325) ^ count, word;
-    for (size_t at = 0; at < count; at += sizeof word) {
-        size_t left = count - at;
-        word = 0;
-        memcpy(&word, bytes + at, left < sizeof word ? left : sizeof word);
-        digest = (digest ^ word) * UINT64_C(0x9e3779b97f4a7c15);
-        digest ^= digest >> 29;
-    }
-    return digest;
-}
-
 static bool is_move(int what)
 {
     return what >= NOTE_UNDO;

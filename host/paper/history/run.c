@@ -234,7 +234,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     if (status == PAPER_OK && r.bad)
         status = damaged("the air");
     if (status == PAPER_OK)
-        status = paper_sheet_create(&config, &p);
+        status = sheet_create(&config, &p);
     if (status == PAPER_BAD_ARGUMENT)
         status = damaged("the description of the sheet");
     if (status == PAPER_OK && event_check(p, SHEET_EVENT_AIR, &air) != PAPER_OK)
@@ -269,7 +269,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     }
 cleanup:
     if (status != PAPER_OK)
-        paper_sheet_destroy(p);
+        history_sheet_destroy(p);
     else
         *out = p;
     return status;
@@ -311,7 +311,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
     struct paper_sheet_config config = p->config;
     struct paper_sheet *to;
     event_config_scale(&config, &scaling);
-    enum paper_status status = paper_sheet_create(&config, &to);
+    enum paper_status status = sheet_create(&config, &to);
     if (status != PAPER_OK)
         return status;
     if (budget_bytes >= 0)
@@ -320,7 +320,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
     if (status == PAPER_OK)
         status = event_scale(SHEET_EVENT_AIR, &air, &scaling);
     if (status == PAPER_OK)
-        status = paper_sheet_air(to, &air);
+        status = sheet_event(to, SHEET_EVENT_AIR, &air);
     long passed = 0, total = paper_sheet_steps(p);
     for (int i = 0; i < h->count && status == PAPER_OK; i++) {
         struct position start = {i, 0};
@@ -334,9 +334,9 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         passed += i == h->now.op ? h->now.step : h->ops[i].steps;
         paper_history_mark(to);
         while (status == PAPER_OK && paper_sheet_steps(to) < lround(pace * (double)passed)) {
-            status = paper_sheet_step(to);
+            status = sheet_event(to, SHEET_EVENT_STEP, NULL);
             if (status == PAPER_OK)
-                status = paper_sheet_finish(to);
+                status = sheet_finish(to);
             if (status == PAPER_OK && h->watch &&
                 !h->watch(h->watch_context, paper_sheet_steps(to),
                           lround(pace * (double)total)))
@@ -344,7 +344,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         }
     }
     if (status != PAPER_OK) {
-        paper_sheet_destroy(to);
+        history_sheet_destroy(to);
         return status;
     }
     *out = to;

@@ -1,6 +1,5 @@
 /* brush.c - a sheet's brushes: making, dipping, counting. The stroke is in model/stroke.c, what passes between bristles and
  * fibers in model/exchange.c. */
-#include "event/event.h"
 #include "model/brush_internal.h"
 
 #include <math.h>
@@ -105,23 +104,23 @@ static void held_read(struct sheet_brushes *b, CM_field_id_t field, double *grai
     memcpy(grains, row, (size_t)bristles * sizeof *grains);
 }
 
-enum paper_status paper_sheet_brush(struct paper_sheet *p, const struct paper_brush *brush)
+enum paper_status sheet_brush_check(const struct paper_sheet *p, const void *arguments)
 {
-    return sheet_event(p, SHEET_EVENT_BRUSH, brush);
+    (void)arguments;
+    return p->config.parts ? PAPER_OK
+                           : paper_fail(PAPER_BAD_ARGUMENT, "the thesis's paper takes no "
+                                                            "brush; choose a paper with parts");
 }
 
 enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_brush *brush = arguments;
-    enum paper_status status = PAPER_OK;
-    if (p->config.parts == 0)
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "the thesis's paper takes no brush; choose a paper with parts");
     paper_enter(&p->page);
-    if (!p->brushes)
-        status = brushes_make(p);
-    if (status != PAPER_OK)
+    enum paper_status status = p->brushes ? PAPER_OK : brushes_make(p);
+    if (status != PAPER_OK) {
+        paper_leave(&p->page);
         return status;
+    }
     struct sheet_brushes *b = p->brushes;
     struct sheet_brush *own = &b->brush[brush->number];
     CM_set_vp_set(b->vp_set);
@@ -145,10 +144,11 @@ enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
         status = held_write(b, own->gives, numbers, brush->bristles);
     own->there = status == PAPER_OK;
     CM_set_vp_set(p->page.vp_set);
-    return status == PAPER_OK ? paper_leave(&p->page) : status;
+    enum paper_status left = paper_leave(&p->page);
+    return status == PAPER_OK ? left : status;
 }
 
-const struct paper_brush *paper_sheet_brush_get(const struct paper_sheet *p, int number)
+const struct paper_brush *sheet_brush_get(const struct paper_sheet *p, int number)
 {
     return p->brushes && number >= 0 && number < PAPER_BRUSHES_MAX &&
                    p->brushes->brush[number].there
@@ -156,17 +156,11 @@ const struct paper_brush *paper_sheet_brush_get(const struct paper_sheet *p, int
                : NULL;
 }
 
-void paper_sheet_stop_when(struct paper_sheet *p, bool (*due)(void *context), void *context)
-{
-    p->due = due;
-    p->due_context = context;
-}
-
 /* ---- what it holds ---- */
 
 static enum paper_status held_check(const struct paper_sheet *p, int number, int substance)
 {
-    if (!paper_sheet_brush_get(p, number))
+    if (!sheet_brush_get(p, number))
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", number);
     if (substance < 0 || substance > p->config.pigments_count)
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
@@ -174,12 +168,10 @@ static enum paper_status held_check(const struct paper_sheet *p, int number, int
     return PAPER_OK;
 }
 
-enum paper_status paper_sheet_brush_read(struct paper_sheet *p, int number, int substance,
-                                         double *grains)
+enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substance,
+                                   double *grains)
 {
-    enum paper_status status = sheet_ready(p);
-    if (status == PAPER_OK)
-        status = held_check(p, number, substance);
+    enum paper_status status = held_check(p, number, substance);
     if (status != PAPER_OK)
         return status;
     paper_enter(&p->page);
@@ -189,8 +181,8 @@ enum paper_status paper_sheet_brush_read(struct paper_sheet *p, int number, int 
     return paper_leave(&p->page);
 }
 
-enum paper_status paper_sheet_brush_write(struct paper_sheet *p, int number, int substance,
-                                          const double *grains)
+enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int substance,
+                                    const double *grains)
 {
     enum paper_status status = held_check(p, number, substance);
     if (status != PAPER_OK)
@@ -206,11 +198,11 @@ enum paper_status paper_sheet_brush_write(struct paper_sheet *p, int number, int
     return status == PAPER_OK ? paper_leave(&p->page) : status;
 }
 
-enum paper_status paper_sheet_brush_total(struct paper_sheet *p, int number, int substance,
-                                          double *total)
+enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int substance,
+                                    double *total)
 {
     double grains[PAPER_BRISTLES_MAX];
-    enum paper_status status = paper_sheet_brush_read(p, number, substance, grains);
+    enum paper_status status = sheet_brush_read(p, number, substance, grains);
     *total = 0;
     if (status != PAPER_OK)
         return status;
@@ -221,9 +213,16 @@ enum paper_status paper_sheet_brush_total(struct paper_sheet *p, int number, int
     return PAPER_OK;
 }
 
-enum paper_status paper_sheet_dip(struct paper_sheet *p, const struct paper_dip *dip)
+enum paper_status sheet_dip_check(const struct paper_sheet *p, const void *arguments)
 {
-    return sheet_event(p, SHEET_EVENT_DIP, dip);
+    const struct paper_dip *dip = arguments;
+    for (int i = 0; i <= p->config.pigments_count; i++)
+        if (!paper_within(dip->amount[i], 0, i == 0 ? 1 : 4))
+            return paper_fail(PAPER_BAD_ARGUMENT,
+                              "the amount of %.*s in a brush must be 0..%d (got %g)",
+                              PAPER_NAME_MAX, i == 0 ? "water" : p->config.pigments[i - 1].name,
+                              i == 0 ? 1 : 4, dip->amount[i]);
+    return PAPER_OK;
 }
 
 enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments)
@@ -232,17 +231,11 @@ enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments)
     enum paper_status status = held_check(p, dip->number, 0);
     if (status != PAPER_OK)
         return status;
-    for (int i = 0; i <= p->config.pigments_count; i++)
-        if (!paper_within(dip->amount[i], 0, i == 0 ? 1 : 4))
-            return paper_fail(PAPER_BAD_ARGUMENT,
-                              "the amount of %.*s in a brush must be 0..%d (got %g)",
-                              PAPER_NAME_MAX, i == 0 ? "water" : p->config.pigments[i - 1].name,
-                              i == 0 ? 1 : 4, dip->amount[i]);
     const struct sheet_brush *own = &p->brushes->brush[dip->number];
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
         double grains[PAPER_BRISTLES_MAX];
         double full = i == 0 ? own->full : own->full / own->brush.load;
-        status = paper_sheet_brush_read(p, dip->number, i, grains);
+        status = sheet_brush_read(p, dip->number, i, grains);
         for (int j = 0; j < own->brush.bristles; j++) {
             double across = own->bristles[j].across * (own->brush.mirrored ? -1 : 1);
             if (across < dip->side[0] || across > dip->side[1])
@@ -250,7 +243,7 @@ enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments)
             grains[j] = floor((1 - dip->part) * grains[j] + dip->part * dip->amount[i] * full);
         }
         if (status == PAPER_OK)
-            status = paper_sheet_brush_write(p, dip->number, i, grains);
+            status = sheet_brush_write(p, dip->number, i, grains);
     }
     return status;
 }

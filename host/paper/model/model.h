@@ -3,23 +3,26 @@
 #define LUTETIA_PAPER_SHEET_INTERNAL_H
 
 #include "base/page.h"
+#include "model/operations.h"
 #include "sheet.h"
-#include "techniques.h"
 
 enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
+/* What a fiber gets of a pigment in all layers, or of water in one, by putting it there; more may flow in. */
+#define SHEET_PUT_MOST 4.0
 
 struct sheet_history;
 
 struct paper_sheet {
     struct paper_sheet_config config;
     struct paper_air air;
-    struct sheet_history *history; /* NULL: nothing is recorded */
-    long steps;                    /* without a history */
-    bool touched;                  /* something was done, and not recorded */
-    double unit;                   /* of amounts: PAPER_GRAINS, or 1 without parts */
+    struct sheet_history
+        *history; /* history/; nothing in this folder looks at it. NULL: nothing is recorded */
+    long steps;   /* that were computed */
+    bool touched; /* something was done, and not recorded */
+    double unit;  /* of amounts: PAPER_GRAINS, or 1 without parts */
     /* VP set, contexts, coordinates, and what the thesis's cycle needs: water and absorbency are in the fibers */
     struct paper page;
     CM_field_id_t height, capacity, resist;
@@ -42,9 +45,6 @@ struct paper_sheet {
     void *due_context;
 };
 
-/* NULL is fine. */
-void sheet_brushes_destroy(struct paper_sheet *p);
-
 static inline bool sheet_has(const struct paper_sheet *p, unsigned part)
 {
     return (p->config.parts & part) != 0;
@@ -58,39 +58,102 @@ static inline unsigned sheet_parts_whole(unsigned parts)
     return parts ? parts | PAPER_PART_INFUSED : 0;
 }
 
+/* ---- a sheet's life (sheet.c) ---- */
+
+/* Errors: BAD_ARGUMENT, NO_DEVICE, NO_MEMORY, MACHINE_FAILED; *out is then NULL. Owns: the caller gives it to sheet_destroy(). */
+enum paper_status sheet_create(const struct paper_sheet_config *config,
+                               struct paper_sheet **out);
+void sheet_destroy(struct paper_sheet *p);
+/* All that was asked for is computed. */
+enum paper_status sheet_finish(struct paper_sheet *p);
+/* The sheet is as it was made. */
+enum paper_status sheet_reset(struct paper_sheet *p);
+/* No brush, no salt, no varnish. */
+void sheet_extras_reset(struct paper_sheet *p);
+
+/* ---- its fields (fields.c) and layers (layers.c) ---- */
+
+/* Between paper_enter() and paper_leave(), like all below that return nothing. */
+void sheet_fields_make(struct paper_sheet *p);
+enum paper_status sheet_amounts_clear(struct paper_sheet *p);
 /* Fields of each pigment that the parts use, in the order surface, infused, fixed; how many. */
 int sheet_pigment_fields(const struct paper_sheet *p, int pigment, CM_field_id_t fields[3]);
 /* The field of a layer; 0 where there is none. */
 CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
                                 int pigment);
+/* As paper_sheet_layer_read() and paper_sheet_total(), of the sheet as it is. */
+enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer, int pigment,
+                                   float *values);
+enum paper_status sheet_total(struct paper_sheet *p, int substance, double *total);
 
-/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
-enum paper_status sheet_fresh_make(struct paper_sheet *p);
+/* ---- its planes (planes.c): all that changes in it, to the bit ---- */
+
+/* As the fields hold it. */
+enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words);
+/* Between paper_enter() and paper_leave(). */
+void sheet_plane_write(struct paper_sheet *p, int number, const void *words);
+/* After all have been written: what follows from them. */
+void sheet_planes_written(struct paper_sheet *p);
+
+/* ---- the paper (stock.c) ---- */
+
 /* Absorbency, capacity, height and colour from the seed. */
 void sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
+
+/* ---- amounts (share.c) ---- */
+
+/* Errors: BAD_ARGUMENT (a screen of nothing). */
+enum paper_status sheet_place_check(const struct paper_place *place);
 /* share = the place's gray (1 where there is no screen) as 0..1; then 0 where there is resist. `open` is free. */
 enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_place *place,
                                    CM_field_id_t share);
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open);
+/* Where water (0) or a pigment (1 + its number) is put. */
+CM_field_id_t sheet_amount_field(const struct paper_sheet *p, int substance);
 /* q gets whole grains of part (the same field is free afterwards), up to what may be put in a fiber. Uses t[3]. */
 void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part);
 /* q loses whole grains of share * part. */
 void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
                        CM_field_id_t lost);
+/* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
+void sheet_wet_around_make(struct paper_sheet *p);
+
+/* ---- flows (flow.c) ---- */
 
 /* room = 1 to 0 as a fiber fills up; see model/step.c. */
 void sheet_room_make(struct paper_sheet *p, CM_field_id_t room);
+/* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
+void sheet_flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,
+                     CM_field_id_t down, CM_field_id_t q, unsigned axis);
+/* What flows up through each face of q is `flow`. Uses t[14]. */
+void sheet_flow_take(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow, unsigned axis);
 /* Salt dissolves and pushes: a part of a step. Uses t[0..15]. */
 void sheet_salt_step(struct paper_sheet *p);
-/* Varnish over the colours. Uses t[0..3]. */
-void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
 
-/* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
-void sheet_wet_around_make(struct paper_sheet *p);
+/* ---- brushes (brush.c) ---- */
+
+void sheet_brushes_destroy(struct paper_sheet *p);
+/* NULL: there is none. */
+const struct paper_brush *sheet_brush_get(const struct paper_sheet *p, int number);
+/* As paper_sheet_brush_read(), ..._write() and ..._total(), of the sheet as it is. */
+enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substance,
+                                   double *grains);
+enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int substance,
+                                    const double *grains);
+enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int substance,
+                                    double *total);
+
+/* ---- looking (view.c, varnish.c) ---- */
+
+/* As paper_sheet_view(), of the sheet as it is. */
+enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
+                             uint16_t *rgb);
 /* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
+/* Varnish over the colours. Uses t[0..3]. */
+void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
 
 /* ---- Paris, for single floats ---- */
 

@@ -1,5 +1,5 @@
 /* planes.c - all that changes in a sheet, in and out, to the bit. */
-#include "history/history_internal.h"
+#include "history.h" /* what a plane is */
 #include "model/model.h"
 
 #include <stdio.h>
@@ -83,17 +83,6 @@ static CM_field_id_t plane_field(const struct paper_sheet *p, int number, bool *
     return field;
 }
 
-enum paper_status paper_sheet_plane_read(struct paper_sheet *p, int number, void *words)
-{
-    struct paper_plane planes[PAPER_PLANES_MAX];
-    int count = paper_sheet_planes(p, planes);
-    if (number < 0 || number >= count)
-        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d planes (asked for number %d)",
-                          count, number);
-    enum paper_status status = sheet_ready(p);
-    return status == PAPER_OK ? sheet_plane_fetch(p, number, words) : status;
-}
-
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words)
 {
     bool whole;
@@ -122,23 +111,4 @@ void sheet_planes_written(struct paper_sheet *p)
 {
     CM_set_context();
     sheet_faces_make(p);
-}
-
-enum paper_status sheet_reset(struct paper_sheet *p)
-{
-    paper_enter(&p->page);
-    CM_set_context();
-    f_set(p->resist, 0.0);
-    f_set(p->wet_around, 0.0);
-    f_set(p->surface_water, 0.0);
-    f_set(p->varnish, 0.0);
-    f_set(p->salt, 0.0);
-    f_set(p->brine, 0.0);
-    sheet_extras_reset(p);
-    CM_u_move_constant_1L(p->dried, 0, SHEET_DRIED_BITS);
-    p->air = paper_air_default();
-    enum paper_status status = sheet_fresh_make(p), left = paper_leave(&p->page);
-    if (status == PAPER_OK)
-        status = left;
-    return status == PAPER_OK ? paper_sheet_finish(p) : status;
 }

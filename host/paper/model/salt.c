@@ -10,7 +10,6 @@
  *
  * Flows are whole grains of matter, computed once for each face, as in model/step.c: nothing is lost, and mirrored sheets give
  * mirrored bits. Brine is no matter of the sheet's; it is only where it pushes from. */
-#include "event/event.h"
 #include "model/model.h"
 #include "techniques.h"
 
@@ -51,12 +50,7 @@ static void grain_add(float *salt, int width, int height, double x, double y, do
         }
 }
 
-enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct paper_salt *s)
-{
-    return sheet_event(p, SHEET_EVENT_SALT, s);
-}
-
-enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
+enum paper_status sheet_salt_check(const struct paper_sheet *p, const void *arguments)
 {
     const struct paper_salt *s = arguments;
     if (!(s->size[1] >= s->size[0]))
@@ -66,12 +60,18 @@ enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
     if (p->config.parts == 0)
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "the thesis's paper takes no salt; choose a paper with parts");
+    return sheet_place_check(&s->place);
+}
+
+enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_salt *s = arguments;
     int width = p->page.width, height = p->page.height;
     size_t count = (size_t)width * (size_t)height;
     float *salt = malloc(count * sizeof *salt);
     if (!salt)
         return paper_fail(PAPER_NO_MEMORY, "no memory for salt");
-    enum paper_status status = paper_sheet_layer_read(p, PAPER_LAYER_SALT, 0, salt);
+    enum paper_status status = sheet_layer_read(p, PAPER_LAYER_SALT, 0, salt);
     for (int i = 0; i < s->grains && status == PAPER_OK; i++) {
         uint64_t number = (uint64_t)i;
         double away = s->radius * sqrt(sheet_chance(s->seed, number, 1));
@@ -83,7 +83,7 @@ enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
                       s->size[0] + (s->size[1] - s->size[0]) * large * large);
     }
     if (status == PAPER_OK)
-        status = paper_sheet_layer_write(p, PAPER_LAYER_SALT, 0, salt);
+        status = sheet_layer(p, &(struct event_layer){PAPER_LAYER_SALT, 0, salt});
     free(salt);
     if (status == PAPER_OK) {
         p->salt_reach = s->reach;
@@ -93,16 +93,6 @@ enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
 }
 
 /* ---- a step ---- */
-
-/* What flows up through each face of q is `flow`. Uses t[14]. */
-static void flow_through(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow,
-                         unsigned axis)
-{
-    CM_field_id_t arriving = p->t[14];
-    f_previous(arriving, flow, axis);
-    f_add(q, q, arriving);
-    f_sub(q, q, flow);
-}
 
 /* Grains dissolve; brine spreads and fades. wet: 0..1. */
 static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
@@ -137,18 +127,6 @@ static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
     f_times(p->brine, p->brine, 1 - SPREADING / (p->salt_reach * p->salt_reach + 1));
     f_plus(p->brine, p->brine, -BRINE_LEAST);
     f_least(p->brine, p->brine, 0.0);
-}
-
-/* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
-static void pushed(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,
-                   CM_field_id_t down, CM_field_id_t q, unsigned axis)
-{
-    CM_field_id_t other = p->t[14];
-    f_next(other, q, axis);
-    f_mul(other, other, down);
-    f_mul(flow, q, up);
-    f_sub(flow, flow, other);
-    f_whole(flow);
 }
 
 void sheet_salt_step(struct paper_sheet *p)
@@ -186,17 +164,17 @@ void sheet_salt_step(struct paper_sheet *p)
         for (int layer = surface ? 0 : 1; layer < 2; layer++) {
             CM_field_id_t q = layer == 0 ? p->surface[i] : p->infused[i];
             for (unsigned axis = 0; axis < 2; axis++)
-                pushed(p, flow[axis], up[axis], down[axis], q, axis);
+                sheet_flow_make(p, flow[axis], up[axis], down[axis], q, axis);
             for (unsigned axis = 0; axis < 2; axis++)
-                flow_through(p, q, flow[axis], axis);
+                sheet_flow_take(p, q, flow[axis], axis);
         }
     if (!surface)
         return;
     for (unsigned axis = 0; axis < 2; axis++) { /* water comes from where pigment goes */
         f_times(up[axis], up[axis], DRAW);
         f_times(down[axis], down[axis], DRAW);
-        pushed(p, flow[axis], down[axis], up[axis], p->surface_water, axis);
+        sheet_flow_make(p, flow[axis], down[axis], up[axis], p->surface_water, axis);
     }
     for (unsigned axis = 0; axis < 2; axis++)
-        flow_through(p, p->surface_water, flow[axis], axis);
+        sheet_flow_take(p, p->surface_water, flow[axis], axis);
 }

@@ -27,7 +27,6 @@
  *
  * Sources: Small 1991 (displacement by gravity, tension, spreading; absorption; evaporation); Curtis et al. 1997 (wet area, edge
  * darkening, transfer of pigment, capacities). */
-#include "history/history_internal.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -56,16 +55,6 @@ struct paper_air paper_air_default(void)
         .settling = 0.1,
         .thesis = paper_weather_default(),
     };
-}
-
-enum paper_status paper_sheet_air(struct paper_sheet *p, const struct paper_air *air)
-{
-    return sheet_event(p, SHEET_EVENT_AIR, air);
-}
-
-const struct paper_air *paper_sheet_get_air(const struct paper_sheet *p)
-{
-    return history_air(p);
 }
 
 /* d = 0 where q is, 1 where there is a grain of it */
@@ -219,20 +208,6 @@ static void evaporate(struct paper_sheet *p)
 }
 
 /* ---- between fibers ---- */
-
-void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
-{
-    CM_field_id_t fields[3];
-    bool surface = sheet_has(p, PAPER_PART_SURFACE);
-    f_copy(room, surface ? p->surface_water : p->page.water);
-    for (int i = 0; i < p->config.pigments_count; i++)
-        for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
-            f_add(room, room, fields[j]);
-    f_from(room, SHEET_LOAD_MAX * p->unit, room);
-    f_times(room, room, 2 / (SHEET_LOAD_MAX * p->unit));
-    f_least(room, room, 0.0);
-    f_most(room, room, 1.0);
-}
 
 /* Parts of a gradient at the faces of an axis: out and in at that above a fiber, and at that below, which is the
  * lower neighbour's. */
@@ -506,14 +481,10 @@ static void temporaries_clear(struct paper_sheet *p)
         f_set(p->t[i], 0.0);
 }
 
-enum paper_status paper_sheet_step(struct paper_sheet *p)
-{
-    return sheet_event(p, SHEET_EVENT_STEP, NULL);
-}
-
 enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
 {
     (void)arguments;
+    p->steps++;
     paper_enter(&p->page);
     CM_set_context();
     if (p->config.parts == 0) {

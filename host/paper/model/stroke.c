@@ -8,8 +8,6 @@
  * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
  * BRUSH_ROWS in one exchange. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
  * Places are moved by chance within the bristle's thickness, by numbers that depend on the bristle and the place alone. */
-#include "event/event.h"
-#include "history.h"
 #include "model/brush_internal.h"
 
 #include <math.h>
@@ -18,36 +16,8 @@
 #define PLACE_SPACING 0.7 /* fibers, along a bristle's way */
 #define FORCE_FULL 0.3
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
-#define GOLDEN_ANGLE 2.3999632297286533
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
-
-void sheet_brush_bristles_make(struct sheet_brush *own)
-{
-    const struct paper_brush *brush = &own->brush;
-    for (int i = 0; i < brush->bristles; i++) {
-        struct sheet_bristle *bristle = &own->bristles[i];
-        uint64_t number = (uint64_t)i;
-        double a = sheet_chance(brush->seed, number, 1),
-               b = sheet_chance(brush->seed, number, 2);
-        if (brush->flat) { /* additive recurrence: even, without rows */
-            bristle->across = 2 * fmod(0.5 + 0.7548776662466927 * (i + 1) + 0.1 * a, 1) - 1;
-            bristle->along = 2 * fmod(0.5 + 0.5698402909980532 * (i + 1) + 0.1 * b, 1) - 1;
-        } else {
-            double radius = sqrt((i + 0.2 + 0.6 * a) / brush->bristles);
-            double angle = GOLDEN_ANGLE * i + b;
-            bristle->across = radius * cos(angle);
-            bristle->along = radius * sin(angle);
-        }
-        double squared = bristle->across * bristle->across + bristle->along * bristle->along;
-        if (brush->flat)
-            squared /= 2;
-        bristle->shorter =
-            fmin(0.95, brush->point * 0.8 * squared +
-                           brush->uneven * 0.3 * sheet_chance(brush->seed, number, 3));
-        bristle->gives = 1 + brush->uneven * (sheet_chance(brush->seed, number, 4) - 0.5);
-    }
-}
 
 /* The tuft at one moment of a stroke. */
 struct tuft {
@@ -219,20 +189,10 @@ static void brush_go(struct going *g, double from, double to)
     }
 }
 
-enum paper_status paper_sheet_stroke(struct paper_sheet *p, const struct paper_stroke *stroke,
-                                     int *steps)
-{
-    long before = paper_sheet_steps(p);
-    enum paper_status status = sheet_event(p, SHEET_EVENT_STROKE, stroke);
-    if (steps)
-        *steps = (int)(paper_sheet_steps(p) - before);
-    return status;
-}
-
 enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_stroke *stroke = arguments;
-    if (!paper_sheet_brush_get(p, stroke->number))
+    if (!sheet_brush_get(p, stroke->number))
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
     enum paper_status status = paper_stroke_check(stroke);
     if (status != PAPER_OK)
@@ -259,9 +219,9 @@ enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
         brush_go(&g, from, i == count - 1 && to <= from ? from + 1 / pace : fmax(to, from));
         status = paper_leave(&p->page);
         if (stroke->pace > 0 && status == PAPER_OK) {
-            status = paper_sheet_step(p);
+            status = sheet_step(p, NULL);
             if (status == PAPER_OK)
-                status = paper_sheet_finish(p);
+                status = sheet_finish(p);
         }
     }
     if (status == PAPER_OK && p->history && p->due && p->due(p->due_context))

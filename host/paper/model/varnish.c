@@ -1,6 +1,5 @@
 /* varnish.c - clear gloss on the paper. Under it less light is scattered at the fibers, so colours are deeper; where it
  * begins and ends it shines or is in shade, with light from the upper left. */
-#include "event/event.h"
 #include "model/model.h"
 #include "techniques.h"
 
@@ -9,9 +8,10 @@
 #define SHINE 0.35
 #define SHADE 0.25
 
-enum paper_status paper_sheet_varnish(struct paper_sheet *p, const struct paper_varnish *v)
+enum paper_status sheet_varnish_check(const struct paper_sheet *p, const void *arguments)
 {
-    return sheet_event(p, SHEET_EVENT_VARNISH, v);
+    (void)p;
+    return sheet_place_check(&((const struct paper_varnish *)arguments)->place);
 }
 
 enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)

@@ -11,7 +11,6 @@
  *
  * The machine computes 16 bits of each channel, of linear light its root (dark shades need the finer steps); the front
  * end takes them to display values by a table. */
-#include "event/event.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -184,8 +183,8 @@ static enum paper_status shades_read(struct paper_sheet *p, int channels, const 
     return paper_leave(&p->page);
 }
 
-enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
-                                   uint16_t *rgb)
+enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
+                             uint16_t *rgb)
 {
     CM_field_id_t layer = 0;
     if (view->show == PAPER_SHOW_LAYER) {
@@ -204,12 +203,6 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
         free(table);
         return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->page.width,
                           p->page.height);
-    }
-    enum paper_status status = sheet_ready(p);
-    if (status != PAPER_OK) {
-        free(one);
-        free(table);
-        return status;
     }
     bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
     bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
@@ -236,7 +229,7 @@ enum paper_status paper_sheet_view(struct paper_sheet *p, const struct paper_she
     }
     for (int i = 0; i < (colored ? 3 : 1); i++)
         shade_store(p, i, color[i], linear);
-    status = shades_read(p, colored ? 3 : 1, table, one, rgb);
+    enum paper_status status = shades_read(p, colored ? 3 : 1, table, one, rgb);
     free(one);
     free(table);
     return status;

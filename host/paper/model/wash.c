@@ -1,20 +1,19 @@
 /* wash.c - amounts that are not the same everywhere: graded washes, printed amounts; and lifting them again. */
-#include "event/event.h"
 #include "model/model.h"
 #include "techniques.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-#define AMOUNT_MOST 4.0
+#include <string.h>
 
 static enum paper_status amount_check(const struct paper_sheet *p, int substance, double amount)
 {
-    if (amount >= 0 && amount <= AMOUNT_MOST)
+    if (amount >= 0 && amount <= SHEET_PUT_MOST)
         return PAPER_OK;
-    return paper_fail(
-        PAPER_BAD_ARGUMENT, "the amount of %.*s must be 0..%g (got %g)", PAPER_NAME_MAX,
-        substance == 0 ? "water" : p->config.pigments[substance - 1].name, AMOUNT_MOST, amount);
+    return paper_fail(PAPER_BAD_ARGUMENT, "the amount of %.*s must be 0..%g (got %g)",
+                      PAPER_NAME_MAX,
+                      substance == 0 ? "water" : p->config.pigments[substance - 1].name,
+                      SHEET_PUT_MOST, amount);
 }
 
 /* d = how far a fiber is on the way from..to, 0..1. Uses t[5]. */
@@ -36,12 +35,7 @@ static void grade_make(struct paper_sheet *p, const struct paper_wash *w, CM_fie
     f_most(d, d, 1.0);
 }
 
-enum paper_status paper_sheet_wash(struct paper_sheet *p, const struct paper_wash *w)
-{
-    return sheet_event(p, SHEET_EVENT_WASH, w);
-}
-
-enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
+enum paper_status sheet_wash_check(const struct paper_sheet *p, const void *arguments)
 {
     const struct paper_wash *w = arguments;
     enum paper_status status = PAPER_OK;
@@ -50,12 +44,16 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
         if (status == PAPER_OK)
             status = amount_check(p, i, w->end[i]);
     }
-    if (status != PAPER_OK)
-        return status;
+    return status == PAPER_OK ? sheet_place_check(&w->place) : status;
+}
+
+enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
+{
+    const struct paper_wash *w = arguments;
     paper_enter(&p->page);
     CM_set_context();
     CM_field_id_t share = p->t[1], part = p->t[2], grade = p->t[4];
-    status = sheet_share_make(p, &w->place, share);
+    enum paper_status status = sheet_share_make(p, &w->place, share);
     if (status != PAPER_OK)
         return status;
     sheet_resist_heed(p, share, part);
@@ -72,45 +70,45 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
     return paper_leave(&p->page);
 }
 
-/* The print's numbers as an array of the whole sheet, 0 beside it. */
-static enum paper_status print_lay(const struct paper_sheet *p, const struct paper_print *print,
-                                   int substance, float *whole)
+enum paper_status sheet_print_check(const struct paper_sheet *p, const void *arguments)
 {
+    const struct paper_print *print = arguments;
     enum paper_status status = PAPER_OK;
-    for (size_t i = 0; i < (size_t)p->page.width * (size_t)p->page.height; i++)
-        whole[i] = 0;
-    for (int row = 0; row < print->height && status == PAPER_OK; row++)
-        for (int column = 0; column < print->width && status == PAPER_OK; column++) {
-            float amount =
-                print->amount[substance][(size_t)row * (size_t)print->width + (size_t)column];
-            int64_t x = (int64_t)print->x + column, y = (int64_t)print->y + row;
-            status = amount_check(p, substance, (double)amount);
-            if (x >= 0 && y >= 0 && x < p->page.width && y < p->page.height)
-                whole[(size_t)y * (size_t)p->page.width + (size_t)x] = amount;
-        }
+    if (print->width < 1 || print->height < 1 || print->width > PAPER_SIDE_MAX ||
+        print->height > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "a print is 1..%d wide and high (got %dx%d)",
+                          PAPER_SIDE_MAX, print->width, print->height);
+    size_t count = (size_t)print->width * (size_t)print->height;
+    for (int i = 0; i <= p->config.pigments_count; i++)
+        for (size_t at = 0; print->amount[i] && at < count && status == PAPER_OK; at++)
+            status = amount_check(p, i, (double)print->amount[i][at]);
     return status;
 }
 
-enum paper_status paper_sheet_print(struct paper_sheet *p, const struct paper_print *print)
+/* The print's numbers as an array of the whole sheet, 0 beside it. */
+static void print_lay(const struct paper_sheet *p, const struct paper_print *print,
+                      int substance, float *whole)
 {
-    return sheet_event(p, SHEET_EVENT_PRINT, print);
+    size_t width = (size_t)p->page.width;
+    memset(whole, 0, width * (size_t)p->page.height * sizeof *whole);
+    for (int row = 0; row < print->height; row++)
+        for (int column = 0; column < print->width; column++) {
+            int64_t x = (int64_t)print->x + column, y = (int64_t)print->y + row;
+            if (x >= 0 && y >= 0 && x < p->page.width && y < p->page.height)
+                whole[(size_t)y * width + (size_t)x] =
+                    print->amount[substance]
+                                 [(size_t)row * (size_t)print->width + (size_t)column];
+        }
 }
 
 enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_print *print = arguments;
-    if (print->width < 1 || print->height < 1 || print->width > PAPER_SIDE_MAX ||
-        print->height > PAPER_SIDE_MAX)
-        return paper_fail(PAPER_BAD_ARGUMENT, "a print is 1..%d wide and high (got %dx%d)",
-                          PAPER_SIDE_MAX, print->width, print->height);
+    enum paper_status status = PAPER_OK;
     float *whole = malloc((size_t)p->page.width * (size_t)p->page.height * sizeof *whole);
     if (!whole)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a print of %dx%d", print->width,
                           print->height);
-    enum paper_status status = PAPER_OK;
-    for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++)
-        if (print->amount[i]) /* before anything is put */
-            status = print_lay(p, print, i, whole);
     CM_field_id_t open = p->t[1], part = p->t[2];
     for (int i = 0; i <= p->config.pigments_count && status == PAPER_OK; i++) {
         if (!print->amount[i])
@@ -129,9 +127,10 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
     return status;
 }
 
-enum paper_status paper_sheet_lift(struct paper_sheet *p, const struct paper_lift *lift)
+enum paper_status sheet_lift_check(const struct paper_sheet *p, const void *arguments)
 {
-    return sheet_event(p, SHEET_EVENT_LIFT, lift);
+    (void)p;
+    return sheet_place_check(&((const struct paper_lift *)arguments)->place);
 }
 
 enum paper_status sheet_lift(struct paper_sheet *p, const void *arguments)

@@ -2,7 +2,7 @@
  *
  * For each brush that there is: its description, and what its bristles hold. */
 #include "history/history_internal.h"
-#include "model/brush_internal.h"
+#include "model/model.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,40 +13,26 @@ enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes 
 {
     enum paper_status status = PAPER_OK;
     int count = 0;
-    /* a look at the brushes must not ask for the sheet that is being looked at */
-    bool before = p->history && p->history->performing;
-    if (p->history)
-        p->history->performing = true;
     for (int i = 0; i < PAPER_BRUSHES_MAX; i++)
-        count += paper_sheet_brush_get(p, i) != NULL;
+        count += sheet_brush_get(p, i) != NULL;
     event_put_number(b, (p->varnished ? EXTRA_VARNISHED : 0) | (p->salted ? EXTRA_SALTED : 0),
                      1);
     event_put_double(b, p->salt_reach);
     event_put_double(b, p->salt_strength);
     event_put_number(b, (uint64_t)count, 1);
     for (int i = 0; i < PAPER_BRUSHES_MAX && status == PAPER_OK; i++) {
-        const struct paper_brush *brush = paper_sheet_brush_get(p, i);
+        const struct paper_brush *brush = sheet_brush_get(p, i);
         if (!brush)
             continue;
         event_encode(b, &p->config, SHEET_EVENT_BRUSH, brush);
         for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK; j++) {
             double grains[PAPER_BRISTLES_MAX];
-            status = paper_sheet_brush_read(p, i, j, grains);
+            status = sheet_brush_read(p, i, j, grains);
             for (int k = 0; k < brush->bristles && status == PAPER_OK; k++)
                 event_put_double(b, grains[k]);
         }
     }
-    if (p->history)
-        p->history->performing = before;
     return status;
-}
-
-void sheet_extras_reset(struct paper_sheet *p)
-{
-    sheet_brushes_destroy(p);
-    p->varnished = p->salted = false;
-    p->salt_reach = 10;
-    p->salt_strength = 1;
 }
 
 /* One brush; what is wrong with bytes from outside is found by the functions that make brushes. */
@@ -68,7 +54,7 @@ static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader
             double grains[PAPER_BRISTLES_MAX];
             for (int k = 0; k < made->bristles; k++)
                 grains[k] = event_get_double(r);
-            status = paper_sheet_brush_write(p, made->number, j, grains);
+            status = sheet_brush_write(p, made->number, j, grains);
         }
     }
     event_free(SHEET_EVENT_BRUSH, brush);
@@ -78,7 +64,6 @@ static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader
 enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r)
 {
     enum paper_status status = PAPER_OK;
-    bool before = p->history && p->history->performing;
     sheet_extras_reset(p);
     int flags = (int)event_get_number(r, 1);
     double reach = event_get_double(r), strength = event_get_double(r);
@@ -89,12 +74,8 @@ enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader
     p->salted = (flags & EXTRA_SALTED) != 0;
     p->salt_reach = reach;
     p->salt_strength = strength;
-    if (p->history)
-        p->history->performing = true;
     for (int i = 0; i < count && status == PAPER_OK && !r->bad; i++)
         status = brush_decode(p, r);
-    if (p->history)
-        p->history->performing = before;
     if (status == PAPER_BAD_ARGUMENT || (status == PAPER_OK && (r->bad || r->at != r->end)))
         return paper_fail(PAPER_BAD_FILE, "its brushes are damaged");
     return status;

@@ -1,0 +1,37 @@
+/* positions.c - where a position lies in time. */
+#include "history/history_internal.h"
+
+long history_time(const struct sheet_history *h, struct position position)
+{
+    long time = position.step;
+    for (int i = 0; i < position.op; i++)
+        time += h->ops[i].steps;
+    return time;
+}
+
+struct position history_position(const struct sheet_history *h, long time, struct position end)
+{
+    struct position position = {0, 0};
+    long passed = 0;
+    if (time < 0 || time > history_time(h, end))
+        return (struct position){-1, 0};
+    while (position_compare(position, end) < 0) {
+        int steps = h->ops[position.op].steps;
+        if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
+            if (h->ops[position.op].kind == SHEET_EVENT_STEP)
+                position.step = (int)(time - passed);
+            break;
+        }
+        passed += steps;
+        position.op++;
+    }
+    return position_compare(position, end) < 0 ? position : end;
+}
+
+long history_work(const struct sheet_history *h, struct position position)
+{
+    long work = position.step;
+    for (int i = 0; i < position.op; i++)
+        work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
+    return work;
+}

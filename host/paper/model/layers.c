@@ -1,0 +1,165 @@
+/* layers.c - what a sheet is made of and what is in it, layer by layer, in and out; and its totals. */
+#include "model/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    size_t member; /* of the field's id in struct paper_sheet */
+    bool each;     /* one for each pigment */
+    bool amount;   /* in grains */
+    double low, high;
+} layers[PAPER_LAYERS_COUNT] = {
+#define LAYER(name, member, each, amount, low, high)                                           \
+    [PAPER_LAYER_##name] = {offsetof(struct paper_sheet, member), each, amount, low, high}
+    LAYER(HEIGHT, height, false, false, 0, 1),
+    LAYER(ABSORBENCY, page.absorbency, false, false, 0, PAPER_ABSORBENCY_MAX),
+    LAYER(CAPACITY, capacity, false, false, 0.01, 1),
+    LAYER(RESIST, resist, false, false, 0, 1),
+    LAYER(VARNISH, varnish, false, false, 0, 1),
+    LAYER(SALT, salt, false, false, 0, 4),
+    LAYER(BRINE, brine, false, false, 0, 4),
+    LAYER(RED, substrate[0], false, false, 0, 1),
+    LAYER(GREEN, substrate[1], false, false, 0, 1),
+    LAYER(BLUE, substrate[2], false, false, 0, 1),
+    LAYER(SURFACE_WATER, surface_water, false, true, 0, 4),
+    LAYER(INFUSED_WATER, page.water, false, true, 0, 4),
+    LAYER(DRIED_WATER, dried, false, true, 0, 0),
+    LAYER(SURFACE_PIGMENT, surface, true, true, 0, 4),
+    LAYER(INFUSED_PIGMENT, infused, true, true, 0, 4),
+    LAYER(FIXED_PIGMENT, fixed, true, true, 0, 4),
+#undef LAYER
+};
+
+CM_field_id_t sheet_layer_field(const struct paper_sheet *p, enum paper_layer layer,
+                                int pigment)
+{
+    CM_field_id_t field;
+    if ((unsigned)layer >= PAPER_LAYERS_COUNT ||
+        (layers[layer].each && (pigment < 0 || pigment >= p->config.pigments_count)))
+        return 0;
+    size_t at =
+        layers[layer].member + (layers[layer].each ? (size_t)pigment : 0) * sizeof field;
+    memcpy(&field, (const char *)p + at, sizeof field);
+    return field;
+}
+
+static enum paper_status layer_check(const struct paper_sheet *p, enum paper_layer layer,
+                                     int pigment, CM_field_id_t *field)
+{
+    *field = sheet_layer_field(p, layer, pigment);
+    if (*field)
+        return PAPER_OK;
+    return paper_fail(PAPER_BAD_ARGUMENT,
+                      "the sheet has no layer %d of pigment %d (it has %d pigments)",
+                      (int)layer, pigment, p->config.pigments_count);
+}
+
+enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
+    CM_field_id_t field;
+    enum paper_status status =
+        layer_check(p, (enum paper_layer)event->layer, event->pigment, &field);
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_DRIED_WATER)
+        return paper_fail(PAPER_BAD_ARGUMENT, "what has dried is counted, not written");
+    unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
+                    : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
+                                                                : 0;
+    if (status == PAPER_OK && part && !sheet_has(p, part))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "pigments have no such layer in this model of the paper");
+    size_t width = (size_t)p->page.width, count = width * (size_t)p->page.height;
+    for (size_t i = 0; i < count && status == PAPER_OK; i++)
+        if (isnan(event->values[i]))
+            return paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
+                              i % width, i / width);
+    return status;
+}
+
+enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
+{
+    const struct event_layer *event = arguments;
+    enum paper_layer layer = (enum paper_layer)event->layer;
+    const float *values = event->values;
+    CM_field_id_t field = sheet_layer_field(p, layer, event->pigment);
+    enum paper_status status = PAPER_OK;
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    double unit = layers[layer].amount ? p->unit : 1;
+    double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
+    float *cut = malloc(count * sizeof *cut);
+    if (!cut)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.width,
+                          p->page.height);
+    for (size_t i = 0; i < count; i++) {
+        double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
+        cut[i] = (float)(unit > 1 ? floor(value) : value);
+    }
+    paper_enter(&p->page);
+    CM_set_context();
+    f_array_write(p, field, cut);
+    p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
+    p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
+    if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
+        sheet_faces_make(p);
+    if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
+        sheet_wet_around_make(p);
+    status = paper_leave(&p->page);
+    free(cut);
+    return status;
+}
+
+enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer, int pigment,
+                                   float *values)
+{
+    CM_field_id_t field;
+    enum paper_status status = layer_check(p, layer, pigment, &field);
+    if (status != PAPER_OK)
+        return status;
+    paper_enter(&p->page);
+    CM_set_context();
+    if (layer == PAPER_LAYER_DRIED_WATER) {
+        CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, SHEET_F);
+        field = p->t[0];
+    }
+    f_array_read(p, values, field);
+    status = paper_leave(&p->page);
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    if (layers[layer].amount && p->unit != 1)
+        for (size_t i = 0; i < count; i++)
+            values[i] *= (float)(1 / p->unit);
+    return status;
+}
+
+/* Sum of whole numbers, in doubles: exact up to 2^53 grains. */
+static double field_total(CM_field_id_t field, CM_field_id_t wide)
+{
+    CM_f_move_2L(wide, field, 52, 11, SHEET_F);
+    return CM_global_f_add_1L(wide, 52, 11);
+}
+
+enum paper_status sheet_total(struct paper_sheet *p, int substance, double *total)
+{
+    if (substance < -1 || substance > p->config.pigments_count)
+        return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has %d pigments (asked for number %d)",
+                          p->config.pigments_count, substance);
+    paper_enter(&p->page);
+    CM_set_context();
+    CM_field_id_t wide = CM_allocate_heap_field(64), fields[3];
+    *total = 0;
+    if (substance < 0) {
+        CM_f_u_float_2_2L(wide, p->dried, SHEET_DRIED_BITS, 52, 11);
+        *total = CM_global_f_add_1L(wide, 52, 11);
+    } else if (substance == 0) {
+        *total = field_total(p->page.water, wide);
+        if (sheet_has(p, PAPER_PART_SURFACE))
+            *total += field_total(p->surface_water, wide);
+    } else {
+        for (int j = sheet_pigment_fields(p, substance - 1, fields) - 1; j >= 0; j--)
+            *total += field_total(fields[j], wide);
+    }
+    *total /= p->unit;
+    CM_deallocate_heap_field(wide);
+    return paper_leave(&p->page);
+}

@@ -1,0 +1,151 @@
+/* sheet.c - a sheet's life: what it is checked for, made, made anew, and given back. */
+#include "arguments/members.h"
+#include "model/model.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct paper_sheet_config paper_sheet_config_default(void)
+{
+    struct paper_sheet_config config = {.width = 512,
+                                        .height = 512,
+                                        .parts = PAPER_PARTS_ALL,
+                                        .rule = PAPER_RULE_KUBELKA_MUNK,
+                                        .stock = *paper_stock_number(0),
+                                        .seed = 1990};
+    return config;
+}
+
+/* ---- checking ---- */
+
+/* Of what kind it is, and its name, go before what is wrong. */
+static enum paper_status named_check(const struct members *members, const void *of,
+                                     const char *what, const char *name)
+{
+    char whose[PAPER_NAME_MAX + 16];
+    snprintf(whose, sizeof whose, "%s%s%.*s's ", what, *name ? " " : "", PAPER_NAME_MAX, name);
+    return event_members_check(members, of, whose, "");
+}
+
+static enum paper_status config_check(const struct paper_sheet_config *c)
+{
+    if (c->width < PAPER_SIDE_MIN || c->width > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper width must be %d..%d (got %d)",
+                          PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->width);
+    if (c->height < PAPER_SIDE_MIN || c->height > PAPER_SIDE_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper height must be %d..%d (got %d)",
+                          PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->height);
+    if (c->parts > PAPER_PARTS_ALL)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper has no parts 0x%x", c->parts);
+    if (c->pigments_count < 0 || c->pigments_count > PAPER_PIGMENTS_MAX)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper takes 0..%d pigments (got %d)",
+                          PAPER_PIGMENTS_MAX, c->pigments_count);
+    if (c->rule > PAPER_RULE_LUMINOUS)
+        return paper_fail(PAPER_BAD_ARGUMENT, "there is no rule %d", (int)c->rule);
+    enum paper_status status =
+        named_check(&event_stock_members, &c->stock, "paper", c->stock.name);
+    for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
+        status = named_check(&event_pigment_members, &c->pigments[i], "pigment",
+                             c->pigments[i].name);
+    return status;
+}
+
+/* ---- life ---- */
+
+static int coordinate_bits(int length)
+{
+    int bits = 1;
+    while (bits < 31 && (1 << bits) < length)
+        bits++;
+    return bits;
+}
+
+/* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
+static enum paper_status fresh_make(struct paper_sheet *p)
+{
+    sheet_stock_make(p);
+    return sheet_amounts_clear(p);
+}
+
+enum paper_status sheet_create(const struct paper_sheet_config *config,
+                               struct paper_sheet **out)
+{
+    *out = NULL;
+    enum paper_status status = config_check(config);
+    if (status != PAPER_OK)
+        return status;
+    struct paper_sheet *p = calloc(1, sizeof *p);
+    if (!p)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
+    p->config = *config;
+    p->config.parts = sheet_parts_whole(config->parts);
+    p->unit = p->config.parts ? PAPER_GRAINS : 1;
+    p->air = paper_air_default();
+    p->salt_reach = 10;
+    p->salt_strength = 1;
+    p->page.width = config->width;
+    p->page.height = config->height;
+    p->page.x_bits = coordinate_bits(config->width);
+    p->page.y_bits = coordinate_bits(config->height);
+    status = paper_attach();
+    if (status != PAPER_OK) {
+        free(p);
+        return status;
+    }
+    int dimensions[2] = {config->height, config->width};
+    p->page.geometry = CM_create_geometry(dimensions, 2);
+    p->page.vp_set = CM_allocate_vp_set(p->page.geometry);
+    paper_enter(&p->page);
+    sheet_fields_make(p);
+    status = fresh_make(p);
+    if (status == PAPER_OK)
+        status = paper_leave(&p->page);
+    if (status == PAPER_OK)
+        status = sheet_finish(p);
+    if (status != PAPER_OK) {
+        sheet_destroy(p);
+        return status;
+    }
+    *out = p;
+    return PAPER_OK;
+}
+
+void sheet_destroy(struct paper_sheet *p)
+{
+    sheet_brushes_destroy(p);
+    CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
+    CM_deallocate_geometry(p->page.geometry);
+    free(p);
+}
+
+enum paper_status sheet_finish(struct paper_sheet *p)
+{
+    return paper_finish(&p->page);
+}
+
+void sheet_extras_reset(struct paper_sheet *p)
+{
+    sheet_brushes_destroy(p);
+    p->varnished = p->salted = false;
+    p->salt_reach = 10;
+    p->salt_strength = 1;
+}
+
+enum paper_status sheet_reset(struct paper_sheet *p)
+{
+    paper_enter(&p->page);
+    CM_set_context();
+    f_set(p->resist, 0.0);
+    f_set(p->wet_around, 0.0);
+    f_set(p->surface_water, 0.0);
+    f_set(p->varnish, 0.0);
+    f_set(p->salt, 0.0);
+    f_set(p->brine, 0.0);
+    sheet_extras_reset(p);
+    CM_u_move_constant_1L(p->dried, 0, SHEET_DRIED_BITS);
+    p->air = paper_air_default();
+    enum paper_status status = fresh_make(p), left = paper_leave(&p->page);
+    if (status == PAPER_OK)
+        status = left;
+    return status == PAPER_OK ? sheet_finish(p) : status;
+}
