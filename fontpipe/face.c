@@ -212,6 +212,18 @@ char *font_face_find(const char *name, int *index)
     return by_fontconfig(name, index ? index : &own);
 }
 
+const char *font_face_first(const char *const *names)
+{
+    for (int i = 0; names[i]; i++) {
+        char *path = font_face_find(names[i], NULL);
+        bool found = path != NULL;
+        free(path);
+        if (found)
+            return names[i];
+    }
+    return names[0];
+}
+
 enum font_status font_face_open(const char *name, int index, struct font_face **out)
 {
     *out = NULL;

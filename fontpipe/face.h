@@ -27,6 +27,8 @@ enum font_status font_face_open(const char *name, int index, struct font_face **
 /* The file of such a name, or NULL; index (may be NULL) becomes a family's in a collection if it is 0. Owns: the caller
  * frees it. */
 char *font_face_find(const char *name, int *index);
+/* The first of the names, NULL-ended, whose font there is, else the first name. Owns: nothing, it is one of the names. */
+const char *font_face_first(const char *const *names);
 /* The same from memory, which is copied. */
 enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
                                        struct font_face **out);

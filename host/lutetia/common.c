@@ -2,7 +2,6 @@
 #include "lutetia.h"
 
 #include <display.h>
-#include <face.h>
 #include <paris_internal.h>
 
 #include <errno.h>
@@ -212,16 +211,4 @@ int folder_make(const char *verb, const char *path)
     if (access(path, W_OK) != 0)
         return fail(verb, "%s: cannot write there: %s", path, strerror(errno));
     return EXIT_SUCCESS;
-}
-
-const char *font_first(const char *const *names)
-{
-    for (int i = 0; names[i]; i++) {
-        char *path = font_face_find(names[i], NULL);
-        bool found = path != NULL;
-        free(path);
-        if (found)
-            return names[i];
-    }
-    return names[0];
 }

@@ -13,6 +13,8 @@
 #include "demo_scenery.h"
 #include "lutetia.h"
 
+#include <face.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,7 +94,7 @@ static enum paper_status advance_of(const struct paper_line *line, int count,
 static enum paper_status word_set(struct demo_page *page)
 {
     /* Letters are set one by one: none may join. */
-    struct paper_line line = {.font = font_first(word_fonts),
+    struct paper_line line = {.font = font_face_first(word_fonts),
                               .size_px = word_size_px,
                               .features = "-liga,-clig,-calt"};
     double length_px, advance_px;
@@ -116,7 +118,7 @@ static enum paper_status word_set(struct demo_page *page)
 static enum paper_status caption_set(struct demo_page *page)
 {
     struct paper_line line = {.text = CAPTION,
-                              .font = font_first(caption_fonts),
+                              .font = font_face_first(caption_fonts),
                               .size_px = caption_size_px,
                               .tracking_em = caption_tracking_em};
     enum paper_status status = paper_line_screen(&line, &page->caption.screen, NULL);

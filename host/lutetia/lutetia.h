@@ -75,7 +75,4 @@ int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, con
 /* Makes a folder if there is none. EXIT_SUCCESS, or says why not. */
 int folder_make(const char *verb, const char *path);
 
-/* The first of the names whose font there is, else the first name. Owns: nothing, it is one of the names. */
-const char *font_first(const char *const *names);
-
 #endif

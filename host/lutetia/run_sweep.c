@@ -148,7 +148,7 @@ static int runs_make(struct all *all, const struct sweep *sweeps, int count)
         struct one *one = &all->runs[all->runs_count];
         long left = total, number = all->runs_count;
         one->status = -1;
-        one->folder = strdup(all->run->out_folder);
+        one->folder = strdup(all->run->config.out_folder);
         for (int i = 0; i < count; i++) { /* the last key changes fastest */
             left /= sweeps[i].count;
             const char *value = sweeps[i].values[number / left % sweeps[i].count];
@@ -193,17 +193,16 @@ static char *path_within(const char *folder, const char *path)
 static int one_run(struct all *all, const struct one *one)
 {
     struct run run = *all->run;
-    run.out_folder = one->folder;
-    memset(run.asked, 0, sizeof run.asked);
+    run.config.out_folder = one->folder;
     for (int i = 0; i < all->keys_count; i++)
-        run.words[run.words_count++] = one->words[i];
+        run.words[run.config.words_count++] = one->words[i];
     char *video = path_within(one->folder, run.film.video),
          *frames = path_within(one->folder, run.film.folder);
     run.film.video = video;
     run.film.folder = frames;
     int status = frames ? folder_make("run", frames) : EXIT_SUCCESS;
     if (status == EXIT_SUCCESS)
-        status = script_run(&run);
+        status = run_script(&run);
     free(video);
     free(frames);
     return status;
@@ -403,8 +402,8 @@ int sweep_all(struct run *run, const char *text, int jobs)
                        "--sweep must be KEY=a,b,c or KEY=1..5 or KEY=0..1/5, several after "
                        "';' (got '%.60s')",
                        text);
-    else if (run->words_count + count > RUN_WORDS_MAX)
-        status = fail_usage("run", "a script takes up to %d key=value", RUN_WORDS_MAX);
+    else if (run->config.words_count + count > SCRIPT_WORDS_MAX)
+        status = fail_usage("run", "a script takes up to %d key=value", SCRIPT_WORDS_MAX);
     else
         status = runs_make(&all, sweeps, count);
     if (status == EXIT_SUCCESS) {

@@ -2,10 +2,10 @@
 #ifndef LUTETIA_RUN_SWEEP_H
 #define LUTETIA_RUN_SWEEP_H
 
-#include "lua_run.h"
+#include "run.h"
 
-/* One run of the script, as the run says; EXIT_SUCCESS, EXIT_FAILED or EXIT_INTERRUPTED (verb_run.c). */
-int script_run(struct run *run);
+/* Tells whoever runs this run among others. */
+void run_report(struct run *run, long done, long total);
 
 /* Runs for every combination of "KEY=a,b,c;OTHER=1..5;THIRD=0..1/5", each in a folder of its own. With `jobs` above 1 as many at a
  * time, in processes of their own; what they print comes in the order of the combinations. Runs that fail do not stop the

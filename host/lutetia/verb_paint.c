@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include <display.h>
+#include <face.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -128,7 +129,7 @@ static enum paper_status line_fit(const struct paint *paint, struct paper_line *
 static int screen_from_text(struct paint *paint)
 {
     struct paper_line line = {.text = paint->text,
-                              .font = paint->font ? paint->font : font_first(fonts),
+                              .font = paint->font ? paint->font : font_face_first(fonts),
                               .filter = paint->filter,
                               .angle_deg = paint->angle_deg,
                               .size_px = paint->size_px};

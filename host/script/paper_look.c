@@ -1,6 +1,5 @@
-/* lua_paper_look.c - what papers hold and look like, in scripts: layers as numbers, masks and functions; totals; pictures. */
-#include "lua_paper.h"
-#include "lutetia.h"
+/* paper_look.c - what papers hold and look like, in scripts: layers as numbers, masks and functions; totals; pictures. */
+#include "script_paper.h"
 
 #include <display.h>
 #include <history.h>
@@ -31,14 +30,15 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
 /* The layer and pigment named by the arguments at index and pigment_index. */
-static enum paper_layer layer_read(lua_State *L, const struct run_paper *paper, int index,
+static enum paper_layer layer_read(lua_State *L, const struct script_paper *paper, int index,
                                    int pigment_index, int *pigment)
 {
-    enum paper_layer layer =
-        (enum paper_layer)arg_choice(L, "a layer", luaL_checkstring(L, index), layer_names);
+    enum paper_layer layer = (enum paper_layer)script_arg_choice(
+        L, "a layer", luaL_checkstring(L, index), layer_names);
     *pigment = 0;
     if (layer >= PAPER_LAYER_SURFACE_PIGMENT)
-        *pigment = paper_pigment_number_of(L, paper->sheet, luaL_checkstring(L, pigment_index));
+        *pigment =
+            script_paper_pigment_number_of(L, paper->sheet, luaL_checkstring(L, pigment_index));
     return layer;
 }
 
@@ -52,7 +52,7 @@ static float *values_new(lua_State *L, const struct paper_sheet_config *config)
 /* paper:layer(name, value [, pigment]): value is a number, a mask, or a function of x and y. */
 static int paper_layer(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment, x = 0, y = 0;
     enum paper_layer layer = layer_read(L, paper, 2, 4, &pigment);
@@ -60,7 +60,7 @@ static int paper_layer(lua_State *L)
     float *values = values_new(L, config);
     memset(values, 0, count * sizeof *values);
     if (lua_type(L, 3) == LUA_TNUMBER) {
-        double value = arg_at(L, 3, "a layer's value", -1e6, 1e6);
+        double value = script_arg_at(L, 3, "a layer's value", -1e6, 1e6);
         for (size_t i = 0; i < count; i++)
             values[i] = (float)value;
     } else if (lua_type(L, 3) == LUA_TFUNCTION) {
@@ -69,12 +69,12 @@ static int paper_layer(lua_State *L)
             lua_pushinteger(L, (lua_Integer)(i % width));
             lua_pushinteger(L, (lua_Integer)(i / width));
             lua_call(L, 2, 1);
-            values[i] = (float)arg_at(L, -1, "a layer's value", -1e6, 1e6);
+            values[i] = (float)script_arg_at(L, -1, "a layer's value", -1e6, 1e6);
             lua_pop(L, 1);
         }
     } else {
         struct paper_screen screen;
-        if (mask_screen(L, 3, config->width, config->height, &screen, &x, &y))
+        if (script_mask_screen(L, 3, config->width, config->height, &screen, &x, &y))
             for (int row = 0; row < screen.height_px; row++)
                 for (int column = 0; column < screen.width_px; column++) {
                     int at_x = x + column, at_y = y + row;
@@ -85,30 +85,30 @@ static int paper_layer(lua_State *L)
                             255.0f;
                 }
     }
-    paper_check(L, paper_sheet_layer_write(paper->sheet, layer, pigment, values));
-    run_check(L);
+    script_paper_check(L, paper_sheet_layer_write(paper->sheet, layer, pigment, values));
+    script_check(L);
     return 0;
 }
 
 /* paper:mask(name, low, high [, pigment]): a layer as a mask, 0 at low and 1 at high. */
 static int paper_mask(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment;
     enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
-    double low = lua_isnoneornil(L, 3) ? 0 : arg_at(L, 3, "a mask's black", -1e6, 1e6);
-    double high = lua_isnoneornil(L, 4) ? 1 : arg_at(L, 4, "a mask's white", -1e6, 1e6);
+    double low = lua_isnoneornil(L, 3) ? 0 : script_arg_at(L, 3, "a mask's black", -1e6, 1e6);
+    double high = lua_isnoneornil(L, 4) ? 1 : script_arg_at(L, 4, "a mask's white", -1e6, 1e6);
     if (low == high)
         luaL_error(L, "a mask's black and white must differ");
     float *values = values_new(L, config);
-    paper_check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
+    script_paper_check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
     size_t count = (size_t)config->width * (size_t)config->height;
     uint8_t *gray = lua_newuserdatauv(L, count, 0);
     for (size_t i = 0; i < count; i++)
         gray[i] =
             (uint8_t)lround(255 * fmin(1, fmax(0, ((double)values[i] - low) / (high - low))));
-    mask_push(L, gray, config->width, config->height, 0, 0);
+    script_mask_push(L, gray, config->width, config->height, 0, 0);
     return 1;
 }
 
@@ -116,29 +116,29 @@ static int paper_mask(lua_State *L)
 static int paper_at_fiber(lua_State *L)
 {
     if (lua_type(L, 2) == LUA_TNUMBER)
-        return paper_at_time(L);
-    struct run_paper *paper = paper_at(L);
+        return script_paper_at_time(L);
+    struct script_paper *paper = script_paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment;
     enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
-    double x = floor(arg_at(L, 3, "x", 0, config->width - 1));
-    double y = floor(arg_at(L, 4, "y", 0, config->height - 1));
+    double x = floor(script_arg_at(L, 3, "x", 0, config->width - 1));
+    double y = floor(script_arg_at(L, 4, "y", 0, config->height - 1));
     float *values = values_new(L, config);
-    paper_check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
+    script_paper_check(L, paper_sheet_layer_read(paper->sheet, layer, pigment, values));
     lua_pushnumber(L, (double)values[(size_t)y * (size_t)config->width + (size_t)x]);
     return 1;
 }
 
 static int paper_total_of(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     const char *name = luaL_checkstring(L, 2);
     int substance = strcmp(name, "water") == 0 ? 0
                     : strcmp(name, "dried") == 0
                         ? -1
-                        : 1 + paper_pigment_number_of(L, paper->sheet, name);
+                        : 1 + script_paper_pigment_number_of(L, paper->sheet, name);
     double total;
-    paper_check(L, paper_sheet_total(paper->sheet, substance, &total));
+    script_paper_check(L, paper_sheet_total(paper->sheet, substance, &total));
     lua_pushnumber(L, total);
     return 1;
 }
@@ -151,14 +151,14 @@ static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
 static int paper_frame(lua_State *L)
 {
     static const char *const keys[] = {"show", "layer", "pigment", "low", "high", "bits", NULL};
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     const char *name = luaL_checkstring(L, 2);
-    arg_table(L, 3);
-    arg_keys(L, 3, "frame", keys);
+    script_arg_table(L, 3);
+    script_arg_keys(L, 3, "frame", keys);
     struct paper_sheet_view view = {.high = 1};
-    const char *show = arg_text(L, 3, "frame", "show"),
-               *layer = arg_text(L, 3, "frame", "layer");
+    const char *show = script_arg_text(L, 3, "frame", "show"),
+               *layer = script_arg_text(L, 3, "frame", "layer");
     if (layer) {
         view.show = PAPER_SHOW_LAYER;
         lua_getfield(L, 3, "layer");
@@ -167,25 +167,23 @@ static int paper_frame(lua_State *L)
         lua_settop(L, 3);
     }
     if (show)
-        view.show = (enum paper_show)arg_choice(L, "frame show", show, shows);
-    view.low = arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
-    view.high = arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
-    int bits = arg_integer(L, 3, "frame", "bits", 8, 8, 16);
+        view.show = (enum paper_show)script_arg_choice(L, "frame show", show, shows);
+    view.low = script_arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
+    view.high = script_arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
+    int bits = script_arg_integer(L, 3, "frame", "bits", 8, 8, 16);
     if (bits != 8 && bits != 16)
         luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);
     size_t length = strlen(name);
     if (length < 5 || strcmp(name + length - 4, ".png") != 0)
         luaL_error(L, "frame's file must end in .png (got '%s')", name);
-    const char *path = run_path(L, paper->run->out_folder, name, "frame");
+    const char *path = script_path(L, paper->script->config->out_folder, name, "frame");
 
-    if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0) {
-        paper->run->pictures++; /* made before this run was saved */
-        return 0;
-    }
+    if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0)
+        return 0; /* made before this run was saved */
     size_t count = 3 * (size_t)config->width * (size_t)config->height;
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
-    paper_check(L, paper_sheet_view(paper->sheet, &view, rgb));
-    run_check(L);
+    script_paper_check(L, paper_sheet_view(paper->sheet, &view, rgb));
+    script_check(L);
     enum display_status status;
     if (bits == 16) {
         status = display_png_write_16(path, config->width, config->height, 3, rgb);
@@ -200,10 +198,9 @@ static int paper_frame(lua_State *L)
     }
     if (status != DISPLAY_OK)
         luaL_error(L, "%s", display_error());
-    paper->run->pictures++;
     return 0;
 }
 
-const luaL_Reg lua_look_methods[] = {{"layer", paper_layer}, {"mask", paper_mask},
-                                     {"at", paper_at_fiber}, {"total", paper_total_of},
-                                     {"frame", paper_frame}, {NULL, NULL}};
+const luaL_Reg script_paper_look_methods[] = {{"layer", paper_layer}, {"mask", paper_mask},
+                                              {"at", paper_at_fiber}, {"total", paper_total_of},
+                                              {"frame", paper_frame}, {NULL, NULL}};

@@ -1,6 +1,5 @@
-/* lua_brush.c - brushes in scripts: paper:brush{...}, brush:dip{...}, paper:stroke{...}, and the paths that strokes follow. */
-#include "lua_run.h"
-#include "lutetia.h"
+/* brush.c - brushes in scripts: paper:brush{...}, brush:dip{...}, paper:stroke{...}, and the paths that strokes follow. */
+#include "script_internal.h"
 
 #include <brush.h>
 #include <path.h>
@@ -9,28 +8,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char brush_type[] = "lutetia brush";
+const char script_brush_type[] = "lutetia brush";
 
 enum { PLACE_MAX = 100000, CONTROL_MAX = 20000, PROFILE_MAX = 1000 };
 #define PI 3.14159265358979323846
 #define PROFILE_HZ 120.0 /* samples a second where pressure is a function of the way */
 #define LINE_SPACING 3.0 /* fibers between samples on a line that comes from a path */
 
-struct run_brush {
+struct script_brush {
     int number;
     double width;
 };
 
-static struct run_brush *brush_at(lua_State *L, int index)
+static struct script_brush *brush_at(lua_State *L, int index)
 {
-    return luaL_checkudata(L, index, brush_type);
+    return luaL_checkudata(L, index, script_brush_type);
 }
 
 /* The brush's paper, which it holds. */
 static struct paper_sheet *brush_sheet(lua_State *L, int index)
 {
     lua_getiuservalue(L, index, 1);
-    struct paper_sheet *sheet = paper_arg(L, -1);
+    struct paper_sheet *sheet = script_paper_arg(L, -1);
     lua_pop(L, 1);
     return sheet;
 }
@@ -76,54 +75,57 @@ static int paper_brush(lua_State *L)
                                        "follows",   "point",    "uneven", "splay",    "bend",
                                        "thickness", "reach",    "load",   "flow",     "mixing",
                                        "seed",      "mirrored", "number", NULL};
-    struct paper_sheet *sheet = paper_arg(L, 1);
+    struct paper_sheet *sheet = script_paper_arg(L, 1);
     if (lua_isnoneornil(L, 2)) {
         lua_settop(L, 1);
         lua_newtable(L);
     }
     luaL_checktype(L, 2, LUA_TTABLE);
     lua_settop(L, 2);
-    arg_keys(L, 2, "brush", keys);
-    const struct kind *kind = kind_find(L, arg_text(L, 2, "brush", "kind"));
+    script_arg_keys(L, 2, "brush", keys);
+    const struct kind *kind = kind_find(L, script_arg_text(L, 2, "brush", "kind"));
     struct paper_brush b = paper_brush_default();
     int free_one = 0;
     while (free_one < PAPER_BRUSHES_MAX && paper_history_brush(sheet, free_one))
         free_one++;
-    b.number = arg_integer(L, 2, "brush", "number", free_one + 1, 1, PAPER_BRUSHES_MAX + 1) - 1;
+    b.number =
+        script_arg_integer(L, 2, "brush", "number", free_one + 1, 1, PAPER_BRUSHES_MAX + 1) - 1;
     if (b.number == PAPER_BRUSHES_MAX)
         luaL_error(L, "a paper has up to %d brushes; number = 1 replaces the first",
                    PAPER_BRUSHES_MAX);
-    b.width = arg_number(L, 2, "brush", "width", 20, 1, 1000);
-    b.depth = arg_number(L, 2, "brush", "depth", fmax(1, kind->depth * b.width), 1, 1000);
-    b.bristles = arg_integer(L, 2, "brush", "bristles",
-                             (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width)),
-                             1, PAPER_BRISTLES_MAX);
-    b.angle = arg_number(L, 2, "brush", "angle", 0, -36000, 36000) * PI / 180;
-    b.follows = arg_boolean(L, 2, "brush", "follows", false);
+    b.width = script_arg_number(L, 2, "brush", "width", 20, 1, 1000);
+    b.depth =
+        script_arg_number(L, 2, "brush", "depth", fmax(1, kind->depth * b.width), 1, 1000);
+    b.bristles =
+        script_arg_integer(L, 2, "brush", "bristles",
+                           (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width)), 1,
+                           PAPER_BRISTLES_MAX);
+    b.angle = script_arg_number(L, 2, "brush", "angle", 0, -36000, 36000) * PI / 180;
+    b.follows = script_arg_boolean(L, 2, "brush", "follows", false);
     b.flat = kind->flat;
-    b.point = arg_number(L, 2, "brush", "point", kind->point, 0, 1);
-    b.uneven = arg_number(L, 2, "brush", "uneven", kind->uneven, 0, 1);
-    b.splay = arg_number(L, 2, "brush", "splay", kind->splay, 0, 2);
-    b.bend = arg_number(L, 2, "brush", "bend", kind->bend, 0, 2);
-    b.thickness =
-        arg_number(L, 2, "brush", "thickness", fmax(1.2, kind->thickness * b.width), 0, 100);
-    b.reach = arg_number(L, 2, "brush", "reach", kind->reach * b.width, 1, 1e6);
-    b.load = arg_number(L, 2, "brush", "load", kind->load, 0.01, 2);
-    b.flow = arg_number(L, 2, "brush", "flow", b.flow, 0, 1e6);
-    b.mixing = arg_number(L, 2, "brush", "mixing", kind->mixing, 0, 1);
-    b.seed = (uint64_t)arg_integer(L, 2, "brush", "seed", b.number + 1, 0, 2147483647);
-    b.mirrored = arg_boolean(L, 2, "brush", "mirrored", false);
+    b.point = script_arg_number(L, 2, "brush", "point", kind->point, 0, 1);
+    b.uneven = script_arg_number(L, 2, "brush", "uneven", kind->uneven, 0, 1);
+    b.splay = script_arg_number(L, 2, "brush", "splay", kind->splay, 0, 2);
+    b.bend = script_arg_number(L, 2, "brush", "bend", kind->bend, 0, 2);
+    b.thickness = script_arg_number(L, 2, "brush", "thickness",
+                                    fmax(1.2, kind->thickness * b.width), 0, 100);
+    b.reach = script_arg_number(L, 2, "brush", "reach", kind->reach * b.width, 1, 1e6);
+    b.load = script_arg_number(L, 2, "brush", "load", kind->load, 0.01, 2);
+    b.flow = script_arg_number(L, 2, "brush", "flow", b.flow, 0, 1e6);
+    b.mixing = script_arg_number(L, 2, "brush", "mixing", kind->mixing, 0, 1);
+    b.seed = (uint64_t)script_arg_integer(L, 2, "brush", "seed", b.number + 1, 0, 2147483647);
+    b.mirrored = script_arg_boolean(L, 2, "brush", "mirrored", false);
 
-    struct run_brush *own = lua_newuserdatauv(L, sizeof *own, 1);
-    *own = (struct run_brush){.number = b.number, .width = b.width};
-    luaL_setmetatable(L, brush_type);
+    struct script_brush *own = lua_newuserdatauv(L, sizeof *own, 1);
+    *own = (struct script_brush){.number = b.number, .width = b.width};
+    luaL_setmetatable(L, script_brush_type);
     lua_pushvalue(L, 1);
     lua_setiuservalue(L, -2, 1);
-    paper_memory_take(L, 1,
-                      8e6 + 2.0 * paper_sheet_get_config(sheet)->width *
-                                paper_sheet_get_config(sheet)->height,
-                      "brushes");
-    paper_check(L, paper_sheet_brush(sheet, &b));
+    script_paper_memory_take(L, 1,
+                             8e6 + 2.0 * paper_sheet_get_config(sheet)->width *
+                                       paper_sheet_get_config(sheet)->height,
+                             "brushes");
+    script_paper_check(L, paper_sheet_brush(sheet, &b));
     return 1;
 }
 
@@ -137,13 +139,13 @@ static void dip(lua_State *L, struct paper_dip *d)
     d->side[0] = -1;
     d->side[1] = 1;
     if (lua_istable(L, 3)) {
-        arg_keys(L, 3, "dip", keys);
-        d->part = arg_number(L, 3, "dip", "part", 1, 0, 1);
-        arg_numbers(L, 3, "dip", "side", d->side, 2, -1, 1);
+        script_arg_keys(L, 3, "dip", keys);
+        d->part = script_arg_number(L, 3, "dip", "part", 1, 0, 1);
+        script_arg_numbers(L, 3, "dip", "side", d->side, 2, -1, 1);
     } else if (!lua_isnoneornil(L, 3)) {
         luaL_checktype(L, 3, LUA_TTABLE);
     }
-    paper_check(L, paper_sheet_dip(brush_sheet(L, 1), d));
+    script_paper_check(L, paper_sheet_dip(brush_sheet(L, 1), d));
 }
 
 /* brush:dip({water = 1, ["burnt umber"] = 0.5} [, {part =, side = {from, to}}]) */
@@ -152,7 +154,7 @@ static int brush_dip(lua_State *L)
     struct paper_dip d = {0};
     struct paper_sheet *sheet = (brush_at(L, 1), brush_sheet(L, 1));
     lua_settop(L, 3);
-    paper_amounts(L, 2, sheet, d.amount);
+    script_paper_amounts(L, 2, sheet, d.amount);
     dip(L, &d);
     return 0;
 }
@@ -163,7 +165,7 @@ static int brush_rinse(lua_State *L)
     struct paper_dip d = {.amount = {1}};
     brush_at(L, 1);
     if (!lua_isnoneornil(L, 2))
-        d.amount[0] = arg_at(L, 2, "rinse's water", 0, 1);
+        d.amount[0] = script_arg_at(L, 2, "rinse's water", 0, 1);
     lua_settop(L, 1);
     dip(L, &d);
     return 0;
@@ -174,7 +176,7 @@ static int brush_wipe(lua_State *L)
 {
     struct paper_dip d = {0};
     brush_at(L, 1);
-    double part = lua_isnoneornil(L, 2) ? 1 : arg_at(L, 2, "wipe's part", 0, 1);
+    double part = lua_isnoneornil(L, 2) ? 1 : script_arg_at(L, 2, "wipe's part", 0, 1);
     lua_settop(L, 2);
     lua_newtable(L);
     lua_pushnumber(L, part);
@@ -186,13 +188,13 @@ static int brush_wipe(lua_State *L)
 /* brush:holds("water"), in units */
 static int brush_holds(lua_State *L)
 {
-    struct run_brush *brush = brush_at(L, 1);
+    struct script_brush *brush = brush_at(L, 1);
     struct paper_sheet *sheet = brush_sheet(L, 1);
     const char *name = luaL_checkstring(L, 2);
     int substance =
-        strcmp(name, "water") == 0 ? 0 : 1 + paper_pigment_number_of(L, sheet, name);
+        strcmp(name, "water") == 0 ? 0 : 1 + script_paper_pigment_number_of(L, sheet, name);
     double total;
-    paper_check(L, paper_sheet_brush_total(sheet, brush->number, substance, &total));
+    script_paper_check(L, paper_sheet_brush_total(sheet, brush->number, substance, &total));
     lua_pushnumber(L, total);
     return 1;
 }
@@ -230,11 +232,11 @@ static double pressure_at(lua_State *L, int index, double u)
         double at = u * (count - 1);
         int low = (int)fmin(floor(at), count > 1 ? count - 2 : 0);
         lua_rawgeti(L, index, low + 1);
-        value = arg_at(L, -1, "stroke pressure", 0, 1);
+        value = script_arg_at(L, -1, "stroke pressure", 0, 1);
         lua_pop(L, 1);
         if (count > 1) {
             lua_rawgeti(L, index, low + 2);
-            value += (at - low) * (arg_at(L, -1, "stroke pressure", 0, 1) - value);
+            value += (at - low) * (script_arg_at(L, -1, "stroke pressure", 0, 1) - value);
             lua_pop(L, 1);
         }
         return fmin(1, fmax(0, value));
@@ -246,7 +248,7 @@ static double pressure_at(lua_State *L, int index, double u)
     } else {
         lua_pushvalue(L, index);
     }
-    value = arg_at(L, -1, "stroke pressure", 0, 1);
+    value = script_arg_at(L, -1, "stroke pressure", 0, 1);
     lua_pop(L, 1);
     return value;
 }
@@ -289,7 +291,7 @@ static void draw(lua_State *L, struct drawing *d, struct paper_stroke_sample *sa
             samples[i].time_s = (samples[i].time_s - start) / length * d->seconds;
     d->stroke.samples = samples;
     d->stroke.samples_count = count;
-    paper_check(L, paper_stroke_check(&d->stroke));
+    script_paper_check(L, paper_stroke_check(&d->stroke));
     if (d->profiled) { /* finer, for the pressure to follow its profile */
         start = samples[0].time_s;
         length = samples[count - 1].time_s - start;
@@ -307,9 +309,9 @@ static void draw(lua_State *L, struct drawing *d, struct paper_stroke_sample *sa
         d->stroke.samples = made;
         d->stroke.samples_count = fine;
     }
-    paper_check(L, paper_sheet_stroke(d->sheet, &d->stroke, NULL));
+    script_paper_check(L, paper_sheet_stroke(d->sheet, &d->stroke, NULL));
     lua_settop(L, top);
-    run_check(L);
+    script_check(L);
 }
 
 /* A line of chords as samples at even distances. */
@@ -371,10 +373,10 @@ static struct paper_lines *lines_read(lua_State *L, const char *path, const char
 {
     struct paper_lines *lines = lines_new(L);
     if (path) {
-        paper_check(L, paper_path_parse(path, tolerance, lines));
+        script_paper_check(L, paper_path_parse(path, tolerance, lines));
     } else {
-        const char *name = run_path(L, run_of(L)->in_folder, file, "svg");
-        paper_check(L, paper_svg_read(name, tolerance, lines));
+        const char *name = script_path(L, script_of(L)->config->in_folder, file, "svg");
+        script_paper_check(L, paper_svg_read(name, tolerance, lines));
         lua_pop(L, 1);
     }
     return lines;
@@ -404,7 +406,7 @@ static void points_draw(lua_State *L, struct drawing *d)
             luaL_error(L, "stroke point %d must have 2..6 numbers (got %d)", i + 1, numbers);
         for (int j = 0; j < numbers; j++) {
             lua_rawgeti(L, -1, j + 1);
-            n[j] = arg_at(L, -1, "a number of a stroke's point", lows[j], highs[j]);
+            n[j] = script_arg_at(L, -1, "a number of a stroke's point", lows[j], highs[j]);
             lua_pop(L, 1);
         }
         lua_pop(L, 1);
@@ -426,8 +428,8 @@ static void recording_draw(lua_State *L, struct drawing *d, const char *file)
 {
     struct paper_stroke_sample *read;
     int count;
-    const char *path = run_path(L, run_of(L)->in_folder, file, "samples");
-    paper_check(L, paper_samples_read(path, &read, &count));
+    const char *path = script_path(L, script_of(L)->config->in_folder, file, "samples");
+    script_paper_check(L, paper_samples_read(path, &read, &count));
     struct paper_stroke_sample *samples = samples_new(L, count);
     memcpy(samples, read, (size_t)count * sizeof *samples);
     free(read);
@@ -454,12 +456,12 @@ static void way_draw(lua_State *L, struct drawing *d)
         lua_pushvalue(L, function);
         lua_pushnumber(L, time);
         lua_call(L, 1, 5);
-        double x = arg_at(L, -5, "a stroke's x", -PLACE_MAX, PLACE_MAX);
-        double y = arg_at(L, -4, "a stroke's y", -PLACE_MAX, PLACE_MAX);
+        double x = script_arg_at(L, -5, "a stroke's x", -PLACE_MAX, PLACE_MAX);
+        double y = script_arg_at(L, -4, "a stroke's y", -PLACE_MAX, PLACE_MAX);
         bool own = !lua_isnil(L, -3), leans = !lua_isnil(L, -2);
-        double pressure = own ? arg_at(L, -3, "a stroke's pressure", 0, 1) : 0.6;
-        double tilt_x = leans ? arg_at(L, -2, "a stroke's tilt", -1.5, 1.5) : d->tilt[0];
-        double tilt_y = leans ? arg_at(L, -1, "a stroke's tilt", -1.5, 1.5) : d->tilt[1];
+        double pressure = own ? script_arg_at(L, -3, "a stroke's pressure", 0, 1) : 0.6;
+        double tilt_x = leans ? script_arg_at(L, -2, "a stroke's tilt", -1.5, 1.5) : d->tilt[0];
+        double tilt_y = leans ? script_arg_at(L, -1, "a stroke's tilt", -1.5, 1.5) : d->tilt[1];
         lua_pop(L, 5);
         pressed += own;
         placed(&d->placing, &x, &y);
@@ -477,12 +479,12 @@ static int paper_stroke(lua_State *L)
         "brush", "points", "path", "svg", "file",  "way",    "pressure",  "speed", "seconds",
         "pace",  "tilt",   "x",    "y",   "scale", "rotate", "tolerance", NULL};
     static const char *const ways[] = {"points", "path", "svg", "file", "way"};
-    struct drawing d = {.sheet = paper_arg(L, 1)};
+    struct drawing d = {.sheet = script_paper_arg(L, 1)};
     luaL_checktype(L, 2, LUA_TTABLE);
     lua_settop(L, 2);
-    arg_keys(L, 2, "stroke", keys);
+    script_arg_keys(L, 2, "stroke", keys);
     lua_getfield(L, 2, "brush"); /* 3 */
-    const struct run_brush *brush = luaL_testudata(L, 3, brush_type);
+    const struct script_brush *brush = luaL_testudata(L, 3, script_brush_type);
     if (!brush)
         luaL_error(L, "stroke brush must be a brush of this paper (got a %s)",
                    luaL_typename(L, 3));
@@ -491,18 +493,18 @@ static int paper_stroke(lua_State *L)
         luaL_error(L, "stroke brush must be a brush of this paper (got one of another)");
     lua_pop(L, 1);
     d.stroke.number = brush->number;
-    d.stroke.pace = arg_number(L, 2, "stroke", "pace", 30, 0, 10000);
-    d.speed = arg_number(L, 2, "stroke", "speed", 200 + 12 * brush->width, 0.1, 1e6);
-    d.seconds = arg_number(L, 2, "stroke", "seconds", 0, 0, 1e5);
-    arg_numbers(L, 2, "stroke", "tilt", d.tilt, 2, -1.5, 1.5);
-    d.placing.x = arg_number(L, 2, "stroke", "x", 0, -PLACE_MAX, PLACE_MAX);
-    d.placing.y = arg_number(L, 2, "stroke", "y", 0, -PLACE_MAX, PLACE_MAX);
-    d.placing.scale = arg_number(L, 2, "stroke", "scale", 1, 1e-3, 1e3);
-    double turn = arg_number(L, 2, "stroke", "rotate", 0, -36000, 36000) * PI / 180;
+    d.stroke.pace = script_arg_number(L, 2, "stroke", "pace", 30, 0, 10000);
+    d.speed = script_arg_number(L, 2, "stroke", "speed", 200 + 12 * brush->width, 0.1, 1e6);
+    d.seconds = script_arg_number(L, 2, "stroke", "seconds", 0, 0, 1e5);
+    script_arg_numbers(L, 2, "stroke", "tilt", d.tilt, 2, -1.5, 1.5);
+    d.placing.x = script_arg_number(L, 2, "stroke", "x", 0, -PLACE_MAX, PLACE_MAX);
+    d.placing.y = script_arg_number(L, 2, "stroke", "y", 0, -PLACE_MAX, PLACE_MAX);
+    d.placing.scale = script_arg_number(L, 2, "stroke", "scale", 1, 1e-3, 1e3);
+    double turn = script_arg_number(L, 2, "stroke", "rotate", 0, -36000, 36000) * PI / 180;
     d.placing.c = cos(turn);
     d.placing.s = sin(turn);
     double tolerance =
-        arg_number(L, 2, "stroke", "tolerance", 0.1 / d.placing.scale, 1e-4, 1e3);
+        script_arg_number(L, 2, "stroke", "tolerance", 0.1 / d.placing.scale, 1e-4, 1e3);
     lua_getfield(L, 2, "pressure");
     d.pressure = lua_gettop(L); /* 4 */
     int found = -1, count = 0;
@@ -515,8 +517,9 @@ static int paper_stroke(lua_State *L)
     }
     if (count != 1)
         luaL_error(L, "a stroke has one of points, path, svg, file, way (got %d)", count);
-    paper_stop_when_due(L, 1);
-    const char *text = found == 0 || found == 4 ? NULL : arg_text(L, 2, "stroke", ways[found]);
+    script_paper_stop_when_due(L, 1);
+    const char *text =
+        found == 0 || found == 4 ? NULL : script_arg_text(L, 2, "stroke", ways[found]);
     if (found == 0 || found == 4) {
         lua_getfield(L, 2, ways[found]);
         if (found == 0)
@@ -531,7 +534,7 @@ static int paper_stroke(lua_State *L)
         for (int i = 0; i < lines->count; i++)
             line_draw(L, &d, &lines->line[i]);
     }
-    run_check(L);
+    script_check(L);
     return 0;
 }
 
@@ -539,7 +542,8 @@ static int paper_stroke(lua_State *L)
 static int lines_push(lua_State *L, bool file)
 {
     const char *text = luaL_checkstring(L, 1);
-    double tolerance = lua_isnoneornil(L, 2) ? 0.1 : arg_at(L, 2, "tolerance", 1e-4, 1e3);
+    double tolerance =
+        lua_isnoneornil(L, 2) ? 0.1 : script_arg_at(L, 2, "tolerance", 1e-4, 1e3);
     const struct paper_lines *lines =
         lines_read(L, file ? NULL : text, file ? text : NULL, tolerance);
     lua_createtable(L, lines->count, 0);
@@ -568,18 +572,20 @@ static int make_svg(lua_State *L)
     return lines_push(L, true);
 }
 
-const luaL_Reg lua_brush_methods[] = {
+const luaL_Reg script_brush_paper_methods[] = {
     {"brush", paper_brush}, {"stroke", paper_stroke}, {NULL, NULL}};
 
-void lua_brush_open(lua_State *L)
+const luaL_Reg script_brush_methods[] = {{"dip", brush_dip},
+                                         {"rinse", brush_rinse},
+                                         {"wipe", brush_wipe},
+                                         {"holds", brush_holds},
+                                         {NULL, NULL}};
+
+const luaL_Reg script_brush_functions[] = {
+    {"path", make_path}, {"svg", make_svg}, {NULL, NULL}};
+
+void script_brush_open(lua_State *L)
 {
-    static const luaL_Reg methods[] = {{"dip", brush_dip},
-                                       {"rinse", brush_rinse},
-                                       {"wipe", brush_wipe},
-                                       {"holds", brush_holds},
-                                       {NULL, NULL}};
-    run_type_open(L, brush_type, methods, NULL);
-    run_type_open(L, lines_type, NULL, lines_gc);
-    lua_register(L, "path", make_path);
-    lua_register(L, "svg", make_svg);
+    script_type_open(L, script_brush_type, NULL);
+    script_type_open(L, lines_type, lines_gc);
 }

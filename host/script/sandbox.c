@@ -1,7 +1,6 @@
-/* lua_sandbox.c - what a script may not do: reach files, processes and the interpreter's inside, run for ever, or take all
+/* sandbox.c - what a script may not do: reach files, processes and the interpreter's inside, run for ever, or take all
  * memory. Trusted scripts get Lua's whole library. */
-#include "lua_run.h"
-#include "lutetia.h"
+#include "script_internal.h"
 
 #include <lualib.h>
 
@@ -10,73 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct run *run_of(lua_State *L)
-{
-    struct run *run;
-    memcpy(&run, lua_getextraspace(L), sizeof run);
-    return run;
-}
-
-bool run_due(const struct run *run)
-{
-    return interrupted() || (run->deadline_s > 0 && clock_s() > run->deadline_s);
-}
-
-struct progress run_progress_begin(const struct run *run, const char *what, long total)
-{
-    struct progress progress = progress_begin(what, (int)total);
-    if (run->quiet || run->report_to)
-        progress.shown = false;
-    return progress;
-}
-
-/* level: 0 for the script itself, 1 for a function that it called. */
-static void stop_if_due(lua_State *L, int level)
-{
-    const struct run *run = run_of(L);
-    char text[96];
-    if (interrupted())
-        snprintf(text, sizeof text, "interrupted");
-    else if (run->deadline_s > 0 && clock_s() > run->deadline_s)
-        snprintf(text, sizeof text,
-                 "stopped after %g seconds; --timeout says how long a script may take",
-                 run->timeout_s);
-    else
-        return;
-    luaL_where(L, level);
-    lua_pushstring(L, text);
-    lua_concat(L, 2);
-    lua_error(L);
-}
-
-void run_check(lua_State *L)
-{
-    stop_if_due(L, 1);
-}
-
-void run_memory_take(lua_State *L, double bytes, const char *what)
-{
-    struct run *run = run_of(L);
-    if (!(bytes >= 0 && bytes + (double)run->memory_bytes <= (double)run->memory_most_bytes)) {
-        lua_gc(L, LUA_GCCOLLECT); /* masks and sheets that nobody holds any more */
-        if (!(bytes >= 0 &&
-              bytes + (double)run->memory_bytes <= (double)run->memory_most_bytes)) {
-            char text[96];
-            snprintf(text, sizeof text, "%.0f MB for %s, and --memory allows %.0f in all",
-                     bytes * 1e-6, what, (double)run->memory_most_bytes * 1e-6);
-            luaL_error(L, "not enough memory: %s", text);
-        }
-    }
-    run->memory_bytes += (size_t)bytes;
-}
-
-void run_memory_give(struct run *run, double bytes)
-{
-    run->memory_bytes -= (size_t)bytes;
-}
-
 /* The folder with all links followed, and what is left of the name, must be where they seem to be. */
-const char *run_path(lua_State *L, const char *folder, const char *name, const char *what)
+const char *script_path(lua_State *L, const char *folder, const char *name, const char *what)
 {
     if (strlen(name) == 0 || strlen(name) > 1000)
         luaL_error(L, "%s must have a name of 1..1000 characters (got %d)", what,
@@ -84,10 +18,10 @@ const char *run_path(lua_State *L, const char *folder, const char *name, const c
     for (const char *c = name; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 127)
             luaL_error(L, "%s's name has a control character in it", what);
-    if (run_of(L)->trusted && name[0] == '/')
+    if (script_of(L)->config->trusted && name[0] == '/')
         return lua_pushstring(L, name);
     const char *path = lua_pushfstring(L, "%s/%s", folder, name);
-    if (run_of(L)->trusted)
+    if (script_of(L)->config->trusted)
         return path;
     static const char outside[] =
         "%s must be in the folder given (got '%s'); --in and --out name folders";
@@ -118,44 +52,51 @@ const char *run_path(lua_State *L, const char *folder, const char *name, const c
 static void hook(lua_State *L, lua_Debug *event)
 {
     (void)event;
-    const struct run *run = run_of(L);
-    if (interrupted() || (run->deadline_s > 0 && clock_s() > run->deadline_s)) {
+    const struct script *script = script_of(L);
+    if (script_due(script)) {
         lua_sethook(L, hook, LUA_MASKCOUNT, 1);
-        stop_if_due(L, 0);
+        script_stop_if_due(L, 0);
     }
 }
 
 /* print: as Lua's; progress lines are on the standard error. */
 static int print(lua_State *L)
 {
+    const struct script_host *host = script_of(L)->host;
     int count = lua_gettop(L);
+    luaL_Buffer line;
+    luaL_buffinit(L, &line);
     for (int i = 1; i <= count; i++) {
-        size_t length;
-        const char *text = luaL_tolstring(L, i, &length);
         if (i > 1)
-            putchar('\t');
-        fwrite(text, 1, length, stdout);
-        lua_pop(L, 1);
+            luaL_addchar(&line, '\t');
+        luaL_tolstring(L, i, NULL);
+        luaL_addvalue(&line);
     }
-    putchar('\n');
-    fflush(stdout);
-    run_check(L);
+    luaL_addchar(&line, '\n');
+    luaL_pushresult(&line);
+    size_t length;
+    const char *text = lua_tolstring(L, -1, &length);
+    if (host->print)
+        host->print(host->context, text, length);
+    script_check(L);
     return 0;
 }
 
 /* param("name", default): what the command line said as name=value; a number where the default is one. */
 static int param(lua_State *L)
 {
-    struct run *run = run_of(L);
+    struct script *script = script_of(L);
     const char *name = luaL_checkstring(L, 1);
     size_t length = strlen(name);
-    for (int i = run->words_count - 1; i >= 0; i--) {
-        if (strncmp(run->words[i], name, length) != 0 || run->words[i][length] != '=')
+    for (int i = script->config->words_count - 1; i >= 0; i--) {
+        if (strncmp(script->config->words[i], name, length) != 0 ||
+            script->config->words[i][length] != '=')
             continue;
         for (int j = 0; j <= i; j++)
-            if (strncmp(run->words[j], name, length) == 0 && run->words[j][length] == '=')
-                run->asked[j] = true;
-        const char *value = run->words[i] + length + 1;
+            if (strncmp(script->config->words[j], name, length) == 0 &&
+                script->config->words[j][length] == '=')
+                script->asked[j] = true;
+        const char *value = script->config->words[i] + length + 1;
         if (lua_type(L, 2) == LUA_TNUMBER) {
             if (lua_stringtonumber(L, value) == 0)
                 luaL_error(L, "%s must be a number (got '%s')", name, value);
@@ -190,23 +131,23 @@ static char *script_text(const char *path)
     return text;
 }
 
-void run_words_check(lua_State *L)
+void script_words_check(lua_State *L)
 {
-    struct run *run = run_of(L);
+    struct script *script = script_of(L);
     bool all_asked = true;
-    for (int i = 0; i < run->words_count; i++)
-        all_asked = all_asked && run->asked[i];
-    if (run->words_checked || all_asked ||
-        run->trusted) /* trusted: it may be in another file */
+    for (int i = 0; i < script->config->words_count; i++)
+        all_asked = all_asked && script->asked[i];
+    if (script->words_checked || all_asked ||
+        script->config->trusted) /* trusted: it may be in another file */
         return;
-    run->words_checked = true;
-    char *text = script_text(run->script), key[64] = "";
-    for (int i = 0; text && i < run->words_count && !*key; i++) {
+    script->words_checked = true;
+    char *text = script_text(script->config->path), key[64] = "";
+    for (int i = 0; text && i < script->config->words_count && !*key; i++) {
         char one[sizeof key];
-        size_t length = strcspn(run->words[i], "=");
-        if (run->asked[i] || length >= sizeof one)
+        size_t length = strcspn(script->config->words[i], "=");
+        if (script->asked[i] || length >= sizeof one)
             continue;
-        snprintf(one, sizeof one, "%.*s", (int)length, run->words[i]);
+        snprintf(one, sizeof one, "%.*s", (int)length, script->config->words[i]);
         if (!strstr(text, one))
             strcpy(key, one);
     }
@@ -238,16 +179,18 @@ static const char prelude[] = "local type, next, sort, tostring, getmetatable = 
                               "  end, t, nil\n"
                               "end\n";
 
-void lua_sandbox_open(lua_State *L)
+const luaL_Reg script_sandbox_functions[] = {{"print", print}, {"param", param}, {NULL, NULL}};
+
+void script_sandbox_open(lua_State *L)
 {
-    struct run *run = run_of(L);
+    struct script *script = script_of(L);
     static const luaL_Reg libraries[] = {
         {LUA_GNAME, luaopen_base},       {LUA_COLIBNAME, luaopen_coroutine},
         {LUA_TABLIBNAME, luaopen_table}, {LUA_STRLIBNAME, luaopen_string},
         {LUA_MATHLIBNAME, luaopen_math}, {LUA_UTF8LIBNAME, luaopen_utf8}};
     static const char *const taken[] = {"dofile", "loadfile", "load", "collectgarbage",
                                         "next",   "require",  NULL};
-    if (run->trusted)
+    if (script->config->trusted)
         luaL_openlibs(L);
     else
         for (size_t i = 0; i < sizeof libraries / sizeof *libraries; i++) {
@@ -257,7 +200,7 @@ void lua_sandbox_open(lua_State *L)
     if (luaL_loadbufferx(L, prelude, sizeof prelude - 1, "=prelude", "t") != LUA_OK)
         lua_error(L);
     lua_call(L, 0, 0);
-    if (!run->trusted) {
+    if (!script->config->trusted) {
         for (int i = 0; taken[i]; i++) {
             lua_pushnil(L);
             lua_setglobal(L, taken[i]);
@@ -267,11 +210,9 @@ void lua_sandbox_open(lua_State *L)
         lua_setfield(L, -2, "dump");
         lua_pop(L, 1);
     }
-    lua_register(L, "print", print);
-    lua_register(L, "param", param);
     lua_getglobal(L, "math");
     lua_getfield(L, -1, "randomseed");
-    lua_pushinteger(L, (lua_Integer)run->seed);
+    lua_pushinteger(L, (lua_Integer)script->config->seed);
     lua_call(L, 1, 0);
     lua_pop(L, 1);
     lua_sethook(L, hook, LUA_MASKCOUNT, 1000);

@@ -1,6 +1,5 @@
-/* lua_paper.c - sheets in scripts: paper{...} and its methods. */
-#include "lua_paper.h"
-#include "lutetia.h"
+/* paper.c - sheets in scripts: paper{...} and its methods. */
+#include "script_paper.h"
 
 #include <brush.h>
 #include <history.h>
@@ -11,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char paper_type[] = "lutetia paper";
+const char script_paper_type[] = "lutetia paper";
 
 /* What the past of a paper takes in checkpoints, of the memory that a run may take, and at most. */
 #define UNDO_SHARE 16
@@ -20,32 +19,32 @@ static const char paper_type[] = "lutetia paper";
 static void check(lua_State *L, enum paper_status status)
 {
     if (status != PAPER_OK) {
-        run_check(L); /* what fails after Ctrl-C fails because of it */
+        script_check(L); /* what fails after Ctrl-C fails because of it */
         luaL_error(L, "%s", paper_error());
     }
 }
 
 /* What has been done since, and how it is remembered, is counted. */
-static struct run_paper *paper_settled(lua_State *L, int index)
+static struct script_paper *paper_settled(lua_State *L, int index)
 {
-    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
+    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
     if (!paper->sheet)
         luaL_error(L, "this paper is closed");
     double more = paper_history_bytes(paper->sheet) - paper->history_bytes;
     if (more > 0)
-        run_memory_take(L, more, "a paper's history (history = false does without)");
+        script_memory_take(L, more, "a paper's history (history = false does without)");
     else
-        run_memory_give(paper->run, -more);
+        script_memory_give(paper->script, -more);
     paper->history_bytes += more;
     return paper;
 }
 
-struct run_paper *paper_at(lua_State *L)
+struct script_paper *script_paper_at(lua_State *L)
 {
     return paper_settled(L, 1);
 }
 
-static const struct paper_sheet_config *config_of(const struct run_paper *paper)
+static const struct paper_sheet_config *config_of(const struct script_paper *paper)
 {
     return paper_sheet_get_config(paper->sheet);
 }
@@ -69,9 +68,9 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     if (lua_type(L, -1) != LUA_TTABLE)
         luaL_error(L, "a pigment must be a name or a table (got a %s)", luaL_typename(L, -1));
     int t = lua_gettop(L);
-    arg_keys(L, t, "pigment", keys);
-    const char *like = arg_text(L, t, "pigment", "like"),
-               *name = arg_text(L, t, "pigment", "name");
+    script_arg_keys(L, t, "pigment", keys);
+    const char *like = script_arg_text(L, t, "pigment", "like"),
+               *name = script_arg_text(L, t, "pigment", "name");
     const struct paper_pigment *known = paper_pigment_find(like ? like : "cyan");
     if (!known)
         luaL_error(L, "there is no pigment '%s'", like);
@@ -80,14 +79,15 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
         luaL_error(L, "a pigment's name must have 1..%d characters", PAPER_NAME_MAX - 1);
     if (name)
         snprintf(pigment->name, sizeof pigment->name, "%s", name);
-    arg_numbers(L, t, "pigment", "weight", pigment->weight, 2, 0, 1);
-    pigment->density = arg_number(L, t, "pigment", "density", pigment->density, 0, 1);
-    pigment->staining = arg_number(L, t, "pigment", "staining", pigment->staining, 0.5, 100);
+    script_arg_numbers(L, t, "pigment", "weight", pigment->weight, 2, 0, 1);
+    pigment->density = script_arg_number(L, t, "pigment", "density", pigment->density, 0, 1);
+    pigment->staining =
+        script_arg_number(L, t, "pigment", "staining", pigment->staining, 0.5, 100);
     pigment->granulation =
-        arg_number(L, t, "pigment", "granulation", pigment->granulation, 0, 1);
+        script_arg_number(L, t, "pigment", "granulation", pigment->granulation, 0, 1);
     double white[3], black[3];
-    bool has_white = arg_color(L, t, "pigment", "white", white);
-    bool has_black = arg_color(L, t, "pigment", "black", black);
+    bool has_white = script_arg_color(L, t, "pigment", "white", white);
+    bool has_black = script_arg_color(L, t, "pigment", "black", black);
     if (has_white != has_black)
         luaL_error(L, "a pigment needs both colours, white and black: how it looks over them");
     if (has_white) {
@@ -97,9 +97,9 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
         }
         check(L, paper_pigment_colors(pigment, white, black));
     }
-    arg_numbers(L, t, "pigment", "K", pigment->k, 3, 0, 100);
-    arg_numbers(L, t, "pigment", "S", pigment->s, 3, 0, 100);
-    arg_numbers(L, t, "pigment", "takes", pigment->takes, 3, -1, 1);
+    script_arg_numbers(L, t, "pigment", "K", pigment->k, 3, 0, 100);
+    script_arg_numbers(L, t, "pigment", "S", pigment->s, 3, 0, 100);
+    script_arg_numbers(L, t, "pigment", "takes", pigment->takes, 3, -1, 1);
     lua_pop(L, 1);
 }
 
@@ -135,12 +135,12 @@ static void parts_read(lua_State *L, struct paper_sheet_config *config)
         int count = (int)lua_rawlen(L, -1);
         for (int i = 1; i <= count; i++) {
             lua_rawgeti(L, -1, i);
-            config->parts |= 1u << arg_choice(L, "a part of paper's model",
-                                              luaL_checkstring(L, -1), parts_names);
+            config->parts |= 1u << script_arg_choice(L, "a part of paper's model",
+                                                     luaL_checkstring(L, -1), parts_names);
             lua_pop(L, 1);
         }
     } else if (type == LUA_TSTRING) {
-        bool thesis = arg_choice(L, "paper model", lua_tostring(L, -1), models) == 1;
+        bool thesis = script_arg_choice(L, "paper model", lua_tostring(L, -1), models) == 1;
         config->parts = thesis ? 0 : PAPER_PARTS_ALL;
         if (thesis)
             config->rule = PAPER_RULE_SUBTRACT;
@@ -152,39 +152,39 @@ static void parts_read(lua_State *L, struct paper_sheet_config *config)
 
 static void stock_read(lua_State *L, struct paper_stock *stock)
 {
-    const char *name = arg_text(L, 1, "paper", "stock");
+    const char *name = script_arg_text(L, 1, "paper", "stock");
     if (name) {
         const struct paper_stock *known = paper_stock_find(name);
         if (!known)
             luaL_error(L, "there is no paper stock '%s'", name);
         *stock = *known;
     }
-    arg_color(L, 1, "paper", "color", stock->color);
+    script_arg_color(L, 1, "paper", "color", stock->color);
     double length[2] = {stock->fiber_length[0], stock->fiber_length[1]};
     stock->color_variation =
-        arg_number(L, 1, "paper", "color_variation", stock->color_variation, 0, 1);
-    stock->absorbency =
-        arg_number(L, 1, "paper", "absorbency", stock->absorbency, 0, PAPER_ABSORBENCY_MAX);
-    stock->absorbency_variation =
-        arg_number(L, 1, "paper", "absorbency_variation", stock->absorbency_variation, 0, 1);
-    arg_numbers(L, 1, "paper", "absorbency_along", stock->absorbency_along, 2, 0, 1);
-    arg_numbers(L, 1, "paper", "capacity", stock->capacity, 2, 0.01, 1);
-    stock->roughness = arg_number(L, 1, "paper", "roughness", stock->roughness, 0, 1);
-    stock->grain_px = arg_number(L, 1, "paper", "grain", stock->grain_px, 1, 64);
-    arg_numbers(L, 1, "paper", "fibers", length, 2, 1, 64);
+        script_arg_number(L, 1, "paper", "color_variation", stock->color_variation, 0, 1);
+    stock->absorbency = script_arg_number(L, 1, "paper", "absorbency", stock->absorbency, 0,
+                                          PAPER_ABSORBENCY_MAX);
+    stock->absorbency_variation = script_arg_number(L, 1, "paper", "absorbency_variation",
+                                                    stock->absorbency_variation, 0, 1);
+    script_arg_numbers(L, 1, "paper", "absorbency_along", stock->absorbency_along, 2, 0, 1);
+    script_arg_numbers(L, 1, "paper", "capacity", stock->capacity, 2, 0.01, 1);
+    stock->roughness = script_arg_number(L, 1, "paper", "roughness", stock->roughness, 0, 1);
+    stock->grain_px = script_arg_number(L, 1, "paper", "grain", stock->grain_px, 1, 64);
+    script_arg_numbers(L, 1, "paper", "fibers", length, 2, 1, 64);
     stock->fiber_length[0] = (int)length[0];
     stock->fiber_length[1] = (int)length[1];
 }
 
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
-struct run_paper *paper_new(lua_State *L)
+struct script_paper *script_paper_new(lua_State *L)
 {
-    struct run_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
+    struct script_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
     memset(paper, 0, sizeof *paper);
-    paper->run = run_of(L);
-    paper->number = ++paper->run->papers_made;
-    luaL_setmetatable(L, paper_type);
+    paper->script = script_of(L);
+    paper->number = ++paper->script->papers_made;
+    luaL_setmetatable(L, script_paper_type);
     return paper;
 }
 
@@ -195,8 +195,8 @@ static double bytes_needed(double width, double height, int pigments)
     return 4 * (42 + 8.5 * pigments) * width * height;
 }
 
-void paper_room_take(lua_State *L, struct run_paper *paper, double width, double height,
-                     int pigments)
+void script_paper_room_take(lua_State *L, struct script_paper *paper, double width,
+                            double height, int pigments)
 {
     double bytes = bytes_needed(width, height, pigments);
     double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
@@ -207,14 +207,22 @@ void paper_room_take(lua_State *L, struct run_paper *paper, double width, double
                  bytes * 1e-9, there * 1e-9);
         luaL_error(L, "not enough memory: %s", text);
     }
-    run_memory_take(L, bytes, "a paper");
+    script_memory_take(L, bytes, "a paper");
     paper->bytes = bytes;
 }
 
-static void film(lua_State *L, struct run_paper *paper)
+/* Why the host wants the script to stop, or NULL. */
+static const char *shown(struct script_paper *paper)
 {
-    if (!film_step(&paper->run->film, paper->number, paper->sheet))
-        luaL_error(L, "%s", paper->run->film.error);
+    const struct script_host *host = paper->script->host;
+    return host->step ? host->step(host->context, paper->number, paper->sheet) : NULL;
+}
+
+void script_paper_show(lua_State *L, struct script_paper *paper)
+{
+    const char *error = shown(paper);
+    if (error)
+        luaL_error(L, "%s", error);
 }
 
 static int make_paper(lua_State *L)
@@ -242,54 +250,57 @@ static int make_paper(lua_State *L)
     lua_remove(L, 1); /* the table `paper`, which is called */
     luaL_checktype(L, 1, LUA_TTABLE);
     lua_settop(L, 1);
-    arg_keys(L, 1, "paper", keys);
-    struct run *run = run_of(L);
+    script_arg_keys(L, 1, "paper", keys);
+    struct script *script = script_of(L);
     struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = arg_integer(L, 1, "paper", "width", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
-    config.height = arg_integer(L, 1, "paper", "height", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
-    config.torus = arg_boolean(L, 1, "paper", "torus", false);
-    config.seed = (uint64_t)arg_integer(L, 1, "paper", "seed", (int)(run->seed & 0x7fffffff), 0,
-                                        2147483647);
+    config.width =
+        script_arg_integer(L, 1, "paper", "width", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
+    config.height =
+        script_arg_integer(L, 1, "paper", "height", 512, PAPER_SIDE_MIN, PAPER_SIDE_MAX);
+    config.torus = script_arg_boolean(L, 1, "paper", "torus", false);
+    config.seed = (uint64_t)script_arg_integer(
+        L, 1, "paper", "seed", (int)(script->config->seed & 0x7fffffff), 0, 2147483647);
     parts_read(L, &config);
-    const char *rule = arg_text(L, 1, "paper", "rule");
+    const char *rule = script_arg_text(L, 1, "paper", "rule");
     if (rule)
-        config.rule = (enum paper_rule)arg_choice(L, "paper rule", rule, rules);
+        config.rule = (enum paper_rule)script_arg_choice(L, "paper rule", rule, rules);
     stock_read(L, &config.stock);
     pigments_read(L, &config);
-    bool history = arg_boolean(L, 1, "paper", "history", true);
-    double undo = fmin(UNDO_BYTES_MOST, (double)(run->memory_most_bytes / UNDO_SHARE));
-    undo = 1e6 * arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
+    bool history = script_arg_boolean(L, 1, "paper", "history", true);
+    double undo = fmin(UNDO_BYTES_MOST, (double)(script->config->memory_bytes / UNDO_SHARE));
+    undo = 1e6 * script_arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
 
-    struct run_paper *paper = paper_new(L);
-    paper_room_take(L, paper, config.width, config.height, config.pigments_count);
+    struct script_paper *paper = script_paper_new(L);
+    script_paper_room_take(L, paper, config.width, config.height, config.pigments_count);
     bool found = false;
     enum paper_status status = PAPER_OK;
     if (history)
-        status = paper_resumed(paper, &config, undo, &found);
+        status = script_paper_resumed(paper, &config, undo, &found);
     if (status == PAPER_OK && !found)
         status = paper_sheet_create(&config, &paper->sheet);
     if (status == PAPER_OK && !found && history)
         status = paper_history_begin(paper->sheet, undo);
     check(L, status);
-    paper_keep(paper);
-    film(L, paper);
+    script_paper_keep(paper);
+    script_paper_show(L, paper);
     return 1;
 }
 
 static int paper_close(lua_State *L)
 {
-    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
-    paper_forget(paper);
+    struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
+    script_paper_forget(paper);
     paper_sheet_destroy(paper->sheet);
     paper->sheet = NULL;
-    run_memory_give(paper->run, paper->bytes + paper->history_bytes);
+    script_memory_give(paper->script, paper->bytes + paper->history_bytes);
     paper->bytes = paper->history_bytes = 0;
     return 0;
 }
 
 /* ---- putting and taking ---- */
 
-int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const char *name)
+int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
+                                   const char *name)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     for (int i = 0; i < config->pigments_count; i++)
@@ -299,7 +310,8 @@ int paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet, const
 }
 
 /* {water = 0.5, ["phthalo green"] = 0.2}; its values in the order of the sheet's substances. */
-void paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet, double *amount)
+void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
+                          double *amount)
 {
     luaL_checktype(L, index, LUA_TTABLE);
     memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
@@ -308,72 +320,73 @@ void paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet, dou
         if (lua_type(L, -2) != LUA_TSTRING)
             luaL_error(L, "amounts are written name = number, ink[\"phthalo green\"] = 0.5");
         const char *name = lua_tostring(L, -2);
-        int i = strcmp(name, "water") == 0 ? 0 : 1 + paper_pigment_number_of(L, sheet, name);
+        int i =
+            strcmp(name, "water") == 0 ? 0 : 1 + script_paper_pigment_number_of(L, sheet, name);
         lua_pushvalue(L, -1);
-        amount[i] = arg_at(L, -1, name, -4, 4);
+        amount[i] = script_arg_at(L, -1, name, -4, 4);
         lua_pop(L, 2);
     }
 }
 
 /* The mask at index as a screen; a missing one is everywhere (*everywhere). False: it covers nothing. */
-static bool screen_read(lua_State *L, int index, const struct run_paper *paper,
+static bool screen_read(lua_State *L, int index, const struct script_paper *paper,
                         struct paper_screen *screen, int *x, int *y)
 {
     const struct paper_sheet_config *config = config_of(paper);
-    return mask_screen(L, index, config->width, config->height, screen, x, y);
+    return script_mask_screen(L, index, config->width, config->height, screen, x, y);
 }
 
 static int paper_put(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
     lua_settop(L, 3);
-    paper_amounts(L, 3, paper->sheet, amount);
+    script_paper_amounts(L, 3, paper->sheet, amount);
     if (screen_read(L, 2, paper, &screen, &x, &y))
         check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
-    run_check(L);
+    script_check(L);
     return 0;
 }
 
 /* p:type("word", {…}, {water = …}): text() put onto the sheet. Returns its length, and its lines' height. */
 static int paper_put_type(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
     lua_settop(L, 4);
-    paper_amounts(L, 4, paper->sheet, amount);
-    int made = mask_text_push(L, 2);
+    script_paper_amounts(L, 4, paper->sheet, amount);
+    int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
         check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
-    run_check(L);
+    script_check(L);
     return made - 1;
 }
 
 static int paper_blot(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     struct paper_screen screen;
     int x, y;
-    double part = lua_isnoneornil(L, 3) ? 1 : arg_at(L, 3, "blot's part", 0, 1);
-    double lift = lua_isnoneornil(L, 4) ? 0 : arg_at(L, 4, "blot's lift", 0, 1);
+    double part = lua_isnoneornil(L, 3) ? 1 : script_arg_at(L, 3, "blot's part", 0, 1);
+    double lift = lua_isnoneornil(L, 4) ? 0 : script_arg_at(L, 4, "blot's lift", 0, 1);
     if (screen_read(L, 2, paper, &screen, &x, &y))
         check(L, paper_sheet_blot(paper->sheet, &screen, x, y, part, lift));
-    run_check(L);
+    script_check(L);
     return 0;
 }
 
 static int resist_set(lua_State *L, bool on)
 {
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     struct paper_screen screen;
     int x, y;
     if (screen_read(L, 2, paper, &screen, &x, &y))
         check(L, paper_sheet_resist(paper->sheet, &screen, x, y, on));
-    run_check(L);
+    script_check(L);
     return 0;
 }
 
@@ -389,19 +402,19 @@ static int paper_unresist(lua_State *L)
 
 static int paper_dry(lua_State *L)
 {
-    check(L, paper_sheet_dry(paper_at(L)->sheet));
+    check(L, paper_sheet_dry(script_paper_at(L)->sheet));
     return 0;
 }
 
 static int paper_seal(lua_State *L)
 {
-    check(L, paper_sheet_seal(paper_at(L)->sheet));
+    check(L, paper_sheet_seal(script_paper_at(L)->sheet));
     return 0;
 }
 
 /* ---- for the files beside this one ---- */
 
-struct paper_sheet *paper_arg(lua_State *L, int index)
+struct paper_sheet *script_paper_arg(lua_State *L, int index)
 {
     return paper_settled(L, index)->sheet;
 }
@@ -409,28 +422,27 @@ struct paper_sheet *paper_arg(lua_State *L, int index)
 /* Between the steps of a stroke. */
 static bool due(void *context)
 {
-    struct run_paper *paper = context;
-    film_step(&paper->run->film, paper->number,
-              paper->sheet); /* a failure is heard afterwards */
-    return run_due(paper->run);
+    struct script_paper *paper = context;
+    shown(paper); /* a failure is heard afterwards */
+    return script_due(paper->script);
 }
 
-void paper_stop_when_due(lua_State *L, int index)
+void script_paper_stop_when_due(lua_State *L, int index)
 {
-    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
+    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
     paper_sheet_stop_when(paper->sheet, due, paper);
-    film(L, paper);
+    script_paper_show(L, paper);
 }
 
-void paper_check(lua_State *L, enum paper_status status)
+void script_paper_check(lua_State *L, enum paper_status status)
 {
     check(L, status);
 }
 
-void paper_memory_take(lua_State *L, int index, double bytes, const char *what)
+void script_paper_memory_take(lua_State *L, int index, double bytes, const char *what)
 {
-    struct run_paper *paper = luaL_checkudata(L, index, paper_type);
-    run_memory_take(L, bytes, what);
+    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
+    script_memory_take(L, bytes, what);
     paper->bytes += bytes;
 }
 
@@ -442,9 +454,9 @@ static int paper_air(lua_State *L)
                                        "relief",     "film",     "pinning",  "damp",
                                        "absorption", "carry",    "humidity", "edge",
                                        "edge_width", "settling", NULL};
-    struct run_paper *paper = paper_at(L);
+    struct script_paper *paper = script_paper_at(L);
     luaL_checktype(L, 2, LUA_TTABLE);
-    arg_keys(L, 2, "air", keys);
+    script_arg_keys(L, 2, "air", keys);
     struct paper_air air = *paper_sheet_get_air(paper->sheet);
     const struct {
         const char *name;
@@ -456,17 +468,18 @@ static int paper_air(lua_State *L)
                 {"humidity", &air.humidity, 1},      {"edge", &air.edge, 200},
                 {"edge_width", &air.edge_width, 32}, {"settling", &air.settling, 10}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        *rows[i].value = arg_number(L, 2, "air", rows[i].name, *rows[i].value, 0, rows[i].high);
+        *rows[i].value =
+            script_arg_number(L, 2, "air", rows[i].name, *rows[i].value, 0, rows[i].high);
     bool thesis = config_of(paper)->parts == 0;
     if (thesis) { /* its gravity is a factor, 1 for none */
         double gravity[2] = {air.thesis.gravity_x, air.thesis.gravity_y};
-        arg_numbers(L, 2, "air", "gravity", gravity, 2, 0.5, PAPER_GRAVITY_MAX);
+        script_arg_numbers(L, 2, "air", "gravity", gravity, 2, 0.5, PAPER_GRAVITY_MAX);
         air.thesis.gravity_x = gravity[0];
         air.thesis.gravity_y = gravity[1];
         air.thesis.humidity = air.humidity;
     } else {
-        arg_numbers(L, 2, "air", "gravity", air.gravity, 2, -1, 1);
-        arg_numbers(L, 2, "air", "seep", air.seep, 2, -1, 1);
+        script_arg_numbers(L, 2, "air", "gravity", air.gravity, 2, -1, 1);
+        script_arg_numbers(L, 2, "air", "seep", air.seep, 2, -1, 1);
     }
     check(L, paper_sheet_air(paper->sheet, &air));
     return 0;
@@ -474,44 +487,47 @@ static int paper_air(lua_State *L)
 
 static int paper_step(lua_State *L)
 {
-    struct run_paper *paper = paper_at(L);
-    struct run *run = paper->run;
-    int count = (int)arg_count(L, 2, "step's count", 1, 0, 1000000);
-    run_words_check(L);
-    bool expected = run->steps_expected > 0;
-    long first = expected ? run->steps_done : 0;
-    long total =
-        expected && run->steps_expected > first + count ? run->steps_expected : first + count;
-    struct progress progress = run_progress_begin(run, run->script, total);
-    if (expected)
-        progress.began_s = run->began_s;
+    struct script_paper *paper = script_paper_at(L);
+    struct script *script = paper->script;
+    int count = (int)script_arg_count(L, 2, "step's count", 1, 0, 1000000);
+    script_words_check(L);
+    bool expected = script->steps_expected > 0;
+    long first = expected ? script->steps_done : 0;
+    long total = expected && script->steps_expected > first + count ? script->steps_expected
+                                                                    : first + count;
+    struct script_progress progress = {.done = first,
+                                       .total = total,
+                                       .began_s =
+                                           expected ? script->began_s : script_clock_s()};
+    const char *error = NULL;
     paper_history_mark(paper->sheet);
     enum paper_status status = PAPER_OK;
-    run_at_work(true);
-    for (int i = 0; i < count && status == PAPER_OK; i++) {
+    script_at_work(script, true);
+    for (int i = 0; i < count && status == PAPER_OK && !error; i++) {
         status = paper_sheet_step(paper->sheet);
         if (status == PAPER_OK)
             status = paper_sheet_finish(paper->sheet);
-        if (status == PAPER_OK && !film_step(&run->film, paper->number, paper->sheet))
+        if (status == PAPER_OK && (error = shown(paper)) != NULL)
             break;
-        run->steps_done++;
-        progress_show(&progress, (int)(first + i + 1));
-        run_report(run, first + i + 1, total);
-        if (run_due(run))
+        script->steps_done++;
+        progress.done++;
+        script_progress_tell(script, &progress);
+        if (script_due(script))
             break;
     }
-    progress_end(&progress);
-    run_at_work(false);
-    run_check(L);
+    script_progress_tell(script, NULL);
+    script_at_work(script, false);
+    script_check(L);
     check(L, status);
-    film(L, paper);
+    if (error)
+        luaL_error(L, "%s", error);
     return 0;
 }
 
 /* Fields that can be read; else methods. */
 static int paper_index(lua_State *L)
 {
-    struct run_paper *paper = luaL_checkudata(L, 1, paper_type);
+    struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
     const char *key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
     if (paper->sheet && strcmp(key, "width") == 0)
         lua_pushinteger(L, config_of(paper)->width);
@@ -528,29 +544,23 @@ static int paper_index(lua_State *L)
     return 1;
 }
 
-void lua_paper_open(lua_State *L)
+const luaL_Reg script_paper_methods[] = {
+    {"put", paper_put},           {"blot", paper_blot}, {"resist", paper_resist},
+    {"unresist", paper_unresist}, {"dry", paper_dry},   {"seal", paper_seal},
+    {"air", paper_air},           {"step", paper_step}, {"type", paper_put_type},
+    {"close", paper_close},       {NULL, NULL}};
+
+void script_paper_open(lua_State *L)
 {
-    static const luaL_Reg methods[] = {
-        {"put", paper_put},           {"blot", paper_blot}, {"resist", paper_resist},
-        {"unresist", paper_unresist}, {"dry", paper_dry},   {"seal", paper_seal},
-        {"air", paper_air},           {"step", paper_step}, {"type", paper_put_type},
-        {"close", paper_close},       {NULL, NULL}};
-    luaL_newmetatable(L, paper_type);
-    luaL_newlib(L, methods);
-    luaL_setfuncs(L, lua_look_methods, 0);
-    luaL_setfuncs(L, lua_brush_methods, 0);
-    luaL_setfuncs(L, lua_technique_methods, 0);
-    luaL_setfuncs(L, lua_time_methods, 0);
+    script_type_open(L, script_paper_type, paper_close);
+    luaL_getmetatable(L, script_paper_type);
+    lua_getfield(L, -1, "methods");
     lua_pushcclosure(L, paper_index, 1);
     lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, paper_close);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
     lua_pop(L, 1);
     /* paper{...} and paper.load(...) */
     lua_newtable(L);
-    lua_pushcfunction(L, paper_load);
+    lua_pushcfunction(L, script_paper_load);
     lua_setfield(L, -2, "load");
     lua_newtable(L);
     lua_pushcfunction(L, make_paper);

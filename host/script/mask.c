@@ -1,35 +1,35 @@
-/* lua_mask.c - masks: the shapes that a script puts water and pigment through.
+/* mask.c - masks: the shapes that a script puts water and pigment through.
  *
  * A mask is either a polygon, kept as its corners until it is used, or gray values with a place. Masks never change: what
  * moves, joins or softens one makes another. Outside of it a mask is 0. */
-#include "lua_mask.h"
-#include "lutetia.h"
+#include "script_mask.h"
 
 #include <display.h>
+#include <face.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-const char mask_type[] = "lutetia mask";
+const char script_mask_type[] = "lutetia mask";
 
 #define PI 3.14159265358979323846
 enum { CORNERS_MAX = 20000 };
 
-struct run_mask *mask_new(lua_State *L)
+struct script_mask *script_mask_new(lua_State *L)
 {
-    struct run_mask *mask = lua_newuserdatauv(L, sizeof *mask, 0);
+    struct script_mask *mask = lua_newuserdatauv(L, sizeof *mask, 0);
     memset(mask, 0, sizeof *mask);
-    mask->run = run_of(L);
-    luaL_setmetatable(L, mask_type);
+    mask->script = script_of(L);
+    luaL_setmetatable(L, script_mask_type);
     return mask;
 }
 
-struct run_mask *mask_polygon_new(lua_State *L, int count)
+struct script_mask *script_mask_polygon_new(lua_State *L, int count)
 {
     double bytes = 2.0 * count * (double)sizeof(double);
-    struct run_mask *mask = mask_new(L);
-    run_memory_take(L, bytes, "a shape");
+    struct script_mask *mask = script_mask_new(L);
+    script_memory_take(L, bytes, "a shape");
     mask->bytes = bytes;
     mask->points = calloc((size_t)count * 2, sizeof(double));
     if (!mask->points)
@@ -39,16 +39,17 @@ struct run_mask *mask_polygon_new(lua_State *L, int count)
 }
 
 /* All 0. */
-struct run_mask *mask_gray_new(lua_State *L, double width, double height, double x, double y)
+struct script_mask *script_mask_gray_new(lua_State *L, double width, double height, double x,
+                                         double y)
 {
-    struct run_mask *mask = mask_new(L);
+    struct script_mask *mask = script_mask_new(L);
     if (!(width >= 1 && height >= 1))
         return mask;
     if (!(width <= PLACE_MAX && height <= PLACE_MAX && fabs(x) <= 10.0 * PLACE_MAX &&
           fabs(y) <= 10.0 * PLACE_MAX))
         luaL_error(L, "a mask must be up to %d pixels wide and high, and near the paper",
                    PLACE_MAX);
-    run_memory_take(L, width * height, "a mask");
+    script_memory_take(L, width * height, "a mask");
     mask->bytes = width * height;
     mask->width = (int)width;
     mask->height = (int)height;
@@ -62,26 +63,26 @@ struct run_mask *mask_gray_new(lua_State *L, double width, double height, double
 
 static int mask_gc(lua_State *L)
 {
-    struct run_mask *mask = luaL_checkudata(L, 1, mask_type);
+    struct script_mask *mask = luaL_checkudata(L, 1, script_mask_type);
     free(mask->points);
     free(mask->gray);
-    run_memory_give(mask->run, mask->bytes);
-    *mask = (struct run_mask){.run = mask->run};
+    script_memory_give(mask->script, mask->bytes);
+    *mask = (struct script_mask){.script = mask->script};
     return 0;
 }
 
-void mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y)
+void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y)
 {
-    struct run_mask *mask = mask_gray_new(L, width, height, x, y);
+    struct script_mask *mask = script_mask_gray_new(L, width, height, x, y);
     memcpy(mask->gray, gray, (size_t)width * (size_t)height);
 }
 
 /* ---- from corners to gray ---- */
 
 /* Pushes the mask at index as gray. */
-struct run_mask *mask_grayed(lua_State *L, int index)
+struct script_mask *script_mask_grayed(lua_State *L, int index)
 {
-    const struct run_mask *mask = luaL_checkudata(L, index, mask_type);
+    const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
     if (!mask->points) {
         lua_pushvalue(L, index);
         return lua_touserdata(L, -1);
@@ -93,10 +94,10 @@ struct run_mask *mask_grayed(lua_State *L, int index)
         x2 = fmax(x2, ceil(mask->points[2 * i]));
         y2 = fmax(y2, ceil(mask->points[2 * i + 1]));
     }
-    struct run_mask *made = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     if (!made->gray)
         return made;
-    struct run_mask *shifted = mask_polygon_new(L, mask->points_count);
+    struct script_mask *shifted = script_mask_polygon_new(L, mask->points_count);
     for (int i = 0; i < mask->points_count; i++) {
         shifted->points[2 * i] = mask->points[2 * i] - x1;
         shifted->points[2 * i + 1] = mask->points[2 * i + 1] - y1;
@@ -114,10 +115,10 @@ struct run_mask *mask_grayed(lua_State *L, int index)
     return made;
 }
 
-bool mask_screen(lua_State *L, int index, int width, int height, struct paper_screen *screen,
-                 int *x, int *y)
+bool script_mask_screen(lua_State *L, int index, int width, int height,
+                        struct paper_screen *screen, int *x, int *y)
 {
-    const struct run_mask *mask = luaL_checkudata(L, index, mask_type);
+    const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
     *screen = (struct paper_screen){0};
     if (!mask->points) {
         *x = mask->x;
@@ -127,7 +128,7 @@ bool mask_screen(lua_State *L, int index, int width, int height, struct paper_sc
         screen->gray = mask->gray;
         return mask->gray != NULL;
     }
-    struct run_mask *kept = mask_new(L); /* takes the gray over */
+    struct script_mask *kept = script_mask_new(L); /* takes the gray over */
     if (paper_polygon_screen(mask->points, mask->points_count, width, height, screen, x, y) !=
         PAPER_OK)
         luaL_error(L, "%s", paper_error());
@@ -145,23 +146,24 @@ bool mask_screen(lua_State *L, int index, int width, int height, struct paper_sc
 
 static int make_rectangle(lua_State *L)
 {
-    double x = arg_at(L, 1, "rect's x", -PLACE_MAX, PLACE_MAX);
-    double y = arg_at(L, 2, "rect's y", -PLACE_MAX, PLACE_MAX);
-    double width = arg_at(L, 3, "rect's width", 0, PLACE_MAX);
-    double height = arg_at(L, 4, "rect's height", 0, PLACE_MAX);
+    double x = script_arg_at(L, 1, "rect's x", -PLACE_MAX, PLACE_MAX);
+    double y = script_arg_at(L, 2, "rect's y", -PLACE_MAX, PLACE_MAX);
+    double width = script_arg_at(L, 3, "rect's width", 0, PLACE_MAX);
+    double height = script_arg_at(L, 4, "rect's height", 0, PLACE_MAX);
     const double corners[8] = {x, y, x + width, y, x + width, y + height, x, y + height};
-    memcpy(mask_polygon_new(L, 4)->points, corners, sizeof corners);
+    memcpy(script_mask_polygon_new(L, 4)->points, corners, sizeof corners);
     return 1;
 }
 
 static int make_ellipse(lua_State *L)
 {
-    double x = arg_at(L, 1, "ellipse's x", -PLACE_MAX, PLACE_MAX);
-    double y = arg_at(L, 2, "ellipse's y", -PLACE_MAX, PLACE_MAX);
-    double a = arg_at(L, 3, "ellipse's radius", 0, PLACE_MAX);
-    double b = lua_isnoneornil(L, 4) ? a : arg_at(L, 4, "ellipse's radius", 0, PLACE_MAX);
+    double x = script_arg_at(L, 1, "ellipse's x", -PLACE_MAX, PLACE_MAX);
+    double y = script_arg_at(L, 2, "ellipse's y", -PLACE_MAX, PLACE_MAX);
+    double a = script_arg_at(L, 3, "ellipse's radius", 0, PLACE_MAX);
+    double b =
+        lua_isnoneornil(L, 4) ? a : script_arg_at(L, 4, "ellipse's radius", 0, PLACE_MAX);
     int count = (int)fmin(1024, 24 + 2 * sqrt(fmax(a, b)) * 4);
-    struct run_mask *mask = mask_polygon_new(L, count);
+    struct script_mask *mask = script_mask_polygon_new(L, count);
     for (int i = 0; i < count; i++) {
         double angle = 2 * PI * i / count;
         mask->points[2 * i] = x + a * cos(angle);
@@ -178,7 +180,7 @@ static void corner_read(lua_State *L, int index, int i, const char *what, double
                    luaL_typename(L, -1));
     for (int j = 0; j < 2; j++) {
         lua_rawgeti(L, -1, j + 1);
-        out[j] = arg_at(L, -1, what, -PLACE_MAX, PLACE_MAX);
+        out[j] = script_arg_at(L, -1, what, -PLACE_MAX, PLACE_MAX);
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
@@ -197,14 +199,14 @@ static int corners_count(lua_State *L, const char *what, int least)
 static int make_polygon(lua_State *L)
 {
     int count = corners_count(L, "polygon", 3);
-    struct run_mask *mask = mask_polygon_new(L, count);
+    struct script_mask *mask = script_mask_polygon_new(L, count);
     for (int i = 0; i < count; i++)
         corner_read(L, 1, i + 1, "polygon", mask->points + 2 * i);
     return 1;
 }
 
 /* Joins b to a: the greater of the two. Both are gray, a is large enough. */
-static void gray_join(struct run_mask *a, const struct run_mask *b)
+static void gray_join(struct script_mask *a, const struct script_mask *b)
 {
     for (int row = 0; row < b->height; row++) {
         uint8_t *to = a->gray + (size_t)(row + b->y - a->y) * (size_t)a->width + (b->x - a->x);
@@ -218,20 +220,20 @@ static void gray_join(struct run_mask *a, const struct run_mask *b)
 static int make_line(lua_State *L)
 {
     int count = corners_count(L, "line", 2);
-    double width = lua_isnoneornil(L, 2) ? 1 : arg_at(L, 2, "line's width", 0.01, 10000);
+    double width = lua_isnoneornil(L, 2) ? 1 : script_arg_at(L, 2, "line's width", 0.01, 10000);
     double x1 = INFINITY, y1 = INFINITY, x2 = -INFINITY, y2 = -INFINITY, corner[2];
     for (int i = 1; i <= count; i++) {
         corner_read(L, 1, i, "line", corner);
         lua_rawgeti(L, 1, i);
         lua_rawgeti(L, -1, 3);
-        double own = lua_isnil(L, -1) ? width : arg_at(L, -1, "line's width", 0, 10000);
+        double own = lua_isnil(L, -1) ? width : script_arg_at(L, -1, "line's width", 0, 10000);
         lua_pop(L, 2);
         x1 = fmin(x1, floor(corner[0] - own));
         y1 = fmin(y1, floor(corner[1] - own));
         x2 = fmax(x2, ceil(corner[0] + own));
         y2 = fmax(y2, ceil(corner[1] + own));
     }
-    struct run_mask *all = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    struct script_mask *all = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     int all_index = lua_gettop(L);
     double before[3] = {0};
     for (int i = 1; i <= count; i++) {
@@ -246,25 +248,25 @@ static int make_line(lua_State *L)
         lua_pushnumber(L, at[1]);
         lua_pushnumber(L, at[2]);
         lua_call(L, 3, 1);
-        struct run_mask *part = mask_grayed(L, -1);
+        struct script_mask *part = script_mask_grayed(L, -1);
         if (part->gray)
             gray_join(all, part);
         double dx = at[0] - before[0], dy = at[1] - before[1], length = hypot(dx, dy);
         if (i > 1 && length > 0) {
             double nx = -dy / length, ny = dx / length;
-            struct run_mask *bar = mask_polygon_new(L, 4);
+            struct script_mask *bar = script_mask_polygon_new(L, 4);
             const double corners[8] = {before[0] + nx * before[2], before[1] + ny * before[2],
                                        at[0] + nx * at[2],         at[1] + ny * at[2],
                                        at[0] - nx * at[2],         at[1] - ny * at[2],
                                        before[0] - nx * before[2], before[1] - ny * before[2]};
             memcpy(bar->points, corners, sizeof corners);
-            part = mask_grayed(L, -1);
+            part = script_mask_grayed(L, -1);
             if (part->gray)
                 gray_join(all, part);
         }
         lua_settop(L, all_index);
         memcpy(before, at, sizeof at);
-        run_check(L);
+        script_check(L);
     }
     return 1;
 }
@@ -282,18 +284,18 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
                                          [PAPER_ALIGN_RIGHT] = "right",
                                          [PAPER_ALIGN_CENTER] = "center",
                                          [PAPER_ALIGN_JUSTIFY] = "justify"};
-    arg_keys(L, index, "text", keys);
-    line->font = arg_text(L, index, "text", "font");
-    line->size_px = arg_number(L, index, "text", "size", 100, 1, 8192);
-    line->tracking_em = arg_number(L, index, "text", "tracking", 0, -1, 10);
-    line->filter = arg_text(L, index, "text", "filter");
-    line->angle_deg = arg_number(L, index, "text", "angle", 0, -3600, 3600);
-    line->width_px = arg_number(L, index, "text", "width", 0, 0, PLACE_MAX);
-    line->leading = arg_number(L, index, "text", "leading", 0, 0, 100);
-    line->features = arg_text(L, index, "text", "features");
-    line->language = arg_text(L, index, "text", "language");
-    line->right_to_left = arg_boolean(L, index, "text", "right_to_left", false);
-    const char *align = arg_text(L, index, "text", "align");
+    script_arg_keys(L, index, "text", keys);
+    line->font = script_arg_text(L, index, "text", "font");
+    line->size_px = script_arg_number(L, index, "text", "size", 100, 1, 8192);
+    line->tracking_em = script_arg_number(L, index, "text", "tracking", 0, -1, 10);
+    line->filter = script_arg_text(L, index, "text", "filter");
+    line->angle_deg = script_arg_number(L, index, "text", "angle", 0, -3600, 3600);
+    line->width_px = script_arg_number(L, index, "text", "width", 0, 0, PLACE_MAX);
+    line->leading = script_arg_number(L, index, "text", "leading", 0, 0, 100);
+    line->features = script_arg_text(L, index, "text", "features");
+    line->language = script_arg_text(L, index, "text", "language");
+    line->right_to_left = script_arg_boolean(L, index, "text", "right_to_left", false);
+    const char *align = script_arg_text(L, index, "text", "align");
     for (int i = PAPER_ALIGN_LEFT; align && i <= PAPER_ALIGN_JUSTIFY; i++)
         if (strcmp(align, aligns[i]) == 0)
             line->align = (enum paper_align)i;
@@ -304,18 +306,18 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
     line->anchor = line->align == PAPER_ALIGN_CENTER  ? 0.5
                    : line->align == PAPER_ALIGN_RIGHT ? 1
                                                       : 0;
-    line->anchor = arg_number(L, index, "text", "anchor", line->anchor, 0, 1);
-    if (line->font && strchr(line->font, '/') && !run_of(L)->trusted)
+    line->anchor = script_arg_number(L, index, "text", "anchor", line->anchor, 0, 1);
+    if (line->font && strchr(line->font, '/') && !script_of(L)->config->trusted)
         luaL_error(L, "text font must be a font's name, not a file (got '%s')", line->font);
     if (!line->font)
-        line->font = font_first(text_fonts);
+        line->font = font_face_first(text_fonts);
 }
 
 /* text("word", {size=, font=, x=, y=, align=, …}): x, y is where the baseline begins, or its middle or end. */
-int mask_text_push(lua_State *L, int index)
+int script_mask_text_push(lua_State *L, int index)
 {
     struct paper_line line = {.text = luaL_checkstring(L, index)};
-    struct run *run = run_of(L);
+    struct script *script = script_of(L);
     int options = index + 1;
     if (lua_isnoneornil(L, options)) {
         lua_newtable(L);
@@ -323,22 +325,22 @@ int mask_text_push(lua_State *L, int index)
     }
     luaL_checktype(L, options, LUA_TTABLE);
     text_options(L, options, &line);
-    double x = arg_number(L, options, "text", "x", 0, -PLACE_MAX, PLACE_MAX);
-    double y = arg_number(L, options, "text", "y", line.size_px, -PLACE_MAX, PLACE_MAX);
+    double x = script_arg_number(L, options, "text", "x", 0, -PLACE_MAX, PLACE_MAX);
+    double y = script_arg_number(L, options, "text", "y", line.size_px, -PLACE_MAX, PLACE_MAX);
     line.x_px = x - floor(x);
     line.y_px = y - floor(y);
     /* What drawing takes at most for a letter, and its place in the picture: given back but for the picture. */
     double work = 16 * line.size_px * line.size_px + 64 * (double)strlen(line.text);
-    run_memory_take(L, work, "a text");
-    line.pixels_max = fmax(1, (double)run->memory_most_bytes - (double)run->memory_bytes);
-    struct run_mask *mask = mask_new(L); /* takes the screen's gray over */
+    script_memory_take(L, work, "a text");
+    line.pixels_max = fmax(1, script_memory_left(script));
+    struct script_mask *mask = script_mask_new(L); /* takes the screen's gray over */
     struct paper_screen screen;
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
-    run_memory_give(run, work);
+    script_memory_give(script, work);
     if (status != PAPER_OK)
         luaL_error(L, "%s", paper_error());
     mask->bytes = (double)screen.width_px * screen.height_px;
-    run->memory_bytes += (size_t)mask->bytes; /* within pixels_max */
+    script->memory_bytes += (size_t)mask->bytes; /* within pixels_max */
     mask->gray = screen.gray;
     mask->width = screen.width_px;
     mask->height = screen.height_px;
@@ -352,17 +354,19 @@ int mask_text_push(lua_State *L, int index)
 static int make_text(lua_State *L)
 {
     lua_settop(L, 2);
-    return mask_text_push(L, 1);
+    return script_mask_text_push(L, 1);
 }
 
 /* image("file.png" [, x, y]): black is 1. */
 static int make_image(lua_State *L)
 {
     const char *name = luaL_checkstring(L, 1);
-    double x = lua_isnoneornil(L, 2) ? 0 : arg_at(L, 2, "image's x", -PLACE_MAX, PLACE_MAX);
-    double y = lua_isnoneornil(L, 3) ? 0 : arg_at(L, 3, "image's y", -PLACE_MAX, PLACE_MAX);
-    const char *path = run_path(L, run_of(L)->in_folder, name, "image");
-    struct run_mask *mask = mask_new(L);
+    double x =
+        lua_isnoneornil(L, 2) ? 0 : script_arg_at(L, 2, "image's x", -PLACE_MAX, PLACE_MAX);
+    double y =
+        lua_isnoneornil(L, 3) ? 0 : script_arg_at(L, 3, "image's y", -PLACE_MAX, PLACE_MAX);
+    const char *path = script_path(L, script_of(L)->config->in_folder, name, "image");
+    struct script_mask *mask = script_mask_new(L);
     struct display_image image;
     if (display_png_read_gray(path, &image) != DISPLAY_OK)
         luaL_error(L, "%s", display_error());
@@ -374,7 +378,7 @@ static int make_image(lua_State *L)
     size_t count = (size_t)mask->width * (size_t)mask->height;
     for (size_t i = 0; i < count; i++)
         mask->gray[i] = (uint8_t)(255 - mask->gray[i]);
-    run_memory_take(L, (double)count, "an image");
+    script_memory_take(L, (double)count, "an image");
     mask->bytes = (double)count;
     return 1;
 }
@@ -382,10 +386,10 @@ static int make_image(lua_State *L)
 /* mask(width, height, function(x, y) ... end): its values, 0..1. */
 static int make_function(lua_State *L)
 {
-    double width = floor(arg_at(L, 1, "mask's width", 1, PLACE_MAX));
-    double height = floor(arg_at(L, 2, "mask's height", 1, PLACE_MAX));
+    double width = floor(script_arg_at(L, 1, "mask's width", 1, PLACE_MAX));
+    double height = floor(script_arg_at(L, 2, "mask's height", 1, PLACE_MAX));
     luaL_checktype(L, 3, LUA_TFUNCTION);
-    struct run_mask *mask = mask_gray_new(L, width, height, 0, 0);
+    struct script_mask *mask = script_mask_gray_new(L, width, height, 0, 0);
     for (int y = 0; y < mask->height; y++)
         for (int x = 0; x < mask->width; x++) {
             lua_pushvalue(L, 3);
@@ -400,17 +404,12 @@ static int make_function(lua_State *L)
     return 1;
 }
 
-void lua_mask_open(lua_State *L)
+const luaL_Reg script_mask_makers[] = {{"rect", make_rectangle},  {"ellipse", make_ellipse},
+                                       {"polygon", make_polygon}, {"line", make_line},
+                                       {"text", make_text},       {"image", make_image},
+                                       {"mask", make_function},   {NULL, NULL}};
+
+void script_mask_open(lua_State *L)
 {
-    static const luaL_Reg makers[] = {{"rect", make_rectangle},  {"ellipse", make_ellipse},
-                                      {"polygon", make_polygon}, {"line", make_line},
-                                      {"text", make_text},       {"image", make_image},
-                                      {"mask", make_function},   {NULL, NULL}};
-    run_type_open(L, mask_type, lua_mask_methods, mask_gc);
-    luaL_getmetatable(L, mask_type);
-    luaL_setfuncs(L, lua_mask_operators, 0);
-    lua_pop(L, 1);
-    lua_pushglobaltable(L);
-    luaL_setfuncs(L, makers, 0);
-    lua_pop(L, 1);
+    script_type_open(L, script_mask_type, mask_gc);
 }

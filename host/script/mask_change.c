@@ -1,5 +1,5 @@
-/* lua_mask_change.c - masks made of masks: moved, turned, scaled, joined, softened. */
-#include "lua_mask.h"
+/* mask_change.c - masks made of masks: moved, turned, scaled, joined, softened. */
+#include "script_mask.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,10 +9,10 @@
 /* Pushes the mask at 1 under x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5]. */
 static int transformed(lua_State *L, const double m[6])
 {
-    const struct run_mask *mask = luaL_checkudata(L, 1, mask_type);
+    const struct script_mask *mask = luaL_checkudata(L, 1, script_mask_type);
     double det = m[0] * m[4] - m[1] * m[3];
     if (mask->points) {
-        struct run_mask *made = mask_polygon_new(L, mask->points_count);
+        struct script_mask *made = script_mask_polygon_new(L, mask->points_count);
         for (int i = 0; i < mask->points_count; i++) {
             double x = mask->points[2 * i], y = mask->points[2 * i + 1];
             made->points[2 * i] = m[0] * x + m[1] * y + m[2];
@@ -31,10 +31,10 @@ static int transformed(lua_State *L, const double m[6])
         y2 = fmax(y2, ceil(to_y));
     }
     if (!mask->gray || det == 0) {
-        mask_gray_new(L, 0, 0, 0, 0);
+        script_mask_gray_new(L, 0, 0, 0, 0);
         return 1;
     }
-    struct run_mask *made = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     for (int row = 0; row < made->height; row++)
         for (int column = 0; column < made->width; column++) {
             double px = column + made->x + 0.5 - m[2], py = row + made->y + 0.5 - m[5];
@@ -58,8 +58,8 @@ static int transformed(lua_State *L, const double m[6])
 
 static int mask_move(lua_State *L)
 {
-    double x = arg_at(L, 2, "move's x", -PLACE_MAX, PLACE_MAX);
-    double y = arg_at(L, 3, "move's y", -PLACE_MAX, PLACE_MAX);
+    double x = script_arg_at(L, 2, "move's x", -PLACE_MAX, PLACE_MAX);
+    double y = script_arg_at(L, 3, "move's y", -PLACE_MAX, PLACE_MAX);
     return transformed(L, (double[6]){1, 0, x, 0, 1, y});
 }
 
@@ -69,12 +69,12 @@ static void center_read(lua_State *L, int index, double center[2])
     for (int i = 0; i < 2; i++)
         center[i] = lua_isnoneornil(L, index + i)
                         ? 0
-                        : arg_at(L, index + i, "the center", -PLACE_MAX, PLACE_MAX);
+                        : script_arg_at(L, index + i, "the center", -PLACE_MAX, PLACE_MAX);
 }
 
 static int mask_rotate(lua_State *L)
 {
-    double angle = arg_at(L, 2, "rotate's angle", -1e6, 1e6) * PI / 180, at[2];
+    double angle = script_arg_at(L, 2, "rotate's angle", -1e6, 1e6) * PI / 180, at[2];
     center_read(L, 3, at);
     double c = cos(angle), s = sin(angle);
     return transformed(L, (double[6]){c, -s, at[0] - c * at[0] + s * at[1], s, c,
@@ -83,13 +83,13 @@ static int mask_rotate(lua_State *L)
 
 static int mask_scale(lua_State *L)
 {
-    double scale = arg_at(L, 2, "scale's factor", 0.001, 1000), at[2];
+    double scale = script_arg_at(L, 2, "scale's factor", 0.001, 1000), at[2];
     center_read(L, 3, at);
     return transformed(
         L, (double[6]){scale, 0, at[0] * (1 - scale), 0, scale, at[1] * (1 - scale)});
 }
 
-static int gray_at(const struct run_mask *mask, int x, int y)
+static int gray_at(const struct script_mask *mask, int x, int y)
 {
     if (x < mask->x || y < mask->y || x >= mask->x + mask->width || y >= mask->y + mask->height)
         return 0;
@@ -100,7 +100,7 @@ static int gray_at(const struct run_mask *mask, int x, int y)
 static int mask_join(lua_State *L, char operation)
 {
     lua_settop(L, 2);
-    const struct run_mask *a = mask_grayed(L, 1), *b = mask_grayed(L, 2);
+    const struct script_mask *a = script_mask_grayed(L, 1), *b = script_mask_grayed(L, 2);
     int x1 = a->x, y1 = a->y, x2 = a->x + a->width, y2 = a->y + a->height;
     if (operation == '+' && b->gray) {
         bool first = a->gray != NULL;
@@ -109,7 +109,7 @@ static int mask_join(lua_State *L, char operation)
         x2 = first && x2 > b->x + b->width ? x2 : b->x + b->width;
         y2 = first && y2 > b->y + b->height ? y2 : b->y + b->height;
     }
-    struct run_mask *made = mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
     for (int y = y1; y < y2 && made->gray; y++)
         for (int x = x1; x < x2; x++) {
             int p = a->gray ? gray_at(a, x, y) : 0, q = b->gray ? gray_at(b, x, y) : 0;
@@ -156,14 +156,14 @@ static void box_pass(uint8_t *values, uint8_t *scratch, int count, size_t stride
 /* soften(radius): three boxes after each other, nearly a bell. */
 static int mask_soften(lua_State *L)
 {
-    int radius = (int)lround(arg_at(L, 2, "soften's radius", 0, 1000));
+    int radius = (int)lround(script_arg_at(L, 2, "soften's radius", 0, 1000));
     lua_settop(L, 1);
-    const struct run_mask *mask = mask_grayed(L, 1);
+    const struct script_mask *mask = script_mask_grayed(L, 1);
     int box = (radius + 1) / 2, rim = 3 * box;
     if (!mask->gray || box == 0)
         return 1;
-    struct run_mask *made = mask_gray_new(L, mask->width + 2.0 * rim, mask->height + 2.0 * rim,
-                                          mask->x - rim, mask->y - rim);
+    struct script_mask *made = script_mask_gray_new(
+        L, mask->width + 2.0 * rim, mask->height + 2.0 * rim, mask->x - rim, mask->y - rim);
     for (int y = 0; y < mask->height; y++)
         memcpy(made->gray + (size_t)(y + rim) * (size_t)made->width + rim,
                mask->gray + (size_t)y * (size_t)mask->width, (size_t)mask->width);
@@ -175,7 +175,7 @@ static int mask_soften(lua_State *L)
             box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box);
         for (int x = 0; x < made->width; x++)
             box_pass(made->gray + x, scratch, made->height, width, box);
-        run_check(L);
+        script_check(L);
     }
     lua_pop(L, 1);
     return 1;
@@ -184,16 +184,16 @@ static int mask_soften(lua_State *L)
 /* x, y, width, height of what it covers. */
 static int mask_bounds(lua_State *L)
 {
-    const struct run_mask *mask = mask_grayed(L, 1);
+    const struct script_mask *mask = script_mask_grayed(L, 1);
     int bounds[4] = {mask->x, mask->y, mask->width, mask->height};
     for (int i = 0; i < 4; i++)
         lua_pushinteger(L, bounds[i]);
     return 4;
 }
 
-const luaL_Reg lua_mask_methods[] = {{"move", mask_move},     {"rotate", mask_rotate},
-                                     {"scale", mask_scale},   {"soften", mask_soften},
-                                     {"bounds", mask_bounds}, {NULL, NULL}};
+const luaL_Reg script_mask_methods[] = {{"move", mask_move},     {"rotate", mask_rotate},
+                                        {"scale", mask_scale},   {"soften", mask_soften},
+                                        {"bounds", mask_bounds}, {NULL, NULL}};
 
-const luaL_Reg lua_mask_operators[] = {
+const luaL_Reg script_mask_operators[] = {
     {"__add", mask_add}, {"__mul", mask_multiply}, {"__sub", mask_subtract}, {NULL, NULL}};

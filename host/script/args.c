@@ -1,5 +1,5 @@
-/* lua_args.c - what scripts say, checked: every error names the value that was wrong and what it must be. */
-#include "lua_run.h"
+/* args.c - what scripts say, checked: every error names the value that was wrong and what it must be. */
+#include "script_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,8 +43,8 @@ static double number_pop(lua_State *L, const char *what, const char *name, doubl
     return value;
 }
 
-double arg_number(lua_State *L, int index, const char *what, const char *name, double fallback,
-                  double low, double high)
+double script_arg_number(lua_State *L, int index, const char *what, const char *name,
+                         double fallback, double low, double high)
 {
     if (lua_getfield(L, index, name) == LUA_TNIL) {
         lua_pop(L, 1);
@@ -53,8 +53,8 @@ double arg_number(lua_State *L, int index, const char *what, const char *name, d
     return number_pop(L, what, name, low, high);
 }
 
-int arg_integer(lua_State *L, int index, const char *what, const char *name, int fallback,
-                double low, double high)
+int script_arg_integer(lua_State *L, int index, const char *what, const char *name,
+                       int fallback, double low, double high)
 {
     char shown[64];
     if (lua_getfield(L, index, name) == LUA_TNIL) {
@@ -69,7 +69,8 @@ int arg_integer(lua_State *L, int index, const char *what, const char *name, int
     return (int)value;
 }
 
-bool arg_boolean(lua_State *L, int index, const char *what, const char *name, bool fallback)
+bool script_arg_boolean(lua_State *L, int index, const char *what, const char *name,
+                        bool fallback)
 {
     char shown[64];
     int type = lua_getfield(L, index, name);
@@ -81,7 +82,7 @@ bool arg_boolean(lua_State *L, int index, const char *what, const char *name, bo
     return value;
 }
 
-const char *arg_text(lua_State *L, int index, const char *what, const char *name)
+const char *script_arg_text(lua_State *L, int index, const char *what, const char *name)
 {
     char shown[64];
     int type = lua_getfield(L, index, name);
@@ -92,8 +93,8 @@ const char *arg_text(lua_State *L, int index, const char *what, const char *name
     return value;
 }
 
-bool arg_numbers(lua_State *L, int index, const char *what, const char *name, double *out,
-                 int count, double low, double high)
+bool script_arg_numbers(lua_State *L, int index, const char *what, const char *name,
+                        double *out, int count, double low, double high)
 {
     char shown[64];
     int type = lua_getfield(L, index, name);
@@ -118,12 +119,13 @@ bool arg_numbers(lua_State *L, int index, const char *what, const char *name, do
     return true;
 }
 
-bool arg_color(lua_State *L, int index, const char *what, const char *name, double out[3])
+bool script_arg_color(lua_State *L, int index, const char *what, const char *name,
+                      double out[3])
 {
     char shown[64];
     if (lua_getfield(L, index, name) != LUA_TSTRING) {
         lua_pop(L, 1);
-        return arg_numbers(L, index, what, name, out, 3, 0, 1);
+        return script_arg_numbers(L, index, what, name, out, 3, 0, 1);
     }
     unsigned red = 0, green = 0, blue = 0;
     const char *text = lua_tostring(L, -1);
@@ -139,7 +141,7 @@ bool arg_color(lua_State *L, int index, const char *what, const char *name, doub
     return true;
 }
 
-void arg_keys(lua_State *L, int index, const char *what, const char *const *names)
+void script_arg_keys(lua_State *L, int index, const char *what, const char *const *names)
 {
     index = lua_absindex(L, index);
     lua_pushnil(L);
@@ -155,7 +157,8 @@ void arg_keys(lua_State *L, int index, const char *what, const char *const *name
     }
 }
 
-long arg_count(lua_State *L, int index, const char *what, long fallback, long low, long high)
+long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
+                      long high)
 {
     char shown[64];
     if (lua_isnoneornil(L, index))
@@ -167,14 +170,15 @@ long arg_count(lua_State *L, int index, const char *what, long fallback, long lo
     return (long)value;
 }
 
-double arg_at(lua_State *L, int index, const char *what, double low, double high)
+double script_arg_at(lua_State *L, int index, const char *what, double low, double high)
 {
     lua_pushvalue(L, index);
     return number_pop(L, what, "", low, high);
 }
 
 /* The row of a NULL-ended list that the text is, or an error that lists them. */
-int arg_choice(lua_State *L, const char *what, const char *text, const char *const *names)
+int script_arg_choice(lua_State *L, const char *what, const char *text,
+                      const char *const *names)
 {
     luaL_Buffer list;
     for (int i = 0; names[i]; i++)
@@ -189,7 +193,7 @@ int arg_choice(lua_State *L, const char *what, const char *text, const char *con
     return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
 }
 
-void arg_table(lua_State *L, int index)
+void script_arg_table(lua_State *L, int index)
 {
     if (lua_isnoneornil(L, index)) {
         lua_settop(L, index - 1);
@@ -197,21 +201,4 @@ void arg_table(lua_State *L, int index)
     }
     lua_settop(L, index);
     luaL_checktype(L, index, LUA_TTABLE);
-}
-
-void run_type_open(lua_State *L, const char *name, const luaL_Reg *methods, lua_CFunction gc)
-{
-    luaL_newmetatable(L, name);
-    if (methods) {
-        lua_newtable(L);
-        luaL_setfuncs(L, methods, 0);
-        lua_setfield(L, -2, "__index");
-    }
-    if (gc) {
-        lua_pushcfunction(L, gc);
-        lua_setfield(L, -2, "__gc");
-    }
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
-    lua_pop(L, 1);
 }

@@ -1,0 +1,25 @@
+/* run.h - `lutetia run`: a script as the command runs it, filmed, saved, reported. */
+#ifndef LUTETIA_RUN_H
+#define LUTETIA_RUN_H
+
+#include "film.h"
+#include "lutetia.h"
+
+#include <script.h>
+
+struct run {
+    struct script_config config;
+    const char *words[SCRIPT_WORDS_MAX]; /* the config's */
+    bool quiet;
+    const char *save; /* --save; NULL: none */
+    struct film film;
+    int report_to; /* where steps are reported to, of a run among others; 0: nowhere */
+    /* its own */
+    struct progress line;
+    bool line_begun, line_again;
+};
+
+/* One run of the script: EXIT_SUCCESS, EXIT_FAILED or EXIT_INTERRUPTED. */
+int run_script(struct run *run);
+
+#endif

@@ -1,0 +1,150 @@
+/* run_script.c - the command as a script's host: its lines on the terminal, its film, what it saves. */
+#include "run.h"
+#include "run_sweep.h"
+
+#include <history.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static void print(void *context, const char *text, size_t length)
+{
+    (void)context;
+    fwrite(text, 1, length, stdout);
+    fflush(stdout);
+}
+
+static void complain(void *context, const char *text)
+{
+    (void)context;
+    fprintf(stderr, "%s\n", text);
+}
+
+static void note(void *context, const char *text)
+{
+    (void)context;
+    fprintf(stderr, "lutetia run: %s\n", text);
+}
+
+static bool stop(void *context)
+{
+    (void)context;
+    return interrupted();
+}
+
+static void progress(void *context, const struct script_progress *p)
+{
+    struct run *run = context;
+    if (p && !p->again)
+        run_report(run, p->done, p->total);
+    if (run->quiet || run->report_to)
+        return;
+    if (run->line_begun && (!p || p->again != run->line_again)) {
+        progress_end(&run->line);
+        run->line_begun = false;
+    }
+    if (!p)
+        return;
+    if (!run->line_begun) {
+        run->line = progress_begin(p->again ? "computing again" : run->config.path, 0);
+        run->line.began_s = p->began_s;
+        run->line_begun = true;
+        run->line_again = p->again;
+    }
+    run->line.total = (int)p->total;
+    progress_show(&run->line, (int)p->done);
+}
+
+static const char *step(void *context, int paper, struct paper_sheet *sheet)
+{
+    struct run *run = context;
+    return film_step(&run->film, paper, sheet) ? NULL : run->film.error;
+}
+
+static void camera(void *context, const struct script_camera *camera)
+{
+    struct film *film = &((struct run *)context)->film;
+    film->paper = camera->paper;
+    film->show = camera->show;
+    film->camera[0] = camera->x;
+    film->camera[1] = camera->y;
+    film->camera[2] = camera->width;
+    film->camera[3] = camera->height;
+}
+
+static void divergence_report(const struct run *run, const struct paper_state_sheet *papers,
+                              int count)
+{
+    for (int i = 0; i < count; i++)
+        if (paper_history_diverged(papers[i].sheet) && !run->quiet)
+            fprintf(
+                stderr,
+                "lutetia run: paper %d goes another way than the one that was saved; it was "
+                "computed again from there\n",
+                papers[i].number);
+}
+
+/* What was done until now, however the run ended. */
+static enum script_status save(struct run *run, const struct paper_state_sheet *papers,
+                               int count, enum script_status status)
+{
+    struct paper_state_sheet kept[PAPER_STATE_SHEETS_MAX];
+    int kept_count = 0;
+    for (int i = 0; i < count && kept_count < PAPER_STATE_SHEETS_MAX; i++)
+        if (paper_history_has(papers[i].sheet))
+            kept[kept_count++] = papers[i];
+    if (paper_state_save(run->save, kept, kept_count) != PAPER_OK) {
+        fail("run", "%s", paper_error());
+        return SCRIPT_FAILED;
+    }
+    if (!run->quiet && status != SCRIPT_OK)
+        fprintf(stderr, "lutetia run: saved; `lutetia run %s --resume %s` goes on\n",
+                run->config.path, run->save);
+    return status;
+}
+
+static enum script_status finish(void *context, const struct paper_state_sheet *papers,
+                                 int count, enum script_status status)
+{
+    struct run *run = context;
+    bool film_failed = run->film.failed; /* and has been said */
+    if (!film_end(&run->film) && !film_failed) {
+        fail("run", "%s", run->film.error);
+        status = SCRIPT_FAILED;
+    }
+    divergence_report(run, papers, count);
+    return run->save ? save(run, papers, count, status) : status;
+}
+
+static void overdue(void *context)
+{
+    static const char late[] = "lutetia run: the script did not stop at its --timeout; ended\n",
+                      pressed[] = "lutetia run: the script did not stop; ended\n";
+    (void)context;
+    bool stopped = interrupted();
+    ssize_t written = stopped ? write(STDERR_FILENO, pressed, sizeof pressed - 1)
+                              : write(STDERR_FILENO, late, sizeof late - 1);
+    (void)written;
+    _exit(stopped ? EXIT_INTERRUPTED : EXIT_FAILED);
+}
+
+int run_script(struct run *run)
+{
+    const struct script_host host = {.context = run,
+                                     .print = print,
+                                     .error = complain,
+                                     .note = note,
+                                     .interrupted = stop,
+                                     .progress = progress,
+                                     .step = step,
+                                     .film = camera,
+                                     .finish = finish,
+                                     .overdue = overdue};
+    run->config.words = run->words;
+    enum script_status status = script_run(&run->config, &host);
+    return status == SCRIPT_OK       ? EXIT_SUCCESS
+           : status == SCRIPT_FAILED ? EXIT_FAILED
+                                     : EXIT_INTERRUPTED;
+}

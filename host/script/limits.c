@@ -1,0 +1,84 @@
+/* limits.c - what a script may take: time, until the host says stop, and memory. */
+#include "script_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+struct script *script_of(lua_State *L)
+{
+    struct script *script;
+    memcpy(&script, lua_getextraspace(L), sizeof script);
+    return script;
+}
+
+double script_clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* ---- time ---- */
+
+static bool late(const struct script *script)
+{
+    return script->deadline_s > 0 && script_clock_s() > script->deadline_s;
+}
+
+bool script_due(const struct script *script)
+{
+    return script_interrupted(script) || late(script);
+}
+
+void script_stop_if_due(lua_State *L, int level)
+{
+    const struct script *script = script_of(L);
+    char text[96];
+    if (script_interrupted(script))
+        snprintf(text, sizeof text, "interrupted");
+    else if (late(script))
+        snprintf(text, sizeof text,
+                 "stopped after %g seconds; --timeout says how long a script may take",
+                 script->config->timeout_s);
+    else
+        return;
+    luaL_where(L, level);
+    lua_pushstring(L, text);
+    lua_concat(L, 2);
+    lua_error(L);
+}
+
+void script_check(lua_State *L)
+{
+    script_stop_if_due(L, 1);
+}
+
+/* ---- memory ---- */
+
+double script_memory_left(const struct script *script)
+{
+    return script->memory_bytes < script->config->memory_bytes
+               ? (double)(script->config->memory_bytes - script->memory_bytes)
+               : 0;
+}
+
+void script_memory_take(lua_State *L, double bytes, const char *what)
+{
+    struct script *script = script_of(L);
+    if (!(bytes >= 0 && bytes <= script_memory_left(script))) {
+        lua_gc(L, LUA_GCCOLLECT); /* masks and sheets that nobody holds any more */
+        if (!(bytes >= 0 && bytes <= script_memory_left(script))) {
+            char text[96];
+            snprintf(text, sizeof text, "%.0f MB for %s, and --memory allows %.0f in all",
+                     bytes * 1e-6, what, (double)script->config->memory_bytes * 1e-6);
+            luaL_error(L, "not enough memory: %s", text);
+        }
+    }
+    script->memory_bytes += (size_t)bytes;
+}
+
+void script_memory_give(struct script *script, double bytes)
+{
+    script->memory_bytes -= (size_t)bytes;
+}

@@ -1,0 +1,62 @@
+/* open.c - the whole library: which functions there are, and of what. */
+#include "script_internal.h"
+
+const struct script_functions script_functions[] = {
+    {NULL, script_sandbox_functions, false},
+    {NULL, script_mask_makers, false},
+    {NULL, script_paper_time_functions, false},
+    {NULL, script_brush_functions, false},
+    {NULL, script_technique_functions, false},
+    {script_mask_type, script_mask_methods, false},
+    {script_mask_type, script_mask_operators, true},
+    {script_paper_type, script_paper_methods, false},
+    {script_paper_type, script_paper_look_methods, false},
+    {script_paper_type, script_paper_time_methods, false},
+    {script_paper_type, script_brush_paper_methods, false},
+    {script_paper_type, script_technique_methods, false},
+    {script_brush_type, script_brush_methods, false},
+    {script_picture_type, script_picture_methods, false},
+    {NULL, NULL, false}};
+
+/* A type's metatable has its methods as __index, be it a table or, for papers, the upvalue of a function. */
+static void functions_open(lua_State *L, const struct script_functions *f)
+{
+    int top = lua_gettop(L);
+    if (!f->of)
+        lua_pushglobaltable(L);
+    else
+        luaL_getmetatable(L, f->of);
+    if (f->of && !f->operators)
+        lua_getfield(L, -1, "methods");
+    luaL_setfuncs(L, f->functions, 0);
+    lua_settop(L, top);
+}
+
+void script_type_open(lua_State *L, const char *name, lua_CFunction gc)
+{
+    luaL_newmetatable(L, name);
+    lua_newtable(L);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, -3, "methods");
+    lua_setfield(L, -2, "__index");
+    if (gc) {
+        lua_pushcfunction(L, gc);
+        lua_setfield(L, -2, "__gc");
+    }
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
+    lua_pop(L, 1);
+}
+
+int script_open(lua_State *L)
+{
+    script_sandbox_open(L);
+    script_mask_open(L);
+    script_paper_open(L);
+    script_paper_time_open(L);
+    script_brush_open(L);
+    script_technique_open(L);
+    for (const struct script_functions *f = script_functions; f->functions; f++)
+        functions_open(L, f);
+    return 0;
+}

@@ -1,0 +1,277 @@
+/* paper_time.c - a paper's time in scripts: back and forth, earlier, larger, saved and loaded, filmed. */
+#include "script_paper.h"
+
+#include <history.h>
+#include <state.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { TIME_MOST = 1000000000 };
+
+/* ---- papers that are open ---- */
+
+/* While something is computed again. */
+static bool watch(void *context, long done, long total)
+{
+    struct script_paper *paper = context;
+    struct script *script = paper->script;
+    if (paper->replay_began_s == 0 && total > 0)
+        paper->replay_began_s = script_clock_s();
+    if (paper->replay_began_s > 0) {
+        script_progress_tell(
+            script, &(struct script_progress){true, done, total, paper->replay_began_s});
+        if (done >= total) {
+            script_progress_tell(script, NULL);
+            paper->replay_began_s = 0;
+        }
+    }
+    return !script_due(script);
+}
+
+void script_paper_keep(struct script_paper *paper)
+{
+    struct script *script = paper->script;
+    struct script_paper *before = script->last_paper;
+    while (before && before->number > paper->number)
+        before = before->before;
+    paper->before = before;
+    paper->next = before ? before->next : script->first_paper;
+    *(before ? &before->next : &script->first_paper) = paper;
+    *(paper->next ? &paper->next->before : &script->last_paper) = paper;
+    paper_history_set_watch(paper->sheet, watch, paper);
+}
+
+void script_paper_forget(struct script_paper *paper)
+{
+    struct script *script = paper->script;
+    if (!paper->before && script->first_paper != paper)
+        return;
+    *(paper->before ? &paper->before->next : &script->first_paper) = paper->next;
+    *(paper->next ? &paper->next->before : &script->last_paper) = paper->before;
+    paper->before = paper->next = NULL;
+}
+
+enum paper_status script_paper_resumed(struct script_paper *paper,
+                                       const struct paper_sheet_config *config,
+                                       double budget_bytes, bool *found)
+{
+    struct paper_state *state = paper->script->config->resumed;
+    *found = false;
+    for (int i = 0; state && i < paper_state_count(state); i++) {
+        struct paper_sheet_config saved;
+        if (paper_state_number(state, i) != paper->number)
+            continue;
+        enum paper_status status = paper_state_describe(state, i, &saved);
+        if (status != PAPER_OK)
+            return status;
+        if (!paper_sheet_config_same(&saved, config)) {
+            char text[80];
+            snprintf(text, sizeof text,
+                     "paper %d is not the one that was saved; it begins anew", paper->number);
+            script_note_tell(paper->script, text);
+            return PAPER_OK;
+        }
+        *found = true;
+        return paper_state_load(state, i, true, budget_bytes, &paper->sheet);
+    }
+    return PAPER_OK;
+}
+
+/* ---- back and forth ---- */
+
+static void history_need(lua_State *L, const struct script_paper *paper)
+{
+    if (!paper_history_has(paper->sheet))
+        luaL_error(L, "this paper has no history: it was made with history = false");
+}
+
+/* How many operations, as there were so many. */
+static int paper_go(lua_State *L, int (*go)(struct paper_sheet *sheet, int count),
+                    const char *what)
+{
+    struct script_paper *paper = script_paper_at(L);
+    history_need(L, paper);
+    lua_pushinteger(L, go(paper->sheet, (int)script_arg_count(L, 2, what, 1, 0, TIME_MOST)));
+    return 1;
+}
+
+static int paper_undo(lua_State *L)
+{
+    return paper_go(L, paper_history_undo, "undo's count");
+}
+
+static int paper_redo(lua_State *L)
+{
+    return paper_go(L, paper_history_redo, "redo's count");
+}
+
+/* paper:to(time) */
+static int paper_to(lua_State *L)
+{
+    struct script_paper *paper = script_paper_at(L);
+    history_need(L, paper);
+    script_paper_check(
+        L, paper_history_seek(paper->sheet, script_arg_count(L, 2, "a time", 0, 0, TIME_MOST)));
+    return 0;
+}
+
+/* paper:moments(): a list of {what =, time =, steps =, done =}. */
+static int paper_moments(lua_State *L)
+{
+    struct script_paper *paper = script_paper_at(L);
+    struct paper_moment moment;
+    history_need(L, paper);
+    int done = paper_history_done(paper->sheet);
+    lua_newtable(L);
+    for (int i = 0; paper_history_moment(paper->sheet, i, &moment); i++) {
+        lua_createtable(L, 0, 4);
+        lua_pushstring(L, moment.what);
+        lua_setfield(L, -2, "what");
+        lua_pushinteger(L, moment.time);
+        lua_setfield(L, -2, "time");
+        lua_pushinteger(L, moment.steps);
+        lua_setfield(L, -2, "steps");
+        lua_pushboolean(L, i < done);
+        lua_setfield(L, -2, "done");
+        lua_rawseti(L, -2, i + 1);
+    }
+    return 1;
+}
+
+/* paper:at(time, function): what the function does is done at that time, and all that followed after it. */
+int script_paper_at_time(lua_State *L)
+{
+    struct script_paper *paper = script_paper_at(L);
+    history_need(L, paper);
+    long time = script_arg_count(L, 2, "a time", 0, 0, TIME_MOST);
+    luaL_checktype(L, 3, LUA_TFUNCTION);
+    lua_settop(L, 3);
+    script_paper_check(L, paper_history_insert_begin(paper->sheet, time));
+    lua_pushvalue(L, 1);
+    int status = lua_pcall(L, 1, 0, 0);
+    if (paper->sheet) /* it may have been closed */
+        script_paper_check(L, paper_history_insert_end(paper->sheet, status == LUA_OK));
+    if (status != LUA_OK)
+        lua_error(L);
+    return 0;
+}
+
+/* paper:render(scale [, pace]): another paper, on which the same was done larger or smaller. */
+static int paper_render(lua_State *L)
+{
+    struct script_paper *paper = script_paper_at(L);
+    history_need(L, paper);
+    const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
+    double scale = script_arg_at(L, 2, "render's scale", 1.0 / 64, 64);
+    double pace = lua_isnoneornil(L, 3)
+                      ? scale * scale
+                      : script_arg_at(L, 3, "render's pace", 1.0 / 4096, 4096);
+    struct script_paper *made = script_paper_new(L);
+    script_paper_room_take(L, made, round(config->width * scale), round(config->height * scale),
+                           config->pigments_count);
+    script_paper_check(L, paper_history_render(paper->sheet, scale, pace, 0, &made->sheet));
+    script_paper_keep(made);
+    return 1;
+}
+
+/* ---- files ---- */
+
+/* paper:save("state.h5") */
+static int paper_save(lua_State *L)
+{
+    struct script_paper *paper = script_paper_at(L);
+    history_need(L, paper);
+    const char *path = script_path(L, paper->script->config->out_folder, luaL_checkstring(L, 2),
+                                   "a saved paper");
+    script_paper_check(L,
+                       paper_state_save(path, &(struct paper_state_sheet){1, paper->sheet}, 1));
+    return 0;
+}
+
+static const char state_type[] = "lutetia state";
+
+static int state_gc(lua_State *L)
+{
+    struct paper_state **state = luaL_checkudata(L, 1, state_type);
+    paper_state_close(*state);
+    *state = NULL;
+    return 0;
+}
+
+/* paper.load("state.h5" [, number]) */
+int script_paper_load(lua_State *L)
+{
+    struct script *script = script_of(L);
+    const char *name = luaL_checkstring(L, 1);
+    long number = script_arg_count(L, 2, "a paper's number", 1, 1, TIME_MOST);
+    const char *path = script_path(L, script->config->in_folder, name, "a saved paper");
+    if (access(path, F_OK) != 0) /* what was saved by a script is where it writes */
+        path = script_path(L, script->config->out_folder, name, "a saved paper");
+    struct paper_state **state = lua_newuserdatauv(L, sizeof *state, 0);
+    *state = NULL;
+    luaL_setmetatable(L, state_type);
+    script_paper_check(L, paper_state_open(path, state));
+    int index = 0, count = paper_state_count(*state);
+    while (index < count && paper_state_number(*state, index) != number)
+        index++;
+    if (index == count)
+        luaL_error(L, "%s has no paper %d", path, (int)number);
+    struct paper_sheet_config config;
+    script_paper_check(L, paper_state_describe(*state, index, &config));
+    struct script_paper *paper = script_paper_new(L);
+    script_paper_room_take(L, paper, config.width, config.height, config.pigments_count);
+    script_paper_check(L, paper_state_load(*state, index, false, 0, &paper->sheet));
+    script_paper_keep(paper);
+    return 1;
+}
+
+/* ---- film ---- */
+
+/* paper:film{show =, x =, y =, width =, height =}: this paper is the one that is filmed, as this. */
+static int paper_film(lua_State *L)
+{
+    static const char *const keys[] = {"show", "x", "y", "width", "height", NULL};
+    struct script_paper *paper = script_paper_at(L);
+    const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
+    const struct script_host *host = paper->script->host;
+    struct script_camera camera = {.paper = paper->number, .show = PAPER_SHOW_COLOR};
+    script_arg_table(L, 2);
+    script_arg_keys(L, 2, "film", keys);
+    const char *show = script_arg_text(L, 2, "film", "show");
+    if (show && strcmp(show, "color") != 0 && strcmp(show, "wet") != 0)
+        luaL_error(L, "film show must be one of color, wet (got '%s')", show);
+    if (show && strcmp(show, "wet") == 0)
+        camera.show = PAPER_SHOW_WET;
+    camera.x = script_arg_number(L, 2, "film", "x", 0, 0, config->width - 2);
+    camera.y = script_arg_number(L, 2, "film", "y", 0, 0, config->height - 2);
+    camera.width =
+        script_arg_number(L, 2, "film", "width", config->width - camera.x, 2, config->width);
+    camera.height =
+        script_arg_number(L, 2, "film", "height", config->height - camera.y, 2, config->height);
+    if (host->film)
+        host->film(host->context, &camera);
+    return 0;
+}
+
+/* expect(steps): how many the whole script takes, for the estimate of the time left. */
+static int expect(lua_State *L)
+{
+    script_of(L)->steps_expected = script_arg_count(L, 1, "steps expected", 0, 0, TIME_MOST);
+    return 0;
+}
+
+const luaL_Reg script_paper_time_methods[] = {{"undo", paper_undo}, {"redo", paper_redo},
+                                              {"to", paper_to},     {"moments", paper_moments},
+                                              {"save", paper_save}, {"render", paper_render},
+                                              {"film", paper_film}, {NULL, NULL}};
+
+const luaL_Reg script_paper_time_functions[] = {{"expect", expect}, {NULL, NULL}};
+
+void script_paper_time_open(lua_State *L)
+{
+    script_type_open(L, state_type, state_gc);
+}

@@ -1,0 +1,170 @@
+/* script.c - a run of a script: its state, its memory, its end. */
+#include "script_internal.h"
+#include "script_paper.h"
+
+#include <history.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct script_config script_config_default(const char *path)
+{
+    return (struct script_config){.path = path,
+                                  .in_folder = ".",
+                                  .out_folder = ".",
+                                  .timeout_s = 600,
+                                  .memory_bytes = (size_t)4 << 30,
+                                  .seed = 1990};
+}
+
+/* ---- what the host is told ---- */
+
+bool script_interrupted(const struct script *script)
+{
+    return script->host->interrupted && script->host->interrupted(script->host->context);
+}
+
+void script_error_tell(const struct script *script, const char *text)
+{
+    if (script->host->error)
+        script->host->error(script->host->context, text);
+}
+
+void script_note_tell(const struct script *script, const char *text)
+{
+    if (script->host->note)
+        script->host->note(script->host->context, text);
+}
+
+void script_progress_tell(const struct script *script, const struct script_progress *progress)
+{
+    if (script->host->progress)
+        script->host->progress(script->host->context, progress);
+}
+
+/* ---- memory ---- */
+
+/* Lua's memory is counted with the rest. */
+static void *allocate(void *context, void *block, size_t old, size_t new)
+{
+    struct script *script = context;
+    old = block ? old : 0;
+    if (new == 0) {
+        free(block);
+        script->memory_bytes -= old;
+        return NULL;
+    }
+    if (new > old && (double)(new - old) > script_memory_left(script)) {
+        script->memory_short = true;
+        return NULL;
+    }
+    void *made = realloc(block, new);
+    if (made)
+        script->memory_bytes += new - old;
+    return made;
+}
+
+/* ---- the run ---- */
+
+/* Errors that are no text. */
+static int message(lua_State *L)
+{
+    if (lua_type(L, 1) != LUA_TSTRING)
+        lua_pushfstring(L, "error: (a %s)", luaL_typename(L, 1));
+    return 1;
+}
+
+static enum script_status perform(struct script *script, lua_State *L)
+{
+    const char *path = script->config->path;
+    lua_pushcfunction(L, message);
+    lua_pushcfunction(L, script_open);
+    int status = lua_pcall(L, 0, 0, 1);
+    if (status == LUA_OK)
+        status = luaL_loadfilex(L, path, "t");
+    if (status == LUA_OK)
+        status = lua_pcall(L, 0, 0, 1);
+    if (status == LUA_OK)
+        return SCRIPT_OK;
+    const char *text = lua_tostring(L, -1);
+    char line[1200];
+    if (status == LUA_ERRMEM ||
+        (script->memory_short && text && strcmp(text, "not enough memory") == 0))
+        snprintf(line, sizeof line, "%s: not enough memory; --memory allows %.0f MB", path,
+                 (double)script->config->memory_bytes * 1e-6);
+    else
+        snprintf(line, sizeof line, "%s", text ? text : "error");
+    for (char *c = line; *c; c++)
+        if (*c == '\n' || *c == '\r')
+            *c = ' ';
+    script_error_tell(script, line);
+    return script_interrupted(script) ? SCRIPT_INTERRUPTED : SCRIPT_FAILED;
+}
+
+/* The host's end, with all papers that are open. */
+static enum script_status finish(struct script *script, enum script_status status)
+{
+    size_t count = 0, room = 0;
+    for (struct script_paper *p = script->first_paper; p; p = p->next) {
+        paper_history_set_watch(p->sheet, NULL,
+                                NULL); /* what is to be computed now is not stopped */
+        room++;
+    }
+    if (!script->host->finish)
+        return status;
+    struct paper_state_sheet *papers = calloc(room + 1, sizeof *papers);
+    if (!papers) {
+        script_error_tell(script, "no memory for the list of papers");
+        return SCRIPT_FAILED;
+    }
+    for (struct script_paper *p = script->first_paper; p; p = p->next)
+        papers[count++] = (struct paper_state_sheet){p->number, p->sheet};
+    status = script->host->finish(script->host->context, papers, (int)count, status);
+    free(papers);
+    return status;
+}
+
+static enum script_status words_end(const struct script *script)
+{
+    for (int i = 0; i < script->config->words_count; i++)
+        if (!script->asked[i]) {
+            const char *word = script->config->words[i];
+            char text[1200];
+            snprintf(text, sizeof text, "%s asked for no '%.*s'", script->config->path,
+                     (int)strcspn(word, "="), word);
+            script_error_tell(script, text);
+            return SCRIPT_FAILED;
+        }
+    return SCRIPT_OK;
+}
+
+enum script_status script_run(const struct script_config *config,
+                              const struct script_host *host)
+{
+    struct script script = {.config = config, .host = host, .began_s = script_clock_s()},
+                  *self = &script;
+    char text[128];
+    if (config->timeout_s > 0)
+        script.deadline_s = script.began_s + config->timeout_s;
+    lua_State *L = lua_newstate(allocate, self);
+    if (!L) {
+        snprintf(text, sizeof text, "no memory for Lua; --memory must be more than %zu bytes",
+                 config->memory_bytes);
+        script_error_tell(self, text);
+        return SCRIPT_FAILED;
+    }
+    memcpy(lua_getextraspace(L), &self, sizeof self);
+    if (!script_watchdog_start(self)) {
+        script_error_tell(self, "no thread to watch over the script");
+        lua_close(L);
+        return SCRIPT_FAILED;
+    }
+    enum script_status status = perform(self, L);
+    script_watchdog_pause(self, true);
+    status = finish(self, status);
+    script_watchdog_pause(self, false);
+    lua_close(L); /* a trusted script's finalizers run */
+    script_watchdog_end(self);
+    return status == SCRIPT_OK ? words_end(self) : status;
+}

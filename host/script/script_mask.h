@@ -1,0 +1,27 @@
+/* script_mask.h - a script's masks: what making and changing them share. */
+#ifndef LUTETIA_SCRIPT_MASK_H
+#define LUTETIA_SCRIPT_MASK_H
+
+#include "script_internal.h"
+
+struct script_mask {
+    struct script *script;
+    double *points; /* pairs; NULL: gray */
+    int points_count;
+    uint8_t *gray; /* NULL if empty */
+    int x, y, width, height;
+    double bytes;
+};
+
+enum { PLACE_MAX = 100000 };
+
+/* Push one: without a shape; with room for so many corners; with room for gray values, all 0. They raise errors where there is no
+ * memory for it. */
+struct script_mask *script_mask_new(lua_State *L);
+struct script_mask *script_mask_polygon_new(lua_State *L, int count);
+struct script_mask *script_mask_gray_new(lua_State *L, double width, double height, double x,
+                                         double y);
+/* Pushes the mask at index as gray. */
+struct script_mask *script_mask_grayed(lua_State *L, int index);
+
+#endif
