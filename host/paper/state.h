@@ -13,8 +13,9 @@
  * of the rest.
  *
  * A file is written whole or not at all. It is read with suspicion: what is damaged is found by length and checksum; what
- * was made to do harm meets HDF5's library in a process of its own, which has no more memory and time than reading takes, and
- * what that says is checked as all that comes from outside.
+ * was made to do harm meets HDF5's library in a process of its own, which can open no file, has no more memory and time than reading
+ * takes, and ends with this one. It accepts only what paper_state_save() writes: no links to other places, no data kept elsewhere, no
+ * filters and types but ours. What it says is checked as all that comes from outside, before it is used.
  *
  * Errors and threads: as paper.h says. */
 #ifndef LUTETIA_PAPER_STATE_H
@@ -36,10 +37,15 @@ enum paper_status paper_state_save(const char *path, const struct paper_state_sh
 
 struct paper_state;
 
-/* Errors: BAD_FILE (not a state, damaged, of another version), BAD_ARGUMENT (cannot be read: the system's reason), NO_MEMORY;
+/* Errors: BAD_FILE (not a state, damaged, of another version), BAD_ARGUMENT (cannot be read: the system's reason, or it is no regular
+ * file), NO_MEMORY;
  * *out is then NULL. Owns: the caller closes *out. */
 enum paper_status paper_state_open(const char *path, struct paper_state **out);
 void paper_state_close(struct paper_state *state); /* NULL is fine */
+
+/* What reading a sheet may take at most, in the process that reads and for its run here (3 GB where nobody says); more is NO_MEMORY.
+ * The sheet that is made is not counted. */
+void paper_state_limit(struct paper_state *state, double bytes);
 
 int paper_state_count(const struct paper_state *state);
 int paper_state_number(const struct paper_state *state, int index);

@@ -65,6 +65,7 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
         struct paper_sheet_config saved;
         if (paper_state_number(state, i) != paper->number)
             continue;
+        paper_state_limit(state, script_memory_left(paper->script));
         enum paper_status status = paper_state_describe(state, i, &saved);
         if (status != PAPER_OK)
             return status;
@@ -221,9 +222,11 @@ int script_paper_load(lua_State *L)
     if (index == count)
         luaL_error(L, "%s has no paper %d", path, (int)number);
     struct paper_sheet_config config;
+    paper_state_limit(*state, script_memory_left(script));
     script_paper_check(L, paper_state_describe(*state, index, &config));
     struct script_paper *paper = script_paper_new(L);
     script_paper_room_take(L, paper, config.width, config.height, config.pigments_count);
+    paper_state_limit(*state, script_memory_left(script));
     script_paper_check(L, paper_state_load(*state, index, false, 0, &paper->sheet));
     script_paper_keep(paper);
     return 1;

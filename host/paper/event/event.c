@@ -15,12 +15,6 @@ static enum paper_status air_check(const struct paper_sheet *p, const void *argu
     return paper_weather_check(&((const struct paper_air *)arguments)->thesis);
 }
 
-static enum paper_status stroke_check(const struct paper_sheet *p, const void *arguments)
-{
-    (void)p;
-    return paper_stroke_check(arguments);
-}
-
 static enum paper_status air_set(struct paper_sheet *p, const void *arguments)
 {
     p->air = *(const struct paper_air *)arguments;
@@ -53,8 +47,8 @@ static const struct kind {
     [SHEET_EVENT_BRUSH] = {"brush", "a brush's ", WITH(paper_brush, brush), sheet_brush_check,
                            sheet_brush},
     [SHEET_EVENT_DIP] = {"dip", "a dip's ", WITH(paper_dip, dip), sheet_dip_check, sheet_dip},
-    [SHEET_EVENT_STROKE] = {"stroke", "a stroke's ", WITH(paper_stroke, stroke), stroke_check,
-                            sheet_stroke},
+    [SHEET_EVENT_STROKE] = {"stroke", "a stroke's ", WITH(paper_stroke, stroke),
+                            sheet_stroke_check, sheet_stroke},
     [SHEET_EVENT_SALT] = {"salt", "salt's ", WITH(paper_salt, salt), sheet_salt_check,
                           sheet_salt},
     [SHEET_EVENT_WASH] = {"wash", "a wash's ", WITH(paper_wash, wash), sheet_wash_check,

@@ -173,25 +173,6 @@ void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point)
 
 /* ---- giving back ---- */
 
-/* What the fields of any sheet may hold; a file may hold anything. */
-static enum paper_status plane_check(const struct paper_sheet *p,
-                                     const struct paper_plane *plane, const void *words)
-{
-    size_t count = plane_words(p);
-    const uint32_t *whole = words;
-    const float *values = words;
-    bool good = true;
-    if (plane->whole)
-        for (size_t i = 0; i < count; i++)
-            good &= whole[i] < 1u << SHEET_DRIED_BITS;
-    else
-        for (size_t i = 0; i < count; i++)
-            good &= values[i] >= 0 && values[i] <= 0x1p24f;
-    return good ? PAPER_OK
-                : paper_fail(PAPER_BAD_FILE, "its plane '%s' holds what no sheet can",
-                             plane->name);
-}
-
 enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point)
 {
     paper_enter(&p->page);
@@ -220,7 +201,7 @@ enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, 
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         status = source(context, i, words);
         if (status == PAPER_OK)
-            status = plane_check(p, &planes[i], words);
+            status = sheet_plane_check(p, i, words);
         if (status != PAPER_OK)
             break;
         paper_enter(&p->page);
@@ -258,7 +239,7 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
         h->held_bytes += point.plane_bytes;
         status = source(context, i, point.planes[i]->words);
         if (status == PAPER_OK)
-            status = plane_check(p, &planes[i], point.planes[i]->words);
+            status = sheet_plane_check(p, i, point.planes[i]->words);
     }
     event_put_bytes(&point.extras, extras->at, (size_t)(extras->end - extras->at));
     if (status == PAPER_OK && point.extras.short_of_memory)

@@ -35,27 +35,98 @@ enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes 
     return status;
 }
 
-/* One brush; what is wrong with bytes from outside is found by the functions that make brushes. */
-static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader *r)
+/* What bytes hold of a sheet besides its brushes. */
+struct extras {
+    int flags, brushes;
+    double salt_reach, salt_strength;
+};
+
+static enum paper_status damaged(const char *what)
+{
+    return paper_fail(PAPER_BAD_FILE, "%s damaged", what);
+}
+
+static enum paper_status extras_begin(struct event_reader *r, struct extras *x)
+{
+    x->flags = (int)event_get_number(r, 1);
+    x->salt_reach = event_get_double(r);
+    x->salt_strength = event_get_double(r);
+    x->brushes = (int)event_get_number(r, 1);
+    bool good = !r->bad && x->salt_reach >= 1 && x->salt_reach <= 100 &&
+                x->salt_strength >= 0 && x->salt_strength <= 4 &&
+                (x->flags & ~(EXTRA_VARNISHED | EXTRA_SALTED)) == 0 &&
+                x->brushes <= PAPER_BRUSHES_MAX;
+    return good ? PAPER_OK : damaged("what is on the sheet is");
+}
+
+/* The next brush, checked; the caller frees it by event_free(). */
+static enum paper_status brush_decode(const struct paper_sheet *p, struct event_reader *r,
+                                      struct paper_brush **out)
 {
     size_t size = event_size(SHEET_EVENT_BRUSH);
     const uint8_t *bytes = event_get_bytes(r, size);
     void *brush = NULL;
+    *out = NULL;
     if (!bytes)
-        return PAPER_OK;
+        return damaged("its brushes are");
     enum paper_status status = event_decode(bytes, size, &p->config, SHEET_EVENT_BRUSH, &brush);
     if (status == PAPER_OK)
         status = event_check(p, SHEET_EVENT_BRUSH, brush);
-    if (status == PAPER_OK)
-        status = event_perform(p, SHEET_EVENT_BRUSH, brush);
     if (status == PAPER_OK) {
-        const struct paper_brush *made = brush;
-        for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK && !r->bad; j++) {
+        *out = brush;
+        return PAPER_OK;
+    }
+    event_free(SHEET_EVENT_BRUSH, brush);
+    return status;
+}
+
+static void grains_get(struct event_reader *r, const struct paper_brush *brush, double *grains)
+{
+    for (int i = 0; i < brush->bristles; i++)
+        grains[i] = event_get_double(r);
+}
+
+enum paper_status sheet_extras_check(const struct paper_sheet *p,
+                                     const struct event_reader *bytes)
+{
+    struct event_reader r = *bytes;
+    struct extras x;
+    int last = -1;
+    enum paper_status status = extras_begin(&r, &x);
+    for (int i = 0; i < x.brushes && status == PAPER_OK; i++) {
+        struct paper_brush *brush;
+        status = brush_decode(p, &r, &brush);
+        if (status != PAPER_OK)
+            break;
+        bool good = brush->number > last;
+        last = brush->number;
+        for (int j = 0; j <= p->config.pigments_count && !r.bad; j++) {
             double grains[PAPER_BRISTLES_MAX];
-            for (int k = 0; k < made->bristles; k++)
-                grains[k] = event_get_double(r);
-            status = sheet_brush_write(p, made->number, j, grains);
+            grains_get(&r, brush, grains);
+            for (int k = 0; k < brush->bristles; k++)
+                good &= sheet_bristle_may_hold(grains[k]);
         }
+        if (r.bad || !good)
+            status = damaged("its brushes are");
+        event_free(SHEET_EVENT_BRUSH, brush);
+    }
+    if (status == PAPER_BAD_ARGUMENT || (status == PAPER_OK && r.at != r.end))
+        return damaged("its brushes are");
+    return status;
+}
+
+/* The brush is made, and its bristles hold what the bytes say. */
+static enum paper_status brush_restore(struct paper_sheet *p, struct event_reader *r)
+{
+    struct paper_brush *brush;
+    enum paper_status status = brush_decode(p, r, &brush);
+    if (status != PAPER_OK)
+        return status;
+    status = event_perform(p, SHEET_EVENT_BRUSH, brush);
+    for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK && !r->bad; j++) {
+        double grains[PAPER_BRISTLES_MAX];
+        grains_get(r, brush, grains);
+        status = sheet_brush_write(p, brush->number, j, grains);
     }
     event_free(SHEET_EVENT_BRUSH, brush);
     return status;
@@ -63,20 +134,16 @@ static enum paper_status brush_decode(struct paper_sheet *p, struct event_reader
 
 enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r)
 {
-    enum paper_status status = PAPER_OK;
+    struct extras x;
     sheet_extras_reset(p);
-    int flags = (int)event_get_number(r, 1);
-    double reach = event_get_double(r), strength = event_get_double(r);
-    int count = (int)event_get_number(r, 1);
-    if (r->bad || !(reach >= 1 && reach <= 100 && strength >= 0 && strength <= 4))
-        return paper_fail(PAPER_BAD_FILE, "what is on the sheet is damaged");
-    p->varnished = (flags & EXTRA_VARNISHED) != 0;
-    p->salted = (flags & EXTRA_SALTED) != 0;
-    p->salt_reach = reach;
-    p->salt_strength = strength;
-    for (int i = 0; i < count && status == PAPER_OK && !r->bad; i++)
-        status = brush_decode(p, r);
-    if (status == PAPER_BAD_ARGUMENT || (status == PAPER_OK && (r->bad || r->at != r->end)))
-        return paper_fail(PAPER_BAD_FILE, "its brushes are damaged");
+    enum paper_status status = extras_begin(r, &x);
+    if (status != PAPER_OK)
+        return status;
+    p->varnished = (x.flags & EXTRA_VARNISHED) != 0;
+    p->salted = (x.flags & EXTRA_SALTED) != 0;
+    p->salt_reach = x.salt_reach;
+    p->salt_strength = x.salt_strength;
+    for (int i = 0; i < x.brushes && status == PAPER_OK && !r->bad; i++)
+        status = brush_restore(p, r);
     return status;
 }

@@ -181,7 +181,10 @@ void checkpoints_free(struct sheet_history *h);
 
 /* Brushes with what they hold, whether there is salt or varnish. */
 enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes *b);
-/* Errors: BAD_FILE (only what bytes from outside can bring about), NO_MEMORY, MACHINE_FAILED. */
+/* Whether the bytes are what a sheet of this description can have. Errors: BAD_FILE, NO_MEMORY. */
+enum paper_status sheet_extras_check(const struct paper_sheet *p,
+                                     const struct event_reader *bytes);
+/* The bytes are good: this program made them, or sheet_extras_check() has seen them. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r);
 
 #endif

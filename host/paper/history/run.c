@@ -172,14 +172,30 @@ static enum paper_status operation_read(struct event_reader *r, const struct pap
     return PAPER_OK;
 }
 
-/* Every operation must be one that this sheet takes. */
+/* The number of the brush that an operation is about; -1: about none. */
+static int brush_of(enum sheet_event_kind kind, const void *arguments)
+{
+    if (kind == SHEET_EVENT_BRUSH)
+        return ((const struct paper_brush *)arguments)->number;
+    if (kind == SHEET_EVENT_DIP)
+        return ((const struct paper_dip *)arguments)->number;
+    return kind == SHEET_EVENT_STROKE ? ((const struct paper_stroke *)arguments)->number : -1;
+}
+
+/* Every operation must be one that this sheet takes, after those before it. *brushes: a bit for each brush that these have
+ * made. */
 static enum paper_status operation_check(const struct paper_sheet *p,
-                                         const struct operation *op)
+                                         const struct operation *op, unsigned *brushes)
 {
     void *arguments;
     enum paper_status status = operation_arguments(&p->config, op, &arguments);
     if (status == PAPER_OK)
         status = event_check(p, op->kind, arguments);
+    int brush = status == PAPER_OK ? brush_of(op->kind, arguments) : -1;
+    if (op->kind == SHEET_EVENT_BRUSH && brush >= 0)
+        *brushes |= 1u << brush;
+    if (brush >= 0 && !(*brushes & 1u << brush))
+        status = PAPER_BAD_ARGUMENT;
     event_free(op->kind, arguments);
     return status == PAPER_BAD_ARGUMENT ? damaged("an operation") : status;
 }
@@ -195,6 +211,7 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
     extras->at = event_get_bytes(r, (size_t)extras_count);
     extras->end = extras->at ? extras->at + extras_count : NULL;
     uint64_t count = event_get_number(r, 4);
+    unsigned brushes = 0;
     if (status == PAPER_OK && (r->bad || count > OPERATIONS_MAX))
         status = damaged("the list of operations");
     for (uint64_t i = 0; i < count && status == PAPER_OK; i++) {
@@ -203,7 +220,7 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
         if (status == PAPER_OK)
             status = history_append(h, op);
         if (status == PAPER_OK)
-            status = operation_check(p, &h->ops[h->count - 1]);
+            status = operation_check(p, &h->ops[h->count - 1], &brushes);
     }
     bool noted = status == PAPER_OK && r->at != r->end;
     if (noted && !notes_decode(r, kinds, &h->notes))
@@ -243,6 +260,8 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
         status = paper_history_begin(p, budget_bytes);
     if (status == PAPER_OK)
         status = operations_read(&r, p, &extras);
+    if (status == PAPER_OK)
+        status = sheet_extras_check(p, &extras);
     if (status != PAPER_OK)
         goto cleanup;
 

@@ -181,6 +181,11 @@ enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substa
     return paper_leave(&p->page);
 }
 
+bool sheet_bristle_may_hold(double grains)
+{
+    return paper_within(grains, 0, 0x1p45) && floor(grains) == grains;
+}
+
 enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int substance,
                                     const double *grains)
 {
@@ -189,7 +194,7 @@ enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int subst
         return status;
     const struct sheet_brush *own = &p->brushes->brush[number];
     for (int i = 0; i < own->brush.bristles; i++)
-        if (!paper_within(grains[i], 0, 0x1p45) || floor(grains[i]) != grains[i])
+        if (!sheet_bristle_may_hold(grains[i]))
             return paper_fail(PAPER_BAD_ARGUMENT,
                               "a bristle holds whole grains, 0 to 2^45 (got %g)", grains[i]);
     paper_enter(&p->page);
@@ -213,6 +218,13 @@ enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int subst
     return PAPER_OK;
 }
 
+enum paper_status sheet_brush_number_check(int number)
+{
+    return number >= 0 && number < PAPER_BRUSHES_MAX
+               ? PAPER_OK
+               : paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", number);
+}
+
 enum paper_status sheet_dip_check(const struct paper_sheet *p, const void *arguments)
 {
     const struct paper_dip *dip = arguments;
@@ -222,7 +234,7 @@ enum paper_status sheet_dip_check(const struct paper_sheet *p, const void *argum
                               "the amount of %.*s in a brush must be 0..%d (got %g)",
                               PAPER_NAME_MAX, i == 0 ? "water" : p->config.pigments[i - 1].name,
                               i == 0 ? 1 : 4, dip->amount[i]);
-    return PAPER_OK;
+    return sheet_brush_number_check(dip->number);
 }
 
 enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments)

@@ -92,6 +92,8 @@ enum paper_status sheet_total(struct paper_sheet *p, int substance, double *tota
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words);
 /* Between paper_enter() and paper_leave(). */
 void sheet_plane_write(struct paper_sheet *p, int number, const void *words);
+/* Whether the words are what that plane of a sheet can hold. Errors: BAD_FILE. */
+enum paper_status sheet_plane_check(const struct paper_sheet *p, int number, const void *words);
 /* After all have been written: what follows from them. */
 void sheet_planes_written(struct paper_sheet *p);
 
@@ -137,6 +139,10 @@ void sheet_salt_step(struct paper_sheet *p);
 void sheet_brushes_destroy(struct paper_sheet *p);
 /* NULL: there is none. */
 const struct paper_brush *sheet_brush_get(const struct paper_sheet *p, int number);
+/* Whether it is a number that a brush can have. Errors: BAD_ARGUMENT. */
+enum paper_status sheet_brush_number_check(int number);
+/* Whether a bristle can hold so many grains. */
+bool sheet_bristle_may_hold(double grains);
 /* As paper_sheet_brush_read(), ..._write() and ..._total(), of the sheet as it is. */
 enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substance,
                                    double *grains);

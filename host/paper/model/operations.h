@@ -23,6 +23,7 @@ enum paper_status sheet_brush_check(const struct paper_sheet *p, const void *arg
 enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_dip_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_dip(struct paper_sheet *p, const void *arguments);
+enum paper_status sheet_stroke_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_salt_check(const struct paper_sheet *p, const void *arguments);
 enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments);

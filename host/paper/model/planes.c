@@ -6,17 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the field of a plane is: beside the others, or one for each pigment. */
+/* Where the field of a plane is: beside the others, or one for each pigment; and what numbers there can be in it. */
 struct place {
     size_t member;
     int pigment;
+    float least, most;
+    bool amount; /* in whole grains, of papers with parts */
 };
 
+/* More of water or a pigment than any fiber gets; sums up to it are exact. */
+#define AMOUNT_MOST 0x1p24f
+
 static void plane_add(struct paper_plane *planes, struct place *places, int *count,
-                      const char *name, size_t member, int pigment)
+                      const char *name, struct place place)
 {
     struct paper_plane *plane = &planes[*count];
-    places[(*count)++] = (struct place){member, pigment};
+    int pigment = place.pigment;
+    places[(*count)++] = place;
     *plane = (struct paper_plane){0};
     if (pigment >= 0)
         snprintf(plane->name, sizeof plane->name, "%s %d", name, pigment + 1);
@@ -31,30 +37,36 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
     static const char *const channels[3] = {"red", "green", "blue"};
     int count = 0;
     unsigned parts = config->parts;
-#define AT(member) offsetof(struct paper_sheet, member)
-    plane_add(planes, places, &count, "height", AT(height), -1);
-    plane_add(planes, places, &count, "absorbency", AT(page.absorbency), -1);
-    plane_add(planes, places, &count, "capacity", AT(capacity), -1);
-    plane_add(planes, places, &count, "resist", AT(resist), -1);
-    plane_add(planes, places, &count, "varnish", AT(varnish), -1);
-    plane_add(planes, places, &count, "salt", AT(salt), -1);
-    plane_add(planes, places, &count, "brine", AT(brine), -1);
+#define PLANE(name, member, least, most)                                                       \
+    plane_add(planes, places, &count, name,                                                    \
+              (struct place){offsetof(struct paper_sheet, member), -1, least, most, false})
+#define AMOUNT(name, member, pigment)                                                          \
+    plane_add(                                                                                 \
+        planes, places, &count, name,                                                          \
+        (struct place){offsetof(struct paper_sheet, member), pigment, 0, AMOUNT_MOST, true})
+    PLANE("height", height, 0, 1);
+    PLANE("absorbency", page.absorbency, 0, (float)PAPER_ABSORBENCY_MAX);
+    PLANE("capacity", capacity, 0.01f, 1);
+    PLANE("resist", resist, 0, 1);
+    PLANE("varnish", varnish, 0, 1);
+    PLANE("salt", salt, 0, 4);
+    PLANE("brine", brine, 0, 4);
     for (int i = 0; i < 3; i++)
-        plane_add(planes, places, &count, channels[i],
-                  AT(substrate) + (size_t)i * sizeof(CM_field_id_t), -1);
-    plane_add(planes, places, &count, "infused water", AT(page.water), -1);
-    plane_add(planes, places, &count, "surface water", AT(surface_water), -1);
-    plane_add(planes, places, &count, "wet around", AT(wet_around), -1);
-    plane_add(planes, places, &count, "dried water", AT(dried), -1);
+        PLANE(channels[i], substrate[i], 0, AMOUNT_MOST);
+    AMOUNT("infused water", page.water, -1);
+    AMOUNT("surface water", surface_water, -1);
+    PLANE("wet around", wet_around, 0, 1);
+    PLANE("dried water", dried, 0, 0);
     planes[count - 1].whole = true;
     for (int i = 0; i < config->pigments_count; i++) {
         if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE))
-            plane_add(planes, places, &count, "surface pigment", AT(surface), i);
-        plane_add(planes, places, &count, "infused pigment", AT(infused), i);
+            AMOUNT("surface pigment", surface, i);
+        AMOUNT("infused pigment", infused, i);
         if (parts & PAPER_PART_FIXING)
-            plane_add(planes, places, &count, "fixed pigment", AT(fixed), i);
+            AMOUNT("fixed pigment", fixed, i);
     }
-#undef AT
+#undef PLANE
+#undef AMOUNT
     return count;
 }
 
@@ -81,6 +93,25 @@ static CM_field_id_t plane_field(const struct paper_sheet *p, int number, bool *
     memcpy(&field, (const char *)p + member, sizeof field);
     *whole = planes[number].whole;
     return field;
+}
+
+enum paper_status sheet_plane_check(const struct paper_sheet *p, int number, const void *words)
+{
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    struct place places[PAPER_PLANES_MAX];
+    planes_make(&p->config, planes, places);
+    const struct place *place = &places[number];
+    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    const uint32_t *whole = words;
+    const float *values = words;
+    bool good = true, grains = place->amount && p->unit != 1;
+    for (size_t i = 0; i < count; i++)
+        good &= planes[number].whole ? whole[i] < 1u << SHEET_DRIED_BITS
+                                     : values[i] >= place->least && values[i] <= place->most &&
+                                           (!grains || (float)(uint32_t)values[i] == values[i]);
+    return good ? PAPER_OK
+                : paper_fail(PAPER_BAD_FILE, "its plane '%s' holds what no sheet can",
+                             planes[number].name);
 }
 
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words)

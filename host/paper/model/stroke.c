@@ -189,21 +189,45 @@ static void brush_go(struct going *g, double from, double to)
     }
 }
 
+static double stroke_start(const struct paper_stroke *stroke)
+{
+    return stroke->samples[0].time_s;
+}
+
+static double stroke_end(const struct paper_stroke *stroke)
+{
+    return stroke->samples[stroke->samples_count - 1].time_s;
+}
+
+static double stroke_pace(const struct paper_stroke *stroke)
+{
+    return stroke->pace > 0 ? stroke->pace : WAITING_PACE;
+}
+
+enum paper_status sheet_stroke_check(const struct paper_sheet *p, const void *arguments)
+{
+    (void)p;
+    const struct paper_stroke *stroke = arguments;
+    enum paper_status status = sheet_brush_number_check(stroke->number);
+    if (status == PAPER_OK)
+        status = paper_stroke_check(stroke);
+    if (status != PAPER_OK)
+        return status;
+    double seconds = stroke_end(stroke) - stroke_start(stroke), pace = stroke_pace(stroke);
+    return seconds * pace <= PAPER_STROKE_STEPS_MAX
+               ? PAPER_OK
+               : paper_fail(PAPER_BAD_ARGUMENT,
+                            "a stroke takes at most %d steps (got %g seconds of %g each)",
+                            PAPER_STROKE_STEPS_MAX, seconds, pace);
+}
+
 enum paper_status sheet_stroke(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_stroke *stroke = arguments;
     if (!sheet_brush_get(p, stroke->number))
         return paper_fail(PAPER_BAD_ARGUMENT, "the sheet has no brush %d", stroke->number);
-    enum paper_status status = paper_stroke_check(stroke);
-    if (status != PAPER_OK)
-        return status;
-    double start = stroke->samples[0].time_s,
-           end = stroke->samples[stroke->samples_count - 1].time_s;
-    double pace = stroke->pace > 0 ? stroke->pace : WAITING_PACE;
-    if ((end - start) * pace > PAPER_STROKE_STEPS_MAX)
-        return paper_fail(PAPER_BAD_ARGUMENT,
-                          "a stroke takes at most %d steps (got %g seconds of %g each)",
-                          PAPER_STROKE_STEPS_MAX, end - start, pace);
+    enum paper_status status = PAPER_OK;
+    double start = stroke_start(stroke), end = stroke_end(stroke), pace = stroke_pace(stroke);
     int count = (int)fmax(1, ceil((end - start) * pace - 1e-9));
     struct going g = {.sheet = p, .own = &p->brushes->brush[stroke->number], .stroke = stroke};
     g.own->toward[0] = 1; /* where it goes is known as soon as it does */

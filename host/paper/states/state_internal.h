@@ -10,7 +10,7 @@
  *     sheets 1 2 5                       their numbers
  *
  * Then HDF5: a group sheet-N for each, with attributes for people and programs that look at it, "run" (bytes), and in "planes" a
- * dataset for each plane, chunked, shuffled, deflated. */
+ * dataset for each plane, chunked, shuffled, deflated. Nothing else is accepted when it is read. */
 #ifndef LUTETIA_PAPER_STATE_INTERNAL_H
 #define LUTETIA_PAPER_STATE_INTERNAL_H
 
@@ -18,16 +18,51 @@
 #include "state.h"
 
 #include <stdio.h>
+#include <sys/types.h>
 
 enum { STATE_VERSION = 1, STATE_HEADER_BYTES = 512 };
 
 /* The checksum of a file with that header (STATE_HEADER_BYTES), and the file's length. False: errno says why. */
 bool state_checksum(int descriptor, const char *header, uint32_t *checksum, long long *bytes);
 
-/* Reads a sheet of a file by HDF5 and writes it to a descriptor (states/state_read.c); in a process of its own. */
-_Noreturn void state_reader(const char *path, int number, bool planes, int descriptor);
+/* ---- the reader: a process of its own ---- */
+
+/* A sheet's run, and what a reader takes where nobody says: bytes. */
+#define STATE_RUN_MAX (2ull << 30)
+#define STATE_MEMORY_BYTES (3ull << 30)
+
+struct state_reading {
+    pid_t parent;
+    int descriptor; /* of a regular file, open for reading; its header has been checked */
+    int pipe;       /* where frames go */
+    const int *numbers;
+    int count;   /* sheets that the header tells of */
+    int number;  /* the one that is read */
+    bool planes; /* its planes, too */
+    unsigned long long memory_bytes;
+};
+
+/* Confines the process, reads a sheet by HDF5 and writes it to the pipe; does not return (states/state_reader.c). */
+_Noreturn void state_reader(const struct state_reading *reading);
 
 /* What it writes: frames of a kind, a length (8 bytes, low first), and as many bytes. */
-enum { STATE_FRAME_RUN = 'R', STATE_FRAME_PLANE = 'P', STATE_FRAME_ERROR = 'E' };
+enum {
+    STATE_FRAME_RUN = 'R',
+    STATE_FRAME_PLANE = 'P',
+    STATE_FRAME_ERROR = 'E',
+    STATE_FRAME_NO_MEMORY = 'M'
+};
+
+/* HDF5's file (hid_t) on a descriptor, for reading only; negative: it is none (states/state_driver.c). */
+int64_t state_file_open(int descriptor);
+/* NULL: the HDF5 file (hid_t) has the sheets that its header tells of, and of the sheet `number` what we write and nothing else;
+ * else what is wrong, in words. Reads no data (states/state_walk.c). */
+const char *state_walk(int64_t file, const int *numbers, int count, int number);
+
+enum { STATE_NAME_MAX = 32 };
+static inline void state_sheet_name(char name[static STATE_NAME_MAX], int number)
+{
+    snprintf(name, STATE_NAME_MAX, "sheet-%d", number);
+}
 
 #endif

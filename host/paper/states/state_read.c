@@ -1,154 +1,34 @@
 /* state_read.c - sheets from a file that anybody may have made.
  *
- *     this process                          the reader's, forked for each sheet
+ *     this process                          the reader's, forked for each sheet (states/state_reader.c)
  *     header, length, checksum
  *     frames  <------------ pipe ---------- HDF5: run, then planes, or an error in words
- *     run decoded, planes checked (history/run.c, history/checkpoint.c)
+ *     run decoded, planes checked (history_run.c, checkpoint.c)
  *
- * HDF5's library is large and meant for files that one trusts. Whatever it does to its own process, here the pipe ends. */
+ * HDF5's library is large and meant for files that one trusts. Whatever it does to its own process, here the pipe ends. The file is
+ * opened once, here, and the reader has that descriptor: what was checked is what is read. */
 #include "states/state_internal.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <hdf5.h>
-
-enum { READER_SECONDS = 300, RUN_MB_MAX = 2048 };
-#define READER_BYTES ((rlim_t)3 << 30)
-
 struct paper_state {
     char *path;
+    int descriptor;
+    unsigned long long memory_bytes; /* paper_state_limit() */
     int count;
     int numbers[PAPER_STATE_SHEETS_MAX];
     /* the reader while it runs */
     pid_t reader;
     int pipe;
 };
-
-/* ---- the reader's side ---- */
-
-static bool all_write(int descriptor, const void *bytes, size_t count)
-{
-    const char *at = bytes;
-    while (count > 0) {
-        ssize_t done = write(descriptor, at, count);
-        if (done <= 0)
-            return false;
-        at += done;
-        count -= (size_t)done;
-    }
-    return true;
-}
-
-static void frame_write(int descriptor, char kind, const void *bytes, size_t count)
-{
-    uint8_t head[9] = {(uint8_t)kind};
-    for (int i = 0; i < 8; i++)
-        head[1 + i] = (uint8_t)((uint64_t)count >> 8 * i);
-    if (!all_write(descriptor, head, sizeof head) || !all_write(descriptor, bytes, count))
-        _exit(1); /* nobody listens any more */
-}
-
-_Noreturn static void reader_fail(int descriptor, const char *what)
-{
-    frame_write(descriptor, STATE_FRAME_ERROR, what, strlen(what));
-    _exit(0);
-}
-
-static void reader_confine(void)
-{
-    int nowhere = open("/dev/null", O_WRONLY); /* what libraries say while they fall */
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    struct rlimit seconds = {READER_SECONDS, READER_SECONDS}, none = {0, 0};
-    setrlimit(RLIMIT_CPU, &seconds);
-    setrlimit(RLIMIT_CORE, &none);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(LUTETIA_FUZZ)
-    long pages = 0;
-    FILE *sizes = fopen("/proc/self/statm", "r");
-    if (sizes && fscanf(sizes, "%ld", &pages) == 1) {
-        rlim_t most = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + READER_BYTES;
-        setrlimit(RLIMIT_AS, &(struct rlimit){most, most});
-    }
-    if (sizes)
-        fclose(sizes);
-#endif
-}
-
-/* A dataset of that many numbers along each axis; its bytes. */
-static void *dataset_read(hid_t group, const char *name, hid_t type, int rank,
-                          const hsize_t *most, const hsize_t *least, size_t *bytes)
-{
-    hsize_t size[2] = {0, 1};
-    hid_t set = H5Dopen2(group, name, H5P_DEFAULT), space = H5Dget_space(set);
-    void *made = NULL;
-    if (set >= 0 && space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-        H5Sget_simple_extent_dims(space, size, NULL) == rank) {
-        bool fits = true;
-        for (int i = 0; i < rank; i++)
-            fits = fits && size[i] >= least[i] && size[i] <= most[i];
-        *bytes = (size_t)(size[0] * size[1]) * H5Tget_size(type);
-        made = fits && *bytes ? malloc(*bytes) : NULL;
-        if (made && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, made) < 0) {
-            free(made);
-            made = NULL;
-        }
-    }
-    H5Sclose(space);
-    H5Dclose(set);
-    return made;
-}
-
-/* The planes' names follow from the description; the sheet is only asked for in the parent, so they are made from a copy. */
-static bool planes_send(hid_t group, const uint8_t *run, size_t run_count, int descriptor)
-{
-    struct paper_sheet_config config;
-    struct paper_plane planes[PAPER_PLANES_MAX];
-    if (paper_history_describe(run, run_count, &config) != PAPER_OK)
-        return false;
-    int count = paper_config_planes(&config, planes);
-    hsize_t size[2] = {(hsize_t)config.height, (hsize_t)config.width};
-    hid_t inner = H5Gopen2(group, "planes", H5P_DEFAULT);
-    bool done = inner >= 0;
-    for (int i = 0; i < count && done; i++) {
-        size_t bytes;
-        void *words = dataset_read(inner, planes[i].name,
-                                   planes[i].whole ? H5T_NATIVE_UINT32 : H5T_NATIVE_FLOAT, 2,
-                                   size, size, &bytes);
-        done = words != NULL;
-        if (done)
-            frame_write(descriptor, STATE_FRAME_PLANE, words, bytes);
-        free(words);
-    }
-    return done;
-}
-
-_Noreturn void state_reader(const char *path, int number, bool planes, int descriptor)
-{
-    static const hsize_t least = 1, most = (hsize_t)RUN_MB_MAX << 20;
-    char name[32];
-    size_t count = 0;
-    reader_confine();
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    snprintf(name, sizeof name, "sheet-%d", number);
-    hid_t group = file < 0 ? -1 : H5Gopen2(file, name, H5P_DEFAULT);
-    uint8_t *run = group < 0
-                       ? NULL
-                       : dataset_read(group, "run", H5T_NATIVE_UINT8, 1, &most, &least, &count);
-    if (!run)
-        reader_fail(descriptor, "a sheet is missing in it");
-    frame_write(descriptor, STATE_FRAME_RUN, run, count);
-    if (planes && !planes_send(group, run, count, descriptor))
-        reader_fail(descriptor, "a plane is missing in it, or has another size");
-    _exit(0); /* without closing: HDF5's own exits may stumble over what it read */
-}
 
 /* ---- this side ---- */
 
@@ -171,10 +51,18 @@ static enum paper_status reader_start(struct paper_state *state, int index, bool
     if (pipe2(ends, O_CLOEXEC) != 0)
         return paper_fail(PAPER_NO_MEMORY, "%s: cannot read: %s", state->path, strerror(errno));
     fflush(NULL);
+    pid_t parent = getpid();
     state->reader = fork();
     if (state->reader == 0) {
         close(ends[0]);
-        state_reader(state->path, state->numbers[index], planes, ends[1]);
+        state_reader(&(struct state_reading){.parent = parent,
+                                             .descriptor = state->descriptor,
+                                             .pipe = ends[1],
+                                             .numbers = state->numbers,
+                                             .count = state->count,
+                                             .number = state->numbers[index],
+                                             .planes = planes,
+                                             .memory_bytes = state->memory_bytes});
     }
     close(ends[1]);
     state->pipe = ends[0];
@@ -214,6 +102,12 @@ static bool all_read(int descriptor, void *bytes, size_t count)
     return true;
 }
 
+static enum paper_status memory_short(const struct paper_state *state)
+{
+    return paper_fail(PAPER_NO_MEMORY, "%s: not enough memory to read it (%.0f MB are allowed)",
+                      state->path, (double)state->memory_bytes * 1e-6);
+}
+
 /* The next frame's length if it is of the kind; else what the reader said. */
 static enum paper_status frame_begin(struct paper_state *state, char kind, uint64_t *count)
 {
@@ -226,6 +120,8 @@ static enum paper_status frame_begin(struct paper_state *state, char kind, uint6
         *count |= (uint64_t)head[1 + i] << 8 * i;
     if (head[0] == (uint8_t)kind)
         return PAPER_OK;
+    if (head[0] == STATE_FRAME_NO_MEMORY)
+        return memory_short(state);
     if (head[0] == STATE_FRAME_ERROR && *count < sizeof said)
         all_read(state->pipe, said, (size_t)*count);
     for (char *c = said; *c; c++)
@@ -238,8 +134,10 @@ static enum paper_status run_read(struct paper_state *state, uint8_t **run, size
     uint64_t length = 0;
     *run = NULL;
     enum paper_status status = frame_begin(state, STATE_FRAME_RUN, &length);
-    if (status == PAPER_OK && length > (uint64_t)RUN_MB_MAX << 20)
+    if (status == PAPER_OK && length > STATE_RUN_MAX)
         status = file_bad(state, "its run is too long");
+    else if (status == PAPER_OK && length > state->memory_bytes)
+        status = memory_short(state);
     if (status != PAPER_OK)
         return status;
     *run = malloc(length ? (size_t)length : 1);
@@ -357,10 +255,18 @@ enum paper_status paper_state_open(const char *path, struct paper_state **out)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a saved state");
     }
     state->pipe = -1;
+    state->memory_bytes = STATE_MEMORY_BYTES;
     enum paper_status status;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no waiting for pipes */
-    ssize_t read_count = descriptor < 0 ? -1 : pread(descriptor, header, STATE_HEADER_BYTES, 0);
-    if (read_count < 0)
+    struct stat found_file = {0};
+    /* no waiting for pipes */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    state->descriptor = descriptor;
+    bool there = descriptor >= 0 && fstat(descriptor, &found_file) == 0;
+    bool regular = there && S_ISREG(found_file.st_mode);
+    ssize_t read_count = regular ? pread(descriptor, header, STATE_HEADER_BYTES, 0) : -1;
+    if (there && !regular)
+        status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: it is no regular file", path);
+    else if (read_count < 0)
         status = paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", path, strerror(errno));
     else if (read_count < STATE_HEADER_BYTES)
         status = file_bad(state, "it is not a saved state");
@@ -377,8 +283,6 @@ enum paper_status paper_state_open(const char *path, struct paper_state **out)
         else if (checksum != found)
             status = file_bad(state, "it is damaged: its checksum is wrong");
     }
-    if (descriptor >= 0)
-        close(descriptor);
     if (status != PAPER_OK) {
         paper_state_close(state);
         return status;
@@ -392,8 +296,15 @@ void paper_state_close(struct paper_state *state)
     if (!state)
         return;
     reader_end(state);
+    if (state->descriptor >= 0)
+        close(state->descriptor);
     free(state->path);
     free(state);
+}
+
+void paper_state_limit(struct paper_state *state, double bytes)
+{
+    state->memory_bytes = bytes > 0 ? (unsigned long long)fmin(bytes, 0x1p62) : 0;
 }
 
 int paper_state_count(const struct paper_state *state)

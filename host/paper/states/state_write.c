@@ -108,14 +108,14 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
     struct paper_plane planes[PAPER_PLANES_MAX];
     const struct paper_sheet_config *config = paper_sheet_get_config(s->sheet);
     hsize_t size[2] = {(hsize_t)config->height, (hsize_t)config->width};
-    char name[32];
+    char name[STATE_NAME_MAX];
     uint8_t *run = NULL;
     size_t run_count = 0;
     void *words = malloc(4 * (size_t)(size[0] * size[1]));
     if (!words)
         return paper_fail(PAPER_NO_MEMORY, "no memory to save a sheet of %dx%d", config->width,
                           config->height);
-    snprintf(name, sizeof name, "sheet-%d", s->number);
+    state_sheet_name(name, s->number);
     hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     hid_t inner = H5Gcreate2(group, "planes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     int count = paper_sheet_planes(s->sheet, planes);

@@ -1,0 +1,141 @@
+/* state_reader.c - the process that reads a saved state: forked for one sheet, and confined before HDF5 sees the file.
+ *
+ *     confine      no new descriptor, so many bytes, so many seconds, dies with its parent
+ *     open         HDF5, on the descriptor that the parent has checked (states/state_driver.c)
+ *     walk         only what we write is there (states/state_walk.c)
+ *     read         the run, then the planes; or an error in words */
+#include "states/state_internal.h"
+
+#include <confine.h>
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <hdf5.h>
+
+enum { READER_SECONDS = 300 };
+/* What HDF5 takes for itself, whatever is read. */
+#define READER_OWN_BYTES (64ull << 20)
+
+static bool all_write(int descriptor, const void *bytes, size_t count)
+{
+    const char *at = bytes;
+    while (count > 0) {
+        ssize_t done = write(descriptor, at, count);
+        if (done <= 0)
+            return false;
+        at += done;
+        count -= (size_t)done;
+    }
+    return true;
+}
+
+static void frame_write(int descriptor, char kind, const void *bytes, size_t count)
+{
+    uint8_t head[9] = {(uint8_t)kind};
+    for (int i = 0; i < 8; i++)
+        head[1 + i] = (uint8_t)((uint64_t)count >> 8 * i);
+    if (!all_write(descriptor, head, sizeof head) || !all_write(descriptor, bytes, count))
+        _exit(1); /* nobody listens any more */
+}
+
+_Noreturn static void reader_fail(int descriptor, char kind, const char *what)
+{
+    frame_write(descriptor, kind, what, strlen(what));
+    _exit(0);
+}
+
+/* What libraries say while they fall goes nowhere. */
+static void reader_confine(const struct state_reading *reading)
+{
+    int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) {
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+    }
+    unsigned long long bytes = reading->memory_bytes;
+    confine_resources(reading->parent, READER_SECONDS,
+                      bytes < UINT64_MAX - READER_OWN_BYTES ? bytes + READER_OWN_BYTES : bytes);
+    confine_calls();
+}
+
+/* A dataset that state_walk() has seen, of that many bytes at most; its bytes. */
+static void *dataset_read(const struct state_reading *reading, hid_t group, const char *name,
+                          hid_t type, hsize_t size[2], size_t *bytes)
+{
+    hid_t set = H5Dopen2(group, name, H5P_DEFAULT), space = H5Dget_space(set);
+    size[0] = size[1] = 1;
+    int rank = H5Sget_simple_extent_dims(space, size, NULL);
+    *bytes = (size_t)(size[0] * size[1]) * H5Tget_size(type);
+    void *made = rank > 0 ? malloc(*bytes) : NULL;
+    if (rank > 0 && (!made || *bytes > reading->memory_bytes))
+        reader_fail(reading->pipe, STATE_FRAME_NO_MEMORY, "");
+    if (made && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, made) < 0) {
+        free(made);
+        made = NULL;
+    }
+    H5Sclose(space);
+    H5Dclose(set);
+    return made;
+}
+
+/* The planes' names follow from the description; the sheet is only made in the parent, so they are made from a copy. */
+static bool planes_send(const struct state_reading *reading, hid_t group, const uint8_t *run,
+                        size_t run_count)
+{
+    struct paper_sheet_config config;
+    struct paper_plane planes[PAPER_PLANES_MAX];
+    H5G_info_t info;
+    if (paper_history_describe(run, run_count, &config) != PAPER_OK)
+        return false;
+    int count = paper_config_planes(&config, planes);
+    hid_t inner = H5Gopen2(group, "planes", H5P_DEFAULT);
+    bool done = inner >= 0 && H5Gget_info(inner, &info) >= 0 && info.nlinks == (hsize_t)count;
+    for (int i = 0; i < count && done; i++) {
+        size_t bytes;
+        hsize_t size[2];
+        bool whole = planes[i].whole;
+        hid_t stored = H5Dopen2(inner, planes[i].name, H5P_DEFAULT), type = H5Dget_type(stored);
+        done = H5Tequal(type, whole ? H5T_STD_U32LE : H5T_IEEE_F32LE) > 0;
+        H5Tclose(type);
+        H5Dclose(stored);
+        void *words =
+            !done ? NULL
+                  : dataset_read(reading, inner, planes[i].name,
+                                 whole ? H5T_NATIVE_UINT32 : H5T_NATIVE_FLOAT, size, &bytes);
+        done = words && size[0] == (hsize_t)config.height && size[1] == (hsize_t)config.width;
+        if (done)
+            frame_write(reading->pipe, STATE_FRAME_PLANE, words, bytes);
+        free(words);
+    }
+    return done;
+}
+
+_Noreturn void state_reader(const struct state_reading *reading)
+{
+    char name[STATE_NAME_MAX];
+    size_t count = 0;
+    hsize_t size[2];
+    reader_confine(reading);
+    H5dont_atexit();
+    H5PLset_loading_state(0);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    hid_t file = state_file_open(reading->descriptor);
+    if (file < 0)
+        reader_fail(reading->pipe, STATE_FRAME_ERROR, "it is damaged: HDF5 cannot read it");
+    const char *wrong = state_walk(file, reading->numbers, reading->count, reading->number);
+    if (wrong)
+        reader_fail(reading->pipe, STATE_FRAME_ERROR, wrong);
+    state_sheet_name(name, reading->number);
+    hid_t group = H5Gopen2(file, name, H5P_DEFAULT);
+    uint8_t *run = dataset_read(reading, group, "run", H5T_NATIVE_UINT8, size, &count);
+    if (!run)
+        reader_fail(reading->pipe, STATE_FRAME_ERROR, "it is damaged: its run cannot be read");
+    frame_write(reading->pipe, STATE_FRAME_RUN, run, count);
+    if (reading->planes && !planes_send(reading, group, run, count))
+        reader_fail(reading->pipe, STATE_FRAME_ERROR,
+                    "a plane is missing in it, or has another size or type");
+    _exit(0); /* without closing: HDF5's own exits may stumble over what it read */
+}
