@@ -513,7 +513,7 @@ static void brushes_hold_what_brushes_can(void **state)
         struct event_bytes b = {0};
         hairy.bristles = 5;
         good_save(true);
-        event_encode(&b, NULL, SHEET_EVENT_BRUSH, &hairy);
+        event_encode(&b, sheet_event_kind(SHEET_EVENT_BRUSH), &hairy, NULL);
         size_t at = run_find(b.at, b.count);
         data_change("sheet-1/run", H5T_NATIVE_UINT8, at + b.count + 8 * (i % 5), sizeof *wrong,
                     &wrong[i]);
@@ -530,14 +530,14 @@ static void operations_are_ones_that_can_be(void **state)
     struct event_bytes b = {0}, forged[3] = {{0}};
     struct paper_sheet *sheet = sample_sheet(9);
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
-    event_encode(&b, config, SHEET_EVENT_DIP, &dip);
+    event_encode(&b, sheet_event_kind(SHEET_EVENT_DIP), &dip, config);
     dip.amount[0] = -1;
-    event_encode(&forged[0], config, SHEET_EVENT_DIP, &dip);
+    event_encode(&forged[0], sheet_event_kind(SHEET_EVENT_DIP), &dip, config);
     dip.amount[0] = 1;
     dip.number = 3;
-    event_encode(&forged[1], config, SHEET_EVENT_DIP, &dip);
+    event_encode(&forged[1], sheet_event_kind(SHEET_EVENT_DIP), &dip, config);
     dip.number = -7;
-    event_encode(&forged[2], config, SHEET_EVENT_DIP, &dip);
+    event_encode(&forged[2], sheet_event_kind(SHEET_EVENT_DIP), &dip, config);
     snprintf(path, sizeof path, "%s", scratch_path("forged.h5"));
     for (int i = 0; i < 3; i++) {
         good_save(true);

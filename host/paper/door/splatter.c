@@ -1,5 +1,5 @@
 /* splatter.c - drops from a shaken brush. */
-#include "arguments/members.h"
+#include "arguments/rows.h"
 #include "model/brush_internal.h"
 #include "techniques.h"
 
@@ -74,7 +74,7 @@ static void drop_draw(const struct drop *d, struct paper_screen *screen)
 
 enum paper_status paper_sheet_splatter(struct paper_sheet *p, const struct paper_splatter *s)
 {
-    enum paper_status status = event_members_check(&members, s, "splatter's ", "");
+    enum paper_status status = paper_members_check(&members, s, "splatter's ", "");
     if (status == PAPER_OK && !(s->size[1] >= s->size[0]))
         status = paper_fail(PAPER_BAD_ARGUMENT,
                             "splatter's most size must be %g or more, its least (got %g)",

@@ -24,7 +24,7 @@ enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes 
         const struct paper_brush *brush = sheet_brush_get(p, i);
         if (!brush)
             continue;
-        event_encode(b, &p->config, SHEET_EVENT_BRUSH, brush);
+        event_encode(b, sheet_event_kind(SHEET_EVENT_BRUSH), brush, &p->config);
         for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK; j++) {
             double grains[PAPER_BRISTLES_MAX];
             status = sheet_brush_read(p, i, j, grains);
@@ -63,20 +63,22 @@ static enum paper_status extras_begin(struct event_reader *r, struct extras *x)
 static enum paper_status brush_decode(const struct paper_sheet *p, struct event_reader *r,
                                       struct paper_brush **out)
 {
-    size_t size = event_size(SHEET_EVENT_BRUSH);
+    const struct event_kind *kind = sheet_event_kind(SHEET_EVENT_BRUSH);
+    size_t size = event_size(kind);
     const uint8_t *bytes = event_get_bytes(r, size);
     void *brush = NULL;
     *out = NULL;
     if (!bytes)
         return damaged("its brushes are");
-    enum paper_status status = event_decode(bytes, size, &p->config, SHEET_EVENT_BRUSH, &brush);
+    enum paper_status status = sheet_event_decoded(
+        event_decode(bytes, size, kind, &p->config, &brush), SHEET_EVENT_BRUSH);
     if (status == PAPER_OK)
-        status = event_check(p, SHEET_EVENT_BRUSH, brush);
+        status = sheet_event_check(p, SHEET_EVENT_BRUSH, brush);
     if (status == PAPER_OK) {
         *out = brush;
         return PAPER_OK;
     }
-    event_free(SHEET_EVENT_BRUSH, brush);
+    event_free(sheet_event_kind(SHEET_EVENT_BRUSH), brush);
     return status;
 }
 
@@ -108,7 +110,7 @@ enum paper_status sheet_extras_check(const struct paper_sheet *p,
         }
         if (r.bad || !good)
             status = damaged("its brushes are");
-        event_free(SHEET_EVENT_BRUSH, brush);
+        event_free(sheet_event_kind(SHEET_EVENT_BRUSH), brush);
     }
     if (status == PAPER_BAD_ARGUMENT || (status == PAPER_OK && r.at != r.end))
         return damaged("its brushes are");
@@ -122,13 +124,13 @@ static enum paper_status brush_restore(struct paper_sheet *p, struct event_reade
     enum paper_status status = brush_decode(p, r, &brush);
     if (status != PAPER_OK)
         return status;
-    status = event_perform(p, SHEET_EVENT_BRUSH, brush);
+    status = sheet_event_perform(p, SHEET_EVENT_BRUSH, brush);
     for (int j = 0; j <= p->config.pigments_count && status == PAPER_OK && !r->bad; j++) {
         double grains[PAPER_BRISTLES_MAX];
         grains_get(r, brush, grains);
         status = sheet_brush_write(p, brush->number, j, grains);
     }
-    event_free(SHEET_EVENT_BRUSH, brush);
+    event_free(sheet_event_kind(SHEET_EVENT_BRUSH), brush);
     return status;
 }
 

@@ -25,12 +25,9 @@ enum paper_status paper_history_begin(struct paper_sheet *p, double budget_bytes
 
 static void history_free(struct sheet_history *h)
 {
-    for (int i = 0; i < h->count; i++)
-        operation_free(&h->ops[i]);
-    for (int i = 0; i < h->tail_count; i++)
-        operation_free(&h->tail[i]);
-    free(h->ops);
-    free(h->tail);
+    if (h->inserting_at >= 0)
+        event_log_put_back(&h->log, h->tail, h->tail_count);
+    event_log_free(&h->log);
     notes_free(&h->notes);
     checkpoints_free(h);
     free(h);
@@ -51,7 +48,7 @@ bool paper_history_has(const struct paper_sheet *p)
 
 double paper_history_bytes(const struct paper_sheet *p)
 {
-    return p->history ? p->history->held_bytes + p->history->ops_bytes : 0;
+    return p->history ? p->history->held_bytes + p->history->log.bytes : 0;
 }
 
 void paper_history_set_watch(struct paper_sheet *p, paper_history_watch watch, void *context)
@@ -72,7 +69,7 @@ int paper_history_done(const struct paper_sheet *p)
 int paper_history_undone(const struct paper_sheet *p)
 {
     const struct sheet_history *h = p->history;
-    return h ? h->count - h->now.op : 0;
+    return h ? h->log.count - h->now.op : 0;
 }
 
 long paper_sheet_steps(const struct paper_sheet *p)
@@ -90,11 +87,12 @@ long paper_sheet_now(const struct paper_sheet *p)
 bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_moment *out)
 {
     const struct sheet_history *h = p->history;
-    if (!h || number < 0 || number >= h->count)
+    if (!h || number < 0 || number >= h->log.count)
         return false;
-    *out = (struct paper_moment){.what = event_name(h->ops[number].kind),
-                                 .time = history_time(h, (struct position){number, 0}),
-                                 .steps = h->ops[number].steps};
+    *out =
+        (struct paper_moment){.what = sheet_event_name(operation_kind(&h->log.records[number])),
+                              .time = history_time(h, (struct position){number, 0}),
+                              .steps = h->log.records[number].steps};
     return true;
 }
 
@@ -123,11 +121,11 @@ const struct paper_air *history_air(const struct paper_sheet *p)
     h->air = paper_air_default();
     for (int i = h->now.op - 1; i >= 0; i--) {
         void *arguments = NULL;
-        if (h->ops[i].kind != SHEET_EVENT_AIR)
+        if (h->log.records[i].kind != SHEET_EVENT_AIR)
             continue;
-        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+        if (operation_arguments(&p->config, &h->log.records[i], &arguments) == PAPER_OK)
             h->air = *(const struct paper_air *)arguments;
-        event_free(SHEET_EVENT_AIR, arguments);
+        event_free(sheet_event_kind(SHEET_EVENT_AIR), arguments);
         break;
     }
     return &h->air;
@@ -141,11 +139,11 @@ bool paper_history_brush(const struct paper_sheet *p, int number)
     bool there = false;
     for (int i = 0; i < h->now.op && !there; i++) {
         void *arguments = NULL;
-        if (h->ops[i].kind != SHEET_EVENT_BRUSH)
+        if (h->log.records[i].kind != SHEET_EVENT_BRUSH)
             continue;
-        if (operation_arguments(&p->config, &h->ops[i], &arguments) == PAPER_OK)
+        if (operation_arguments(&p->config, &h->log.records[i], &arguments) == PAPER_OK)
             there = ((const struct paper_brush *)arguments)->number == number;
-        event_free(SHEET_EVENT_BRUSH, arguments);
+        event_free(sheet_event_kind(SHEET_EVENT_BRUSH), arguments);
     }
     return there;
 }
@@ -159,7 +157,7 @@ void paper_history_mark(struct paper_sheet *p)
 }
 
 /* Performs `steps` steps, or one operation, where the sheet is; `at` follows. */
-static enum paper_status operation_perform(struct paper_sheet *p, const struct operation *op,
+static enum paper_status operation_perform(struct paper_sheet *p, const struct event_record *op,
                                            const void *arguments)
 {
     struct sheet_history *h = p->history;
@@ -172,7 +170,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
     enum paper_status status = step && h->unfinished ? sheet_finish(p) : PAPER_OK;
     h->unfinished = !step;
     if (status == PAPER_OK)
-        status = event_perform(p, op->kind, arguments);
+        status = sheet_event_perform(p, operation_kind(op), arguments);
     h->performing = false;
     if (status == PAPER_BAD_ARGUMENT)
         h->at = at;
@@ -186,17 +184,17 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct o
 }
 
 /* Puts the operation at the list's end; *joined: it belongs to the one before it now. */
-static enum paper_status record(struct sheet_history *h, struct operation op, bool *joined)
+static enum paper_status record(struct sheet_history *h, struct event_record op, bool *joined)
 {
-    struct operation *last = h->count > 0 ? &h->ops[h->count - 1] : NULL;
+    struct event_record *last = h->log.count > 0 ? &h->log.records[h->log.count - 1] : NULL;
     bool steps = op.kind == SHEET_EVENT_STEP;
     *joined = steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
-              last->steps < INT32_MAX / 2 && h->count != h->inserting_at;
+              last->steps < INT32_MAX / 2 && h->log.count != h->inserting_at;
     if (*joined) {
         /* what was its end is within it now */
         struct checkpoint *point = h->points_count ? &h->points[h->points_count - 1] : NULL;
-        if (point && point->position.op == h->count)
-            point->position = (struct position){h->count - 1, last->steps};
+        if (point && point->position.op == h->log.count)
+            point->position = (struct position){h->log.count - 1, last->steps};
         last->steps++;
     } else {
         enum paper_status status = history_append(h, op);
@@ -204,19 +202,19 @@ static enum paper_status record(struct sheet_history *h, struct operation op, bo
             return status;
         h->open = steps;
     }
-    h->now = (struct position){h->count, 0};
+    h->now = (struct position){h->log.count, 0};
     return PAPER_OK;
 }
 
 /* A program that is run again did this before: it is listed, and computed if somebody looks. */
-static enum paper_status repeat(struct sheet_history *h, struct operation op)
+static enum paper_status repeat(struct sheet_history *h, struct event_record op)
 {
     bool joined;
     enum paper_status status = history_cut(h);
     if (status == PAPER_OK)
         status = record(h, op, &joined);
     else
-        operation_free(&op);
+        event_record_free(&op);
     if (status == PAPER_OK)
         history_followed(h);
     else
@@ -228,13 +226,13 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
                               const void *arguments)
 {
     struct sheet_history *h = p->history;
-    struct operation op;
-    enum paper_status status = event_check(p, kind, arguments);
+    struct event_record op;
+    enum paper_status status = sheet_event_check(p, kind, arguments);
     if (status != PAPER_OK)
         return status;
     if (!h || h->performing) {
         p->touched = true;
-        return event_perform(p, kind, arguments);
+        return sheet_event_perform(p, kind, arguments);
     }
     status = operation_make(p, kind, arguments, &op);
     if (status != PAPER_OK)
@@ -248,7 +246,7 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
     if (status == PAPER_OK)
         status = operation_perform(p, &op, arguments);
     if (status != PAPER_OK) {
-        operation_free(&op);
+        event_record_free(&op);
         return status;
     }
     if (kind != SHEET_EVENT_STEP) /* a stroke */
@@ -283,12 +281,12 @@ static enum paper_status catch_up(struct paper_sheet *p)
     struct sheet_history *h = p->history;
     long total = steps_between(h, h->at, h->now), done = 0;
     while (position_compare(h->at, h->now) < 0) {
-        const struct operation *op = &h->ops[h->at.op];
+        const struct event_record *op = &h->log.records[h->at.op];
         void *arguments;
         enum paper_status status = operation_arguments(&p->config, op, &arguments);
         if (status == PAPER_OK)
             status = operation_perform(p, op, arguments);
-        event_free(op->kind, arguments);
+        event_free(sheet_event_kind(operation_kind(op)), arguments);
         if (status == PAPER_OK && op->kind == SHEET_EVENT_STEP)
             status = sheet_finish(p);
         if (status != PAPER_OK)
@@ -386,7 +384,7 @@ enum paper_status paper_history_seek(struct paper_sheet *p, long time)
 {
     struct position position, end = beginning;
     if (p->history)
-        end = (struct position){p->history->count, 0};
+        end = (struct position){p->history->log.count, 0};
     enum paper_status status = time_check(p, time, end, &position);
     if (status != PAPER_OK)
         return status;
@@ -412,16 +410,9 @@ enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
         return status;
     if (position.step > 0)
         position = (struct position){position.op + 1, 0};
-    int count = h->count - position.op;
-    struct operation *tail = malloc((size_t)(count ? count : 1) * sizeof *tail);
-    if (!tail)
+    if (!event_log_take_away(&h->log, position.op, &h->tail, &h->tail_count))
         return paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
-    if (count)
-        memcpy(tail, &h->ops[position.op], (size_t)count * sizeof *tail);
     history_moved(h, NOTE_INSERT, time);
-    h->tail = tail;
-    h->tail_count = count;
-    h->count = position.op;
     h->now = position;
     h->open = false;
     h->inserting_at = position.op;
@@ -441,18 +432,12 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};
     enum paper_status status = history_cut(h); /* at a boundary: takes no memory */
-    for (int i = 0; i < h->tail_count; i++) {
-        h->ops_bytes -= (double)(h->tail[i].stored + sizeof *h->tail);
-        if (status == PAPER_OK)
-            status = history_append(h, h->tail[i]);
-        else
-            operation_free(&h->tail[i]);
-    }
-    free(h->tail);
+    if (!event_log_put_back(&h->log, h->tail, h->tail_count) && status == PAPER_OK)
+        status = paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
     h->tail = NULL;
     h->tail_count = 0;
     h->inserting_at = -1;
-    h->now = (struct position){h->count, 0};
+    h->now = (struct position){h->log.count, 0};
     h->open = false;
     history_followed(h);
     return status;

@@ -15,13 +15,7 @@
 #include "event/event.h"
 #include "history.h"
 
-struct operation {
-    enum sheet_event_kind kind;
-    int steps;      /* that it takes */
-    uint8_t *bytes; /* arguments, deflated if stored < raw */
-    size_t raw, stored;
-    uint64_t digest; /* of the arguments; only of those that are being done */
-};
+#include <log.h>
 
 /* What the program did (history/notes.c): an operation, whose kind is `what`, or a move. */
 enum note_move {
@@ -69,8 +63,7 @@ struct checkpoint {
 enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24 };
 
 struct sheet_history {
-    struct operation *ops;
-    int count, room;
+    struct event_log log; /* the operations: kinds are enum sheet_event_kind */
     struct position now, at;
     struct paper_air air; /* history_air()'s */
     long work;            /* at `at` */
@@ -84,11 +77,11 @@ struct sheet_history {
     bool unfinished;          /* something was done since the last step */
     bool performing;          /* what is asked for meanwhile is a part of the operation */
     int inserting_at;         /* operations before it are not undone; -1: no insertion */
-    struct operation *tail;
+    struct event_record *tail; /* what follows the insertion */
     int tail_count;
     struct checkpoint points[CHECKPOINTS_MAX]; /* by position */
     int points_count;
-    double budget_bytes, held_bytes, ops_bytes;
+    double budget_bytes, held_bytes;
     paper_history_watch watch;
     void *watch_context;
 };
@@ -100,20 +93,22 @@ static inline int position_compare(struct position a, struct position b)
 
 /* ---- operations (history/list.c) ---- */
 
+static inline enum sheet_event_kind operation_kind(const struct event_record *op)
+{
+    return (enum sheet_event_kind)op->kind;
+}
+/* Owns: a history takes it over, or the caller frees it by event_record_free(). */
 enum paper_status operation_make(const struct paper_sheet *p, enum sheet_event_kind kind,
-                                 const void *arguments, struct operation *op);
-void operation_free(struct operation *op);
-uint64_t operation_digest(const struct operation *op);
+                                 const void *arguments, struct event_record *op);
 /* Errors: BAD_FILE, NO_MEMORY. Owns: the caller frees *arguments by event_free(). */
 enum paper_status operation_arguments(const struct paper_sheet_config *config,
-                                      const struct operation *op, void **arguments);
+                                      const struct event_record *op, void **arguments);
 /* Takes op over, also when it fails. Errors: NO_MEMORY. */
-enum paper_status history_append(struct sheet_history *h, struct operation op);
+enum paper_status history_append(struct sheet_history *h, struct event_record op);
 /* What is from `now` on is gone. Errors: NO_MEMORY. */
 enum paper_status history_cut(struct sheet_history *h);
 /* Makes a boundary between operations at the position. Errors: NO_MEMORY. */
 enum paper_status history_split(struct sheet_history *h, struct position position);
-uint64_t operation_bytes_digest(const uint8_t *bytes, size_t count);
 
 /* ---- positions (history/positions.c) ---- */
 

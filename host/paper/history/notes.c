@@ -46,9 +46,9 @@ bool notes_derive(struct sheet_history *h)
     struct position end = h->now;
     notes_free(&h->notes);
     for (int i = 0; i < end.op + (end.step > 0); i++) {
-        const struct operation *op = &h->ops[i];
+        const struct event_record *op = &h->log.records[i];
         notes_add(&h->notes, (struct note){(int)op->kind, i < end.op ? op->steps : end.step,
-                                           operation_digest(op)});
+                                           event_record_digest(op)});
     }
     return !h->notes.lost;
 }

@@ -5,7 +5,7 @@ long history_time(const struct sheet_history *h, struct position position)
 {
     long time = position.step;
     for (int i = 0; i < position.op; i++)
-        time += h->ops[i].steps;
+        time += h->log.records[i].steps;
     return time;
 }
 
@@ -16,9 +16,9 @@ struct position history_position(const struct sheet_history *h, long time, struc
     if (time < 0 || time > history_time(h, end))
         return (struct position){-1, 0};
     while (position_compare(position, end) < 0) {
-        int steps = h->ops[position.op].steps;
+        int steps = h->log.records[position.op].steps;
         if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
-            if (h->ops[position.op].kind == SHEET_EVENT_STEP)
+            if (h->log.records[position.op].kind == SHEET_EVENT_STEP)
                 position.step = (int)(time - passed);
             break;
         }
@@ -32,6 +32,6 @@ long history_work(const struct sheet_history *h, struct position position)
 {
     long work = position.step;
     for (int i = 0; i < position.op; i++)
-        work += h->ops[i].kind == SHEET_EVENT_STEP ? h->ops[i].steps : 1;
+        work += h->log.records[i].kind == SHEET_EVENT_STEP ? h->log.records[i].steps : 1;
     return work;
 }

@@ -1,7 +1,7 @@
 /* run.c - a whole run as bytes, back from them, and at another resolution.
  *
  *     "LRUN", version                    4 bytes each; all numbers with their low byte first
- *     description                        event_config_encode()
+ *     description                        sheet_config_encode()
  *     air                                as it is now
  *     now: operation, step               4, 4
  *     names: count, {length, name}       1, {1, length}: of the kinds below
@@ -12,6 +12,7 @@
  *       arguments                        stored bytes, event_encode()
  *     notes: count                       4; if something was undone or inserted (history/notes.c)
  *       what, number, digest             1, 8, 8 */
+#include "arguments/forms.h"
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -22,7 +23,6 @@
 enum { RUN_VERSION = 1, OPERATIONS_MAX = 1 << 24 };
 /* Arguments take at most a plane, and what else there is. */
 #define ARGUMENTS_BESIDES (64u << 20)
-#define DEFLATE_RATIO_MAX 1032 /* zlib's */
 
 static const char magic[4] = {'L', 'R', 'U', 'N'};
 
@@ -43,16 +43,16 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
         free(extras.at);
         return status;
     }
-    int ops_count = h->count;
+    int ops_count = h->log.count;
     event_put_bytes(&b, magic, sizeof magic);
     event_put_number(&b, RUN_VERSION, 4);
-    event_config_encode(&b, &p->config);
-    event_air_encode(&b, &p->air);
+    sheet_config_encode(&b, &p->config);
+    sheet_air_encode(&b, &p->air);
     event_put_number(&b, (uint64_t)h->now.op, 4);
     event_put_number(&b, (uint64_t)h->now.step, 4);
     event_put_number(&b, SHEET_EVENT_KINDS, 1);
     for (int i = 0; i < SHEET_EVENT_KINDS; i++) {
-        const char *name = event_name((enum sheet_event_kind)i);
+        const char *name = sheet_event_name((enum sheet_event_kind)i);
         event_put_number(&b, strlen(name), 1);
         event_put_bytes(&b, name, strlen(name));
     }
@@ -62,7 +62,7 @@ enum paper_status paper_history_encode(struct paper_sheet *p, uint8_t **bytes, s
     free(extras.at);
     event_put_number(&b, (uint64_t)ops_count, 4);
     for (int i = 0; i < ops_count; i++) {
-        const struct operation *op = &h->ops[i];
+        const struct event_record *op = &h->log.records[i];
         event_put_number(&b, (uint64_t)op->kind, 1);
         event_put_number(&b, (uint64_t)op->steps, 4);
         event_put_number(&b, op->raw, 8);
@@ -90,9 +90,9 @@ static enum paper_status run_begin(struct event_reader *r, struct paper_sheet_co
         return paper_fail(PAPER_BAD_FILE,
                           "its run is of version %llu, and this program knows version %d",
                           (unsigned long long)version, RUN_VERSION);
-    enum paper_status status = event_config_decode(r, config);
+    enum paper_status status = sheet_config_decode(r, config);
     if (status == PAPER_OK)
-        event_air_decode(r, air);
+        sheet_air_decode(r, air);
     return status;
 }
 
@@ -112,7 +112,7 @@ bool paper_sheet_config_same(const struct paper_sheet_config *a,
     for (int i = 0; i < 2; i++) { /* parts that others imply are there */
         struct paper_sheet_config config = *both[i];
         config.parts = sheet_parts_whole(config.parts);
-        event_config_encode(&bytes[i], &config);
+        sheet_config_encode(&bytes[i], &config);
     }
     bool same = !bytes[0].short_of_memory && bytes[0].count == bytes[1].count &&
                 memcmp(bytes[0].at, bytes[1].at, bytes[0].count) == 0;
@@ -136,13 +136,13 @@ static enum paper_status names_read(struct event_reader *r, int kinds[256])
         size_t length = (size_t)event_get_number(r, 1);
         const uint8_t *name = event_get_bytes(r, length);
         if (name)
-            kinds[i] = event_find((const char *)name, length);
+            kinds[i] = sheet_event_find((const char *)name, length);
     }
     return r->bad ? damaged("the list of names") : PAPER_OK;
 }
 
 static enum paper_status operation_read(struct event_reader *r, const struct paper_sheet *p,
-                                        const int kinds[256], struct operation *op)
+                                        const int kinds[256], struct event_record *op)
 {
     uint64_t kind = event_get_number(r, 1), steps = event_get_number(r, 4),
              raw = event_get_number(r, 8), stored = event_get_number(r, 8);
@@ -153,16 +153,14 @@ static enum paper_status operation_read(struct event_reader *r, const struct pap
         return paper_fail(PAPER_BAD_FILE,
                           "the run has an operation that this program does not know");
     bool step = kinds[kind] == SHEET_EVENT_STEP;
-    if (stored > raw || raw > most || raw > stored * DEFLATE_RATIO_MAX + 64 ||
-        steps > INT32_MAX / 2 || (step && steps < 1))
+    if (!event_record_plausible(raw, stored, most) || steps > INT32_MAX / 2 ||
+        (step && steps < 1))
         return damaged("an operation");
     const uint8_t *bytes = event_get_bytes(r, (size_t)stored);
     if (!bytes)
         return damaged("an operation");
-    *op = (struct operation){.kind = (enum sheet_event_kind)kinds[kind],
-                             .steps = (int)steps,
-                             .raw = (size_t)raw,
-                             .stored = (size_t)stored};
+    *op = (struct event_record){
+        .kind = kinds[kind], .steps = (int)steps, .raw = (size_t)raw, .stored = (size_t)stored};
     if (stored == 0)
         return PAPER_OK;
     op->bytes = malloc((size_t)stored);
@@ -185,18 +183,18 @@ static int brush_of(enum sheet_event_kind kind, const void *arguments)
 /* Every operation must be one that this sheet takes, after those before it. *brushes: a bit for each brush that these have
  * made. */
 static enum paper_status operation_check(const struct paper_sheet *p,
-                                         const struct operation *op, unsigned *brushes)
+                                         const struct event_record *op, unsigned *brushes)
 {
     void *arguments;
     enum paper_status status = operation_arguments(&p->config, op, &arguments);
     if (status == PAPER_OK)
-        status = event_check(p, op->kind, arguments);
-    int brush = status == PAPER_OK ? brush_of(op->kind, arguments) : -1;
+        status = sheet_event_check(p, operation_kind(op), arguments);
+    int brush = status == PAPER_OK ? brush_of(operation_kind(op), arguments) : -1;
     if (op->kind == SHEET_EVENT_BRUSH && brush >= 0)
         *brushes |= 1u << brush;
     if (brush >= 0 && !(*brushes & 1u << brush))
         status = PAPER_BAD_ARGUMENT;
-    event_free(op->kind, arguments);
+    event_free(sheet_event_kind(operation_kind(op)), arguments);
     return status == PAPER_BAD_ARGUMENT ? damaged("an operation") : status;
 }
 
@@ -215,12 +213,12 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
     if (status == PAPER_OK && (r->bad || count > OPERATIONS_MAX))
         status = damaged("the list of operations");
     for (uint64_t i = 0; i < count && status == PAPER_OK; i++) {
-        struct operation op = {0};
+        struct event_record op = {0};
         status = operation_read(r, p, kinds, &op);
         if (status == PAPER_OK)
             status = history_append(h, op);
         if (status == PAPER_OK)
-            status = operation_check(p, &h->ops[h->count - 1], &brushes);
+            status = operation_check(p, &h->log.records[h->log.count - 1], &brushes);
     }
     bool noted = status == PAPER_OK && r->at != r->end;
     if (noted && !notes_decode(r, kinds, &h->notes))
@@ -228,7 +226,8 @@ static enum paper_status operations_read(struct event_reader *r, struct paper_sh
     if (status != PAPER_OK)
         return status;
     if (r->bad || r->at != r->end || now_op > count ||
-        (now_step > 0 && (now_op == count || now_step >= (uint64_t)h->ops[now_op].steps)))
+        (now_step > 0 &&
+         (now_op == count || now_step >= (uint64_t)h->log.records[now_op].steps)))
         return damaged("the list of operations");
     h->now = (struct position){(int)now_op, (int)now_step};
     if (!noted && !notes_derive(h))
@@ -254,7 +253,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
         status = sheet_create(&config, &p);
     if (status == PAPER_BAD_ARGUMENT)
         status = damaged("the description of the sheet");
-    if (status == PAPER_OK && event_check(p, SHEET_EVENT_AIR, &air) != PAPER_OK)
+    if (status == PAPER_OK && sheet_event_check(p, SHEET_EVENT_AIR, &air) != PAPER_OK)
         status = damaged("the air");
     if (status == PAPER_OK)
         status = paper_history_begin(p, budget_bytes);
@@ -296,17 +295,17 @@ cleanup:
 
 /* ---- at another resolution ---- */
 
-static enum paper_status render_operation(struct paper_sheet *to, const struct operation *op,
+static enum paper_status render_operation(struct paper_sheet *to, const struct event_record *op,
                                           const struct paper_sheet_config *from,
                                           const struct event_scaling *scaling)
 {
     void *arguments;
     enum paper_status status = operation_arguments(from, op, &arguments);
     if (status == PAPER_OK)
-        status = event_scale(op->kind, arguments, scaling);
+        status = sheet_event_scale(operation_kind(op), arguments, scaling);
     if (status == PAPER_OK)
-        status = sheet_event(to, op->kind, arguments);
-    event_free(op->kind, arguments);
+        status = sheet_event(to, operation_kind(op), arguments);
+    event_free(sheet_event_kind(operation_kind(op)), arguments);
     return status;
 }
 
@@ -321,15 +320,13 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         return paper_fail(PAPER_BAD_ARGUMENT, "a scale must be 1/64..64 (got %g)", scale);
     if (!(pace >= 1.0 / 4096 && pace <= 4096))
         return paper_fail(PAPER_BAD_ARGUMENT, "a pace must be 1/4096..4096 (got %g)", pace);
-    struct event_scaling scaling = {scale,
-                                    pace,
-                                    p->config.width,
-                                    p->config.height,
-                                    (int)lround(p->config.width * scale),
-                                    (int)lround(p->config.height * scale)};
+    struct paper_sizes sizes = {p->config.width, p->config.height,
+                                (int)lround(p->config.width * scale),
+                                (int)lround(p->config.height * scale)};
+    struct event_scaling scaling = {scale, pace, &sizes};
     struct paper_sheet_config config = p->config;
     struct paper_sheet *to;
-    event_config_scale(&config, &scaling);
+    sheet_config_scale(&config, &scaling);
     enum paper_status status = sheet_create(&config, &to);
     if (status != PAPER_OK)
         return status;
@@ -337,20 +334,20 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         status = paper_history_begin(to, budget_bytes);
     struct paper_air air = paper_air_default(); /* which is for a scale of 1 */
     if (status == PAPER_OK)
-        status = event_scale(SHEET_EVENT_AIR, &air, &scaling);
+        status = sheet_event_scale(SHEET_EVENT_AIR, &air, &scaling);
     if (status == PAPER_OK)
         status = sheet_event(to, SHEET_EVENT_AIR, &air);
     long passed = 0, total = paper_sheet_steps(p);
-    for (int i = 0; i < h->count && status == PAPER_OK; i++) {
+    for (int i = 0; i < h->log.count && status == PAPER_OK; i++) {
         struct position start = {i, 0};
         if (position_compare(start, h->now) >= 0)
             break;
-        if (h->ops[i].kind != SHEET_EVENT_STEP) {
-            status = render_operation(to, &h->ops[i], &p->config, &scaling);
-            passed += h->ops[i].steps;
+        if (h->log.records[i].kind != SHEET_EVENT_STEP) {
+            status = render_operation(to, &h->log.records[i], &p->config, &scaling);
+            passed += h->log.records[i].steps;
             continue;
         }
-        passed += i == h->now.op ? h->now.step : h->ops[i].steps;
+        passed += i == h->now.op ? h->now.step : h->log.records[i].steps;
         paper_history_mark(to);
         while (status == PAPER_OK && paper_sheet_steps(to) < lround(pace * (double)passed)) {
             status = sheet_event(to, SHEET_EVENT_STEP, NULL);

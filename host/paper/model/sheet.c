@@ -1,5 +1,5 @@
 /* sheet.c - a sheet's life: what it is checked for, made, made anew, and given back. */
-#include "arguments/members.h"
+#include "arguments/rows.h"
 #include "model/model.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ static enum paper_status named_check(const struct members *members, const void *
 {
     char whose[PAPER_NAME_MAX + 16];
     snprintf(whose, sizeof whose, "%s%s%.*s's ", what, *name ? " " : "", PAPER_NAME_MAX, name);
-    return event_members_check(members, of, whose, "");
+    return paper_members_check(members, of, whose, "");
 }
 
 static enum paper_status config_check(const struct paper_sheet_config *c)
@@ -43,9 +43,9 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
     if (c->rule > PAPER_RULE_LUMINOUS)
         return paper_fail(PAPER_BAD_ARGUMENT, "there is no rule %d", (int)c->rule);
     enum paper_status status =
-        named_check(&event_stock_members, &c->stock, "paper", c->stock.name);
+        named_check(&paper_stock_members, &c->stock, "paper", c->stock.name);
     for (int i = 0; i < c->pigments_count && status == PAPER_OK; i++)
-        status = named_check(&event_pigment_members, &c->pigments[i], "pigment",
+        status = named_check(&paper_pigment_members, &c->pigments[i], "pigment",
                              c->pigments[i].name);
     return status;
 }

@@ -5,7 +5,7 @@
  * are straight between samples: a cubic would swing below 0. */
 #include "brush.h"
 
-#include "arguments/members.h"
+#include "arguments/rows.h"
 #include "base/base.h"
 
 #include <math.h>
@@ -17,12 +17,12 @@ enum paper_status paper_stroke_check(const struct paper_stroke *stroke)
         return paper_fail(PAPER_BAD_ARGUMENT, "a stroke has 1..%d samples (got %d)",
                           PAPER_STROKE_SAMPLES_MAX, stroke->samples_count);
     enum paper_status status =
-        event_members_check(&event_stroke_members, stroke, "a stroke's ", "");
+        paper_members_check(&paper_stroke_members, stroke, "a stroke's ", "");
     for (int i = 0; i < stroke->samples_count && status == PAPER_OK; i++) {
         const struct paper_stroke_sample *s = &stroke->samples[i];
         char where[40];
         snprintf(where, sizeof where, " in sample %d", i + 1);
-        status = event_members_check(&event_sample_members, s, "a stroke's ", where);
+        status = paper_members_check(&paper_sample_members, s, "a stroke's ", where);
         if (status != PAPER_OK)
             break;
         if (i > 0 && !(s->time_s > stroke->samples[i - 1].time_s))
