@@ -5,7 +5,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,20 +20,11 @@
 #define LUTETIA_COMMIT "unknown"
 #endif
 
-static char error_text[512];
-
-bool bench_fail(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error_text, sizeof error_text, format, arguments);
-    va_end(arguments);
-    return false;
-}
+_Thread_local struct error_text bench_last_error;
 
 const char *bench_error(void)
 {
-    return error_text;
+    return bench_last_error.text;
 }
 
 /* ---- timing ---- */

@@ -12,6 +12,8 @@
 #ifndef LUTETIA_BENCH_HARNESS_H
 #define LUTETIA_BENCH_HARNESS_H
 
+#include <error_text.h>
+
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -91,8 +93,9 @@ int bench_threads_count(void); /* that OpenMP uses; 1 without it */
 
 /* ---- errors ---- */
 
-/* Keeps the text and returns false. */
-bool bench_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Keeps the text for bench_error() and returns false. */
+extern _Thread_local struct error_text bench_last_error;
+#define bench_fail(...) error_text_false(&bench_last_error, __VA_ARGS__)
 
 const char *bench_error(void);
 

@@ -174,8 +174,8 @@ static int shelf_cut(struct font_atlas *a, int height_px, enum font_status *stat
         page++;
     if (page == a->def.pages_max)
         return -1;
-    if (!font_array_reserve((void **)&a->shelves, &a->shelves_capacity, a->shelves_count + 1,
-                            sizeof *a->shelves)) {
+    if (!array_reserve(&a->shelves, &a->shelves_capacity, a->shelves_count + 1,
+                       sizeof *a->shelves)) {
         *status = font_fail(FONT_NO_MEMORY, "no memory for an atlas");
         return -1;
     }
@@ -255,8 +255,8 @@ static int run_take(struct font_atlas *a, const struct run *run, int height_px,
 {
     enum { REST_MIN = 8 };
     int rest = run->height_px - height_px, kept = 0;
-    if (!font_array_reserve((void **)&a->shelves, &a->shelves_capacity, a->shelves_count + 2,
-                            sizeof *a->shelves)) {
+    if (!array_reserve(&a->shelves, &a->shelves_capacity, a->shelves_count + 2,
+                       sizeof *a->shelves)) {
         *status = font_fail(FONT_NO_MEMORY, "no memory for an atlas");
         return -1;
     }

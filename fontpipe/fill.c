@@ -120,10 +120,10 @@ static enum font_status pieces_make(struct work *w, const struct font_outline *o
         int n = s->degree == 1 ? 1 : pieces_of(s, tolerance);
         if (w->pieces_count + n > PIECES_MAX)
             return font_fail(FONT_TOO_LARGE, "an outline has too many curves to fill");
-        if (!font_array_reserve((void **)&w->pieces, &w->pieces_capacity, w->pieces_count + n,
-                                sizeof *w->pieces) ||
-            !font_array_reserve((void **)&w->levels, &w->levels_capacity,
-                                w->levels_count + 2 * n, sizeof *w->levels))
+        if (!array_reserve(&w->pieces, &w->pieces_capacity, w->pieces_count + n,
+                           sizeof *w->pieces) ||
+            !array_reserve(&w->levels, &w->levels_capacity, w->levels_count + 2 * n,
+                           sizeof *w->levels))
             return no_memory();
         struct font_point a = {s->p[0].x, height(w, s->p[0].y)};
         for (int k = 1; k <= n; k++) {
@@ -168,8 +168,7 @@ static enum font_status crossing_find(struct work *w, const struct piece *p,
     if (!(before * after < 0))
         return FONT_OK;
     w->crossings++;
-    if (!font_array_reserve((void **)&w->levels, &w->levels_capacity, w->levels_count + 1,
-                            sizeof *w->levels))
+    if (!array_reserve(&w->levels, &w->levels_capacity, w->levels_count + 1, sizeof *w->levels))
         return no_memory();
     double y = low + (high - low) * (before / (before - after));
     w->levels[w->levels_count++] = height(w, fmin(fmax(y, low), high));
@@ -181,12 +180,11 @@ static enum font_status crossings_find(struct work *w)
 {
     int active_count = 0;
     int64_t pairs = 0;
-    if (!font_array_reserve((void **)&w->active, &w->active_capacity, w->pieces_count + 1,
-                            sizeof *w->active) ||
-        !font_array_reserve((void **)&w->middles, &w->middles_capacity, w->pieces_count + 1,
-                            sizeof *w->middles) ||
-        !font_array_reserve((void **)&w->bounds, &w->bounds_capacity, w->pieces_count + 1,
-                            sizeof *w->bounds))
+    if (!array_reserve(&w->active, &w->active_capacity, w->pieces_count + 1,
+                       sizeof *w->active) ||
+        !array_reserve(&w->middles, &w->middles_capacity, w->pieces_count + 1,
+                       sizeof *w->middles) ||
+        !array_reserve(&w->bounds, &w->bounds_capacity, w->pieces_count + 1, sizeof *w->bounds))
         return no_memory();
     for (int i = 0; i < w->pieces_count; i++) {
         const struct piece *p = &w->pieces[i];
@@ -220,8 +218,8 @@ static bool filled(int winding, enum font_fill rule)
 static enum font_status portion_add(struct work *w, const struct piece *p, double low,
                                     double high, bool entering)
 {
-    if (!font_array_reserve((void **)&w->portions, &w->portions_capacity, w->portions_count + 1,
-                            sizeof *w->portions))
+    if (!array_reserve(&w->portions, &w->portions_capacity, w->portions_count + 1,
+                       sizeof *w->portions))
         return no_memory();
     /* The inside is on the right: up where it is entered, down where it is left. */
     double from = entering ? low : high, to = entering ? high : low;
@@ -235,8 +233,7 @@ static enum font_status portion_add(struct work *w, const struct piece *p, doubl
 
 static enum font_status end_add(struct work *w, double x, int change)
 {
-    if (!font_array_reserve((void **)&w->ends, &w->ends_capacity, w->ends_count + 1,
-                            sizeof *w->ends))
+    if (!array_reserve(&w->ends, &w->ends_capacity, w->ends_count + 1, sizeof *w->ends))
         return no_memory();
     int at = w->ends_count++; /* nearly sorted as it comes */
     while (at > 0 && w->ends[at - 1].x > x) {
@@ -257,8 +254,7 @@ static enum font_status level_close(struct work *w, double y)
         double from = w->ends[i].x, to = w->ends[i + 1].x;
         /* More than one where a strip of no height has its pieces out of order: the boundary is closed all the same. */
         int times = to > from ? abs(inside) : 0;
-        if (!font_array_reserve((void **)&w->flat, &w->flat_capacity, w->flat_count + times,
-                                sizeof *w->flat))
+        if (!array_reserve(&w->flat, &w->flat_capacity, w->flat_count + times, sizeof *w->flat))
             return no_memory();
         struct font_segment line = {.degree = 1, .p = {{from, y}, {to, y}}};
         if (inside < 0) {
@@ -386,8 +382,7 @@ static enum font_status result_make(struct work *w, const struct font_outline *o
     int count = joined + w->flat_count;
     if (count > FONT_SEGMENTS_MAX)
         return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
-    if (!font_array_reserve((void **)&out->segments, &out->segments_capacity, count,
-                            sizeof *out->segments))
+    if (!array_reserve(&out->segments, &out->segments_capacity, count, sizeof *out->segments))
         return no_memory();
     for (int i = 0; i < joined; i++) {
         const struct portion *p = &w->portions[i];

@@ -4,17 +4,17 @@
 
 #include "status.h"
 
+#include <array.h>
+#include <error_text.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 /* Keeps the text for font_error() and returns the status. */
-enum font_status font_fail(enum font_status status, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-/* Makes room for count elements of an array that grows by doubling; false: no memory, and the array is as it
- * was. */
-bool font_array_reserve(void **array, int *capacity, int count, size_t element_bytes);
+extern _Thread_local struct error_text font_last_error;
+#define font_fail(status, ...)                                                                 \
+    ((enum font_status)error_text_fail(&font_last_error, (int)(status), __VA_ARGS__))
 
 /* Of the bytes of a key. */
 uint32_t font_hash(const void *key, size_t bytes_count);

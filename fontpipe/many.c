@@ -236,8 +236,7 @@ int font_many_edges(struct font_many *m, const struct font_edges *e)
 {
     if (e->nodes_count > (1 << 24) || m->nodes_count > (1 << 28) ||
         m->lines_count > (1 << 28) ||
-        !font_array_reserve((void **)&m->kept, &m->kept_capacity, m->kept_count + 1,
-                            sizeof *m->kept) ||
+        !array_reserve(&m->kept, &m->kept_capacity, m->kept_count + 1, sizeof *m->kept) ||
         !grow(m->host, &m->nodes_capacity, m->nodes_count + e->nodes_count + PAD) ||
         !grow(m->host + 3, &m->lines_capacity, m->lines_count + e->lines_count + PAD)) {
         font_fail(FONT_NO_MEMORY, "no memory for many glyphs");

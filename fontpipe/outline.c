@@ -52,8 +52,8 @@ enum font_status font_outline_copy(const struct font_outline *from, struct font_
     to->polynomials = NULL;
     to->segments_capacity = 0;
     to->segments_count = 0;
-    if (!font_array_reserve((void **)&to->segments, &to->segments_capacity,
-                            from->segments_count, sizeof *to->segments))
+    if (!array_reserve(&to->segments, &to->segments_capacity, from->segments_count,
+                       sizeof *to->segments))
         return font_fail(FONT_NO_MEMORY, "no memory for an outline");
     if (from->segments_count)
         memcpy(to->segments, from->segments,
@@ -79,8 +79,8 @@ static enum font_status segment_add(struct font_outline *o, int degree,
     if (o->segments_count == FONT_SEGMENTS_MAX)
         return font_fail(FONT_TOO_LARGE, "an outline has more than %d segments",
                          FONT_SEGMENTS_MAX);
-    if (!font_array_reserve((void **)&o->segments, &o->segments_capacity, o->segments_count + 1,
-                            sizeof *o->segments))
+    if (!array_reserve(&o->segments, &o->segments_capacity, o->segments_count + 1,
+                       sizeof *o->segments))
         return font_fail(FONT_NO_MEMORY, "no memory for an outline");
     struct font_segment *s = &o->segments[o->segments_count++];
     *s = (struct font_segment){.degree = degree, .contour = o->contours_count};

@@ -44,7 +44,7 @@ static bool run_next(const uint64_t *row, int words, int *at, int *begin, int *e
 
 static enum font_status rectangle_add(struct font_rectangles *r, int x0, int y0, int x1, int y1)
 {
-    if (!font_array_reserve((void **)&r->items, &r->capacity, r->count + 1, sizeof *r->items))
+    if (!array_reserve(&r->items, &r->capacity, r->count + 1, sizeof *r->items))
         return font_fail(FONT_NO_MEMORY, "no memory for rectangles");
     r->items[r->count++] = (struct font_rectangle){x0, y0, x1, y1};
     return FONT_OK;

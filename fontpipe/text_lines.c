@@ -273,8 +273,8 @@ static enum font_status run_set(struct shaping *g, const struct paragraph *p,
     unsigned count;
     hb_glyph_info_t *infos = hb_buffer_get_glyph_infos(g->shaper->buffer, &count);
     hb_glyph_position_t *positions = hb_buffer_get_glyph_positions(g->shaper->buffer, &count);
-    if (!font_array_reserve((void **)&out->glyphs, &out->glyphs_capacity,
-                            out->glyphs_count + (int)count, sizeof *out->glyphs))
+    if (!array_reserve(&out->glyphs, &out->glyphs_capacity, out->glyphs_count + (int)count,
+                       sizeof *out->glyphs))
         return font_fail(FONT_NO_MEMORY, "no memory for text");
     for (unsigned i = 0; i < count; i++) {
         out->glyphs[out->glyphs_count++] =
@@ -396,8 +396,8 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
 static enum font_status line_add(struct font_layout *out, int first, double width_px,
                                  bool to_left, bool last)
 {
-    if (!font_array_reserve((void **)&out->lines, &out->lines_capacity, out->lines_count + 1,
-                            sizeof *out->lines))
+    if (!array_reserve(&out->lines, &out->lines_capacity, out->lines_count + 1,
+                       sizeof *out->lines))
         return font_fail(FONT_NO_MEMORY, "no memory for text");
     out->lines[out->lines_count] =
         (struct font_line){.glyphs_begin = first,

@@ -4,10 +4,13 @@
 
 #include "midi_status.h"
 
+#include <error_text.h>
+
 #include <stdint.h>
 
 /* Keeps the text for midi_error() and returns the status. */
-enum midi_status midi_fail(enum midi_status status, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+extern _Thread_local struct error_text midi_last_error;
+#define midi_fail(status, ...)                                                                 \
+    ((enum midi_status)error_text_fail(&midi_last_error, (int)(status), __VA_ARGS__))
 
 #endif

@@ -1,21 +1,9 @@
 /* midi_status.c - see midi_status.h. */
 #include "midi_internal.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
-static _Thread_local char error_text[512];
-
-enum midi_status midi_fail(enum midi_status status, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error_text, sizeof error_text, format, arguments);
-    va_end(arguments);
-    return status;
-}
+_Thread_local struct error_text midi_last_error;
 
 const char *midi_error(void)
 {
-    return error_text;
+    return midi_last_error.text;
 }

@@ -1,24 +1,13 @@
 /* display_image.c - images in memory, and this thread's last error. */
 #include "display_internal.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-static _Thread_local char error_text[1024];
+_Thread_local struct error_text display_last_error;
 
 const char *display_error(void)
 {
-    return error_text;
-}
-
-enum display_status display_fail(enum display_status status, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error_text, sizeof error_text, format, arguments);
-    va_end(arguments);
-    return status;
+    return display_last_error.text;
 }
 
 enum display_status display_image_create(struct display_image *image)

@@ -4,8 +4,11 @@
 
 #include "display.h"
 
+#include <error_text.h>
+
 /* Records the detail of a failure and returns its status. */
-enum display_status display_fail(enum display_status status, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+extern _Thread_local struct error_text display_last_error;
+#define display_fail(status, ...)                                                              \
+    ((enum display_status)error_text_fail(&display_last_error, (int)(status), __VA_ARGS__))
 
 #endif

@@ -1,6 +1,8 @@
 /* log.c - see log.h. */
 #include "log.h"
 
+#include <array.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,15 +105,7 @@ bool event_record_plausible(uint64_t raw, uint64_t stored, uint64_t most)
 
 static bool room_make(struct event_log *log)
 {
-    if (log->count < log->room)
-        return true;
-    int room = log->room ? 2 * log->room : 64;
-    struct event_record *grown = realloc(log->records, (size_t)room * sizeof *grown);
-    if (!grown)
-        return false;
-    log->records = grown;
-    log->room = room;
-    return true;
+    return array_reserve(&log->records, &log->room, log->count + 1, sizeof *log->records);
 }
 
 bool event_log_append(struct event_log *log, struct event_record record)

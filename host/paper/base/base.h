@@ -4,9 +4,12 @@
 
 #include "paper.h"
 
+#include <error_text.h>
+
 /* Records the detail of a failure and returns its status. */
-enum paper_status paper_fail(enum paper_status status, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+extern _Thread_local struct error_text paper_last_error;
+#define paper_fail(status, ...)                                                                \
+    ((enum paper_status)error_text_fail(&paper_last_error, (int)(status), __VA_ARGS__))
 
 static inline bool paper_within(double x, double low, double high)
 {

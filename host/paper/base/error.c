@@ -1,21 +1,9 @@
 /* error.c - the last failure, in words. */
 #include "base/base.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
-static char error_text[1024];
+_Thread_local struct error_text paper_last_error;
 
 const char *paper_error(void)
 {
-    return error_text;
-}
-
-enum paper_status paper_fail(enum paper_status status, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error_text, sizeof error_text, format, arguments);
-    va_end(arguments);
-    return status;
+    return paper_last_error.text;
 }

@@ -10,6 +10,8 @@
  * Where nothing was undone or inserted the notes follow from the operations, and are not saved. */
 #include "history/history_internal.h"
 
+#include <array.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,15 +24,9 @@ void notes_add(struct notes *n, struct note note)
 {
     if (n->lost)
         return;
-    if (n->count == n->room) {
-        int room = n->room ? 2 * n->room : 64;
-        struct note *grown = realloc(n->at, (size_t)room * sizeof *grown);
-        if (!grown) {
-            n->lost = true;
-            return;
-        }
-        n->at = grown;
-        n->room = room;
+    if (!array_reserve(&n->at, &n->room, n->count + 1, sizeof *n->at)) {
+        n->lost = true;
+        return;
     }
     n->at[n->count++] = note;
 }

@@ -4,6 +4,8 @@
  * the table `commands`: how many numbers it takes and which function draws it. */
 #include "path.h"
 
+#include <array.h>
+
 #include "base/base.h"
 
 #include <math.h>
@@ -23,7 +25,7 @@ struct pen {
     double turn_x, turn_y; /* the last control point, for S and T */
     char last;             /* command, upper case */
     bool open;             /* a line is being added to */
-    int points_count, room;
+    int points_count, room, lines_room;
     struct paper_lines *lines;
     enum paper_status status;
 };
@@ -63,15 +65,10 @@ static void point_add(struct pen *pen, double x, double y)
         return;
     }
     struct paper_way *line = &pen->lines->line[pen->lines->count - 1];
-    if (line->points_count == pen->room) {
-        int room = pen->room ? 2 * pen->room : 16;
-        double *points = realloc(line->points, (size_t)room * 2 * sizeof *points);
-        if (!points) {
-            no_memory(pen);
-            return;
-        }
-        line->points = points;
-        pen->room = room;
+    if (!array_reserve(&line->points, &pen->room, line->points_count + 1,
+                       2 * sizeof *line->points)) {
+        no_memory(pen);
+        return;
     }
     line->points[2 * line->points_count] = x;
     line->points[2 * line->points_count + 1] = y;
@@ -89,14 +86,10 @@ static void line_open(struct pen *pen)
         pen_fail(pen, "it has more than 20000 sub-paths");
         return;
     }
-    if ((pen->lines->count & (pen->lines->count - 1)) == 0) {
-        size_t room = pen->lines->count ? 2 * (size_t)pen->lines->count : 1;
-        struct paper_way *line = realloc(pen->lines->line, room * sizeof *line);
-        if (!line) {
-            no_memory(pen);
-            return;
-        }
-        pen->lines->line = line;
+    if (!array_reserve(&pen->lines->line, &pen->lines_room, pen->lines->count + 1,
+                       sizeof *pen->lines->line)) {
+        no_memory(pen);
+        return;
     }
     pen->lines->line[pen->lines->count++] = (struct paper_way){0};
     pen->room = 0;

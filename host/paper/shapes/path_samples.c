@@ -1,6 +1,8 @@
 /* path_samples.c - recorded samples of strokes, as text. */
 #include "shapes/path_internal.h"
 
+#include <array.h>
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -111,18 +113,13 @@ enum paper_status paper_samples_parse(const char *bytes, size_t count, const cha
             status = line_fail(name, number + 1, "times must ascend");
             break;
         }
-        if (found == room) {
-            room = room ? 2 * room : 64;
-            struct paper_stroke_sample *more = found < PAPER_STROKE_SAMPLES_MAX
-                                                   ? realloc(made, (size_t)room * sizeof *more)
-                                                   : NULL;
-            if (!more) {
-                status = found < PAPER_STROKE_SAMPLES_MAX
-                             ? paper_fail(PAPER_NO_MEMORY, "%s: no memory to read it", name)
-                             : line_fail(name, number + 1, "more than 100000 samples");
-                break;
-            }
-            made = more;
+        if (found == PAPER_STROKE_SAMPLES_MAX) {
+            status = line_fail(name, number + 1, "more than 100000 samples");
+            break;
+        }
+        if (!array_reserve(&made, &room, found + 1, sizeof *made)) {
+            status = paper_fail(PAPER_NO_MEMORY, "%s: no memory to read it", name);
+            break;
         }
         made[found++] = (struct paper_stroke_sample){n[0], n[1], n[2], n[3], n[4], n[5]};
     }
