@@ -84,36 +84,52 @@ static enum machine_status set_processors(struct machine *m, int wanted)
         return machine_fail(
             m, MACHINE_BAD_ARGUMENT,
             "the number of processors must be a power of two from 1 to 2^30 (is %ld)", count);
-    m->processors_count = (int)count;
-    m->processors_log2 = __builtin_ctzl((unsigned long)count);
+    m->values->processors_count = (int)count;
+    m->values->processors_log2 = __builtin_ctzl((unsigned long)count);
     return MACHINE_OK;
 }
 
+/* A machine with all its layers, in one piece. */
+struct machine_layers {
+    struct machine machine; /* first: the piece is released by its address */
+    struct device device;
+    struct values values;
+    struct plans plans;
+    struct memory memory;
+    struct run run;
+};
+
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
 {
-    struct machine *m = calloc(1, sizeof *m);
+    struct machine_layers *layers = calloc(1, sizeof *layers);
+    struct machine *m = layers ? &layers->machine : NULL;
     *out = m;
     if (!m)
         return MACHINE_NO_MEMORY;
+    m->device = &layers->device;
+    m->values = &layers->values;
+    m->plans = &layers->plans;
+    m->memory = &layers->memory;
+    m->run = &layers->run;
     if (!graph_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     enum machine_status status = settings_read(m);
     if (status)
         return status;
-    m->eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
+    m->run->eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
-        m->dump_dir = strdup(dump);
+        m->plans->dump_dir = strdup(dump);
     if (!watch_open(m, config))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->owner = pthread_self();
-    m->sets_count = 1;
-    m->field_next_base = 64;
-    m->epoch = 1;
+    m->values->sets_count = 1;
+    m->memory->next_base = 64;
+    m->values->epoch = 1;
     run_init(m);
     if (!replay_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
-    m->random_seed = 1;
+    m->values->random_seed = 1;
     status = set_processors(m, config->processors_count);
     if (status)
         return status;
@@ -127,8 +143,8 @@ void machine_destroy(struct machine *m)
 {
     if (!m)
         return;
-    m->calls_noted = 0; /* nobody is going to look */
-    m->flush_due = false;
+    m->run->calls_noted = 0; /* nobody is going to look */
+    m->run->flush_due = false;
     background_finish(m);
     watch_leave(m);
     replay_finish(m);
@@ -138,14 +154,15 @@ void machine_destroy(struct machine *m)
     graph_finish(m);
     watch_close(m);
     device_close(m);
-    free(m->dump_dir);
+    free(m->plans->dump_dir);
     free(m);
 }
 
 void machine_leave(struct machine *m)
 {
-    if (m && m->device.queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
-        clFinish(m->device.queue);
+    if (m && m->device->queue && m->device->inside == 0 &&
+        pthread_equal(m->owner, pthread_self())) {
+        clFinish(m->device->queue);
         watch_leave(m);
     }
 }
@@ -168,34 +185,34 @@ void machine_error_clear(struct machine *m)
 
 int machine_processors_count(const struct machine *m)
 {
-    return m->processors_count;
+    return m->values->processors_count;
 }
 
 const char *machine_device_name(const struct machine *m)
 {
-    return m->device.name;
+    return m->device->name;
 }
 
 const char *machine_device_driver(const struct machine *m)
 {
-    return m->device.driver;
+    return m->device->driver;
 }
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)
 {
     *out =
-        (struct machine_stats){.stores = m->stores,
-                               .values_live = m->nodes_live,
-                               .calls_foreseen = m->calls_foreseen,
-                               .flushes = m->flushes,
-                               .plans_built = m->plans_built,
-                               .kernels_built = m->device.kernels_built,
-                               .kernels_built_background = m->device.kernels_built_background,
-                               .kernels_run = m->device.kernels_run,
-                               .kernels_in_place = m->kernels_in_place,
-                               .kernels_in_strips = m->kernels_in_strips,
-                               .kernels_in_tiles = m->kernels_in_tiles,
-                               .predicted_s = m->predicted_s,
-                               .bytes_held = m->device.held_bytes,
-                               .busy_s = m->busy_s};
+        (struct machine_stats){.stores = m->run->stores,
+                               .values_live = m->values->live,
+                               .calls_foreseen = m->run->calls_foreseen,
+                               .flushes = m->run->flushes,
+                               .plans_built = m->plans->built,
+                               .kernels_built = m->device->kernels_built,
+                               .kernels_built_background = m->device->kernels_built_background,
+                               .kernels_run = m->device->kernels_run,
+                               .kernels_in_place = m->plans->kernels_in_place,
+                               .kernels_in_strips = m->plans->kernels_in_strips,
+                               .kernels_in_tiles = m->plans->kernels_in_tiles,
+                               .predicted_s = m->plans->predicted_s,
+                               .bytes_held = m->device->held_bytes,
+                               .busy_s = m->device->busy_s};
 }

@@ -204,7 +204,11 @@ struct vpset {
     size_t pitch;         /* elements from row to row */
     uint64_t ratio;
     enum machine_order order;
-    struct slot flags[3];
+};
+
+/* What a VP set's processors have besides fields, by the set's id. */
+struct flags {
+    struct slot of[3]; /* by enum machine_flag */
     struct lazy_overflow overflow;
 };
 
@@ -271,6 +275,8 @@ struct device {
     unsigned skew;                  /* of the next buffer's beginning */
     struct program_entry *programs; /* hash table by text: see device.c */
     uint64_t kernels_built, kernels_built_background, kernels_run;
+    double busy_s;        /* waiting for it */
+    int inside;           /* calls that build, launch or wait: see machine_leave() */
     cl_kernel *unstarted; /* built, and not run yet */
     int unstarted_count, unstarted_capacity;
     const char *options;
@@ -293,64 +299,64 @@ enum { TRACE_LENGTH = 128 };
 /* A plan's kernels: of one turn of a loop; of many, which must be one kernel. */
 enum rehearsal { REHEARSING_NOTHING, REHEARSING_ONE, REHEARSING_TURNS };
 
-struct machine {
-    struct device device;
-    bool device_open;
-    pthread_t owner;
-    int inside;              /* calls that build, launch or wait: see machine_leave() */
-    struct replay *replay;   /* NULL: nothing is noted */
-    int calls_noted;         /* and not performed yet */
-    int turns_in_row;        /* of loops that were foreseen, with nothing else in between */
-    int turns_between_looks; /* so many there were when somebody looked or did something else */
-    int looks_alike;         /* so often, one after the other, there were as many */
-    bool eager;
-    struct settings settings;
-    struct watch *watch; /* NULL: nobody looks. See watch.h */
-    struct vanished vanished;
-    char *dump_dir;
-    int dump_count;
-    int processors_count, processors_log2;
-    enum machine_status status;
-    char error[1024];
-
-    /* graph.c */
+/* The graph, the VP sets that values belong to, and what is counted. */
+struct values {
+    /* The table of nodes: graph.c. */
     struct machine_value **table;
     uint32_t table_size, table_count;
-    struct machine_value *free_nodes;
-    void **node_blocks;
-    int node_blocks_count, node_blocks_capacity;
-    uint64_t nodes_live, nodes_pending;
-    struct machine_value **borrowed;
+    struct machine_value *free; /* nodes that are in use no more */
+    void **blocks;              /* of nodes */
+    int blocks_count, blocks_capacity;
+    uint64_t live, pending;          /* nodes; those of them that wait to be computed */
+    struct machine_value **borrowed; /* until the next instruction */
     int borrowed_count, borrowed_capacity;
     struct machine_value **release_stack;
     int release_count, release_capacity;
 
     int simplify_budget; /* nodes that simplify_under() may still look at in this instruction */
+    uint32_t epoch;      /* evaluations so far, from 1 on */
+    uint32_t mark;       /* of the walk under way */
+    struct vanished vanished;
 
-    /* vpsets.c */
-    struct vpset *sets; /* 1 .. sets_count - 1 */
+    struct vpset *sets; /* 1 .. sets_count - 1; sets[0] is none */
     int sets_count, set_current;
+    int processors_count, processors_log2; /* physical ones */
+    uint64_t random_seed, random_draws;
+};
 
-    /* fields.c */
+/* Fields and flags. */
+struct memory {
+    struct flags *flags;   /* by VP set, as many as values->sets */
     struct field **fields; /* ascending base */
     int fields_count, fields_capacity;
-    int field_last; /* index of the last one found */
-    uint32_t field_next_base;
-    uint64_t field_serial;
-    uint64_t random_seed, random_draws;
+    int last_found; /* index of a field */
+    uint32_t next_base;
+    uint64_t serial;
+};
 
-    /* plan_kernels.c */
-    struct plan **plans;
-    int plans_size;
+/* Plans kept, and their kernels. */
+struct plans {
+    struct plan **table; /* by signature; NULL: there has been none */
+    int table_size;
     struct background *background; /* background.c; NULL: nothing was wanted so far */
     struct plan *improving;        /* whose better kernels are being compiled there */
     enum rehearsal rehearsing;     /* evaluations see to their plan's kernels, and run none */
     bool silent; /* what calls do is told to nobody: they will be performed once more */
     struct plan *rehearsed; /* by the last rehearsal; NULL: there was nothing to compute */
+    char *dump_dir;         /* NULL: nothing is dumped */
+    int dump_count;
+    uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
+    double predicted_s; /* of the plans that ran */
+};
 
-    /* run.c */
-    uint32_t epoch; /* evaluations so far */
-    uint32_t mark;
+/* When something is evaluated, and calls that are foreseen. */
+struct run {
+    bool eager;
+    struct replay *replay;   /* NULL: nothing is noted */
+    int calls_noted;         /* and not performed yet */
+    int turns_in_row;        /* of loops that were foreseen, with nothing else in between */
+    int turns_between_looks; /* so many there were when somebody looked or did something else */
+    int looks_alike;         /* so often, one after the other, there were as many */
     uint64_t trace[TRACE_LENGTH]; /* the last stores, for finding the place in a loop */
     uint64_t trace_hash, trace_power, flush_hash;
     uint32_t trace_count;
@@ -362,11 +368,28 @@ struct machine {
     bool building; /* many turns are being performed, to be evaluated at once; it is worth it */
     uint64_t flush_place;             /* trace_hash where it became due */
     enum machine_status flush_status; /* of one that failed: said at the next store */
-    uint64_t kernels_in_place, kernels_in_strips, kernels_in_tiles;
-    double predicted_s; /* of the plans that ran */
-    uint64_t stores, stores_evaluated, flushes, plans_built, calls_foreseen;
-    double busy_s;
+    uint64_t stores, stores_evaluated, flushes, calls_foreseen;
 };
+
+/* One member a layer, each above those before it. */
+struct machine {
+    enum machine_status status;
+    char error[1024];
+    pthread_t owner;
+    struct settings settings;
+    struct watch *watch; /* NULL: nobody looks */
+    struct device *device;
+    struct values *values;
+    struct plans *plans;
+    struct memory *memory;
+    struct run *run;
+};
+
+/* Of a VP set that has an id. */
+static inline struct flags *flags_of(const struct machine *m, const struct vpset *s)
+{
+    return &m->memory->flags[s - m->values->sets];
+}
 
 /* machine.c */
 enum machine_status machine_fail(struct machine *m, enum machine_status status,
@@ -663,7 +686,7 @@ void replay_finish(struct machine *m);
 void replay_perform(struct machine *m);
 static inline void replay_settle(struct machine *m)
 {
-    if (m->calls_noted)
+    if (m->run->calls_noted)
         replay_perform(m);
 }
 /* Before the content of a field or flag changes, or a node that is kept. */

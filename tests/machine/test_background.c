@@ -127,7 +127,7 @@ static void turns(const struct sheet *s, int count)
 /* What is being compiled is there. */
 static void wait_for(const struct sheet *s)
 {
-    for (int i = 0; s->m->improving; i++) {
+    for (int i = 0; s->m->plans->improving; i++) {
         assert_true(i < 60000);
         usleep(1000);
         plans_see_to(s->m);
@@ -404,7 +404,7 @@ static void one_that_hangs_is_not_waited_for(void **state)
         usleep(1000);
     }
     turns(&s, 50);
-    assert_non_null(s.m->improving);
+    assert_non_null(s.m->plans->improving);
     assert_int_equal(stats(&s).kernels_built_background, 0);
     machine_destroy(s.m);
     no_children();
@@ -436,9 +436,9 @@ static void program_that_ends_soon_starts_none(void **state)
     (void)state;
     compiler_is_noted();
     begin(&s, &loops[0], "1");
-    for (int i = 0; i < 100 && !s.m->improving; i++)
+    for (int i = 0; i < 100 && !s.m->plans->improving; i++)
         turns(&s, 1);
-    assert_non_null(s.m->improving);
+    assert_non_null(s.m->plans->improving);
     machine_destroy(s.m);
     assert_int_equal(starts(), 0);
 }
@@ -679,7 +679,7 @@ int main(int argc, char **argv)
         return program(argv[1]);
     driver_cache_said();
     struct machine *m = support_machine(0);
-    bool pocl = m->device.is_pocl;
+    bool pocl = m->device->is_pocl;
     machine_destroy(m);
     if (!pocl) {
         puts("skipped: the device is not PoCL's");

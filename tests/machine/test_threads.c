@@ -93,7 +93,7 @@ static bool work(struct sheet *s, struct result *r)
     const struct machine_call call = {.words = {(uintptr_t)s}};
     for (int i = 0; i < TURNS; i++)
         turn_again(&call);
-    for (int i = 0; background && s->m->improving && i < 60000; i++) {
+    for (int i = 0; background && s->m->plans->improving && i < 60000; i++) {
         usleep(1000);
         plans_see_to(s->m);
     }

@@ -114,11 +114,11 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     setenv("LUTETIA_BOX_AFTER", "0", 1);
     struct machine *m = support_machine(0);
     unsetenv("LUTETIA_BOX_AFTER");
-    struct device_shape forced = m->device.shape;
-    m->device.shape = device_shape_gpu();
-    m->device.shape.group = forced.group;
-    m->device.shape.local_bytes = forced.local_bytes;
-    m->device.shape.units = 8;
+    struct device_shape forced = m->device->shape;
+    m->device->shape = device_shape_gpu();
+    m->device->shape.group = forced.group;
+    m->device->shape.local_bytes = forced.local_bytes;
+    m->device->shape.units = 8;
     sheet_agrees(m, 60, 40);
     machine_stats_get(m, &stats);
     assert_int_equal(stats.kernels_in_tiles, 1);
@@ -148,7 +148,7 @@ static void what_cannot_be_is_done_without(void **state)
         struct machine *m = support_machine(0);
         unsetenv("LUTETIA_TILE");
         if (group)
-            m->device.shape.group = 1 << 16;
+            m->device->shape.group = 1 << 16;
         sheet_agrees(m, 20, 37);
         machine_stats_get(m, &stats);
         assert_int_equal(stats.kernels_in_tiles, 0);

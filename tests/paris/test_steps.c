@@ -467,9 +467,9 @@ static void as_many_turns_as_can_be_are_one_kernel(void **state)
 static struct device_buffer *buffer_of(CM_field_id_t id)
 {
     const struct machine *m = paris_machine();
-    for (int i = 0; i < m->fields_count; i++)
-        if (m->fields[i]->base == id)
-            return m->fields[i]->slots[0].value->buffer;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        if (m->memory->fields[i]->base == id)
+            return m->memory->fields[i]->slots[0].value->buffer;
     return NULL;
 }
 

@@ -9,7 +9,7 @@
 static bool factor_of(const struct machine *m, struct field *alias, struct factor *out)
 {
     struct field *root = alias->root;
-    uint64_t ra = m->sets[root->vpset].ratio, rx = m->sets[alias->vpset].ratio;
+    uint64_t ra = m->values->sets[root->vpset].ratio, rx = m->values->sets[alias->vpset].ratio;
     const struct view *v = &alias->view;
     if (rx % ra == 0) {
         uint32_t k = (uint32_t)(rx / ra), stride = alias->bits ? alias->bits : 1;
@@ -126,14 +126,14 @@ static bool view_make(struct machine *m, uint32_t field, int vpset, struct field
     struct field *f = field_exact(m, info.base);
     offset = info.offset;
     *root = f->root ? f->root : f;
-    if (!view_divide(reshape_view(f), f->bits, offset, m->sets[f->vpset].ratio,
-                     m->sets[vpset].ratio, view, bits)) {
+    if (!view_divide(reshape_view(f), f->bits, offset, m->values->sets[f->vpset].ratio,
+                     m->values->sets[vpset].ratio, view, bits)) {
         machine_fail(
             m, MACHINE_BAD_ARGUMENT,
             "memory of a set of VP ratio %llu cannot be shared out among %llu VPs here: "
             "make the alias of the whole field",
-            (unsigned long long)m->sets[f->vpset].ratio,
-            (unsigned long long)m->sets[vpset].ratio);
+            (unsigned long long)m->values->sets[f->vpset].ratio,
+            (unsigned long long)m->values->sets[vpset].ratio);
         return false;
     }
     return true;

@@ -46,7 +46,7 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
 static struct machine_value *weave(struct machine *m, struct word *y, uint32_t count,
                                    int coarse, int fine, uint32_t k, struct machine_type type)
 {
-    const struct vpset *f = &m->sets[fine], *s = &m->sets[coarse];
+    const struct vpset *f = &m->values->sets[fine], *s = &m->values->sets[coarse];
     size_t element = type_bytes(type);
     struct device_buffer *out = NULL;
     enum machine_status status = MACHINE_OK;
@@ -210,7 +210,7 @@ static struct slot slot_of(const struct machine *m, uint32_t offset, struct mach
 {
     graph_ref(v);
     return (struct slot){
-        .value = v, .offset = offset, .bits = v->type.width, .epoch_created = m->epoch};
+        .value = v, .offset = offset, .bits = v->type.width, .epoch_created = m->values->epoch};
 }
 
 bool reshape_fine_from_coarse(struct machine *m, const struct factor *f)
@@ -288,7 +288,7 @@ bool reshape_coarse_from_fine(struct machine *m, const struct factor *f)
 
 static uint32_t image_words(const struct machine *m, const struct field *root)
 {
-    return (uint32_t)((m->sets[root->vpset].ratio * root->bits + 31) / 32);
+    return (uint32_t)((m->values->sets[root->vpset].ratio * root->bits + 31) / 32);
 }
 
 /* name: "put" or "get"; at: of the value's first bit in f. */
@@ -298,7 +298,7 @@ static enum machine_status image_pass(struct machine *m, const char *name,
                                       const struct device_buffer *from,
                                       const struct device_buffer *to)
 {
-    const struct vpset *s = &m->sets[f->vpset];
+    const struct vpset *s = &m->values->sets[f->vpset];
     struct view view = reshape_view(f);
     struct kernel_call c = reshape_call(m, type, name);
     call_set(&c, m, s);
@@ -329,7 +329,7 @@ static bool image_put(struct machine *m, const struct field *f, uint32_t words,
 static bool image_get(struct machine *m, struct field *f, uint32_t words,
                       const struct device_buffer *image)
 {
-    const struct vpset *s = &m->sets[f->vpset];
+    const struct vpset *s = &m->values->sets[f->vpset];
     field_slots_put(m, f, 0, f->bits, NULL, 0);
     for (uint32_t at = 0; at < f->bits; at += 64) {
         struct machine_type type = MACHINE_UINT(f->bits - at < 64 ? f->bits - at : 64);
@@ -348,7 +348,7 @@ bool reshape_through_image(struct machine *m, struct field *root, struct field *
                            struct field *to)
 {
     uint32_t words = image_words(m, root);
-    size_t bytes = (size_t)words * 4 * (size_t)m->processors_count;
+    size_t bytes = (size_t)words * 4 * (size_t)m->values->processors_count;
     struct device_buffer *image = device_buffer_get(m, bytes ? bytes : 4);
     cl_uint zero = 0;
     if (!image)

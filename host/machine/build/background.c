@@ -190,7 +190,7 @@ static void item_is_compiled(struct machine *m, struct background *b, double now
     struct item *item = &b->items[b->asked];
     item->compiled = true;
     if (item->mark)
-        cache_mark_write(&m->device, item->mark);
+        cache_mark_write(m->device, item->mark);
     if (m->watch)
         watch_background(m, b->heard_s, now, item->options);
     while (b->asked < b->count && b->items[b->asked].compiled)
@@ -247,18 +247,18 @@ static bool driver_keeps(const struct device *d)
 
 static struct background *background_of(struct machine *m)
 {
-    struct background *b = m->background;
-    if (!b && (b = m->background = calloc(1, sizeof *b))) {
+    struct background *b = m->plans->background;
+    if (!b && (b = m->plans->background = calloc(1, sizeof *b))) {
         b->owner = getpid();
         b->socket = -1;
-        b->lost = !driver_keeps(&m->device) || !compiler_find(b->path);
+        b->lost = !driver_keeps(m->device) || !compiler_find(b->path);
     }
     return b;
 }
 
 bool background_on(struct machine *m)
 {
-    if (!m->settings.background || !m->settings.box_after || m->eager)
+    if (!m->settings.background || !m->settings.box_after || m->run->eager)
         return false;
     struct background *b = background_of(m);
     return b && !b->lost && b->owner == getpid();
@@ -266,7 +266,7 @@ bool background_on(struct machine *m)
 
 bool background_busy(const struct machine *m)
 {
-    return m->background && m->background->begun;
+    return m->plans->background && m->plans->background->begun;
 }
 
 /* ---- batches ---- */
@@ -282,7 +282,7 @@ static void item_free(struct item *item)
 
 void background_drop(struct machine *m)
 {
-    struct background *b = m->background;
+    struct background *b = m->plans->background;
     if (!b)
         return;
     if (b->begun && b->asked < b->count)
@@ -301,7 +301,7 @@ void background_drop(struct machine *m)
 static char *mark_of(const struct machine *m, const struct background_wish *wish)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
-    char *key = device_kernel_key(&m->device, wish->parts, wish->options, wish->name);
+    char *key = device_kernel_key(m->device, wish->parts, wish->options, wish->name);
     size_t size = key ? strlen(key) + strlen(folder ? folder : "") + 40 : 0;
     char *mark = key ? malloc(size) : NULL;
     if (mark)
@@ -337,8 +337,7 @@ int background_want(struct machine *m, const struct background_wish *wish)
         item->kernel = device_kernel(m, wish->parts, wish->options, wish->name);
     else if (m->settings.keep)
         item->mark = mark_of(m, wish);
-    item->compiled =
-        item->kernel || (item->mark && cache_mark_is_there(&m->device, item->mark));
+    item->compiled = item->kernel || (item->mark && cache_mark_is_there(m->device, item->mark));
     return b->count++;
 }
 
@@ -382,24 +381,24 @@ static bool requests_add(struct background *b, const struct device *d, const str
 void background_foresee(struct machine *m, const struct background_wish *wish)
 {
     if (!background_on(m) || !m->settings.keep ||
-        m->device.units < 2) /* there is no processor to spare */
+        m->device->units < 2) /* there is no processor to spare */
         return;
-    struct background *b = m->background;
+    struct background *b = m->plans->background;
     child_reap(b, false);
     if (b->begun || b->socket >= 0)
         return;
     char *mark = mark_of(m, wish), text[100], *request = NULL;
-    if (!mark || cache_mark_is_there(&m->device, mark))
+    if (!mark || cache_mark_is_there(m->device, mark))
         goto done;
-    cache_mark_write(&m->device, mark);
+    cache_mark_write(m->device, mark);
     /* Known to PoCL as little as that is. */
     snprintf(text, sizeof text, "kernel void k(global int *a) {} /* %016llx */",
              (unsigned long long)cache_hash(CACHE_HASH_BEGIN, mark));
     const struct item item = {
         .options = "", .name = "k", .arguments = "m", .dimensions = 2, .widest = 1};
-    size_t bytes = request_write(NULL, &m->device, &item, text);
+    size_t bytes = request_write(NULL, m->device, &item, text);
     if ((request = malloc(bytes)) && compiler_start(b)) {
-        request_write(request, &m->device, &item, text);
+        request_write(request, m->device, &item, text);
         b->warming = send(b->socket, request, bytes, MSG_NOSIGNAL | MSG_DONTWAIT) ==
                      (ssize_t)bytes; /* it is little, and the first */
         b->idled = true;
@@ -412,10 +411,10 @@ done:
 
 bool background_begin(struct machine *m)
 {
-    struct background *b = m->background;
+    struct background *b = m->plans->background;
     bool good = b != NULL;
     for (int i = 0; good && i < b->count; i++)
-        good = b->items[i].compiled || requests_add(b, &m->device, &b->items[i]);
+        good = b->items[i].compiled || requests_add(b, m->device, &b->items[i]);
     if (!good) {
         background_drop(m);
         return false;
@@ -438,7 +437,7 @@ static enum background_state background_lose(struct background *b)
 
 enum background_state background_take(struct machine *m)
 {
-    struct background *b = m->background;
+    struct background *b = m->plans->background;
     double now = machine_clock_s();
     bool waits = false, loaded = false;
     if (now - b->looked_s < LOOK_EVERY_S)
@@ -452,11 +451,11 @@ enum background_state background_take(struct machine *m)
         waits |= !item->compiled || loaded;
         if (!item->compiled || loaded)
             continue;
-        uint64_t built = m->device.kernels_built;
+        uint64_t built = m->device->kernels_built;
         item->kernel = device_kernel(m, item->parts, item->options, item->name);
         if (!item->kernel)
             return background_lose(b);
-        m->device.kernels_built_background += m->device.kernels_built - built;
+        m->device->kernels_built_background += m->device->kernels_built - built;
         loaded = true;
     }
     b->looked_s = machine_clock_s();
@@ -465,17 +464,17 @@ enum background_state background_take(struct machine *m)
 
 cl_kernel background_kernel(const struct machine *m, int number)
 {
-    return m->background->items[number].kernel;
+    return m->plans->background->items[number].kernel;
 }
 
 void background_finish(struct machine *m)
 {
-    struct background *b = m->background;
+    struct background *b = m->plans->background;
     if (!b)
         return;
     background_drop(m);
     compiler_end(b);
     free(b->items);
     free(b);
-    m->background = NULL;
+    m->plans->background = NULL;
 }

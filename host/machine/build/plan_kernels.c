@@ -54,12 +54,12 @@ static void better_give_up(struct machine *m, struct plan *p)
 
 void plans_finish(struct machine *m)
 {
-    for (int i = 0; i < m->plans_size; i++)
-        for (struct plan *p = m->plans[i], *next; p; p = next) {
+    for (int i = 0; i < m->plans->table_size; i++)
+        for (struct plan *p = m->plans->table[i], *next; p; p = next) {
             next = p->next;
             plan_free(p);
         }
-    free(m->plans);
+    free(m->plans->table);
 }
 
 /* ---- a look inside ---- */
@@ -68,15 +68,15 @@ void plans_finish(struct machine *m)
 static FILE *dump_open(struct machine *m, int number, const char *suffix)
 {
     char path[600];
-    mkdir(m->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d%s", m->dump_dir, number, suffix);
+    mkdir(m->plans->dump_dir, 0777);
+    snprintf(path, sizeof path, "%s/%04d%s", m->plans->dump_dir, number, suffix);
     FILE *f = fopen(path, "w");
     if (!f) {
         fprintf(stderr,
                 "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
                 strerror(errno));
-        free(m->dump_dir);
-        m->dump_dir = NULL;
+        free(m->plans->dump_dir);
+        m->plans->dump_dir = NULL;
     }
     return f;
 }
@@ -134,7 +134,7 @@ static bool many_streams(const struct machine *m, const struct vpset *set,
     int arrays = 0;
     for (int i = 0; i < k->arguments_count; i++)
         arrays += k->arguments[i].kind == ARGUMENT_INPUT;
-    return m->device.is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
+    return m->device->is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
            (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
 }
 
@@ -207,8 +207,8 @@ static bool borders_want(struct machine *m)
 static bool plan_text(const struct machine *m, const struct plan_graph *g, const int *stores,
                       int count, struct kernel_text *k)
 {
-    const struct vpset *set = &m->sets[g->nodes[stores[0]].set];
-    const struct device_shape *shape = &m->device.shape;
+    const struct vpset *set = &m->values->sets[g->nodes[stores[0]].set];
+    const struct device_shape *shape = &m->device->shape;
     return !g->strips          ? emit_kernel(g, stores, count, set, shape, k)
            : shape->vector < 2 ? emit_tiles(g, stores, count, set, shape, k)
                                : emit_strips(g, stores, count, set, shape, k);
@@ -238,7 +238,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     }
     if (m->watch)
         watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
-    if (m->dump_dir) {
+    if (m->plans->dump_dir) {
         char said[sizeof k.options + 40];
         int n = snprintf(said, sizeof said, "%s", k.options);
         if (k.strip_bytes)
@@ -247,7 +247,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         if (k.group)
             snprintf(said + n, sizeof said - (size_t)n, ", tiles of %d x %d", k.tile_width,
                      k.tile_height);
-        dump_text(m, m->dump_count++, ".cl", said, k.text);
+        dump_text(m, m->plans->dump_count++, ".cl", said, k.text);
     }
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
@@ -258,9 +258,9 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
                                        k.math ? kernel_math_tables_cl : "",
                                        k.math ? kernel_math_cl : "",
                                        k.text};
-    if (many_streams(m, &m->sets[set], &k))
+    if (many_streams(m, &m->values->sets[set], &k))
         strcat(k.options, " -DAHEAD=128");
-    bool quick = p->quality == QUICK && !much_math(m, &k, &m->sets[set]) &&
+    bool quick = p->quality == QUICK && !much_math(m, &k, &m->values->sets[set]) &&
                  !device_kernel_at_hand(m, parts, k.options, "k");
     if (quick)
         strcat(k.options, " -cl-opt-disable");
@@ -269,14 +269,14 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     if (launches)
         p->launches = launches;
     if (launches && (p->later || quick))
-        number = kernel_want(m, &m->sets[set], &k, parts, p->later);
+        number = kernel_want(m, &m->values->sets[set], &k, parts, p->later);
     if (launches && !p->later)
         kernel = device_kernel(m, parts, k.options, "k");
-    if (kernel && k.group && !device_takes_group(&m->device, kernel, k.group))
+    if (kernel && k.group && !device_takes_group(m->device, kernel, k.group))
         kernel = NULL; /* plan_make() does without */
     p->could_be_optimised |= quick;
     p->could_be_boxed |= k.has_boxes && !g->boxes;
-    p->work += m->sets[set].count;
+    p->work += m->values->sets[set].count;
     if (!kernel && number < 0) {
         kernel_text_finish(&k);
         return false;
@@ -348,8 +348,9 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
         const struct plan_node *n = &g->nodes[stores[i]];
         if (g->strips && !n->target)
             continue;
-        p->arrays[p->stored_count] = (struct array){observe_rows(&m->sets[n->set], n->type),
-                                                    p->launches_count, p->launches_count};
+        p->arrays[p->stored_count] =
+            (struct array){observe_rows(&m->values->sets[n->set], n->type), p->launches_count,
+                           p->launches_count};
         p->stored[p->stored_count++] = stores[i];
     }
 }
@@ -375,13 +376,14 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
     for (int i = 0; i < g->count; i++)
         if (g->nodes[i].stored) {
             last = g->nodes[i].stage > last ? g->nodes[i].stage : last;
-            work =
-                m->sets[g->nodes[i].set].count > work ? m->sets[g->nodes[i].set].count : work;
+            work = m->values->sets[g->nodes[i].set].count > work
+                       ? m->values->sets[g->nodes[i].set].count
+                       : work;
         }
     if (p->quality == QUICK && work >= m->settings.optimise_after / 4)
         p->quality = OPTIMISED;
     for (int stage = g->strips ? -1 : 0; stage <= (g->strips ? -1 : last); stage++)
-        for (int set = 1; set < m->sets_count; set++) {
+        for (int set = 1; set < m->values->sets_count; set++) {
             int count = plan_stores(g, stage, set, stores);
             plan_arrays(m, p, g, stores, count);
             if (count && !plan_kernel(m, p, g, stores, count))
@@ -410,15 +412,15 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         g.boxes = quality == BOXED;
         g.no_strips = !*strips;
         double start = watch_clock(m);
-        plan_choose(&g, m->sets, &m->device.shape);
+        plan_choose(&g, m->values->sets, &m->device->shape);
         if (m->watch)
             watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
         p->could_be_strips = g.no_strips && g.turns_most > 1;
         *strips = g.strips;
         p->turns_most = g.turns_most;
         p->predicted_s = 1e-9 * g.cost_ns;
-        if (m->dump_dir)
-            dump_graph(m, m->dump_count, &g);
+        if (m->plans->dump_dir)
+            dump_graph(m, m->plans->dump_count, &g);
         good = plan_kernels(m, p, &g, stores) &&
                (!later || !plan_in_place_wanted(m, p) || borders_want(m));
     } else {
@@ -444,9 +446,9 @@ static bool is_one_kernel(const struct plan *p)
 static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
                               enum quality quality, bool later)
 {
-    bool strips = quality == BOXED || m->device.shape.always_strips;
+    bool strips = quality == BOXED || m->device->shape.always_strips;
     struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
-    if (m->rehearsing == REHEARSING_TURNS) {
+    if (m->plans->rehearsing == REHEARSING_TURNS) {
         if (p && !is_one_kernel(p)) {
             if (later)
                 notes_settle(m, p);
@@ -524,14 +526,14 @@ static void plan_improve(struct machine *m, struct plan *p, const struct reach *
 /* What is being compiled in the background is not wanted any more. */
 static void improvement_give_up(struct machine *m)
 {
-    better_give_up(m, m->improving);
+    better_give_up(m, m->plans->improving);
     background_drop(m);
-    m->improving = NULL;
+    m->plans->improving = NULL;
 }
 
 void plans_see_to(struct machine *m)
 {
-    struct plan *p = m->improving;
+    struct plan *p = m->plans->improving;
     enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
     if (state == BACKGROUND_WAITS)
         return;
@@ -557,7 +559,7 @@ static bool improvement_begin(struct machine *m, struct plan *p, const struct re
         return false;
     p->better = plan_make(m, r, t, quality, true);
     if (p->better && background_begin(m)) {
-        m->improving = p;
+        m->plans->improving = p;
         return true;
     }
     machine_error_clear(m);
@@ -601,12 +603,12 @@ bool plan_is_hopeless(const struct plan *p)
 
 bool plan_waits(const struct machine *m, const struct plan *p)
 {
-    return p == m->improving;
+    return p == m->plans->improving;
 }
 
 static struct plan *plan_find(const struct machine *m, const struct reach *r, uint64_t hash)
 {
-    struct plan *p = m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    struct plan *p = m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
     while (p && !(p->hash == hash && p->signature_length == r->length &&
                   !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
         p = p->next;
@@ -616,9 +618,9 @@ static struct plan *plan_find(const struct machine *m, const struct reach *r, ui
 /* It is known from now on. False: no memory, and it is no more. */
 static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
 {
-    struct plan **bucket = &m->plans[hash & (uint64_t)(m->plans_size - 1)];
+    struct plan **bucket = &m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
     size_t bytes = r->length * sizeof *r->signature;
-    m->plans_built++;
+    m->plans->built++;
     p->signature = malloc(bytes);
     if (!p->signature) {
         plan_free(p);
@@ -637,7 +639,7 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, 
 static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
                       const struct targets *t)
 {
-    if (m->improving == p)
+    if (m->plans->improving == p)
         improvement_give_up(m);
     struct plan *made = plan_make(m, r, t, BOXED, false);
     if (made)
@@ -658,25 +660,25 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struc
     if (!plan_keep(m, p, r, hash))
         return NULL;
     bool made = background_on(m) ? improvement_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
-    p->hopeless = !made && m->rehearsing == REHEARSING_TURNS;
+    p->hopeless = !made && m->plans->rehearsing == REHEARSING_TURNS;
     return p;
 }
 
 struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
 {
     uint64_t hash = machine_words_hash(r->signature, r->length);
-    if (!m->plans) {
-        m->plans_size = 1024;
-        m->plans = calloc((size_t)m->plans_size, sizeof *m->plans);
-        if (!m->plans) {
+    if (!m->plans->table) {
+        m->plans->table_size = 1024;
+        m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
+        if (!m->plans->table) {
             machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
             return NULL;
         }
     }
-    if (!m->rehearsing)
+    if (!m->plans->rehearsing)
         plans_see_to(m);
     struct plan *p = plan_find(m, r, hash);
-    if (m->rehearsing)
+    if (m->plans->rehearsing)
         return plan_rehearse(m, p, r, t, hash);
     if (p && p->empty)
         return plan_fill(m, p, r, t) ? p : NULL;
@@ -684,6 +686,6 @@ struct plan *plan_get(struct machine *m, const struct reach *r, const struct tar
         plan_improve(m, p, r, t);
     if (p)
         return p;
-    p = plan_make(m, r, t, m->building ? BOXED : quality_after(m, 0), false);
+    p = plan_make(m, r, t, m->run->building ? BOXED : quality_after(m, 0), false);
     return p && plan_keep(m, p, r, hash) ? p : NULL;
 }

@@ -8,7 +8,7 @@
 
 size_t plan_run_columns(const struct machine *m, int vector)
 {
-    size_t run = (size_t)m->device.shape.run_columns, lanes = (size_t)vector;
+    size_t run = (size_t)m->device->shape.run_columns, lanes = (size_t)vector;
     return (run + lanes - 1) / lanes * lanes;
 }
 
@@ -47,8 +47,8 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
 static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
                          size_t global[2], size_t *rows)
 {
-    size_t units = (size_t)m->device.units, most = (size_t)m->device.shape.strips_each * units,
-           height = (size_t)s->rows;
+    size_t units = (size_t)m->device->units,
+           most = (size_t)m->device->shape.strips_each * units, height = (size_t)s->rows;
     double soonest = HUGE_VAL;
     global[0] = (size_t)(s->width / l->strip_columns);
     global[0] = global[0] ? global[0] : 1;
@@ -74,7 +74,7 @@ static uint32_t take_places(const struct machine *m, const struct plan *p,
     uint32_t which = 0;
     if (!dies || !plan_in_place_wanted(m, p))
         return 0;
-    strips_count(m, l, &m->sets[l->set], global, &rows);
+    strips_count(m, l, &m->values->sets[l->set], global, &rows);
     for (int i = 0; i < l->in_place.pairs_count && global[0] == 1; i++) {
         int output = l->in_place.pairs[i].output, leaf = l->in_place.pairs[i].leaf;
         uint32_t bit = UINT32_C(1) << l->in_place.pairs[i].border;
@@ -92,7 +92,7 @@ static enum machine_status copy_borders(struct machine *m, const struct launch *
                                         const struct device_buffer *to,
                                         struct device_buffer *const *buffers)
 {
-    const struct vpset *s = &m->sets[l->set];
+    const struct vpset *s = &m->values->sets[l->set];
     const struct in_place *in = &l->in_place;
     struct kernel_call c = call_begin(m, kernel_borders_cl, "", "borders");
     uint64_t bytes = 0;
@@ -124,7 +124,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
                                   struct device_buffer *const *buffers,
                                   struct machine_value *const *nodes, uint32_t in_place)
 {
-    const struct vpset *s = &m->sets[l->set];
+    const struct vpset *s = &m->values->sets[l->set];
     struct device_buffer *scratch = NULL;
     size_t run = plan_run_columns(m, l->vector);
     size_t global[2] = {((size_t)s->width + run - 1) / run, (size_t)s->rows},
@@ -149,7 +149,7 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
             return status;
         }
     }
-    cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->processors_log2,
+    cl_int fixed[5] = {s->width, (cl_int)s->pitch, (cl_int)run, m->values->processors_log2,
                        (cl_int)s->ratio};
     cl_uint at = 0;
     cl_int error = CL_SUCCESS;
@@ -237,10 +237,10 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
         if (!status && fates)
             arrays_let_go(m, p, i, buffers, fates->kept);
     }
-    m->kernels_in_place += in_place && !status;
-    m->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
-    m->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;
-    m->predicted_s += status ? 0 : p->predicted_s;
+    m->plans->kernels_in_place += in_place && !status;
+    m->plans->kernels_in_strips += !status && p->launches_count && p->launches[0].strip_bytes;
+    m->plans->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;
+    m->plans->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
     device_flush(m);
     if (m->watch)

@@ -77,7 +77,7 @@ static inline void call_order(struct kernel_call *c, const struct machine *m,
 {
     call_uint(c, s->count);
     call_uint(c, s->ratio);
-    call_uint(c, (uint64_t)m->processors_log2);
+    call_uint(c, (uint64_t)m->values->processors_log2);
     call_uint(c, s->order == MACHINE_SEND_ORDER);
 }
 
@@ -130,7 +130,7 @@ static inline enum machine_status call_start_3d(struct kernel_call *c, struct ma
 /* Columns that a work-item of call_over() does; the kernel wants it as an argument. */
 static inline size_t call_run(const struct machine *m)
 {
-    return m->device.is_cpu ? CALL_RUN : 1;
+    return m->device->is_cpu ? CALL_RUN : 1;
 }
 
 /* A work-item for each run of columns of each row. */
@@ -144,14 +144,14 @@ static inline enum machine_status call_over(struct kernel_call *c, struct machin
 /* Physical processors that a work-item of call_processors() does. */
 static inline size_t call_processors_run(const struct machine *m)
 {
-    return m->device.is_cpu ? CALL_PROCESSORS_RUN : 1;
+    return m->device->is_cpu ? CALL_PROCESSORS_RUN : 1;
 }
 
 /* A work-item for each run of physical processors, times y. */
 static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
                                                   size_t y, const char *what)
 {
-    size_t run = call_processors_run(m), p = (size_t)m->processors_count;
+    size_t run = call_processors_run(m), p = (size_t)m->values->processors_count;
     return call_start(c, m, (p + run - 1) / run, y, what);
 }
 

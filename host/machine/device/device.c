@@ -69,7 +69,7 @@ enum machine_status device_check(struct machine *m, cl_int error, const char *wh
                   error == CL_INVALID_BUFFER_SIZE;
     return machine_fail(m, memory ? MACHINE_NO_MEMORY : MACHINE_DEVICE_FAILED,
                         "%s: %s (OpenCL error %d on %s)", what, error_name(error), error,
-                        m->device.name);
+                        m->device->name);
 }
 
 /* ---- choice ---- */
@@ -209,7 +209,7 @@ static enum machine_status no_device_on(struct machine *m, cl_platform_id platfo
 static enum machine_status choose_and_open(struct machine *m,
                                            const struct machine_config *config)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
     if (!all)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
@@ -265,7 +265,6 @@ static enum machine_status choose_and_open(struct machine *m,
     d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
     if (error)
         return device_check(m, error, "a context cannot be made");
-    m->device_open = true;
     const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
     d->queue = clCreateCommandQueueWithProperties(d->context, d->id,
                                                   m->watch ? profiling : NULL, &error);
@@ -304,15 +303,15 @@ static void pool_empty(struct device *d)
 
 double device_wait_begin(struct machine *m)
 {
-    m->inside++;
+    m->device->inside++;
     return machine_clock_s();
 }
 
 enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
                                     const char *what)
 {
-    m->inside--;
-    m->busy_s += machine_clock_s() - start;
+    m->device->inside--;
+    m->device->busy_s += machine_clock_s() - start;
     if (m->watch)
         watch_waited(m, start, what);
     return device_check(m, error, what);
@@ -321,11 +320,11 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
-    m->inside++;
+    m->device->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
-    cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, pattern, pattern_bytes, 0,
+    cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, pattern, pattern_bytes, 0,
                                        b->bytes, 0, NULL, done);
-    m->inside--;
+    m->device->inside--;
     if (done)
         watch_moves(m, error, "fill", b->bytes);
     return device_check(m, error, what);
@@ -334,11 +333,11 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
-    m->inside++;
+    m->device->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     cl_int error =
-        clEnqueueCopyBuffer(m->device.queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
-    m->inside--;
+        clEnqueueCopyBuffer(m->device->queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
+    m->device->inside--;
     if (done)
         watch_moves(m, error, "copy", 2 * bytes);
     return device_check(m, error, what);
@@ -346,9 +345,9 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
 
 void device_flush(struct machine *m)
 {
-    m->inside++;
-    clFlush(m->device.queue);
-    m->inside--;
+    m->device->inside++;
+    clFlush(m->device->queue);
+    m->device->inside--;
 }
 
 /* While better kernels are being built no more are put into the queue than keep the device busy: they would all be of
@@ -358,7 +357,7 @@ enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
 /* A fence is put behind so many kernels, and the one before it waited for. */
 enum machine_status device_pace(struct machine *m)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     uint64_t ahead = background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD;
     if (d->kernels_run - d->fence_kernels < ahead)
         return MACHINE_OK;
@@ -377,7 +376,7 @@ enum machine_status device_pace(struct machine *m)
 
 void device_close(struct machine *m)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     if (d->queue)
         clFinish(d->queue);
     if (d->fence)
@@ -458,7 +457,7 @@ bool device_rows_fit(const struct device_buffer *b, struct rows rows)
 
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     size_t bytes = rows.bytes;
     rows.first %= LINE_BYTES;
     for (int i = d->pool_count - 1; i >= 0; i--)
@@ -484,9 +483,9 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     cl_int error = CL_OUT_OF_HOST_MEMORY;
     cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     if (error && d->pool_count) {
-        m->inside++;
+        m->device->inside++;
         clFinish(d->queue);
-        m->inside--;
+        m->device->inside--;
         pool_empty(d);
         parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     }
@@ -522,7 +521,7 @@ void device_buffer_ref(struct device_buffer *b)
 
 void device_buffer_unref(struct machine *m, struct device_buffer *b)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     if (--b->refs)
         return;
     d->held_bytes -= b->bytes;
@@ -590,7 +589,7 @@ static cl_program build_without_header(const struct device *d,
 static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *own_options, const char *key)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     char options[DEVICE_OPTIONS_BYTES];
     double start = watch_clock(m);
     size_t size = 0;
@@ -688,8 +687,8 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
                                   const char *what)
 {
     static const size_t one[3] = {1, 1, 1};
-    struct device *d = &m->device;
-    m->inside++;
+    struct device *d = m->device;
+    m->device->inside++;
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
     if (!error)
@@ -709,7 +708,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
                 watch_span(m, WATCH_BUILD_FIRST, start, NULL);
             break;
         }
-    m->inside--;
+    m->device->inside--;
     return device_check(m, error, what);
 }
 
@@ -724,9 +723,9 @@ bool device_takes_group(const struct device *d, cl_kernel kernel, int items)
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name)
 {
-    char *key = device_kernel_key(&m->device, parts, options, name);
-    bool found = key && (program_find(&m->device, key) ||
-                         (m->device.keeps_programs && cache_program_is_there(&m->device, key)));
+    char *key = device_kernel_key(m->device, parts, options, name);
+    bool found = key && (program_find(m->device, key) ||
+                         (m->device->keeps_programs && cache_program_is_there(m->device, key)));
     free(key);
     return found;
 }
@@ -734,7 +733,7 @@ bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PAR
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     char *key = device_kernel_key(d, parts, options, name);
     if (!key) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
@@ -747,10 +746,10 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
     }
     struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    m->inside++;
+    m->device->inside++;
     if (entry && (entry->program = build(m, parts, options, key)))
         entry->kernel = clCreateKernel(entry->program, name, &error);
-    m->inside--;
+    m->device->inside--;
     if (entry && entry->program) {
         if (!error) {
             entry->key = key;

@@ -46,7 +46,7 @@ struct machine_tuning machine_tuning_usual(void)
 
 struct machine_tuning machine_tuning_get(const struct machine *m)
 {
-    const struct device_shape *shape = &m->device.shape;
+    const struct device_shape *shape = &m->device->shape;
     return (struct machine_tuning){{[MACHINE_VECTOR] = shape->vector,
                                     [MACHINE_RUN] = shape->run_columns,
                                     [MACHINE_STREAMS] = shape->streams,
@@ -188,7 +188,7 @@ static enum machine_tuned file_read(const struct device *d, struct machine_tunin
 
 void tuning_apply(struct machine *m, const struct machine_config *config)
 {
-    struct device *d = &m->device;
+    struct device *d = m->device;
     struct machine_tuning tuning = machine_tuning_usual();
     char text[800];
     if (config->tuning)
@@ -209,8 +209,8 @@ enum machine_tuned machine_tuning_describe(const struct machine *m, char *out, s
 {
     char path[600], why[160];
     struct machine_tuning tuning;
-    enum machine_tuned tuned = file_read(&m->device, &tuning, why, sizeof why);
-    if (!file_path(path, sizeof path, &m->device))
+    enum machine_tuned tuned = file_read(m->device, &tuning, why, sizeof why);
+    if (!file_path(path, sizeof path, m->device))
         snprintf(out, size, "not tuned; there is no cache folder to keep a tuning in");
     else if (tuned == MACHINE_UNTUNED)
         snprintf(out, size, "not tuned; `lutetia tune` measures what suits the device");
@@ -239,7 +239,7 @@ enum machine_status machine_tuning_keep(struct machine *m, const struct machine_
         if (!machine_knob_allows((enum machine_knob)k, tuning->of[k]))
             return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is %d)", names[k],
                                 settings_knob_may_be((enum machine_knob)k), tuning->of[k]);
-    if (!machine_cache_folder(folder, &why) || why || !file_path(path, sizeof path, &m->device))
+    if (!machine_cache_folder(folder, &why) || why || !file_path(path, sizeof path, m->device))
         return machine_fail(
             m, MACHINE_BAD_ARGUMENT,
             "there is no folder to keep a tuning in (%s): set XDG_CACHE_HOME, or "
@@ -247,7 +247,7 @@ enum machine_status machine_tuning_keep(struct machine *m, const struct machine_
             why ? why : "none can be made");
     bool done = output_file_open(&out, path);
     if (done) {
-        file_write(out.stream, &m->device, tuning);
+        file_write(out.stream, m->device, tuning);
         done = output_file_commit(&out);
     }
     return done ? MACHINE_OK

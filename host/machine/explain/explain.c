@@ -70,7 +70,8 @@ void explain_call(struct explain *e, const char *name, int foreseen, double time
 void watch_released(struct machine *m, const struct machine_value *v)
 {
     struct explain *e = watch_sums(m);
-    if (m->silent || v->told || v->buffer || v->op == NODE_CONSTANT || v->op == NODE_SLICE)
+    if (m->plans->silent || v->told || v->buffer || v->op == NODE_CONSTANT ||
+        v->op == NODE_SLICE)
         return;
     e->facts.values_vanished++;
     e->vanished[v->op]++;
@@ -79,7 +80,7 @@ void watch_released(struct machine *m, const struct machine_value *v)
 void watch_overwritten(struct machine *m, const struct machine_value *old,
                        const struct machine_value *new)
 {
-    if (!m->silent && old != new && !node_is_leaf(old) && !node_is_cheap(old))
+    if (!m->plans->silent && old != new && !node_is_leaf(old) && !node_is_cheap(old))
         watch_sums(m)->overwritten++;
 }
 
@@ -145,15 +146,15 @@ static void where_of(const struct machine *m, const struct machine_value *v, cha
 {
     static const char *const flags[] = {"context", "test", "overflow"};
     *out = '\0';
-    for (int i = 1; i < m->sets_count; i++)
-        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
-            if (m->sets[i].flags[flag].value == v)
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (m->memory->flags[i].of[flag].value == v)
                 snprintf(out, size, "%s of VP set %d", flags[flag], i);
-    for (int i = 0; i < m->fields_count && !*out; i++)
-        for (int k = 0; k < m->fields[i]->slots_count && !*out; k++)
-            if (m->fields[i]->slots[k].value == v)
+    for (int i = 0; i < m->memory->fields_count && !*out; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count && !*out; k++)
+            if (m->memory->fields[i]->slots[k].value == v)
                 snprintf(out, size, "field %u",
-                         m->fields[i]->base + m->fields[i]->slots[k].offset);
+                         m->memory->fields[i]->base + m->memory->fields[i]->slots[k].offset);
 }
 
 /* What was done last, under whatever context. */
@@ -255,7 +256,7 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
     struct explain *e = watch_sums(m);
     int set = g->nodes[stores[0]].set;
     struct kernel_note *n = /* one that is not there yet is like no other */
-        explain_note(e, kernel, kernel ? NULL : "", set, m->sets[set].count);
+        explain_note(e, kernel, kernel ? NULL : "", set, m->values->sets[set].count);
     bool split = e->parts > 0;
     e->parts -= split;
     if (!n || n->facts.generated)
@@ -296,9 +297,9 @@ struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
     f->tile_height = k->tile_height;
     f->split = split;
     /* A lane by itself takes the time of a whole vector, and so do many narrow ones. */
-    double lanes = (double)m->device.shape.vector / k->vector;
+    double lanes = (double)m->device->shape.vector / k->vector;
     f->operations_s =
-        1e-9 * m->device.shape.op_ns * k->cost * lanes * (double)m->sets[set].count;
+        1e-9 * m->device->shape.op_ns * k->cost * lanes * (double)m->values->sets[set].count;
     take_arguments(f, g, k);
     return n;
 }
@@ -325,7 +326,7 @@ void explain_ready(struct machine *m, struct explain *e)
 {
     struct watch *watch = m->watch;
     m->watch = NULL; /* none of this is the program's */
-    m->inside++;
+    m->device->inside++;
     for (int streams = 0; streams < 2; streams++) {
         char options[64];
         size_t one = 1;
@@ -333,20 +334,20 @@ void explain_ready(struct machine *m, struct explain *e)
         cl_uint run = 1;
         struct device_buffer *b = device_buffer_get(m, 64);
         snprintf(options, sizeof options, "-DELEMENT=float%d -DSTREAMS=%d",
-                 m->device.is_cpu ? 16 : 4, streams);
+                 m->device->is_cpu ? 16 : 4, streams);
         cl_kernel k = b ? device_library_kernel(m, kernel_copy_cl, options, "copy") : NULL;
         if (k && !clSetKernelArg(k, 0, sizeof count, &count) &&
             !clSetKernelArg(k, 1, sizeof run, &run) &&
             !clSetKernelArg(k, 2, sizeof b->mem, &b->mem) &&
             !clSetKernelArg(k, 3, sizeof b->mem, &b->mem) &&
-            !clEnqueueNDRangeKernel(m->device.queue, k, 1, NULL, &one,
-                                    m->device.is_cpu ? &one : NULL, 0, NULL, NULL) &&
-            !clFinish(m->device.queue))
+            !clEnqueueNDRangeKernel(m->device->queue, k, 1, NULL, &one,
+                                    m->device->is_cpu ? &one : NULL, 0, NULL, NULL) &&
+            !clFinish(m->device->queue))
             e->copies[streams] = k;
         if (b)
             device_buffer_unref(m, b);
     }
-    m->inside--;
+    m->device->inside--;
     m->watch = watch;
     machine_error_clear(m); /* then there is nothing to compare with */
 }
@@ -378,8 +379,8 @@ static double copies_s(struct machine *m, cl_kernel kernel, size_t elements, siz
          i <= COPIES_MOST && count < COPIES_MOST && (count < COPIES_LEAST || sum < COPIES_S);
          i++) {
         cl_event done = NULL;
-        if (clEnqueueNDRangeKernel(m->device.queue, kernel, 1, NULL, &global,
-                                   m->device.is_cpu ? &one : NULL, 0, NULL, &done))
+        if (clEnqueueNDRangeKernel(m->device->queue, kernel, 1, NULL, &global,
+                                   m->device->is_cpu ? &one : NULL, 0, NULL, &done))
             return 0;
         cl_int error = clWaitForEvents(1, &done);
         double t = error ? 0 : event_s(done);
@@ -397,7 +398,7 @@ static double copies_s(struct machine *m, cl_kernel kernel, size_t elements, siz
 /* The time to read half of so many bytes and write the other half; 0: it cannot be told. */
 static double copy_s(struct machine *m, const cl_kernel *kernels, uint64_t bytes)
 {
-    bool cpu = m->device.is_cpu;
+    bool cpu = m->device->is_cpu;
     size_t element = cpu ? 64 : 16, elements = (size_t)(bytes / 2 + element - 1) / element;
     size_t run = cpu ? COPY_RUN : 1;
     struct device_buffer *from = device_buffer_get(m, elements * element),
@@ -428,7 +429,7 @@ static void measure(struct machine *m, struct explain *e)
     enum machine_status status = m->status;
     f->copy_bytes = 0;
     f->copy_bytes_per_s = 0;
-    m->inside++;
+    m->device->inside++;
     for (int i = 0; i < f->kernels_count && i < MEASURED_MOST; i++) {
         struct machine_explained_kernel *k = &e->kernels[i];
         uint64_t bytes = k->runs ? k->bytes / k->runs : 0;
@@ -444,7 +445,7 @@ static void measure(struct machine *m, struct explain *e)
             f->copy_bytes_per_s = (double)bytes / k->copy_s;
         }
     }
-    m->inside--;
+    m->device->inside--;
     if (!status) /* no memory for a copy is nobody's failure */
         machine_error_clear(m);
 }
@@ -500,7 +501,7 @@ static void gather_rows(const struct machine *m, struct explain *e)
         if (e->vanished[i])
             add(f->vanished, &f->vanished_count, node_ops[i].name, e->vanished[i]);
     qsort(f->vanished, (size_t)f->vanished_count, sizeof *f->vanished, by_count);
-    const struct vanished *v = &m->vanished;
+    const struct vanished *v = &m->values->vanished;
     add(f->reasons, &f->reasons_count, "field or flag overwritten before it was in memory",
         e->overwritten);
     add(f->reasons, &f->reasons_count, "overwritten where the same context holds",
@@ -527,17 +528,18 @@ static void gather_rows(const struct machine *m, struct explain *e)
 const struct machine_explained *machine_explain(struct machine *m, bool wish_measured)
 {
     struct explain *e = watch_explain(m);
-    if (!e || !m->device.queue || m->inside || !pthread_equal(m->owner, pthread_self()))
+    if (!e || !m->device->queue || m->device->inside ||
+        !pthread_equal(m->owner, pthread_self()))
         return NULL;
     watch_settle(m);
     struct machine_explained *f = &e->facts;
     if (!gather_kernels(e))
         return NULL;
-    f->device = m->device.name;
-    f->processors_count = m->processors_count;
+    f->device = m->device->name;
+    f->processors_count = m->values->processors_count;
     f->calls = e->calls;
-    f->stores = m->stores;
-    f->plans_built = m->plans_built;
+    f->stores = m->run->stores;
+    f->plans_built = m->plans->built;
     gather_rows(m, e);
     if (wish_measured)
         measure(m, e);

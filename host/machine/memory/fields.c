@@ -17,10 +17,10 @@
 /* The first field whose base is above id. */
 static int fields_above(const struct machine *m, uint32_t id)
 {
-    int low = 0, high = m->fields_count;
+    int low = 0, high = m->memory->fields_count;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (m->fields[middle]->base <= id)
+        if (m->memory->fields[middle]->base <= id)
             low = middle + 1;
         else
             high = middle;
@@ -39,7 +39,7 @@ void field_unlink_alias(struct field *alias)
 /* An alias leaves what it holds to its root; with a root its aliases go. */
 static void field_release(struct machine *m, int index)
 {
-    struct field *f = m->fields[index];
+    struct field *f = m->memory->fields[index];
     if (f->root) {
         if (f->root->newest == f)
             reshape_settle(m, f->root);
@@ -54,18 +54,18 @@ static void field_release(struct machine *m, int index)
         graph_unref(m, f->slots[i].value);
     free(f->slots);
     free(f);
-    m->fields_count--;
-    memmove(&m->fields[index], &m->fields[index + 1],
-            (size_t)(m->fields_count - index) * sizeof *m->fields);
+    m->memory->fields_count--;
+    memmove(&m->memory->fields[index], &m->memory->fields[index + 1],
+            (size_t)(m->memory->fields_count - index) * sizeof *m->memory->fields);
 }
 
 void fields_finish(struct machine *m)
 {
-    for (int i = 0; i < m->fields_count; i++)
-        m->fields[i]->newest = NULL; /* nobody is going to look */
-    while (m->fields_count)
-        field_release(m, m->fields_count - 1);
-    free(m->fields);
+    for (int i = 0; i < m->memory->fields_count; i++)
+        m->memory->fields[i]->newest = NULL; /* nobody is going to look */
+    while (m->memory->fields_count)
+        field_release(m, m->memory->fields_count - 1);
+    free(m->memory->fields);
 }
 
 /* Where a new field of that many bits goes: on from the last one, and round once the space is
@@ -75,18 +75,20 @@ static uint32_t find_room(struct machine *m, uint32_t bits)
     uint32_t room =
         (bits + 128) / 64 * 64; /* a gap between fields: an id never runs into the next one */
     for (int round = 0; round < 2; round++) {
-        uint32_t base = m->field_next_base;
+        uint32_t base = m->memory->next_base;
         for (int i = fields_above(m, base); base <= ID_SPACE - room; i++) {
-            if (i > 0 && m->fields[i - 1]->base + m->fields[i - 1]->bits >= base)
-                base = (m->fields[i - 1]->base + m->fields[i - 1]->bits + 128) / 64 * 64;
+            if (i > 0 &&
+                m->memory->fields[i - 1]->base + m->memory->fields[i - 1]->bits >= base)
+                base = (m->memory->fields[i - 1]->base + m->memory->fields[i - 1]->bits + 128) /
+                       64 * 64;
             if (base > ID_SPACE - room)
                 break;
-            if (i >= m->fields_count || m->fields[i]->base >= base + room) {
-                m->field_next_base = base + room;
+            if (i >= m->memory->fields_count || m->memory->fields[i]->base >= base + room) {
+                m->memory->next_base = base + room;
                 return base;
             }
         }
-        m->field_next_base = 64;
+        m->memory->next_base = 64;
     }
     return MACHINE_NO_FIELD;
 }
@@ -103,12 +105,12 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
     }
     uint32_t base = find_room(m, bits);
     struct field *f = base ? calloc(1, sizeof *f) : NULL;
-    if (f && m->fields_count == m->fields_capacity) {
-        int capacity = m->fields_capacity ? 2 * m->fields_capacity : 64;
-        struct field **fields = realloc(m->fields, (size_t)capacity * sizeof *fields);
+    if (f && m->memory->fields_count == m->memory->fields_capacity) {
+        int capacity = m->memory->fields_capacity ? 2 * m->memory->fields_capacity : 64;
+        struct field **fields = realloc(m->memory->fields, (size_t)capacity * sizeof *fields);
         if (fields) {
-            m->fields = fields;
-            m->fields_capacity = capacity;
+            m->memory->fields = fields;
+            m->memory->fields_capacity = capacity;
         } else {
             free(f);
             f = NULL;
@@ -123,38 +125,38 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
                         .bits = bits,
                         .vpset = vpset,
                         .region = region,
-                        .serial = m->field_serial++};
+                        .serial = m->memory->serial++};
     int at = fields_above(m, base);
-    memmove(&m->fields[at + 1], &m->fields[at],
-            (size_t)(m->fields_count - at) * sizeof *m->fields);
-    m->fields[at] = f;
-    m->fields_count++;
+    memmove(&m->memory->fields[at + 1], &m->memory->fields[at],
+            (size_t)(m->memory->fields_count - at) * sizeof *m->memory->fields);
+    m->memory->fields[at] = f;
+    m->memory->fields_count++;
     return base;
 }
 
 struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
 {
-    int i = m->field_last;
-    if (!(i < m->fields_count && m->fields[i]->base <= id &&
-          id - m->fields[i]->base < m->fields[i]->bits))
+    int i = m->memory->last_found;
+    if (!(i < m->memory->fields_count && m->memory->fields[i]->base <= id &&
+          id - m->memory->fields[i]->base < m->memory->fields[i]->bits))
         i = fields_above(m, id) - 1;
-    if (i < 0 || id - m->fields[i]->base >= m->fields[i]->bits) {
+    if (i < 0 || id - m->memory->fields[i]->base >= m->memory->fields[i]->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", id);
         return NULL;
     }
-    m->field_last = i;
-    *offset = id - m->fields[i]->base;
-    return m->fields[i];
+    m->memory->last_found = i;
+    *offset = id - m->memory->fields[i]->base;
+    return m->memory->fields[i];
 }
 
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out)
 {
     int i = fields_above(m, field) - 1;
-    if (i < 0 || (field - m->fields[i]->base >= m->fields[i]->bits &&
-                  (m->fields[i]->bits || field != m->fields[i]->base)))
+    if (i < 0 || (field - m->memory->fields[i]->base >= m->memory->fields[i]->bits &&
+                  (m->memory->fields[i]->bits || field != m->memory->fields[i]->base)))
         return false;
-    const struct field *f = m->fields[i];
+    const struct field *f = m->memory->fields[i];
     *out = (struct machine_field_info){.base = f->base,
                                        .bits = f->bits,
                                        .offset = field - f->base,
@@ -166,7 +168,7 @@ bool machine_field_lookup(const struct machine *m, uint32_t field,
 struct field *field_exact(struct machine *m, uint32_t id)
 {
     int i = fields_above(m, id) - 1;
-    return i >= 0 && m->fields[i]->base == id ? m->fields[i] : NULL;
+    return i >= 0 && m->memory->fields[i]->base == id ? m->memory->fields[i] : NULL;
 }
 
 bool field_room(const struct machine *m, const struct field *f, uint32_t bits)
@@ -174,8 +176,8 @@ bool field_room(const struct machine *m, const struct field *f, uint32_t bits)
     int i = fields_above(m, f->base);
     uint32_t end = f->base + (bits + 128) / 64 * 64;
     return bits <= ID_SPACE / 4 && end <= ID_SPACE &&
-           (i >= m->fields_count || end <= m->fields[i]->base) &&
-           (end <= m->field_next_base || f->base >= m->field_next_base);
+           (i >= m->memory->fields_count || end <= m->memory->fields[i]->base) &&
+           (end <= m->memory->next_base || f->base >= m->memory->next_base);
 }
 
 void field_destroy(struct machine *m, struct field *f)
@@ -186,8 +188,8 @@ void field_destroy(struct machine *m, struct field *f)
 static int exact_index(struct machine *m, uint32_t id, enum machine_region region)
 {
     int i = fields_above(m, id) - 1;
-    if (i >= 0 && m->fields[i]->base == id && m->fields[i]->region == region &&
-        !m->fields[i]->root)
+    if (i >= 0 && m->memory->fields[i]->base == id && m->memory->fields[i]->region == region &&
+        !m->memory->fields[i]->root)
         return i;
     machine_fail(m, MACHINE_BAD_ARGUMENT, "%u is not a field on the %s (any more)", id,
                  region == MACHINE_STACK ? "stack" : "heap");
@@ -210,10 +212,10 @@ enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t
     if (first < 0)
         return m->status;
     replay_forget(m);
-    uint64_t serial = m->fields[first]->serial;
-    for (int i = m->fields_count - 1; i >= 0; i--)
-        if (i < m->fields_count && m->fields[i]->region == MACHINE_STACK &&
-            !m->fields[i]->root && m->fields[i]->serial >= serial)
+    uint64_t serial = m->memory->fields[first]->serial;
+    for (int i = m->memory->fields_count - 1; i >= 0; i--)
+        if (i < m->memory->fields_count && m->memory->fields[i]->region == MACHINE_STACK &&
+            !m->memory->fields[i]->root && m->memory->fields[i]->serial >= serial)
             field_release(m, i);
     return MACHINE_OK;
 }
@@ -253,10 +255,10 @@ static int slot_at(const struct field *f, uint32_t offset)
 static void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
 {
     loops_slot_accessed(m, slot, overwrites);
-    if (slot->epoch_accessed == m->epoch)
+    if (slot->epoch_accessed == m->values->epoch)
         return;
-    slot->epoch_accessed = m->epoch;
-    slot->overwritten_first = overwrites && slot->epoch_created != m->epoch;
+    slot->epoch_accessed = m->values->epoch;
+    slot->overwritten_first = overwrites && slot->epoch_created != m->values->epoch;
 }
 
 static struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits)
@@ -317,7 +319,8 @@ static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t off
     int i = slot_at(f, offset);
     memmove(&f->slots[i + 1], &f->slots[i], (size_t)(f->slots_count - i) * sizeof *f->slots);
     f->slots_count++;
-    f->slots[i] = (struct slot){.offset = offset, .bits = bits, .epoch_created = m->epoch};
+    f->slots[i] =
+        (struct slot){.offset = offset, .bits = bits, .epoch_created = m->values->epoch};
     loops_slot_accessed(m, &f->slots[i], false);
     return &f->slots[i];
 }
@@ -426,8 +429,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
          i < f->slots_count && f->slots[i].offset < offset + type.width; i++)
         slot_accessed(m, &f->slots[i], false);
     struct machine_value *v = field_content(m, f, offset, type.width);
-    if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->set_current)
-        v = simplify_under(m, v, m->sets[f->vpset].flags[MACHINE_CONTEXT].value, 12);
+    if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->values->set_current)
+        v = simplify_under(m, v, m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value, 12);
     v = machine_reinterpret(m, v, type);
     return v ? graph_borrow(m, v) : NULL; /* a part of the content may outlive it */
 }
@@ -457,7 +460,7 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
     if (slot)
         slot_accessed(m, slot, true);
     if (scope == MACHINE_WHERE_ACTIVE) {
-        struct machine_value *context = m->sets[f->vpset].flags[MACHINE_CONTEXT].value;
+        struct machine_value *context = m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value;
         struct machine_value *old = field_content(m, f, offset, value->type.width);
         old = machine_reinterpret(m, old, value->type);
         value = old ? machine_select(m, context, value, old) : NULL;
@@ -485,15 +488,15 @@ void flag_overflow_clear(struct machine *m, struct lazy_overflow *o)
 /* Nobody has looked at it. */
 static void overflow_forget(struct machine *m, struct vpset *s)
 {
-    m->vanished.overflows += s->overflow.op != 0;
-    flag_overflow_clear(m, &s->overflow);
+    m->values->vanished.overflows += flags_of(m, s)->overflow.op != 0;
+    flag_overflow_clear(m, &flags_of(m, s)->overflow);
 }
 
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag)
 {
-    struct lazy_overflow *o = &s->overflow;
+    struct lazy_overflow *o = &flags_of(m, s)->overflow;
     if (flag == MACHINE_OVERFLOW && o->op) {
-        struct slot *slot = &s->flags[MACHINE_OVERFLOW];
+        struct slot *slot = &flags_of(m, s)->of[MACHINE_OVERFLOW];
         struct machine_value *new =
             o->op == NODE_SELECT ? o->a : node_overflow(m, (enum node_op)o->op, o->a, o->b);
         struct machine_value *all =
@@ -502,20 +505,20 @@ struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum mac
             slot_set(m, slot, all);
         flag_overflow_clear(m, o);
     }
-    return s->flags[flag].value;
+    return flags_of(m, s)->of[flag].value;
 }
 
 struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag,
                                          enum machine_scope scope)
 {
     replay_settle(m);
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!s)
         return NULL;
-    slot_accessed(m, &s->flags[flag], false);
+    slot_accessed(m, &flags_of(m, s)->of[flag], false);
     struct machine_value *v = graph_borrow(m, flag_resolved(m, s, flag));
     if (scope == MACHINE_WHERE_ACTIVE && flag != MACHINE_CONTEXT)
-        v = simplify_under(m, v, s->flags[MACHINE_CONTEXT].value, 12);
+        v = simplify_under(m, v, flags_of(m, s)->of[MACHINE_CONTEXT].value, 12);
     return v ? graph_borrow(m, v) : NULL;
 }
 
@@ -523,7 +526,7 @@ static bool flag_suits(struct machine *m, const struct machine_value *value)
 {
     if (!type_equal(value->type, MACHINE_BIT))
         machine_fail(m, MACHINE_BAD_ARGUMENT, "a flag is one bit");
-    else if (value->set && value->set != m->set_current)
+    else if (value->set && value->set != m->values->set_current)
         machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
     else
         return true;
@@ -534,12 +537,12 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
                                        struct machine_value *value, enum machine_scope scope)
 {
     replay_settle(m);
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s)
         return m->status;
     if (!flag_suits(m, value))
         return m->status;
-    struct slot *slot = &s->flags[flag];
+    struct slot *slot = &flags_of(m, s)->of[flag];
     slot_accessed(m, slot, true);
     if (flag == MACHINE_OVERFLOW) {
         if (scope == MACHINE_WHERE_ACTIVE)
@@ -548,7 +551,8 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
             overflow_forget(m, s);
     }
     if (scope == MACHINE_WHERE_ACTIVE)
-        value = machine_select(m, s->flags[MACHINE_CONTEXT].value, value, slot->value);
+        value =
+            machine_select(m, flags_of(m, s)->of[MACHINE_CONTEXT].value, value, slot->value);
     if (!value)
         return m->status;
     slot_set(m, slot, value);
@@ -584,16 +588,16 @@ static void overflow_remember(struct machine *m, struct vpset *s, int node,
 {
     replay_settle(m);
     replay_changes(m);
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
-    if (s->overflow.op && s->overflow.context != context)
+    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
+    if (flags_of(m, s)->overflow.op && flags_of(m, s)->overflow.context != context)
         flag_resolved(m, s, MACHINE_OVERFLOW);
-    slot_accessed(m, &s->flags[MACHINE_OVERFLOW], true);
+    slot_accessed(m, &flags_of(m, s)->of[MACHINE_OVERFLOW], true);
     graph_ref(a);
     if (b)
         graph_ref(b);
     graph_ref(context);
     overflow_forget(m, s);
-    s->overflow =
+    flags_of(m, s)->overflow =
         (struct lazy_overflow){.op = (uint8_t)node, .a = a, .b = b, .context = context};
 }
 
@@ -601,11 +605,12 @@ enum machine_status machine_overflow_record(struct machine *m, enum machine_op o
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     int node = overflow_op(op, is_signed);
     if (!s || !a || !node || (node_ops[node].inputs == 2 && !b))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "this operation has no overflow");
-    if ((a->set && a->set != m->set_current) || (b && b->set && b->set != m->set_current))
+    if ((a->set && a->set != m->values->set_current) ||
+        (b && b->set && b->set != m->values->set_current))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
     if (op == MACHINE_NEG && !is_signed) { /* 0 - a */
         b = a;
@@ -620,7 +625,7 @@ enum machine_status machine_overflow_record_result(struct machine *m,
                                                    struct machine_value *result,
                                                    struct machine_value *operand)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!s || !result || !operand)
         return m->status;
     if (result->type.kind != MACHINE_FLOAT || !type_equal(result->type, operand->type))
@@ -632,7 +637,7 @@ enum machine_status machine_overflow_record_result(struct machine *m,
 enum machine_status machine_overflow_record_value(struct machine *m,
                                                   struct machine_value *overflows)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!s || !overflows)
         return m->status;
     if (!flag_suits(m, overflows))

@@ -9,8 +9,8 @@
 
 struct vpset *vpset_get(struct machine *m, int vpset)
 {
-    if (vpset > 0 && vpset < m->sets_count && m->sets[vpset].used)
-        return &m->sets[vpset];
+    if (vpset > 0 && vpset < m->values->sets_count && m->values->sets[vpset].used)
+        return &m->values->sets[vpset];
     machine_fail(m, MACHINE_BAD_ARGUMENT,
                  vpset ? "there is no VP set %d" : "there is no current VP set (%d)", vpset);
     return NULL;
@@ -32,14 +32,31 @@ static void vpset_lay_out(const struct machine *m, struct vpset *s, const int *d
         s->count *= (uint64_t)dimensions[i];
     s->width = dimensions[rank - 1];
     s->rows = s->count / (uint64_t)s->width;
-    s->ratio = (s->count + (uint64_t)m->processors_count - 1) / (uint64_t)m->processors_count;
-    const struct device_shape *shape = &m->device.shape;
+    s->ratio = (s->count + (uint64_t)m->values->processors_count - 1) /
+               (uint64_t)m->values->processors_count;
+    const struct device_shape *shape = &m->device->shape;
     s->halo = s->width >= shape->vector ? shape->halo : 0;
     s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
     size_t whole =
         s->width < LINE_BYTES ? 16 : LINE_BYTES; /* of bytes, too, rows begin lines */
     if (s->halo)
         s->pitch = (s->pitch + whole - 1) / whole * whole;
+}
+
+/* Room for so many, with that of id 0, which is none. False: no memory. */
+static bool vpsets_grow(struct machine *m, int count)
+{
+    int had = m->values->sets_count > 1 ? m->values->sets_count : 0;
+    struct vpset *sets = realloc(m->values->sets, (size_t)count * sizeof *sets);
+    m->values->sets = sets ? sets : m->values->sets;
+    struct flags *flags = realloc(m->memory->flags, (size_t)count * sizeof *flags);
+    m->memory->flags = flags ? flags : m->memory->flags;
+    if (!sets || !flags)
+        return false;
+    memset(&sets[had], 0, (size_t)(count - had) * sizeof *sets);
+    memset(&flags[had], 0, (size_t)(count - had) * sizeof *flags);
+    m->values->sets_count = count;
+    return true;
 }
 
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
@@ -65,42 +82,36 @@ int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int r
     }
     replay_settle(m);
     int id = 1;
-    while (id < m->sets_count && m->sets[id].used)
+    while (id < m->values->sets_count && m->values->sets[id].used)
         id++;
     if (id > UINT16_MAX) {
         machine_fail(m, MACHINE_NO_MEMORY, "there are too many VP sets");
         return 0;
     }
-    if (id >= m->sets_count) {
-        struct vpset *sets = realloc(m->sets, (size_t)(id + 1) * sizeof *sets);
-        if (!sets) {
+    if (id >= m->values->sets_count) {
+        if (!vpsets_grow(m, id + 1)) {
             machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another VP set");
             return 0;
         }
-        m->sets = sets;
-        memset(&m->sets[id], 0, sizeof *m->sets);
-        if (id == 1)
-            memset(&m->sets[0], 0, sizeof *m->sets);
-        m->sets_count = id + 1;
     }
-    struct vpset *s = &m->sets[id];
-    *s = (struct vpset){.generation = (uint16_t)(s->generation + 1)};
-    s->used = true;
+    struct vpset *s = &m->values->sets[id];
+    *s = (struct vpset){.used = true, .generation = (uint16_t)(s->generation + 1)};
+    *flags_of(m, s) = (struct flags){.overflow = {.op = 0}};
     vpset_lay_out(m, s, dimensions, rank, order);
     for (int flag = 0; flag < 3; flag++) {
-        s->flags[flag] = (struct slot){.bits = 1, .epoch_created = m->epoch};
+        flags_of(m, s)->of[flag] = (struct slot){.bits = 1, .epoch_created = m->values->epoch};
         struct machine_value *one = machine_constant(
             m, MACHINE_BIT, (struct machine_scalar){flag == MACHINE_CONTEXT, 0});
-        slot_set(m, &s->flags[flag], one);
+        slot_set(m, &flags_of(m, s)->of[flag], one);
     }
     return id;
 }
 
 static void vpset_release(struct machine *m, struct vpset *s)
 {
-    flag_overflow_clear(m, &s->overflow);
+    flag_overflow_clear(m, &flags_of(m, s)->overflow);
     for (int flag = 0; flag < 3; flag++)
-        graph_unref(m, s->flags[flag].value);
+        graph_unref(m, flags_of(m, s)->of[flag].value);
     s->used = false;
 }
 
@@ -111,24 +122,25 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
         return m->status;
     machine_begin(m);
     replay_forget(m);
-    for (int i = m->fields_count - 1; i >= 0; i--)
-        if (i < m->fields_count && m->fields[i]->vpset == vpset)
-            field_destroy(m, m->fields[i]);
+    for (int i = m->memory->fields_count - 1; i >= 0; i--)
+        if (i < m->memory->fields_count && m->memory->fields[i]->vpset == vpset)
+            field_destroy(m, m->memory->fields[i]);
     machine_begin(m);
     if (!reshape_forget_set(m, vpset))
         return m->status;
     vpset_release(m, s);
-    if (m->set_current == vpset)
-        m->set_current = 0;
+    if (m->values->set_current == vpset)
+        m->values->set_current = 0;
     return MACHINE_OK;
 }
 
 void vpsets_finish(struct machine *m)
 {
-    for (int i = 1; i < m->sets_count; i++)
-        if (m->sets[i].used)
-            vpset_release(m, &m->sets[i]);
-    free(m->sets);
+    for (int i = 1; i < m->values->sets_count; i++)
+        if (m->values->sets[i].used)
+            vpset_release(m, &m->values->sets[i]);
+    free(m->values->sets);
+    free(m->memory->flags);
 }
 
 /* Every value of the set in memory, as numbers of the new layout. False: error set. */
@@ -162,8 +174,10 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
     replay_forget(m);
     flag_resolved(m, s, MACHINE_OVERFLOW);
     size_t slots_count = 3;
-    for (int i = 0; i < m->fields_count; i++)
-        slots_count += m->fields[i]->vpset == vpset ? (size_t)m->fields[i]->slots_count : 0;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        slots_count += m->memory->fields[i]->vpset == vpset
+                           ? (size_t)m->memory->fields[i]->slots_count
+                           : 0;
     struct vpset to = *s;
     vpset_lay_out(m, &to, dimensions, rank, order);
     struct machine_value **fresh = calloc(slots_count, sizeof *fresh);
@@ -171,20 +185,19 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");
     int done = 0;
     bool good = run_evaluate(m, NULL, 0, true) == MACHINE_OK && reshape_forget_set(m, vpset) &&
-                slots_lay_out(m, s->flags, 3, vpset, &to, fresh, &done);
-    for (int i = 0; i < m->fields_count && good; i++)
-        if (m->fields[i]->vpset == vpset)
-            good = slots_lay_out(m, m->fields[i]->slots, m->fields[i]->slots_count, vpset, &to,
-                                 fresh, &done);
+                slots_lay_out(m, flags_of(m, s)->of, 3, vpset, &to, fresh, &done);
+    for (int i = 0; i < m->memory->fields_count && good; i++)
+        if (m->memory->fields[i]->vpset == vpset)
+            good = slots_lay_out(m, m->memory->fields[i]->slots,
+                                 m->memory->fields[i]->slots_count, vpset, &to, fresh, &done);
     done = 0;
     for (int flag = 0; flag < 3 && good; flag++)
-        slot_set(m, &s->flags[flag], fresh[done++]);
-    for (int i = 0; i < m->fields_count && good; i++)
-        for (int k = 0; m->fields[i]->vpset == vpset && k < m->fields[i]->slots_count; k++)
-            slot_set(m, &m->fields[i]->slots[k], fresh[done++]);
+        slot_set(m, &flags_of(m, s)->of[flag], fresh[done++]);
+    for (int i = 0; i < m->memory->fields_count && good; i++)
+        for (int k = 0;
+             m->memory->fields[i]->vpset == vpset && k < m->memory->fields[i]->slots_count; k++)
+            slot_set(m, &m->memory->fields[i]->slots[k], fresh[done++]);
     if (good) {
-        for (int flag = 0; flag < 3; flag++)
-            to.flags[flag] = s->flags[flag];
         to.generation++;
         *s = to;
     }
@@ -197,18 +210,20 @@ enum machine_status machine_vpset_select(struct machine *m, int vpset)
 {
     if (!vpset_get(m, vpset))
         return m->status;
-    m->set_current = vpset;
+    m->values->set_current = vpset;
     return MACHINE_OK;
 }
 
 int machine_vpset_current(const struct machine *m)
 {
-    return m->set_current;
+    return m->values->set_current;
 }
 
 static const struct vpset *peek(const struct machine *m, int vpset)
 {
-    return vpset > 0 && vpset < m->sets_count && m->sets[vpset].used ? &m->sets[vpset] : NULL;
+    return vpset > 0 && vpset < m->values->sets_count && m->values->sets[vpset].used
+               ? &m->values->sets[vpset]
+               : NULL;
 }
 
 int machine_vpset_rank(const struct machine *m, int vpset)
@@ -244,7 +259,7 @@ enum machine_order machine_vpset_order(const struct machine *m, int vpset)
 int machine_address_bits(const struct machine *m, int vpset)
 {
     const struct vpset *s = peek(m, vpset);
-    uint64_t addresses = s ? (uint64_t)m->processors_count * s->ratio : 1;
+    uint64_t addresses = s ? (uint64_t)m->values->processors_count * s->ratio : 1;
     int bits = 1;
     while (bits < 63 && UINT64_C(1) << bits < addresses)
         bits++;
@@ -254,7 +269,7 @@ int machine_address_bits(const struct machine *m, int vpset)
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
 {
     const struct vpset *s = peek(m, vpset);
-    uint64_t processors = (uint64_t)m->processors_count;
+    uint64_t processors = (uint64_t)m->values->processors_count;
     if (s && s->order == MACHINE_SEND_ORDER)
         return index;
     return s ? index % processors * s->ratio + index / processors : 0;
@@ -268,6 +283,7 @@ uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address
     uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
     uint64_t index = s->order == MACHINE_SEND_ORDER
                          ? send_address
-                         : which * (uint64_t)m->processors_count + processor;
-    return processor < (uint64_t)m->processors_count && index < s->count ? index : UINT64_MAX;
+                         : which * (uint64_t)m->values->processors_count + processor;
+    return processor < (uint64_t)m->values->processors_count && index < s->count ? index
+                                                                                 : UINT64_MAX;
 }

@@ -48,7 +48,7 @@ static bool has_strange_nan(struct machine_type type, const void *in, uint64_t c
 static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type,
                                           const void *in)
 {
-    const struct vpset *s = &m->sets[set];
+    const struct vpset *s = &m->values->sets[set];
     size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
     unsigned char *image = calloc(1, bytes);
     struct device_buffer *b = image ? device_rows_get(m, observe_rows(s, type)) : NULL;
@@ -68,7 +68,7 @@ static struct machine_value *upload_value(struct machine *m, int set, struct mac
     }
     double start = device_wait_begin(m);
     cl_int error =
-        clEnqueueWriteBuffer(m->device.queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, bytes);
     free(image);
@@ -93,7 +93,8 @@ struct machine_value *observe_materialise(struct machine *m, int set, struct mac
     if (v->op == NODE_CONSTANT && !v->buffer) {
         size_t element = type_bytes(v->type);
         unsigned char pattern[16];
-        struct device_buffer *b = device_rows_get(m, observe_rows(&m->sets[set], v->type));
+        struct device_buffer *b =
+            device_rows_get(m, observe_rows(&m->values->sets[set], v->type));
         if (!b)
             return NULL;
         put_scalar(pattern, v->imm, element);
@@ -134,7 +135,7 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
         f ? machine_field_value(m, field, type, MACHINE_EVERYWHERE) : NULL;
     if (!v)
         return m->status;
-    const struct vpset *s = &m->sets[f->vpset];
+    const struct vpset *s = &m->values->sets[f->vpset];
     size_t element = type_bytes(type);
     if (v->op == NODE_CONSTANT && !v->buffer) {
         for (uint64_t i = 0; i < s->count; i++)
@@ -148,11 +149,11 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
     double start = device_wait_begin(m);
     cl_int error = s->pitch == (size_t)s->width
-                       ? clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE, 0,
+                       ? clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE, 0,
                                              s->count * element, out, 0, NULL, NULL)
-                       : clEnqueueReadBufferRect(m->device.queue, v->buffer->mem, CL_TRUE, from,
-                                                 to, region, s->pitch * element, 0, region[0],
-                                                 0, out, 0, NULL, NULL);
+                       : clEnqueueReadBufferRect(m->device->queue, v->buffer->mem, CL_TRUE,
+                                                 from, to, region, s->pitch * element, 0,
+                                                 region[0], 0, out, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, s->count * element);
     return device_wait_end(m, error, start, "reading a field");
@@ -180,13 +181,13 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field,
     struct field *f = part(m, field, type, &offset);
     if (!f)
         return m->status;
-    size_t bytes = m->sets[f->vpset].count * type_bytes(type);
+    size_t bytes = m->values->sets[f->vpset].count * type_bytes(type);
     void *copy = malloc(bytes);
     if (!copy)
         return machine_fail(m, MACHINE_NO_MEMORY,
                             "not enough memory to write a field of %zu bytes", bytes);
     memcpy(copy, in, bytes);
-    mask_elements(copy, m->sets[f->vpset].count, type);
+    mask_elements(copy, m->values->sets[f->vpset].count, type);
     struct machine_value *v = upload_value(m, f->vpset, type, copy);
     free(copy);
     return v ? machine_field_store(m, field, v, MACHINE_EVERYWHERE) : m->status;
@@ -200,7 +201,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
     struct field *f = part(m, field, type, &offset);
     if (!f)
         return m->status;
-    if (index >= m->sets[f->vpset].count)
+    if (index >= m->values->sets[f->vpset].count)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
@@ -217,9 +218,9 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
     double start = device_wait_begin(m);
-    cl_int error = clEnqueueReadBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
-                                       place(&m->sets[f->vpset], index) * element, element, raw,
-                                       0, NULL, NULL);
+    cl_int error = clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
+                                       place(&m->values->sets[f->vpset], index) * element,
+                                       element, raw, 0, NULL, NULL);
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
     if (m->watch)
@@ -230,7 +231,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 /* A buffer of the same content that nobody else looks at. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
-    struct rows rows = observe_rows(&m->sets[set], v->type);
+    struct rows rows = observe_rows(&m->values->sets[set], v->type);
     struct device_buffer *b = device_rows_get(m, rows);
     if (!b)
         return NULL;
@@ -253,7 +254,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     struct field *f = part(m, field, type, &offset);
     if (!f)
         return m->status;
-    const struct vpset *s = &m->sets[f->vpset];
+    const struct vpset *s = &m->values->sets[f->vpset];
     if (index >= s->count)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
@@ -265,8 +266,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
      * this call. */
     uint32_t held = 0;
     bool strange = v->strange_nan || has_strange_nan(type, &value.lo, 1);
-    for (int i = 0; i < m->borrowed_count; i++)
-        held += m->borrowed[i] == v;
+    for (int i = 0; i < m->values->borrowed_count; i++)
+        held += m->values->borrowed[i] == v;
     if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
         v = own_copy(m, f->vpset, v);
     if (!v)
@@ -285,7 +286,7 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     double start = device_wait_begin(m);
     cl_int error = CL_SUCCESS;
     for (int i = 0; i < count && !error; i++)
-        error = clEnqueueWriteBuffer(m->device.queue, v->buffer->mem, CL_TRUE,
+        error = clEnqueueWriteBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
                                      places[i] * element, element, raw, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, element);
@@ -425,7 +426,7 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
     double start = device_wait_begin(m);
     enum machine_status status = call_start(&c, m, runs, s->rows, "reducing");
     cl_int error = status ? CL_SUCCESS
-                          : clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+                          : clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, 0,
                                                 count * element, raw, 0, NULL, NULL);
     if (m->watch)
         watch_bytes(m, count * element);
@@ -454,14 +455,14 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
 enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
                                    struct machine_value *value, struct machine_scalar *out)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s)
         return m->status;
     if ((unsigned)op >= sizeof reductions / sizeof *reductions ||
         reductions[op].is_float != (value->type.kind == MACHINE_FLOAT))
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "this reduction does not take values of this type");
-    if (value->set && value->set != m->set_current)
+    if (value->set && value->set != m->values->set_current)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "the value belongs to another VP set");
     const struct reduction_info *info = &reductions[op];
     struct machine_type type = value->type;
@@ -470,9 +471,9 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     if (info->is_signed) /* in another order: the sign bit turned over */
         value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
     struct machine_value *none = machine_constant(m, type, identity);
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     value = value && none ? machine_select(m, context, value, none) : NULL;
-    value = value ? observe_materialise(m, m->set_current, value) : NULL;
+    value = value ? observe_materialise(m, m->values->set_current, value) : NULL;
     if (!value || reduce_buffer(m, s, value, info->op, identity, out))
         return m->status;
     if (info->is_signed) {

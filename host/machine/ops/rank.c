@@ -67,8 +67,8 @@ static int bits_of(int x)
 static bool words_of(struct machine *m, const struct machine_scan *how,
                      struct machine_value *key, struct words *w)
 {
-    const struct vpset *s = &m->sets[m->set_current];
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    const struct vpset *s = &m->values->sets[m->values->set_current];
+    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     int length = s->dimensions[how->axis];
     struct machine_value *inactive = machine_unary(m, MACHINE_NOT, context);
     if (!key || !inactive)
@@ -107,12 +107,12 @@ static struct sort sort_of(const struct machine *m, const struct vpset *s, int a
 {
     struct sort t = {.lines = lines_of(s, axis, false), .set = s, .chunks = 1};
     int length = t.lines.length;
-    t.digit = length <= SHORT ? 4 : length < LONG || !m->device.is_cpu ? 8 : 11;
+    t.digit = length <= SHORT ? 4 : length < LONG || !m->device->is_cpu ? 8 : 11;
     t.chunk = length;
-    if (!m->device.is_cpu && length > CHUNK_GPU) {
+    if (!m->device->is_cpu && length > CHUNK_GPU) {
         t.chunk = CHUNK_GPU;
-    } else if (m->device.is_cpu && length >= LONG) {
-        int wanted = 2 * m->device.units;
+    } else if (m->device->is_cpu && length >= LONG) {
+        int wanted = 2 * m->device->units;
         t.chunk = (length - 1) / wanted + 1;
     }
     t.chunks = (length - 1) / t.chunk + 1;
@@ -123,7 +123,7 @@ static struct kernel_call sort_part(struct machine *m, int number)
 {
     char options[64];
     snprintf(options, sizeof options, "-DPART=%d -DDIGIT=%d", number,
-             m->device.is_cpu ? 11 : 8);
+             m->device->is_cpu ? 11 : 8);
     return call_begin(m, kernel_sort_cl, options, "sort");
 }
 
@@ -184,16 +184,16 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
                                    enum machine_segments segments, struct machine_value *bits,
                                    struct machine_value *value)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     struct machine_scan how = {.axis = axis, .segments = segments, .bits = bits};
     bool segmented = segments != MACHINE_UNSEGMENTED;
     struct words w = {.count = 0};
     if (!value || !s || (segmented && !bits) ||
         !scan_arguments_good(m, s, axis, value, segmented ? bits : NULL) ||
         !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
-        !values_materialise(m, m->set_current, w.values, w.count))
+        !values_materialise(m, m->values->set_current, w.values, w.count))
         return NULL;
-    s = &m->sets[m->set_current];
+    s = &m->values->sets[m->values->set_current];
     struct sort t = sort_of(m, s, axis);
     size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
     struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
@@ -211,5 +211,6 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
     if (status && t.ranks)
         device_buffer_unref(m, t.ranks);
     device_flush(m);
-    return status ? NULL : graph_buffer_node(m, MACHINE_UINT(32), m->set_current, t.ranks);
+    return status ? NULL
+                  : graph_buffer_node(m, MACHINE_UINT(32), m->values->set_current, t.ranks);
 }

@@ -38,9 +38,11 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         source = source->in[0];
     while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
         other = other->in[0];
-    g->from_set = m->set_current;
+    g->from_set = m->values->set_current;
     g->to_set = to_set;
-    g->context = under_context ? m->sets[m->set_current].flags[MACHINE_CONTEXT].value : NULL;
+    g->context = under_context
+                     ? m->memory->flags[m->values->set_current].of[MACHINE_CONTEXT].value
+                     : NULL;
     struct machine_value *wanted[4];
     int count = 0;
     struct machine_value *const all[4] = {address, source, other, g->context};
@@ -61,8 +63,8 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         g->context = g->address; /* something to pass */
     else
         g->context = observe_materialise(m, g->from_set, g->context);
-    g->from = &m->sets[g->from_set];
-    g->to = &m->sets[to_set];
+    g->from = &m->values->sets[g->from_set];
+    g->to = &m->values->sets[to_set];
     g->flat = g->from->rows == 1 && g->to->rows == 1 &&
               (g->to->order == MACHINE_SEND_ORDER || g->to->ratio == 1);
     int bits = machine_address_bits(m, to_set), width = address->type.width;
@@ -101,7 +103,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
         return NULL;
     address_options(options, sizeof options, g, NULL);
     enum machine_status status = claims ? zero_fill(m, b) : MACHINE_OK;
-    for (uint64_t pass = claims && !m->device.is_cpu; pass < (claims ? 2 : 1) && !status;
+    for (uint64_t pass = claims && !m->device->is_cpu; pass < (claims ? 2 : 1) && !status;
          pass++) {
         struct kernel_call c = call_begin(m, kernel_router_cl, options, name);
         call_layout(&c, g->from);
@@ -166,7 +168,7 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
 /* Work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
-    size_t count = m->device.is_cpu ? (size_t)m->device.units : GPU_SHARES;
+    size_t count = m->device->is_cpu ? (size_t)m->device->units : GPU_SHARES;
     return count < to->count ? count : (size_t)to->count;
 }
 
@@ -174,7 +176,7 @@ static bool scatters(const struct machine *m)
 {
     if (m->settings.scatter != SETTING_FREE)
         return m->settings.scatter;
-    return m->device.is_cpu && m->device.units <= SCATTER_UNITS;
+    return m->device->is_cpu && m->device->units <= SCATTER_UNITS;
 }
 
 /* out already holds the old dest. */
@@ -235,7 +237,7 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     call_uint(&c, g->from->count);
     call_uint(&c, share);
     call_uint(&c, notifies);
-    call_uint(&c, m->device.is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
+    call_uint(&c, m->device->is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
     call_scalar(&c, scalar_sign(type.width));
     call_scalar(&c, scalar_ones(type.width));
     call_buffer(&c, to);
@@ -311,11 +313,11 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
 
 static bool address_good(struct machine *m, const struct machine_value *address)
 {
-    if (!vpset_get(m, m->set_current))
+    if (!vpset_get(m, m->values->set_current))
         return false;
     if (address->type.kind != MACHINE_BITS)
         machine_fail(m, MACHINE_BAD_ARGUMENT, "a send address is bits");
-    else if (address->set && address->set != m->set_current)
+    else if (address->set && address->set != m->values->set_current)
         machine_fail(m, MACHINE_BAD_ARGUMENT, "the addresses belong to another VP set");
     else
         return true;
@@ -343,7 +345,7 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     if (!combiner_fits(combiner, source->type))
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "this combination does not take values of this type");
-    if (source->set && source->set != m->set_current)
+    if (source->set && source->set != m->values->set_current)
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "the messages belong to another VP set");
     if (!machine_field_lookup(m, dest, &to))
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", dest);
@@ -355,7 +357,7 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     struct machine_value *notification = NULL, *out = NULL;
     if (!old)
         return m->status;
-    if (message_make(m, &g, send_address, source, m->set_current, old, to.vpset, true,
+    if (message_make(m, &g, send_address, source, m->values->set_current, old, to.vpset, true,
                      combiner != MACHINE_COMBINE_OVERWRITE))
         out = transmit(m, &g, combiner, notify != 0, &notification);
     if (!out)
@@ -422,14 +424,14 @@ enum machine_status machine_addresses_check(struct machine *m,
     struct message g = {0};
     bool made = message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false);
     struct device_buffer *b = made ? addresses_pass(m, &g, "route") : NULL;
-    size_t count = (size_t)m->sets[m->set_current].count;
+    size_t count = (size_t)m->values->sets[m->values->set_current].count;
     cl_uint *to = b ? malloc(count * sizeof *to) : NULL;
     enum machine_status status = b ? MACHINE_OK : m->status;
     if (b && !to)
         status = machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to check addresses");
     if (!status) {
         double start = device_wait_begin(m);
-        cl_int error = clEnqueueReadBuffer(m->device.queue, b->mem, CL_TRUE, 0,
+        cl_int error = clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, 0,
                                            count * sizeof *to, to, 0, NULL, NULL);
         status = device_wait_end(m, error, start, "checking addresses");
     }

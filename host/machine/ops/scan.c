@@ -46,7 +46,7 @@ bool values_materialise(struct machine *m, int set, struct machine_value **value
 
 static struct device_buffer *buffer_for(struct machine *m, const struct element *e)
 {
-    const struct vpset *s = &m->sets[m->set_current];
+    const struct vpset *s = &m->values->sets[m->values->set_current];
     return device_rows_get(m, observe_rows(s, MACHINE_UINT(8 * (int)e->bytes)));
 }
 
@@ -103,9 +103,9 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
 {
     if (e->kind == 1)
         return RUN_FLOATS;
-    if (!m->device.is_cpu)
+    if (!m->device->is_cpu)
         return RUN_GPU;
-    int runs = 4 * m->device.units, run = (l->length - 1) / runs + 1;
+    int runs = 4 * m->device->units, run = (l->length - 1) / runs + 1;
     return run < RUN_LEAST ? RUN_LEAST : run;
 }
 
@@ -234,7 +234,7 @@ static enum machine_status fill_lines(struct machine *m, const struct lines *l,
                                            : e->bytes == 8 ? UINT64
                                                            : UINT128];
     struct line_scan j = {.element = same, .out = out, .sums = from};
-    int run = m->device.is_cpu ? 1 << 16 : RUN_GPU, runs = (l->length - 1) / run + 1;
+    int run = m->device->is_cpu ? 1 << 16 : RUN_GPU, runs = (l->length - 1) / run + 1;
     return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
 }
 
@@ -396,8 +396,8 @@ bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
     const char *what = NULL;
     if (axis < 0 || axis >= s->rank)
         what = "there is no such axis";
-    else if ((value->set && value->set != m->set_current) ||
-             (bits && bits->set && bits->set != m->set_current))
+    else if ((value->set && value->set != m->values->set_current) ||
+             (bits && bits->set && bits->set != m->values->set_current))
         what = "the value belongs to another VP set";
     else if (bits && !type_equal(bits->type, MACHINE_BIT))
         what = "segments begin at bits";
@@ -413,19 +413,19 @@ static bool is_constant(const struct machine_value *v, uint64_t bits)
 
 struct machine_value *scan_boundaries(struct machine *m, const struct machine_scan *how)
 {
-    const struct vpset *s = &m->sets[m->set_current];
+    const struct vpset *s = &m->values->sets[m->values->set_current];
     struct machine_value *bits = how->bits;
     if (how->segments == MACHINE_UNSEGMENTED || !bits)
         return NULL;
     if (how->segments == MACHINE_START_BIT)
-        return machine_binary(m, MACHINE_AND, bits, s->flags[MACHINE_CONTEXT].value);
+        return machine_binary(m, MACHINE_AND, bits, flags_of(m, s)->of[MACHINE_CONTEXT].value);
     return bits;
 }
 
 struct machine_value *scan_where(struct machine *m, const struct machine_scan *how,
                                  struct machine_value *value, struct machine_value *context)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     bool segmented = how->segments != MACHINE_UNSEGMENTED;
     if (!value || !context || !s || (segmented && !how->bits))
         return NULL;
@@ -440,9 +440,9 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         values[masked = count++] = context;
     if (segmented && !is_constant(how->bits, 0))
         values[bits = count++] = how->bits;
-    if (!values[0] || !values_materialise(m, m->set_current, values, count))
+    if (!values[0] || !values_materialise(m, m->values->set_current, values, count))
         return NULL;
-    s = &m->sets[m->set_current];
+    s = &m->values->sets[m->values->set_current];
     struct device_buffer *out = buffer_for(m, f.element);
     if (!out)
         return NULL;
@@ -464,14 +464,14 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         device_buffer_unref(m, out);
         return NULL;
     }
-    return shown(m, &f, m->set_current, out);
+    return shown(m, &f, m->values->set_current, out);
 }
 
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
-    return s ? scan_where(m, how, value, s->flags[MACHINE_CONTEXT].value) : NULL;
+    struct vpset *s = vpset_get(m, m->values->set_current);
+    return s ? scan_where(m, how, value, flags_of(m, s)->of[MACHINE_CONTEXT].value) : NULL;
 }
 
 /* ---- spreads ---- */
@@ -479,7 +479,7 @@ struct machine_value *machine_scan(struct machine *m, const struct machine_scan 
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
                                      struct machine_value *value)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s || !scan_arguments_good(m, s, 0, value, NULL))
         return NULL;
     if (s->rank < 32 && axes >> s->rank)
@@ -489,12 +489,12 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
     if (!axes)
         return value;
     struct form f;
-    struct machine_value *context = s->flags[MACHINE_CONTEXT].value;
+    struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     struct machine_value *values[2] = {formed(m, op, value, &f), context};
     bool masked = !is_constant(context, 1);
-    if (!values[0] || !values_materialise(m, m->set_current, values, 1 + masked))
+    if (!values[0] || !values_materialise(m, m->values->set_current, values, 1 + masked))
         return NULL;
-    s = &m->sets[m->set_current];
+    s = &m->values->sets[m->values->set_current];
     struct device_buffer *out = values[0]->buffer;
     device_buffer_ref(out);
     for (int axis = s->rank - 1; axis >= 0; axis--) {
@@ -527,7 +527,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
         }
     }
     device_flush(m);
-    return shown(m, &f, m->set_current, out);
+    return shown(m, &f, m->values->set_current, out);
 }
 
 /* The lines are filled with elements of the value itself. */
@@ -536,7 +536,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
 {
     struct form f;
     struct machine_value *v = formed(m, MACHINE_SCAN_COPY, value, &f);
-    if (!v || !values_materialise(m, m->set_current, &v, 1))
+    if (!v || !values_materialise(m, m->values->set_current, &v, 1))
         return NULL;
     struct device_buffer *out = buffer_for(m, f.element);
     if (!out)
@@ -546,13 +546,13 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
         return NULL;
     }
     device_flush(m);
-    return shown(m, &f, m->set_current, out);
+    return shown(m, &f, m->values->set_current, out);
 }
 
 struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int coordinate,
                                                 struct machine_value *value)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s || !scan_arguments_good(m, s, axis, value, NULL))
         return NULL;
     if (coordinate < 0 || coordinate >= s->dimensions[axis])
@@ -566,7 +566,7 @@ struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
                                            struct machine_value *value)
 {
-    struct vpset *s = vpset_get(m, m->set_current);
+    struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s || !scan_arguments_good(m, s, 0, value, NULL))
         return NULL;
     if (index >= s->count)

@@ -34,7 +34,7 @@ static void loop_forget(struct history *h)
 
 void loops_call(struct machine *m, const struct machine_call *call)
 {
-    struct history *h = &m->replay->history;
+    struct history *h = &m->run->replay->history;
     uint64_t hash = (uint64_t)(uintptr_t)call->again ^ (uint64_t)call->vpset << 48;
     for (uint32_t i = 0; i < call->words_count; i++)
         hash = (hash ^ hash >> 29 ^ call->words[i]) * 0xbf58476d1ce4e5b9u;
@@ -58,13 +58,13 @@ void loops_call(struct machine *m, const struct machine_call *call)
 
 bool replay_in_loop(const struct machine *m)
 {
-    const struct history *h = m->replay ? &m->replay->history : NULL;
+    const struct history *h = m->run->replay ? &m->run->replay->history : NULL;
     return h && h->period && h->match >= (h->period < LOOP_SURE ? h->period : LOOP_SURE);
 }
 
 void loops_slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
 {
-    struct history *h = m->replay ? &m->replay->history : NULL;
+    struct history *h = m->run->replay ? &m->run->replay->history : NULL;
     if (!h)
         return;
     if (overwrites && slot->call_accessed && h->count - slot->call_accessed < HISTORY) {
@@ -133,20 +133,20 @@ static bool is_one_by_one(struct history *h)
 
 bool loop_turn_ends(const struct machine *m)
 {
-    if (!replay_in_loop(m) || !m->nodes_pending)
+    if (!replay_in_loop(m) || !m->values->pending)
         return false;
-    struct history *h = &m->replay->history;
-    if (m->nodes_pending < m->settings.flush_after / 8 && !is_one_by_one(h))
+    struct history *h = &m->run->replay->history;
+    if (m->values->pending < m->settings.flush_after / 8 && !is_one_by_one(h))
         return false;
-    return (h->count - turns_end(m->replay)) % h->period == 0;
+    return (h->count - turns_end(m->run->replay)) % h->period == 0;
 }
 
 bool loops_evaluate(struct machine *m, const struct plan *plan)
 {
-    struct history *h = &m->replay->history;
-    if (!m->flushing || m->building || !replay_in_loop(m) || h->one_by_one)
+    struct history *h = &m->run->replay->history;
+    if (!m->run->flushing || m->run->building || !replay_in_loop(m) || h->one_by_one)
         return false;
-    uint32_t turns = m->replay->since / h->period;
+    uint32_t turns = m->run->replay->since / h->period;
     h->one_by_one = turns > 1 && plan_saves_nothing(plan, (int)turns);
     if (h->one_by_one)
         h->sums[h->sums_count++ % LOOPS_ONE_BY_ONE] = loop_sum(h);
@@ -157,7 +157,7 @@ bool loops_evaluate(struct machine *m, const struct plan *plan)
 
 static bool loop_is(const struct machine *m, const struct edge *e)
 {
-    return e->alone && e->to == m->replay->active;
+    return e->alone && e->to == m->run->replay->active;
 }
 
 /* Evaluations for so many turns: those that are left over are evaluated one by one. */
@@ -170,11 +170,11 @@ static int evaluations(int turns, int at_once)
  * usual if that makes fewer evaluations for one who always looks after as many turns. */
 static int turns_at_once(const struct machine *m, const struct edge *e)
 {
-    int most = plan_turns(e->deed.plan), usual = m->device.shape.turns,
-        looks = m->turns_between_looks;
+    int most = plan_turns(e->deed.plan), usual = m->device->shape.turns,
+        looks = m->run->turns_between_looks;
     most = e->turns_most && e->turns_most < most ? e->turns_most : most;
     int turns = most < usual ? most : usual;
-    if (m->settings.knob[MACHINE_TURNS] != SETTING_FREE || m->looks_alike < LOOKS_SURE ||
+    if (m->settings.knob[MACHINE_TURNS] != SETTING_FREE || m->run->looks_alike < LOOKS_SURE ||
         looks < 2 * usual || turns < usual)
         return turns;
     for (int away = 1; away <= usual / 4; away++)
@@ -189,12 +189,12 @@ static int turns_at_once(const struct machine *m, const struct edge *e)
 /* A number that is not the best any more is given up between turns, and the kernel for it with it. */
 int loop_turns_noted(struct machine *m, struct edge *e)
 {
-    const struct replay *p = m->replay;
+    const struct replay *p = m->run->replay;
     if (!loop_is(m, e) || !p->thorough || e->runs < TURNS_SEEN)
         return 1;
-    if (m->calls_noted <= e->calls_count || !e->turns_count) {
+    if (m->run->calls_noted <= e->calls_count || !e->turns_count) {
         int turns = turns_at_once(m, e);
-        if (turns != e->turns_count && (m->looks_alike >= LOOKS_SURE || !e->turns.plan)) {
+        if (turns != e->turns_count && (m->run->looks_alike >= LOOKS_SURE || !e->turns.plan)) {
             deed_finish(m, &e->turns);
             e->turns_count = turns;
             e->rehearsed = NULL;
@@ -207,12 +207,12 @@ int loop_turns_noted(struct machine *m, struct edge *e)
  * that are known do not. */
 static bool become_thorough(struct machine *m, struct edge *e)
 {
-    struct replay *p = m->replay;
-    if (p->thorough || m->device.shape.turns < 2 || m->flushes < p->not_before ||
+    struct replay *p = m->run->replay;
+    if (p->thorough || m->device->shape.turns < 2 || m->run->flushes < p->not_before ||
         e->runs < TURNS_SEEN || !e->alone)
         return false;
     int turns = turns_at_once(m, e);
-    if (turns < 2 || m->turns_in_row < 2 * turns) /* who looks more often gains nothing */
+    if (turns < 2 || m->run->turns_in_row < 2 * turns) /* who looks more often gains nothing */
         return false;
     if (!e->rehearsed_thorough && background_on(m)) {
         e->wants_thorough = true;
@@ -221,7 +221,7 @@ static bool become_thorough(struct machine *m, struct edge *e)
     if (e->rehearsed_thorough && plan_waits(m, e->rehearsed_thorough))
         return false;
     p->thorough = true;
-    p->built_at = m->flushes;
+    p->built_at = m->run->flushes;
     states_forget(m);
     return true;
 }
@@ -229,10 +229,10 @@ static bool become_thorough(struct machine *m, struct edge *e)
 /* Where many turns have not run for long, temporaries are left alone again. */
 static void stay_thorough(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (background_busy(m)) /* there will be better kernels soon */
-        p->built_at = m->flushes;
-    if (!p->thorough || m->flushes - p->built_at <= 64)
+        p->built_at = m->run->flushes;
+    if (!p->thorough || m->run->flushes - p->built_at <= 64)
         return;
     p->thorough = false;
     states_forget(m);
@@ -241,16 +241,16 @@ static void stay_thorough(struct machine *m)
 void loops_turned(struct machine *m, struct edge *e, bool many)
 {
     if (many)
-        m->replay->built_at = m->flushes;
+        m->run->replay->built_at = m->run->flushes;
     else if (!become_thorough(m, e))
         stay_thorough(m);
 }
 
 static void turns_in_vain(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     p->thorough = false;
-    p->not_before = m->flushes + TRY_AGAIN;
+    p->not_before = m->run->flushes + TRY_AGAIN;
     states_forget(m);
 }
 
@@ -258,34 +258,35 @@ static void turns_in_vain(struct machine *m)
  * nothing had been. False: it cannot be entered, and all has been performed. */
 static bool rehearse(struct machine *m, enum rehearsal what)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     int active = p->active, edge = (int)(p->edge - p->states[active].edges);
-    int noted = m->calls_noted, at = p->at;
-    uint64_t stores = m->stores, flush_hash = m->flush_hash, flushes = m->flushes;
-    struct vanished vanished = m->vanished;
-    m->silent = m->hold_flush = true;
+    int noted = m->run->calls_noted, at = p->at;
+    uint64_t stores = m->run->stores, flush_hash = m->run->flush_hash,
+             flushes = m->run->flushes;
+    struct vanished vanished = m->values->vanished;
+    m->plans->silent = m->run->hold_flush = true;
     replay_catch_up(m);
-    m->hold_flush = false;
-    bool back = p->from == active && m->flushes == flushes;
+    m->run->hold_flush = false;
+    bool back = p->from == active && m->run->flushes == flushes;
     if (back) {
-        m->rehearsing = what;
-        m->rehearsed = NULL;
+        m->plans->rehearsing = what;
+        m->plans->rehearsed = NULL;
         run_evaluate(m, NULL, 0, false);
-        m->rehearsing = REHEARSING_NOTHING;
+        m->plans->rehearsing = REHEARSING_NOTHING;
         machine_error_clear(m); /* it will be said when it matters */
         graph_give_back(m);
         state_activate(m, active, p->from_buffers);
         replay_from_forget(m);
-        m->stores = m->stores_evaluated = stores;
-        m->flush_hash = flush_hash;
-        m->vanished = vanished;
+        m->run->stores = m->run->stores_evaluated = stores;
+        m->run->flush_hash = flush_hash;
+        m->values->vanished = vanished;
         p->log_count = 0;
         p->since = 0;
         p->edge = &p->states[active].edges[edge];
         p->at = at;
-        m->calls_noted = noted;
+        m->run->calls_noted = noted;
     }
-    m->silent = false;
+    m->plans->silent = false;
     return back;
 }
 
@@ -294,9 +295,9 @@ static bool rehearse_or_perform(struct machine *m, enum rehearsal what, struct p
 {
     bool back = rehearse(m, what);
     if (back) {
-        *plan = m->rehearsed;
+        *plan = m->plans->rehearsed;
     } else {
-        m->flush_due = true;
+        m->run->flush_due = true;
         run_flush_due(m);
         turns_in_vain(m);
     }
@@ -305,9 +306,9 @@ static bool rehearse_or_perform(struct machine *m, enum rehearsal what, struct p
 
 bool loop_thorough_see_to(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct edge *e = p->edge;
-    if (!e->wants_thorough || m->calls_noted != e->calls_count || p->thorough ||
+    if (!e->wants_thorough || m->run->calls_noted != e->calls_count || p->thorough ||
         background_busy(m))
         return true;
     e->wants_thorough = false;
@@ -315,13 +316,13 @@ bool loop_thorough_see_to(struct machine *m)
     bool back = rehearse_or_perform(m, REHEARSING_ONE, &e->rehearsed_thorough);
     p->thorough = false;
     if (back && !e->rehearsed_thorough)
-        p->not_before = m->flushes + TRY_AGAIN;
+        p->not_before = m->run->flushes + TRY_AGAIN;
     return back;
 }
 
 enum loop_turns loop_turns_see_to(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct edge *e = p->edge;
     if (!e->rehearsed && !background_busy(m)) {
         if (!rehearse_or_perform(m, REHEARSING_TURNS, &e->rehearsed))
@@ -334,26 +335,26 @@ enum loop_turns loop_turns_see_to(struct machine *m)
         e->turns_count = e->turns_most > 1 ? 0 : 1;
         e->rehearsed = NULL;
         if (e->turns_count)
-            p->not_before = m->flushes + TRY_AGAIN;
+            p->not_before = m->run->flushes + TRY_AGAIN;
         return TURNS_WAIT;
     }
     if (e->rehearsed && !plan_waits(m, e->rehearsed))
         return TURNS_AT_HAND;
-    p->built_at = m->flushes; /* it is not in vain yet */
+    p->built_at = m->run->flushes; /* it is not in vain yet */
     return TURNS_WAIT;
 }
 
 void loop_build_turns(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     int active = p->active, at = (int)(p->edge - p->states[active].edges);
-    m->building = m->hold_flush = true;
-    p->building_calls = m->calls_noted;
+    m->run->building = m->run->hold_flush = true;
+    p->building_calls = m->run->calls_noted;
     replay_catch_up(m);
-    m->hold_flush = false;
-    m->flush_due = true;
+    m->run->hold_flush = false;
+    m->run->flush_due = true;
     run_flush_due(m);
-    m->building = false;
+    m->run->building = false;
     bool back = p->active == active && p->states[active].edges_count > at;
     if (back && p->states[active].edges[at].turns.plan)
         return;
@@ -362,29 +363,30 @@ void loop_build_turns(struct machine *m)
 
 void replay_looked(struct machine *m)
 {
-    struct history *h = m->replay ? &m->replay->history : NULL;
+    struct history *h = m->run->replay ? &m->run->replay->history : NULL;
     if (h && h->period && !h->looked_at)
         h->looked_at = h->count;
-    if (!m->turns_in_row)
+    if (!m->run->turns_in_row)
         return;
-    m->looks_alike = m->turns_in_row == m->turns_between_looks ? m->looks_alike + 1 : 0;
-    m->turns_between_looks = m->turns_in_row;
-    m->turns_in_row = 0;
+    m->run->looks_alike =
+        m->run->turns_in_row == m->run->turns_between_looks ? m->run->looks_alike + 1 : 0;
+    m->run->turns_between_looks = m->run->turns_in_row;
+    m->run->turns_in_row = 0;
 }
 
 bool replay_thorough(const struct machine *m)
 {
-    return m->replay && m->replay->thorough;
+    return m->run->replay && m->run->replay->thorough;
 }
 
 void replay_resolve(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!replay_thorough(m))
         return;
     p->depth++; /* it belongs to the calls before */
-    for (int i = 1; i < m->sets_count; i++)
-        if (m->sets[i].used)
-            flag_resolved(m, &m->sets[i], MACHINE_OVERFLOW);
+    for (int i = 1; i < m->values->sets_count; i++)
+        if (m->values->sets[i].used)
+            flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
     p->depth--;
 }

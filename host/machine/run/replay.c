@@ -30,26 +30,26 @@
 
 bool replay_init(struct machine *m)
 {
-    if (m->eager || !m->settings.replay)
+    if (m->run->eager || !m->settings.replay)
         return true;
-    m->replay = calloc(1, sizeof *m->replay);
-    if (!m->replay)
+    m->run->replay = calloc(1, sizeof *m->run->replay);
+    if (!m->run->replay)
         return false;
-    m->replay->active = m->replay->from = -1;
+    m->run->replay->active = m->run->replay->from = -1;
     return true;
 }
 
 void replay_finish(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return;
-    m->calls_noted = 0; /* nobody is going to look */
+    m->run->calls_noted = 0; /* nobody is going to look */
     states_forget(m);
     free(p->log);
     free(p->scratch);
     free(p);
-    m->replay = NULL;
+    m->run->replay = NULL;
 }
 
 void deed_finish(struct machine *m, struct deed *d)
@@ -75,7 +75,7 @@ void edge_finish(struct machine *m, struct edge *e)
 
 void replay_from_forget(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     for (int i = 0; i < p->from_buffers_count; i++)
         device_buffer_unref(m, p->from_buffers[i]);
     free(p->from_buffers);
@@ -86,10 +86,10 @@ void replay_from_forget(struct machine *m)
 
 void replay_from(struct machine *m, int index)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     const struct state *s = &p->states[index];
     p->from = index;
-    p->from_stores = m->stores;
+    p->from_stores = m->run->stores;
     p->from_buffers =
         machine_allocated((size_t)s->buffers_count, sizeof(struct device_buffer *));
     p->from_buffers_count = s->buffers_count;
@@ -104,7 +104,7 @@ void replay_from(struct machine *m, int index)
 /* False: that cannot be done now. */
 static bool deed_do(struct machine *m, const struct deed *d, int to)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct state *s = &p->states[p->active], *t = &p->states[to];
     plans_see_to(m);
     if (!d->plan || plan_version(m, d->plan) != d->version)
@@ -137,9 +137,9 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
             device_buffer_unref(m, buffers[stored[i]]);
     p->since = 0;
     p->looked = !p->edge->alone;
-    m->stores += d->stores;
-    m->stores_evaluated = m->stores;
-    m->flushes++;
+    m->run->stores += d->stores;
+    m->run->stores_evaluated = m->run->stores;
+    m->run->flushes++;
     p->log_count = 0;
     if (s != t)
         state_activate(m, to, next);
@@ -151,19 +151,19 @@ static bool deed_do(struct machine *m, const struct deed *d, int to)
 
 void replay_catch_up(struct machine *m)
 {
-    struct replay *p = m->replay;
-    int count = m->calls_noted, set = m->set_current;
+    struct replay *p = m->run->replay;
+    int count = m->run->calls_noted, set = m->values->set_current;
     struct machine_call *calls = machine_allocated((size_t)count, sizeof *calls);
     for (int i = 0; i < count; i++)
         calls[i] = p->edge->calls[i % p->edge->calls_count];
-    m->calls_noted = p->at = 0;
+    m->run->calls_noted = p->at = 0;
     p->edge = NULL;
     p->catching_up = true;
     for (int i = 0; i < count; i++) {
-        m->set_current = calls[i].vpset;
+        m->values->set_current = calls[i].vpset;
         calls[i].again(&calls[i]);
     }
-    m->set_current = set;
+    m->values->set_current = set;
     p->catching_up = false;
     free(calls);
     if (p->active >= 0 && p->states[p->active].edges_count) {
@@ -176,9 +176,9 @@ void replay_catch_up(struct machine *m)
  * done, and nothing of what is still noted has been. */
 static bool turns_do(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct edge *e = p->edge;
-    int turns = loop_turns_noted(m, e), whole = m->calls_noted / e->calls_count;
+    int turns = loop_turns_noted(m, e), whole = m->run->calls_noted / e->calls_count;
     double start = watch_clock(m);
     if (turns > 1 && whole >= turns && !e->turns.plan) {
         enum loop_turns kernels = loop_turns_see_to(m);
@@ -189,9 +189,9 @@ static bool turns_do(struct machine *m)
     } else if (turns > 1 && whole >= turns) {
         if (!deed_do(m, &e->turns, e->to))
             return false;
-        m->calls_noted -= turns * e->calls_count;
-        m->turns_in_row += turns;
-        m->calls_foreseen += (uint64_t)turns * (uint64_t)e->calls_count;
+        m->run->calls_noted -= turns * e->calls_count;
+        m->run->turns_in_row += turns;
+        m->run->calls_foreseen += (uint64_t)turns * (uint64_t)e->calls_count;
         if (m->watch)
             watch_replayed(m, start, e->calls, e->calls_count, turns, e->alone);
         whole -= turns;
@@ -200,20 +200,20 @@ static bool turns_do(struct machine *m)
     if (whole > 0 && !loop_thorough_see_to(m))
         return true;
     for (; whole > 0; whole--) {
-        int left = m->calls_noted - e->calls_count;
+        int left = m->run->calls_noted - e->calls_count;
         struct state *s = &p->states[p->active];
         start = watch_clock(m);
         if (!deed_do(m, &e->deed, e->to))
             return false;
-        m->calls_foreseen += (uint64_t)e->calls_count;
-        m->calls_noted = left;
-        m->turns_in_row++;
+        m->run->calls_foreseen += (uint64_t)e->calls_count;
+        m->run->calls_noted = left;
+        m->run->turns_in_row++;
         if (m->watch)
             watch_replayed(m, start, e->calls, e->calls_count, 1, e->alone);
         s->edge_last = (int)(e - s->edges);
         e->runs++;
     }
-    if (m->calls_noted == 0) {
+    if (m->run->calls_noted == 0) {
         p->at = 0;
         loops_turned(m, e, false);
     }
@@ -244,14 +244,14 @@ static bool begins_alike(const struct edge *a, const struct edge *b, int count)
  * going to look). */
 static struct edge *other_edge(struct machine *m, const struct machine_call *call)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct state *s = &p->states[p->active];
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
-        if (e != p->edge && begins_alike(e, p->edge, m->calls_noted) &&
-            (call
-                 ? e->calls_count > m->calls_noted && same_call(&e->calls[m->calls_noted], call)
-                 : e->calls_count == m->calls_noted && !e->alone))
+        if (e != p->edge && begins_alike(e, p->edge, m->run->calls_noted) &&
+            (call ? e->calls_count > m->run->calls_noted &&
+                        same_call(&e->calls[m->run->calls_noted], call)
+                  : e->calls_count == m->run->calls_noted && !e->alone))
             return e;
     }
     return NULL;
@@ -259,14 +259,15 @@ static struct edge *other_edge(struct machine *m, const struct machine_call *cal
 
 void replay_perform(struct machine *m)
 {
-    struct replay *p = m->replay;
-    if (m->calls_noted > p->edge->calls_count && !turns_do(m)) {
+    struct replay *p = m->run->replay;
+    if (m->run->calls_noted > p->edge->calls_count && !turns_do(m)) {
         replay_catch_up(m);
         return;
     }
-    if (!m->calls_noted)
+    if (!m->run->calls_noted)
         return;
-    struct edge *e = p->edge->calls_count == m->calls_noted ? p->edge : other_edge(m, NULL);
+    struct edge *e =
+        p->edge->calls_count == m->run->calls_noted ? p->edge : other_edge(m, NULL);
     if (e) {
         p->edge = e;
         if (turns_do(m))
@@ -279,14 +280,14 @@ void replay_perform(struct machine *m)
 
 static bool take_note(struct machine *m, const struct machine_call *call)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct edge *e = p->edge;
     if (!e || p->at >= e->calls_count || !same_call(call, &e->calls[p->at]))
         return false;
-    m->calls_noted++;
+    m->run->calls_noted++;
     if (++p->at == e->calls_count && e->alone) {
         p->at = 0;
-        if (m->calls_noted >= loop_turns_noted(m, e) * e->calls_count && !turns_do(m))
+        if (m->run->calls_noted >= loop_turns_noted(m, e) * e->calls_count && !turns_do(m))
             replay_catch_up(m);
     }
     return true;
@@ -295,31 +296,31 @@ static bool take_note(struct machine *m, const struct machine_call *call)
 /* The call is not the next one of the edge: but perhaps that of another. */
 static bool take_note_elsewhere(struct machine *m, const struct machine_call *call)
 {
-    struct replay *p = m->replay;
-    if (p->edge && m->calls_noted > p->edge->calls_count && !turns_do(m))
+    struct replay *p = m->run->replay;
+    if (p->edge && m->run->calls_noted > p->edge->calls_count && !turns_do(m))
         return false;
     struct edge *other = p->edge ? other_edge(m, call) : NULL;
     if (!other)
         return false;
     p->edge = other;
-    p->at = m->calls_noted;
+    p->at = m->run->calls_noted;
     return take_note(m, call);
 }
 
 static bool foreseen(struct machine *m, struct machine_call *call)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return false;
     if (p->depth) {
         p->depth++;
         return false;
     }
-    call->vpset = m->set_current;
+    call->vpset = m->values->set_current;
     if (take_note(m, call) || take_note_elsewhere(m, call))
         return true;
     replay_settle(m);
-    if (m->flush_due)
+    if (m->run->flush_due)
         run_flush_due(m);
     if (!p->catching_up && take_note(m, call))
         return true;
@@ -347,22 +348,22 @@ bool machine_call_foreseen(struct machine *m, struct machine_call *call)
 
 void machine_call_performed(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (m->watch)
         watch_performed(m);
-    if (p && p->depth && --p->depth == 0 && !m->hold_flush && loop_turn_ends(m))
-        m->flush_due = true;
+    if (p && p->depth && --p->depth == 0 && !m->run->hold_flush && loop_turn_ends(m))
+        m->run->flush_due = true;
 }
 
 void machine_call_failed(struct machine *m)
 {
     if (m->watch)
         watch_call_failed(m);
-    if (!m->replay)
+    if (!m->run->replay)
         return;
-    m->replay->depth = 0;
+    m->run->replay->depth = 0;
     replay_from_forget(m);
-    m->replay->log_count = 0;
+    m->run->replay->log_count = 0;
 }
 
 void machine_calls_forget(struct machine *m)
@@ -372,14 +373,14 @@ void machine_calls_forget(struct machine *m)
 
 bool replay_in_call(const struct machine *m)
 {
-    return m->replay && m->replay->depth;
+    return m->run->replay && m->run->replay->depth;
 }
 
 /* ---- what an evaluation made of them ---- */
 
 void replay_impure(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return;
     if (p->active >= 0)
@@ -390,9 +391,9 @@ void replay_impure(struct machine *m)
 /* Which of the buffers of the state before it is, by mark. */
 static void number_buffers(struct machine *m, struct device_buffer *const *buffers, int count)
 {
-    m->mark++;
+    m->values->mark++;
     for (int i = 0; i < count; i++) {
-        buffers[i]->mark = m->mark;
+        buffers[i]->mark = m->values->mark;
         buffers[i]->number = (uint32_t)i;
     }
 }
@@ -400,7 +401,7 @@ static void number_buffers(struct machine *m, struct device_buffer *const *buffe
 static bool sources_find(struct machine *m, struct deed *d, struct machine_value *const *nodes,
                          struct device_buffer *const *buffers)
 {
-    const struct replay *p = m->replay;
+    const struct replay *p = m->run->replay;
     number_buffers(m, p->from_buffers, p->from_buffers_count);
     for (int i = 0; i < d->nodes_count; i++) {
         struct machine_value *v = nodes[i];
@@ -409,7 +410,7 @@ static bool sources_find(struct machine *m, struct deed *d, struct machine_value
             d->values[i] = v;
             graph_ref(v);
         } else if (buffers[i]) {
-            if (buffers[i]->mark != m->mark)
+            if (buffers[i]->mark != m->values->mark)
                 return false;
             d->from[i] = (int32_t)buffers[i]->number;
         }
@@ -419,14 +420,14 @@ static bool sources_find(struct machine *m, struct deed *d, struct machine_value
 
 bool replay_follows(const struct machine *m)
 {
-    const struct replay *p = m->replay;
+    const struct replay *p = m->run->replay;
     return p && p->from >= 0 && p->active < 0 && !p->depth;
 }
 
 void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
                       int count, struct device_buffer *const *buffers)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return;
     p->forgets = loops_evaluate(m, plan);
@@ -436,10 +437,10 @@ void replay_evaluates(struct machine *m, struct plan *plan, struct machine_value
         return;
     struct edge e = {
         .calls_count = p->log_count,
-        .alone = m->flushing,
+        .alone = m->run->flushing,
         .deed = {.plan = plan,
                  .version = plan_version(m, plan),
-                 .stores = m->stores - p->from_stores,
+                 .stores = m->run->stores - p->from_stores,
                  .nodes_count = count,
                  .from = machine_allocated((size_t)count, sizeof *e.deed.from),
                  .values = machine_allocated((size_t)count, sizeof(struct machine_value *))}};
@@ -469,7 +470,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
                           struct device_buffer *const *buffers,
                           struct machine_value *const *wanted, int wanted_count)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct edge *e = &p->made;
     int count;
     if (p->states[p->from].places != p->states[to].places)
@@ -479,11 +480,12 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
     for (int i = 0; i < wanted_count;
          i++) /* what was computed for somebody must be in the state */
         for (int k = 0; k < count; k++)
-            if (wanted[i]->buffer == buffers[stored[k]] && wanted[i]->buffer->mark != m->mark)
+            if (wanted[i]->buffer == buffers[stored[k]] &&
+                wanted[i]->buffer->mark != m->values->mark)
                 return false;
     number_buffers(m, p->from_buffers, p->from_buffers_count);
     for (int k = 0; k < count; k++) {
-        buffers[stored[k]]->mark = m->mark;
+        buffers[stored[k]]->mark = m->values->mark;
         buffers[stored[k]]->number = ~(uint32_t)stored[k];
     }
     int32_t *next = machine_allocated((size_t)w->buffers_count, sizeof *next);
@@ -491,7 +493,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
     e->deed.next = next;
     e->deed.kept = kept;
     for (int k = 0; k < w->buffers_count; k++) {
-        if (w->buffers[k]->mark != m->mark)
+        if (w->buffers[k]->mark != m->values->mark)
             return false;
         next[k] = (int32_t)w->buffers[k]->number;
         if (next[k] < 0)
@@ -513,8 +515,8 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
 /* Many turns of a loop of that state: they are no edge of their own. */
 static bool turns_add(struct machine *m, struct state *s, int to)
 {
-    struct replay *p = m->replay;
-    if (!m->building || s != &p->states[to])
+    struct replay *p = m->run->replay;
+    if (!m->run->building || s != &p->states[to])
         return false;
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
@@ -554,12 +556,12 @@ static void edge_add(struct machine *m, struct state *s, const struct edge *e)
 void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
                       struct machine_value *const *wanted, int wanted_count)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return;
     if (!p->depth) {
         p->since = 0;
-        p->looked = !m->flushing;
+        p->looked = !m->run->flushing;
     }
     if (p->forgets)
         states_forget(m);
@@ -579,7 +581,7 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
     int to = w.good ? state_find(m, &w) : -1;
     bool complete =
         to >= 0 && p->making && edge_complete(m, &w, to, buffers, wanted, wanted_count);
-    if (complete && !turns_add(m, &p->states[p->from], to) && !m->building) {
+    if (complete && !turns_add(m, &p->states[p->from], to) && !m->run->building) {
         edge_add(m, &p->states[p->from], &p->made);
         p->making = false;
     }
@@ -593,7 +595,7 @@ void replay_evaluated(struct machine *m, struct device_buffer *const *buffers,
 
 void replay_failed(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (p && p->making)
         edge_finish(m, &p->made);
     if (p)

@@ -43,9 +43,9 @@ static bool reach_room(struct reach *r)
 /* Depth first; HEIGHT_MOST bounds the recursion. */
 static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
 {
-    if (v->mark == m->mark)
+    if (v->mark == m->values->mark)
         return true;
-    v->mark = m->mark;
+    v->mark = m->values->mark;
     if (v->op == NODE_SLICE && !v->buffer && !reshape_unpack(m, v))
         return false;
     int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
@@ -64,7 +64,7 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
         s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
     }
     if (v->op != NODE_CONSTANT)
-        s[r->length++] = v->set | (uint32_t)m->sets[v->set].generation << 16;
+        s[r->length++] = v->set | (uint32_t)m->values->sets[v->set].generation << 16;
     if (!v->buffer) {
         s[r->length++] = (uint32_t)v->detail;
         for (int i = 0; i < inputs; i++)
@@ -94,22 +94,22 @@ static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
         return false;
     if (all || v->height > HEIGHT_DEFERRED)
         return true;
-    bool waits = slot->overwritten_first && v->birth == m->epoch;
-    m->vanished.expressions += waits;
+    bool waits = slot->overwritten_first && v->birth == m->values->epoch;
+    m->values->vanished.expressions += waits;
     return !waits;
 }
 
 static bool targets_collect(struct machine *m, struct targets *t, bool all)
 {
-    for (int i = 1; i < m->sets_count; i++)
-        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
-            if (slot_wants(m, &m->sets[i].flags[flag], all) &&
-                !targets_add(t, m->sets[i].flags[flag].value))
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (slot_wants(m, &m->memory->flags[i].of[flag], all) &&
+                !targets_add(t, m->memory->flags[i].of[flag].value))
                 return false;
-    for (int i = 0; i < m->fields_count; i++)
-        for (int k = 0; k < m->fields[i]->slots_count; k++)
-            if (slot_wants(m, &m->fields[i]->slots[k], all) &&
-                !targets_add(t, m->fields[i]->slots[k].value))
+    for (int i = 0; i < m->memory->fields_count; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count; k++)
+            if (slot_wants(m, &m->memory->fields[i]->slots[k], all) &&
+                !targets_add(t, m->memory->fields[i]->slots[k].value))
                 return false;
     return true;
 }
@@ -140,7 +140,7 @@ static enum machine_status execute(struct machine *m, struct plan *p, const stru
     if (status) {
         replay_failed(m);
     } else {
-        m->epoch++;
+        m->values->epoch++;
         replay_evaluated(m, buffers, wanted, wanted_count);
     }
     for (int i = count - 1; i >= 0 && !status; i--)
@@ -157,7 +157,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     enum machine_status status = MACHINE_OK;
     double start = watch_clock(m);
     bool partial, good = reshape_roll(m, &partial);
-    if (m->watch && m->sliced)
+    if (m->watch && m->run->sliced)
         watch_span(m, WATCH_ROLL, start, NULL);
     double from = watch_clock(m);
     for (int i = 0; i < count && good; i++)
@@ -168,10 +168,10 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     all = all || replay_thorough(m);
     replay_resolve(m);
     /* Reading one thing after another is one look: nothing has become older in between. */
-    if (all || m->stores != m->stores_evaluated)
+    if (all || m->run->stores != m->run->stores_evaluated)
         good = good && targets_collect(m, &t, all);
-    m->stores_evaluated = m->stores;
-    m->flush_hash = 0; /* who observes says when */
+    m->run->stores_evaluated = m->run->stores;
+    m->run->flush_hash = 0; /* who observes says when */
     if (good && t.count == 0) {
         free(t.values);
         return MACHINE_OK;
@@ -179,7 +179,7 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
     if (m->watch)
         watch_span(m, WATCH_TARGETS, from, "\"targets\":%d", t.count);
     from = watch_clock(m);
-    m->mark++;
+    m->values->mark++;
     for (int i = 0; i < t.count && good; i++)
         good = reach_from(m, &r, t.values[i]);
     for (int i = 0; i < t.count && good; i++) {
@@ -194,13 +194,13 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
         watch_nodes(m, r.nodes, wanted, count);
     }
     from = watch_clock(m);
-    uint64_t built = m->plans_built;
+    uint64_t built = m->plans->built;
     struct plan *p = status ? NULL : plan_get(m, &r, &t);
     if (m->watch)
         watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
-                   m->plans_built == built ? "true" : "false");
-    if (m->rehearsing) {
-        m->rehearsed = p;
+                   m->plans->built == built ? "true" : "false");
+    if (m->plans->rehearsing) {
+        m->plans->rehearsed = p;
     } else if (p) {
         int stored;
         plan_stored(p, &stored);
@@ -209,12 +209,12 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
         status = execute(m, p, &r, wanted, count);
         if (m->watch)
             watch_evaluated(m, start, count > 0, t.count);
-        m->flushes++;
+        m->run->flushes++;
     } else if (!status) {
         status = m->status;
     }
     if (status)
-        m->stores_evaluated = m->stores - 1; /* not yet */
+        m->run->stores_evaluated = m->run->stores - 1; /* not yet */
     free(t.values);
     free(r.nodes);
     free(r.signature);
@@ -223,13 +223,13 @@ static enum machine_status evaluate(struct machine *m, struct machine_value **wa
 
 static bool is_held(const struct machine *m, const struct machine_value *v)
 {
-    for (int i = 1; i < m->sets_count; i++)
-        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
-            if (m->sets[i].flags[flag].value == v)
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (m->memory->flags[i].of[flag].value == v)
                 return true;
-    for (int i = 0; i < m->fields_count; i++)
-        for (int k = 0; k < m->fields[i]->slots_count; k++)
-            if (m->fields[i]->slots[k].value == v)
+    for (int i = 0; i < m->memory->fields_count; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count; k++)
+            if (m->memory->fields[i]->slots[k].value == v)
                 return true;
     return false;
 }
@@ -261,21 +261,21 @@ enum machine_status machine_settle(struct machine *m, struct machine_value **val
 
 void run_init(struct machine *m)
 {
-    m->trace_power = 1;
+    m->run->trace_power = 1;
     for (int i = 0; i < TRACE_LENGTH; i++)
-        m->trace_power *= TRACE_FACTOR;
+        m->run->trace_power *= TRACE_FACTOR;
 }
 
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v)
 {
-    m->stores++;
-    if (m->eager)
+    m->run->stores++;
+    if (m->run->eager)
         return run_evaluate(m, NULL, 0, true);
-    if (m->hold_flush && v->height < HEIGHT_MOST)
+    if (m->run->hold_flush && v->height < HEIGHT_MOST)
         return MACHINE_OK;
-    if (m->flush_status) {
-        enum machine_status status = m->flush_status;
-        m->flush_status = MACHINE_OK;
+    if (m->run->flush_status) {
+        enum machine_status status = m->run->flush_status;
+        m->run->flush_status = MACHINE_OK;
         return status;
     }
     /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they
@@ -284,47 +284,49 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     uint64_t what = ((uint64_t)v->origin << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
     const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
     what = (what * 128 + (in && v->op != NODE_SHIFT ? in->origin : 0)) * 0x9e3779b97f4a7c15u;
-    uint64_t *oldest = &m->trace[m->trace_count++ % TRACE_LENGTH];
-    m->trace_hash = m->trace_hash * TRACE_FACTOR + what - *oldest * m->trace_power;
+    uint64_t *oldest = &m->run->trace[m->run->trace_count++ % TRACE_LENGTH];
+    m->run->trace_hash =
+        m->run->trace_hash * TRACE_FACTOR + what - *oldest * m->run->trace_power;
     *oldest = what;
-    if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->nodes_pending < PENDING_MOST)
+    if (replay_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST)
         return MACHINE_OK;
-    bool again = m->flush_hash && m->trace_hash == m->flush_hash &&
-                 m->nodes_pending >= m->settings.flush_after / 8;
-    bool many = m->nodes_pending >=
-                (m->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
+    bool again = m->run->flush_hash && m->run->trace_hash == m->run->flush_hash &&
+                 m->values->pending >= m->settings.flush_after / 8;
+    bool many = m->values->pending >=
+                (m->run->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
-    if (m->sliced && v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
+    if (m->run->sliced &&
+        v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
         bool partial;
-        if (m->nodes_pending < m->roll_after)
+        if (m->values->pending < m->run->roll_after)
             return MACHINE_OK;
         if (!reshape_roll(m, &partial))
             return m->status;
-        m->roll_after = 0;
-        if (partial && m->nodes_pending < PENDING_LOOP)
-            m->roll_after = 2 * m->nodes_pending + PENDING_MANY;
-        if (m->roll_after || m->nodes_pending < m->settings.flush_after / 8)
+        m->run->roll_after = 0;
+        if (partial && m->values->pending < PENDING_LOOP)
+            m->run->roll_after = 2 * m->values->pending + PENDING_MANY;
+        if (m->run->roll_after || m->values->pending < m->settings.flush_after / 8)
             return MACHINE_OK;
     }
-    m->flush_place = m->trace_hash;
-    m->flush_due = true;
-    if (m->sliced || v->height >= HEIGHT_MOST || m->nodes_pending >= PENDING_MOST)
+    m->run->flush_place = m->run->trace_hash;
+    m->run->flush_due = true;
+    if (m->run->sliced || v->height >= HEIGHT_MOST || m->values->pending >= PENDING_MOST)
         run_flush_due(m);
-    enum machine_status status = m->flush_status;
-    m->flush_status = MACHINE_OK;
+    enum machine_status status = m->run->flush_status;
+    m->run->flush_status = MACHINE_OK;
     return status;
 }
 
 void run_flush_due(struct machine *m)
 {
-    if (!m->flush_due)
+    if (!m->run->flush_due)
         return;
-    m->flush_due = false;
-    m->flushing = true;
-    m->flush_status = run_evaluate(m, NULL, 0, false);
-    m->flushing = false;
-    m->flush_hash = m->flush_place;
+    m->run->flush_due = false;
+    m->run->flushing = true;
+    m->run->flush_status = run_evaluate(m, NULL, 0, false);
+    m->run->flushing = false;
+    m->run->flush_hash = m->run->flush_place;
 }
 
 enum machine_status machine_flush(struct machine *m)
@@ -339,7 +341,7 @@ enum machine_status machine_finish(struct machine *m)
 {
     enum machine_status status = machine_flush(m);
     double start = device_wait_begin(m);
-    cl_int error = clFinish(m->device.queue);
+    cl_int error = clFinish(m->device->queue);
     enum machine_status waited = device_wait_end(m, error, start, "waiting for the device");
     return status ? status : waited;
 }

@@ -12,7 +12,7 @@ enum { LIFT_NODES = 1 << 18 };
 bool reshape_unpack(struct machine *m, struct machine_value *slice)
 {
     struct machine_value *fine = slice->in[0], *out[RESHAPE_BLOCK] = {NULL};
-    const struct vpset *f = &m->sets[fine->set], *s = &m->sets[slice->set];
+    const struct vpset *f = &m->values->sets[fine->set], *s = &m->values->sets[slice->set];
     uint32_t k = (uint32_t)slice->imm.lo, wanted = 0;
     int first = slice->detail / RESHAPE_BLOCK * RESHAPE_BLOCK, count = (int)k - first;
     struct machine_value key = *slice;
@@ -58,7 +58,7 @@ struct machine_value *reshape_slice(struct machine *m, struct machine_value *fin
 {
     if (fine->op == NODE_CONSTANT || (k == 1 && fine->set == set))
         return fine;
-    m->sliced = true;
+    m->run->sliced = true;
     struct machine_value key = {.op = NODE_SLICE,
                                 .type = fine->type,
                                 .set = (uint16_t)set,
@@ -70,18 +70,18 @@ struct machine_value *reshape_slice(struct machine *m, struct machine_value *fin
 
 bool reshape_forget_set(struct machine *m, int set)
 {
-    for (uint32_t i = 0; i < m->table_size; i++)
-        for (struct machine_value *v = m->table[i]; v; v = v->next)
+    for (uint32_t i = 0; i < m->values->table_size; i++)
+        for (struct machine_value *v = m->values->table[i]; v; v = v->next)
             if (v->op == NODE_SLICE && !v->buffer && (v->set == set || v->in[0]->set == set) &&
                 !reshape_unpack(m, v))
                 return false;
-    for (uint32_t i = 0; i < m->table_size; i++)
-        for (struct machine_value *v = m->table[i], *next; v; v = next) {
+    for (uint32_t i = 0; i < m->values->table_size; i++)
+        for (struct machine_value *v = m->values->table[i], *next; v; v = next) {
             next = v->next;
             if ((v->op == NODE_SLICE && (v->set == set || v->in[0]->set == set)) ||
                 (v->buffer && v->set == set)) {
                 graph_forget(m, v);
-                next = m->table[i]; /* its input may have gone with it */
+                next = m->values->table[i]; /* its input may have gone with it */
             }
         }
     return true;
@@ -95,7 +95,7 @@ struct machine_value *reshape_lay_out(struct machine *m, struct machine_value *v
     if (!b)
         return NULL;
     struct kernel_call c = reshape_call(m, v->type, "slices");
-    call_set(&c, m, &m->sets[set]);
+    call_set(&c, m, &m->values->sets[set]);
     call_set(&c, m, to);
     call_uint(&c, call_processors_run(m));
     call_uint(&c, 1); /* one slice, all of it */
@@ -181,10 +181,10 @@ static bool unroll(struct machine *m, struct machine_value *whole,
 {
     if (node_is_leaf(whole) || node_is_cheap(whole) || whole == y[0])
         return true;
-    uint64_t evaluated = m->stores_evaluated;
-    m->stores_evaluated = m->stores; /* nobody else is looked at */
+    uint64_t evaluated = m->run->stores_evaluated;
+    m->run->stores_evaluated = m->run->stores; /* nobody else is looked at */
     enum machine_status status = run_evaluate(m, &whole, 1, false);
-    m->stores_evaluated = evaluated;
+    m->run->stores_evaluated = evaluated;
     for (uint32_t i = 0; i < k && !status; i++) {
         struct machine_value key = {.op = NODE_SLICE,
                                     .type = y[i]->type,
@@ -263,12 +263,12 @@ static bool roll_slots(struct machine *m, const struct slot *slots, uint32_t k, 
 bool reshape_roll(struct machine *m, bool *partial)
 {
     *partial = false;
-    if (!m->sliced || m->rolling)
+    if (!m->run->sliced || m->run->rolling)
         return true;
-    m->rolling = true;
+    m->run->rolling = true;
     bool good = true;
-    for (int i = 0; i < m->fields_count && good; i++) {
-        const struct field *f = m->fields[i];
+    for (int i = 0; i < m->memory->fields_count && good; i++) {
+        const struct field *f = m->memory->fields[i];
         uint32_t k;
         for (int at = 0; at < f->slots_count && good; at += (int)k) {
             const struct slot *slots = &f->slots[at];
@@ -291,6 +291,6 @@ bool reshape_roll(struct machine *m, bool *partial)
                 k = 1;
         }
     }
-    m->rolling = false;
+    m->run->rolling = false;
     return good;
 }

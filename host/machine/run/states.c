@@ -31,16 +31,16 @@ struct root_visit {
 static void each_root(struct root_visit *v)
 {
     struct machine *m = v->m;
-    for (int i = 1; i < m->sets_count; i++)
-        for (int flag = 0; m->sets[i].used && flag < 3; flag++)
-            v->visit(v, &m->sets[i].flags[flag].value, (uint32_t)i, (uint32_t)flag);
-    for (int i = 0; i < m->fields_count; i++) {
-        struct field *f = m->fields[i];
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            v->visit(v, &m->memory->flags[i].of[flag].value, (uint32_t)i, (uint32_t)flag);
+    for (int i = 0; i < m->memory->fields_count; i++) {
+        struct field *f = m->memory->fields[i];
         for (int k = 0; k < f->slots_count; k++)
             v->visit(v, &f->slots[k].value, f->base + f->slots[k].offset, f->slots[k].bits);
     }
-    for (int i = 1; i < m->sets_count; i++) {
-        struct lazy_overflow *o = &m->sets[i].overflow;
+    for (int i = 1; i < m->values->sets_count; i++) {
+        struct lazy_overflow *o = &m->memory->flags[i].overflow;
         struct machine_value **places[3] = {&o->a, &o->b, &o->context};
         for (int k = 0; k < 3; k++)
             v->visit(v, places[k], (uint32_t)i, OVERFLOW_PART);
@@ -50,9 +50,9 @@ static void each_root(struct root_visit *v)
 /* What is no overflow any more is nothing. */
 static void overflows_tidy(struct machine *m)
 {
-    for (int i = 1; i < m->sets_count; i++)
-        if (!m->sets[i].overflow.op)
-            m->sets[i].overflow = (struct lazy_overflow){.op = 0};
+    for (int i = 1; i < m->values->sets_count; i++)
+        if (!m->memory->flags[i].overflow.op)
+            m->memory->flags[i].overflow = (struct lazy_overflow){.op = 0};
 }
 
 static bool is_leaf(const struct machine_value *v)
@@ -81,9 +81,9 @@ static void say(struct walk *w, uint32_t word)
 
 static void walk_node(struct machine *m, struct walk *w, struct machine_value *v)
 {
-    if (v->mark == m->mark)
+    if (v->mark == m->values->mark)
         return;
-    v->mark = m->mark;
+    v->mark = m->values->mark;
     bool leaf = is_leaf(v);
     int inputs = leaf ? 0 : node_ops[v->op].inputs;
     for (int i = 0; i < inputs; i++)
@@ -96,15 +96,15 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
     w->nodes[w->count++] = v;
     say(w, (uint32_t)v->op | (uint32_t)v->type.kind << 8 | (uint32_t)v->type.width << 16 |
                (uint32_t)v->axis << 24);
-    say(w, v->set | (uint32_t)m->sets[v->set].generation << 16);
+    say(w, v->set | (uint32_t)m->values->sets[v->set].generation << 16);
     say(w, v->type.s | (uint32_t)v->type.e << 8 | (uint32_t)v->maybe_nan << 16 |
                (uint32_t)v->strange_nan << 17);
     if (leaf && !is_own_leaf(w, v))
         return;
     if (leaf) {
         struct device_buffer *b = v->buffer;
-        if (b->mark != m->mark) {
-            b->mark = m->mark;
+        if (b->mark != m->values->mark) {
+            b->mark = m->values->mark;
             b->number = (uint32_t)w->buffers_count;
             if (w->buffers_count == w->buffers_capacity)
                 w->buffers = machine_grown(w->buffers, &w->buffers_capacity,
@@ -134,7 +134,7 @@ static void walk_root(struct root_visit *visit, struct machine_value **place, ui
         return;
     walk_node(visit->m, w, *place);
     say(w, id | UINT32_C(0x80000000));
-    say(w, part == OVERFLOW_PART ? part + visit->m->sets[id].overflow.op : part);
+    say(w, part == OVERFLOW_PART ? part + visit->m->memory->flags[id].overflow.op : part);
     say(w, (*place)->local);
     if (part != OVERFLOW_PART)
         w->places =
@@ -144,9 +144,9 @@ static void walk_root(struct root_visit *visit, struct machine_value **place, ui
 void states_walk(struct machine *m, struct walk *w)
 {
     *w = (struct walk){.good = true};
-    m->mark++;
-    for (int i = 0; i < m->fields_count; i++)
-        w->good = w->good && !m->fields[i]->root;
+    m->values->mark++;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        w->good = w->good && !m->memory->fields[i]->root;
     if (!w->good)
         return;
     struct root_visit visit = {.m = m, .visit = walk_root, .walk = w};
@@ -214,8 +214,8 @@ static void template_make(struct machine *m, struct state *s, const struct walk 
 {
     struct root_visit visit = {.m = m, .visit = collect_root, .values = s->roots};
     each_root(&visit);
-    for (int i = 1; i < m->sets_count; i++)
-        s->overflows[i] = m->sets[i].overflow.op;
+    for (int i = 1; i < m->values->sets_count; i++)
+        s->overflows[i] = m->memory->flags[i].overflow.op;
     template_copy(m, s, w);
 }
 
@@ -263,29 +263,29 @@ static void put_root(struct root_visit *visit, struct machine_value **place, uin
 
 void state_activate(struct machine *m, int index, struct device_buffer *const *buffers)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     struct state *s = &p->states[index];
     state_buffers_put(m, s, buffers);
     struct root_visit visit = {.m = m, .visit = put_root, .values = s->roots};
     overflows_tidy(m);
     each_root(&visit);
     INVARIANT(visit.count == s->roots_count);
-    for (int i = 1; i < m->sets_count; i++)
-        m->sets[i].overflow.op = s->overflows[i];
+    for (int i = 1; i < m->values->sets_count; i++)
+        m->memory->flags[i].overflow.op = s->overflows[i];
     p->active = index;
     p->edge = s->edges_count && !p->catching_up ? &s->edges[s->edge_last] : NULL;
-    p->at = m->calls_noted = 0;
+    p->at = m->run->calls_noted = 0;
 }
 
 void state_leave(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     int index = p->active;
     struct state *s = &p->states[index], old = *s;
     p->active = -1;
     p->edge = NULL;
     struct walk w = {.good = true, .of_state = true};
-    m->mark++;
+    m->values->mark++;
     for (int i = 0; i < s->roots_count; i++)
         if (s->roots[i])
             walk_node(m, &w, s->roots[i]);
@@ -304,10 +304,10 @@ void state_leave(struct machine *m)
 
 void replay_changes(struct machine *m)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     if (!p)
         return;
-    INVARIANT(m->calls_noted == 0);
+    INVARIANT(m->run->calls_noted == 0);
     if (p->active >= 0)
         state_leave(m);
     else if (!p->depth && p->from >= 0)
@@ -328,8 +328,8 @@ static void state_finish(struct machine *m, struct state *s)
 
 void states_forget(struct machine *m)
 {
-    struct replay *p = m->replay;
-    INVARIANT(m->calls_noted == 0);
+    struct replay *p = m->run->replay;
+    INVARIANT(m->run->calls_noted == 0);
     if (p->active >= 0)
         state_leave(m);
     replay_from_forget(m);
@@ -341,7 +341,7 @@ void states_forget(struct machine *m)
 
 void replay_forget(struct machine *m)
 {
-    if (!m->replay || !m->replay->states_count)
+    if (!m->run->replay || !m->run->replay->states_count)
         return;
     replay_settle(m);
     states_forget(m);
@@ -358,7 +358,7 @@ static bool hash_seen(struct replay *p, uint64_t hash)
 
 int state_find(struct machine *m, struct walk *w)
 {
-    struct replay *p = m->replay;
+    struct replay *p = m->run->replay;
     uint64_t hash = machine_words_hash(w->signature, (size_t)w->length);
     for (int i = 0; i < p->states_count; i++)
         if (p->states[i].hash == hash && p->states[i].length == (uint32_t)w->length &&
@@ -373,7 +373,7 @@ int state_find(struct machine *m, struct walk *w)
                         .hash = hash,
                         .roots = machine_allocated((size_t)w->roots_count, sizeof *s->roots),
                         .roots_count = w->roots_count,
-                        .overflows = machine_allocated((size_t)m->sets_count, 1),
+                        .overflows = machine_allocated((size_t)m->values->sets_count, 1),
                         .places = w->places,
                         .buffers =
                             machine_allocated((size_t)w->buffers_count, sizeof *s->buffers),

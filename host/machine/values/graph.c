@@ -13,20 +13,20 @@ enum { NODES_IN_BLOCK = 512, TABLE_FIRST = 4096 };
 
 bool graph_init(struct machine *m)
 {
-    m->table_size = TABLE_FIRST;
-    m->table = calloc(m->table_size, sizeof *m->table);
-    return m->table != NULL;
+    m->values->table_size = TABLE_FIRST;
+    m->values->table = calloc(m->values->table_size, sizeof *m->values->table);
+    return m->values->table != NULL;
 }
 
 void graph_finish(struct machine *m)
 {
     machine_begin(m);
-    for (int i = 0; i < m->node_blocks_count; i++)
-        free(m->node_blocks[i]);
-    free(m->node_blocks);
-    free(m->table);
-    free(m->borrowed);
-    free(m->release_stack);
+    for (int i = 0; i < m->values->blocks_count; i++)
+        free(m->values->blocks[i]);
+    free(m->values->blocks);
+    free(m->values->table);
+    free(m->values->borrowed);
+    free(m->values->release_stack);
 }
 
 /* Nodes are used again at once. A fuzzing build gives each its own memory, so that ASan sees one that
@@ -36,41 +36,41 @@ static struct machine_value *node_new(struct machine *m)
 {
     struct machine_value *v = calloc(1, sizeof *v);
     INVARIANT(v != NULL);
-    m->nodes_live++;
+    m->values->live++;
     return v;
 }
 
 static void node_free(struct machine *m, struct machine_value *v)
 {
     free(v);
-    m->nodes_live--;
+    m->values->live--;
 }
 #else
 static struct machine_value *node_new(struct machine *m)
 {
-    if (!m->free_nodes) {
-        if (m->node_blocks_count == m->node_blocks_capacity)
-            m->node_blocks =
-                machine_grown(m->node_blocks, &m->node_blocks_capacity, sizeof *m->node_blocks);
+    if (!m->values->free) {
+        if (m->values->blocks_count == m->values->blocks_capacity)
+            m->values->blocks = machine_grown(m->values->blocks, &m->values->blocks_capacity,
+                                              sizeof *m->values->blocks);
         struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
         INVARIANT(block != NULL);
-        m->node_blocks[m->node_blocks_count++] = block;
+        m->values->blocks[m->values->blocks_count++] = block;
         for (int i = 0; i < NODES_IN_BLOCK; i++) {
-            block[i].next = m->free_nodes;
-            m->free_nodes = &block[i];
+            block[i].next = m->values->free;
+            m->values->free = &block[i];
         }
     }
-    struct machine_value *v = m->free_nodes;
-    m->free_nodes = v->next;
-    m->nodes_live++;
+    struct machine_value *v = m->values->free;
+    m->values->free = v->next;
+    m->values->live++;
     return v;
 }
 
 static void node_free(struct machine *m, struct machine_value *v)
 {
-    v->next = m->free_nodes;
-    m->free_nodes = v;
-    m->nodes_live--;
+    v->next = m->values->free;
+    m->values->free = v;
+    m->values->live--;
 }
 #endif
 
@@ -81,24 +81,25 @@ void graph_ref(struct machine_value *v)
 
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
 {
-    if (m->borrowed_count == m->borrowed_capacity)
-        m->borrowed = machine_grown(m->borrowed, &m->borrowed_capacity, sizeof *m->borrowed);
-    m->borrowed[m->borrowed_count++] = v;
+    if (m->values->borrowed_count == m->values->borrowed_capacity)
+        m->values->borrowed = machine_grown(m->values->borrowed, &m->values->borrowed_capacity,
+                                            sizeof *m->values->borrowed);
+    m->values->borrowed[m->values->borrowed_count++] = v;
     v->refs++;
     return v;
 }
 
 void graph_give_back(struct machine *m)
 {
-    for (int i = 0; i < m->borrowed_count; i++)
-        graph_unref(m, m->borrowed[i]);
-    m->borrowed_count = 0;
+    for (int i = 0; i < m->values->borrowed_count; i++)
+        graph_unref(m, m->values->borrowed[i]);
+    m->values->borrowed_count = 0;
 }
 
 void machine_begin(struct machine *m)
 {
     graph_give_back(m);
-    m->simplify_budget = 256;
+    m->values->simplify_budget = 256;
     if (!replay_in_call(m)) {
         replay_settle(m);
         run_flush_due(m);
@@ -129,28 +130,28 @@ static bool same_key(const struct machine_value *v, const struct machine_value *
 
 static void table_grow(struct machine *m)
 {
-    uint32_t size = m->table_size * 2;
+    uint32_t size = m->values->table_size * 2;
     struct machine_value **table = calloc(size, sizeof *table);
     INVARIANT(table != NULL);
-    for (uint32_t i = 0; i < m->table_size; i++)
-        for (struct machine_value *v = m->table[i], *next; v; v = next) {
+    for (uint32_t i = 0; i < m->values->table_size; i++)
+        for (struct machine_value *v = m->values->table[i], *next; v; v = next) {
             next = v->next;
             v->next = table[v->hash & (size - 1)];
             table[v->hash & (size - 1)] = v;
         }
-    free(m->table);
-    m->table = table;
-    m->table_size = size;
+    free(m->values->table);
+    m->values->table = table;
+    m->values->table_size = size;
 }
 
 static void table_remove(struct machine *m, struct machine_value *v)
 {
-    struct machine_value **link = &m->table[v->hash & (m->table_size - 1)];
+    struct machine_value **link = &m->values->table[v->hash & (m->values->table_size - 1)];
     while (*link != v)
         link = &(*link)->next;
     *link = v->next;
     v->interned = false;
-    m->table_count--;
+    m->values->table_count--;
 }
 
 /* Asked for once more, a value that still waits to be computed is as good as made now, if all in it is. Otherwise what a
@@ -195,11 +196,11 @@ static void derive_nan(const struct machine *m, struct machine_value *v)
     case MACHINE_FMAX:
         v->maybe_nan = v->in[1]->op == NODE_CONSTANT
                            ? scalar_is_nan(v->type, v->in[1]->imm.lo)
-                           : nan || strange || !m->device.shape.keeps_nan;
+                           : nan || strange || !m->device->shape.keeps_nan;
         break;
     default:
         v->maybe_nan = kind == NAN_ANY ||
-                       (kind == NAN_KEPT && (nan || strange || !m->device.shape.keeps_nan));
+                       (kind == NAN_KEPT && (nan || strange || !m->device->shape.keeps_nan));
     }
 }
 
@@ -228,7 +229,8 @@ static bool is_pending(const struct machine_value *v)
 static struct machine_value *find(struct machine *m, const struct machine_value *key,
                                   uint32_t hash)
 {
-    for (struct machine_value *v = m->table[hash & (m->table_size - 1)]; v; v = v->next)
+    for (struct machine_value *v = m->values->table[hash & (m->values->table_size - 1)]; v;
+         v = v->next)
         if (v->hash == hash && same_key(v, key))
             return v;
     return NULL;
@@ -244,12 +246,12 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     uint32_t hash = hash_of(key);
     struct machine_value *known = find(m, key, hash);
     if (known) {
-        m->vanished.known += node_ops[known->op].inputs > 0;
+        m->values->vanished.known += node_ops[known->op].inputs > 0;
         if (!known->buffer)
-            bear(known, m->epoch);
+            bear(known, m->values->epoch);
         return graph_borrow(m, known);
     }
-    if (m->table_count >= m->table_size)
+    if (m->values->table_count >= m->values->table_size)
         table_grow(m);
     struct machine_value *v = node_new(m);
     *v = *key;
@@ -262,13 +264,13 @@ struct machine_value *graph_node(struct machine *m, const struct machine_value *
     for (int i = 0; i < 3; i++)
         if (v->in[i])
             graph_ref(v->in[i]);
-    derive(m, v, m->epoch);
+    derive(m, v, m->values->epoch);
     v->interned = true;
-    v->next = m->table[hash & (m->table_size - 1)];
-    m->table[hash & (m->table_size - 1)] = v;
-    m->table_count++;
+    v->next = m->values->table[hash & (m->values->table_size - 1)];
+    m->values->table[hash & (m->values->table_size - 1)] = v;
+    m->values->table_count++;
     if (is_pending(v))
-        m->nodes_pending++;
+        m->values->pending++;
     return graph_borrow(m, v);
 }
 
@@ -291,28 +293,29 @@ void graph_unref(struct machine *m, struct machine_value *v)
 {
     if (--v->refs)
         return;
-    m->release_count = 0;
+    m->values->release_count = 0;
     for (;;) {
         if (v->interned) {
             if (m->watch)
                 watch_released(m, v);
             table_remove(m, v);
             if (is_pending(v) && !v->buffer && !v->kept)
-                m->nodes_pending--;
+                m->values->pending--;
         }
         if (v->buffer)
             device_buffer_unref(m, v->buffer);
         for (int i = 0; i < 3; i++)
             if (v->in[i] && --v->in[i]->refs == 0) {
-                if (m->release_count == m->release_capacity)
-                    m->release_stack = machine_grown(m->release_stack, &m->release_capacity,
-                                                     sizeof *m->release_stack);
-                m->release_stack[m->release_count++] = v->in[i];
+                if (m->values->release_count == m->values->release_capacity)
+                    m->values->release_stack =
+                        machine_grown(m->values->release_stack, &m->values->release_capacity,
+                                      sizeof *m->values->release_stack);
+                m->values->release_stack[m->values->release_count++] = v->in[i];
             }
         node_free(m, v);
-        if (!m->release_count)
+        if (!m->values->release_count)
             return;
-        v = m->release_stack[--m->release_count];
+        v = m->values->release_stack[--m->values->release_count];
     }
 }
 
@@ -322,7 +325,7 @@ void graph_keep(struct machine *m, struct machine_value *v, bool kept)
         return;
     v->kept = kept;
     if (v->interned && is_pending(v) && !v->buffer)
-        m->nodes_pending += kept ? UINT64_MAX : 1;
+        m->values->pending += kept ? UINT64_MAX : 1;
 }
 
 /* It is going to be another node: not one that a state keeps. */
@@ -362,7 +365,7 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
     memcpy(in, v->in, sizeof in);
     table_remove(m, v);
     if (is_pending(v))
-        m->nodes_pending--;
+        m->values->pending--;
     v->op = key->op;
     v->axis = key->axis;
     v->detail = key->detail;
@@ -371,13 +374,13 @@ void graph_become(struct machine *m, struct machine_value *v, const struct machi
     for (int i = 0; i < 3; i++)
         if ((v->in[i] = key->in[i]))
             graph_ref(v->in[i]);
-    derive(m, v, m->epoch);
+    derive(m, v, m->values->epoch);
     if (is_pending(v))
-        m->nodes_pending++;
+        m->values->pending++;
     v->interned = true;
-    v->next = m->table[v->hash & (m->table_size - 1)];
-    m->table[v->hash & (m->table_size - 1)] = v;
-    m->table_count++;
+    v->next = m->values->table[v->hash & (m->values->table_size - 1)];
+    m->values->table[v->hash & (m->values->table_size - 1)] = v;
+    m->values->table_count++;
     for (int i = 0; i < 3; i++)
         if (in[i])
             graph_unref(m, in[i]);
@@ -390,7 +393,7 @@ void graph_materialised(struct machine *m, struct machine_value *v,
     let_go(m, v);
     v->buffer = buffer;
     if (is_pending(v))
-        m->nodes_pending--;
+        m->values->pending--;
     if (node_is_cheap(v) || v->op == NODE_SLICE)
         return; /* keeps its name: the next one like it is the same node */
     graph_forget(m, v);

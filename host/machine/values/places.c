@@ -13,7 +13,7 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
 {
     if (!a)
         return NULL;
-    int set = a->set ? a->set : m->set_current;
+    int set = a->set ? a->set : m->values->set_current;
     const struct vpset *s = vpset_get(m, set);
     if (!s)
         return NULL;
@@ -47,7 +47,7 @@ struct machine_value *machine_shift(struct machine *m, struct machine_value *a, 
 static struct machine_value *generated(struct machine *m, int op, int axis, int detail,
                                        int width, struct machine_scalar imm)
 {
-    const struct vpset *s = vpset_get(m, m->set_current);
+    const struct vpset *s = vpset_get(m, m->values->set_current);
     if (!s)
         return NULL;
     if (width < 1 || width > 128)
@@ -57,7 +57,7 @@ static struct machine_value *generated(struct machine *m, int op, int axis, int 
     struct machine_value key = {.op = (uint8_t)op,
                                 .type = MACHINE_UINT(width),
                                 .axis = (uint8_t)axis,
-                                .set = (uint16_t)m->set_current,
+                                .set = (uint16_t)m->values->set_current,
                                 .detail = detail,
                                 .imm = imm};
     return graph_node(m, &key);
@@ -70,7 +70,7 @@ struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
 
 struct machine_value *machine_self_address(struct machine *m, int width)
 {
-    if (machine_vpset_order(m, m->set_current) == MACHINE_SEND_ORDER)
+    if (machine_vpset_order(m, m->values->set_current) == MACHINE_SEND_ORDER)
         return machine_self_index(m, width);
     return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
 }
@@ -89,8 +89,8 @@ static uint64_t mix(uint64_t z)
 
 void machine_random_seed(struct machine *m, uint64_t seed)
 {
-    m->random_seed = seed;
-    m->random_draws = 0;
+    m->values->random_seed = seed;
+    m->values->random_draws = 0;
 }
 
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit)
@@ -103,7 +103,8 @@ struct machine_value *machine_random(struct machine *m, int width, uint64_t limi
         return machine_concat(m, low, high);
     }
     replay_impure(m);
-    uint64_t key = mix(mix(m->random_seed) + ++m->random_draws * 0x9e3779b97f4a7c15u);
+    uint64_t key =
+        mix(mix(m->values->random_seed) + ++m->values->random_draws * 0x9e3779b97f4a7c15u);
     int fits32 = limit != 0 && limit <= UINT32_MAX;
     return generated(m, NODE_RANDOM, 0,
                      limit == 0 ? 0

@@ -55,7 +55,8 @@ static struct machine_scalar narrow(unsigned __int128 x)
 /* What is handed out stays until the next instruction, also where it is a part of an operand. */
 static struct machine_value *handed(struct machine *m, struct machine_value *v)
 {
-    bool just_made = m->borrowed_count > 0 && m->borrowed[m->borrowed_count - 1] == v;
+    bool just_made = m->values->borrowed_count > 0 &&
+                     m->values->borrowed[m->values->borrowed_count - 1] == v;
     return !v || just_made ? v : graph_borrow(m, v);
 }
 
@@ -135,7 +136,7 @@ static int joint_set(struct machine *m, struct machine_value *const *in, int cou
         if (in[i]->set)
             set = in[i]->set;
     }
-    return set ? set : m->set_current;
+    return set ? set : m->values->set_current;
 }
 
 static struct machine_value *build(struct machine *m, int op, struct machine_type type,
@@ -281,17 +282,17 @@ static struct machine_value *select_of(struct machine *m, struct machine_value *
         if (is_zero_bit(c))
             return b;
         if (a->op == NODE_SELECT && implies(c, a->in[0], DEPTH)) {
-            m->vanished.under_context++;
+            m->values->vanished.under_context++;
             a = a->in[1];
         } else if (b->op == NODE_SELECT && implies(b->in[0], c, DEPTH)) {
-            m->vanished.overwritten++;
+            m->values->vanished.overwritten++;
             b = b->in[2]; /* where c does not hold, neither does what implies it */
         } else
             break;
     }
     if (b->op == NODE_SELECT && implies(c, b->in[0], DEPTH)) {
         struct machine_value *outer = b->in[0], *rest = residual(m, c, outer, DEPTH);
-        m->vanished.nested++;
+        m->values->vanished.nested++;
         struct machine_value *inner = rest ? select_of(m, rest, a, b->in[1]) : a;
         return inner ? select_of(m, outer, inner, b->in[2]) : NULL;
     }
@@ -310,12 +311,13 @@ static struct machine_value *select_of(struct machine *m, struct machine_value *
 struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
                                      struct machine_value *context, int depth)
 {
-    if (depth <= 0 || node_is_leaf(v) || is_number(context) || m->simplify_budget-- <= 0)
+    if (depth <= 0 || node_is_leaf(v) || is_number(context) ||
+        m->values->simplify_budget-- <= 0)
         return v;
     if (v->op == NODE_SELECT) {
         struct machine_value *c = residual(m, v->in[0], context, DEPTH);
         struct machine_value *a = simplify_under(m, v->in[1], context, depth - 1);
-        m->vanished.under_context += !c;
+        m->values->vanished.under_context += !c;
         if (!c)
             return a;
         if (c->op == MACHINE_NOT && implies(context, c->in[0], DEPTH))
@@ -327,7 +329,7 @@ struct machine_value *simplify_under(struct machine *m, struct machine_value *v,
     }
     if (v->type.width == 1 && v->op == MACHINE_AND) {
         struct machine_value *c = residual(m, v, context, DEPTH);
-        m->vanished.under_context += c != v;
+        m->values->vanished.under_context += c != v;
         return c ? c : bit_number(m, 1);
     }
     if (v->op == NODE_REINTERPRET) {
@@ -426,7 +428,7 @@ struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a)
 {
     struct machine_value *v = unary(m, op, a);
-    m->vanished.numbers += v && is_number(v);
+    m->values->vanished.numbers += v && is_number(v);
     return handed(m, v);
 }
 
@@ -501,7 +503,7 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
                                      struct machine_value *a, struct machine_value *b)
 {
     struct machine_value *v = binary(m, op, a, b);
-    m->vanished.numbers += v && is_number(v);
+    m->values->vanished.numbers += v && is_number(v);
     return v;
 }
 

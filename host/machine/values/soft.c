@@ -59,7 +59,7 @@ static struct machine_value *node(struct machine *m, int op, struct machine_type
 {
     struct machine_value key = {.op = (uint8_t)op,
                                 .type = type,
-                                .set = a->set ? a->set : (uint16_t)m->set_current,
+                                .set = a->set ? a->set : (uint16_t)m->values->set_current,
                                 .in = {a, NULL, NULL}};
     return graph_node(m, &key);
 }

@@ -159,12 +159,12 @@ void watch_background(struct machine *m, double start, double end, const char *o
 void watch_call(struct machine *m, const char *name, bool foreseen)
 {
     struct watch *w = m->watch;
-    if (m->silent)
+    if (m->plans->silent)
         return;
     if (!w->depth && w->explain->between)
         w->explain->between();
     if (foreseen) {
-        if (m->calls_noted == 1)
+        if (m->run->calls_noted == 1)
             w->noted_start = machine_clock_s();
         return;
     }
@@ -228,7 +228,7 @@ void watch_replayed(struct machine *m, double start, const struct machine_call *
     if (w->noted_start > 0)
         span(m, WATCH_NOTE, watch_phase_names[WATCH_NOTE], w->noted_start, start, text);
     watch_span(m, WATCH_REPLAY, start, "%s", text);
-    w->noted_start = m->calls_noted ? machine_clock_s() : 0; /* those that are left */
+    w->noted_start = m->run->calls_noted ? machine_clock_s() : 0; /* those that are left */
     settle(m, false);
     if (w->machine)
         trace_flush();
@@ -240,11 +240,14 @@ void watch_evaluated(struct machine *m, double start, bool wanted, int targets)
 {
     struct watch *w = m->watch;
     struct explain *e = w->explain;
-    const char *why = wanted        ? "looked at"
-                      : m->flushing ? "much was waiting"
-                      : m->eager    ? "at once"
-                                    : "asked to";
-    *(wanted ? &e->looked : m->flushing ? &e->alone : m->eager ? &e->eager : &e->flushed) += 1;
+    const char *why = wanted             ? "looked at"
+                      : m->run->flushing ? "much was waiting"
+                      : m->run->eager    ? "at once"
+                                         : "asked to";
+    *(wanted             ? &e->looked
+      : m->run->flushing ? &e->alone
+      : m->run->eager    ? &e->eager
+                         : &e->flushed) += 1;
     watch_span(m, WATCH_EVALUATE, start, "\"why\":\"%s\",\"targets\":%d", why, targets);
     settle(m, false);
     if (w->machine)
@@ -389,13 +392,13 @@ static void command_end(struct machine *m, const struct command *c)
 static void clocks_begin(struct machine *m)
 {
     struct device_buffer *b = device_buffer_get(m, 64);
-    m->inside++;
+    m->device->inside++;
     for (int i = 0; b && i < 8; i++) {
         struct times t;
         cl_event done = NULL;
         cl_uint zero = 0;
         double before = machine_clock_s();
-        cl_int error = clEnqueueFillBuffer(m->device.queue, b->mem, &zero, sizeof zero, 0, 64,
+        cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, &zero, sizeof zero, 0, 64,
                                            0, NULL, &done);
         double after = machine_clock_s();
         if (!error && !clWaitForEvents(1, &done) && times_of(done, &t))
@@ -403,7 +406,7 @@ static void clocks_begin(struct machine *m)
         if (done)
             clReleaseEvent(done);
     }
-    m->inside--;
+    m->device->inside--;
     if (b)
         device_buffer_unref(m, b);
     machine_error_clear(m); /* then later commands must do */
@@ -413,9 +416,9 @@ static void settle(struct machine *m, bool wait)
 {
     struct watch *w = m->watch;
     if (wait && w->commands_count) {
-        m->inside++;
-        clFinish(m->device.queue);
-        m->inside--;
+        m->device->inside++;
+        clFinish(m->device->queue);
+        m->device->inside--;
     }
     while (w->commands_count) {
         struct command *c = &w->commands[w->commands_first];
@@ -439,7 +442,8 @@ void watch_settle(struct machine *m)
 void watch_ready(struct machine *m)
 {
     char text[400];
-    snprintf(text, sizeof text, "%d processors on %s", m->processors_count, m->device.name);
+    snprintf(text, sizeof text, "%d processors on %s", m->values->processors_count,
+             m->device->name);
     clocks_begin(m);
     if (m->watch->machine)
         trace_title(m->watch->machine, text);
@@ -449,7 +453,7 @@ void watch_ready(struct machine *m)
 
 void watch_leave(struct machine *m)
 {
-    if (!m->watch || !m->device.queue)
+    if (!m->watch || !m->device->queue)
         return;
     settle(m, true);
     if (m->watch->machine)
