@@ -204,7 +204,7 @@ HEAVY VL reversed_L(VL a, int w)
     return a >> (VL)(64 - w);
 }
 
-/* ---- 65..128 bits: one lane, see emit.c ---- */
+/* ---- 65..128 bits: one lane, see rows.c ---- */
 
 #if defined(LOAD_u128) && VECTOR == 1
 inline VQ q_small(ulong a)

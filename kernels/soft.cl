@@ -5,7 +5,7 @@
  * doubles, so that a value of it is held as the double; x and y here are doubles' bits. Results
  * are rounded once, to nearest even, to the format; a NaN is the double's canonical one.
  *
- * In kernels of one lane, and as C on the host: see host/machine/values/soft.c. Between unpacking and
+ * In kernels of one lane, and as C on the host: see host/machine/base/types.c. Between unpacking and
  * rounding a number is sign, exponent and magnitude: m * 2^(exponent - 63), 2^63 <= m < 2^64. */
 #ifdef __OPENCL_VERSION__
 #define SOFT_CLZ(x) ((int)clz(x))

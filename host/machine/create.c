@@ -1,72 +1,14 @@
 /* machine.c - creation, configuration, errors. */
-#include "build/background.h"
-#include "watch/watch.h"
-
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-_Noreturn void machine_invariant_failed(const char *what, const char *file, int line)
-{
-    fprintf(stderr, "lutetia: broken invariant: %s (%s:%d)\n", what, file, line);
-    abort();
-}
-
-enum machine_status machine_fail(struct machine *m, enum machine_status status,
-                                 const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(m->error, sizeof m->error, format, arguments);
-    va_end(arguments);
-    m->status = status;
-    return status;
-}
-
-double machine_clock_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-void *machine_more(void *old, int *capacity, size_t element, bool *failed)
-{
-    int wanted = *capacity ? *capacity * 2 : 64;
-    void *new = realloc(old, (size_t)wanted * element);
-    if (!new) {
-        *failed = true;
-        return old;
-    }
-    *capacity = wanted;
-    return new;
-}
-
-void *machine_grown(void *old, int *capacity, size_t element)
-{
-    bool failed = false;
-    void *new = machine_more(old, capacity, element, &failed);
-    INVARIANT(!failed);
-    return new;
-}
-
-void *machine_allocated(size_t count, size_t element)
-{
-    void *new = calloc(count ? count : 1, element);
-    INVARIANT(new != NULL);
-    return new;
-}
-
-uint64_t machine_words_hash(const uint32_t *words, size_t count)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = 0; i < count; i++) {
-        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
-    return hash;
-}
+#include "base/errors.h"
+#include "build/background.h"
+#include "memory/memory.h"
+#include "run/replay.h"
+#include "values/graph.h"
 
 struct machine_config machine_config_default(void)
 {
@@ -127,7 +69,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     m->memory->next_base = 64;
     m->values->epoch = 1;
     run_init(m);
-    if (!replay_init(m))
+    if (!record_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->values->random_seed = 1;
     status = set_processors(m, config->processors_count);
@@ -147,7 +89,7 @@ void machine_destroy(struct machine *m)
     m->run->flush_due = false;
     background_finish(m);
     watch_leave(m);
-    replay_finish(m);
+    record_finish(m);
     fields_finish(m);
     vpsets_finish(m);
     plans_finish(m);
@@ -165,37 +107,6 @@ void machine_leave(struct machine *m)
         clFinish(m->device->queue);
         watch_leave(m);
     }
-}
-
-enum machine_status machine_status_last(const struct machine *m)
-{
-    return m->status;
-}
-
-const char *machine_error(const struct machine *m)
-{
-    return m ? m->error : "not enough memory for a machine";
-}
-
-void machine_error_clear(struct machine *m)
-{
-    m->status = MACHINE_OK;
-    m->error[0] = 0;
-}
-
-int machine_processors_count(const struct machine *m)
-{
-    return m->values->processors_count;
-}
-
-const char *machine_device_name(const struct machine *m)
-{
-    return m->device->name;
-}
-
-const char *machine_device_driver(const struct machine *m)
-{
-    return m->device->driver;
 }
 
 void machine_stats_get(const struct machine *m, struct machine_stats *out)

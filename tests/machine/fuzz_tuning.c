@@ -3,10 +3,11 @@
  *     fuzz_tuning [SEEDS]      a good file with bytes changed, cut, moved, by chance; and bytes by chance
  *
  * With -Dfuzz=true, fuzz_tuning_libfuzzer is the same for libFuzzer. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "internal.h"
+#include "device/tuning.h"
 #include "sample.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);

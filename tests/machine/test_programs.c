@@ -2,7 +2,7 @@
  * and those that need what functions.cl does not declare. */
 #include "support.h"
 
-#include "internal.h"
+#include "device/device.h"
 
 #include <dirent.h>
 #include <sys/stat.h>

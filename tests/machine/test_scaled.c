@@ -1,5 +1,5 @@
 /* test_scaled.c - what is multiplied by g where it is above 0 and divided by g where it is below is the larger or the
- * smaller of product and quotient (scaled_by_sign() in simplify.c): the same bits as the recorded operations, one by one
+ * smaller of product and quotient (scaled_by_sign() in values/rules.c): the same bits as the recorded operations, one by one
  * and in plain C, and only for factors that it holds for. */
 #include <math.h>
 

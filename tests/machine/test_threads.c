@@ -2,7 +2,7 @@
  * build with -Db_sanitize=thread sees what they share. */
 #include "support.h"
 
-#include "internal.h"
+#include "build/plans.h"
 
 #include <pthread.h>
 #include <unistd.h>

@@ -1,6 +1,7 @@
 /* Tiles of local memory, forced on a CPU: elements of all sizes, on sheets that no tile fits; and what a GPU would be given.
  * Run by oclgrind.sh too, which looks for work-items that get in each other's way. */
-#include "internal.h"
+#include "base/parts.h"
+#include "device/device.h"
 #include "support.h"
 
 /* ---- on sheets that no tile fits ---- */
@@ -115,7 +116,7 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     struct machine *m = support_machine(0);
     unsetenv("LUTETIA_BOX_AFTER");
     struct device_shape forced = m->device->shape;
-    m->device->shape = device_shape_gpu();
+    m->device->shape = shape_gpu();
     m->device->shape.group = forced.group;
     m->device->shape.local_bytes = forced.local_bytes;
     m->device->shape.units = 8;

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 #include <mpfr.h>
 
-#include "internal.h"
 #include "sample.h"
+#include "values/math.h"
 
 struct function {
     const char *name;

@@ -11,8 +11,9 @@
 
 #include <cmocka.h>
 
-#include "internal.h"
+#include "base/node_ops.h"
 #include "sample.h"
+#include "values/math.h"
 
 enum { COLUMNS = 272, ROWS = 16, COUNT = COLUMNS * ROWS, FIRST = MACHINE_FEXP };
 enum { OPS = MACHINE_FSCALE - MACHINE_FEXP + 1 };

@@ -12,7 +12,9 @@
 #include "paris_internal.h"
 #include <cm/paris.h>
 
-#include "internal.h"
+#include "base/parts.h"
+#include "memory/memory.h"
+#include "values/values.h"
 
 enum { HIGH = 96, WIDE = 64, CELLS = HIGH * WIDE };
 

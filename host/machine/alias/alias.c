@@ -1,7 +1,9 @@
 /* alias.c - aliases: who of a root and them has the content, and where their bits are. See reshape.h. */
-#include "internal.h"
+#include "alias/alias.h"
 
 #include "alias/reshape.h"
+#include "base/errors.h"
+#include "run/replay.h"
 
 /* ---- who has the content ---- */
 
@@ -31,7 +33,7 @@ static bool factor_of(const struct machine *m, struct field *alias, struct facto
     return false;
 }
 
-bool reshape_settle(struct machine *m, struct field *root)
+bool alias_settle(struct machine *m, struct field *root)
 {
     struct field *from = root->newest;
     struct factor f;
@@ -53,14 +55,14 @@ static bool take_over(struct machine *m, struct field *alias)
     return f.fine == alias ? reshape_fine_from_coarse(m, &f) : reshape_coarse_from_fine(m, &f);
 }
 
-bool reshape_bring(struct machine *m, struct field *f, bool writes, bool whole)
+bool alias_bring(struct machine *m, struct field *f, bool writes, bool whole)
 {
     struct field *root = f->root ? f->root : f;
     if (!root->aliases)
         return true;
     if (f == root && writes && whole)
         root->newest = NULL;
-    if (root->newest != f && !reshape_settle(m, root))
+    if (root->newest != f && !alias_settle(m, root))
         return false;
     if (f->root && !f->current) {
         if (!(writes && whole) && !take_over(m, f))
@@ -141,7 +143,7 @@ static bool view_make(struct machine *m, uint32_t field, int vpset, struct field
 
 uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset)
 {
-    replay_forget(m);
+    notes_forget(m);
     struct field *root;
     struct view view;
     uint32_t bits;
@@ -169,7 +171,7 @@ static struct field *alias_exact(struct machine *m, uint32_t alias)
 
 enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field)
 {
-    replay_forget(m);
+    notes_forget(m);
     struct field *f = alias_exact(m, alias), *root;
     struct view view;
     uint32_t bits;
@@ -179,7 +181,7 @@ enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "an alias of %u bits cannot become one of %u: make another",
                             f->bits, bits);
-    if (f->root->newest == f && !reshape_settle(m, f->root))
+    if (f->root->newest == f && !alias_settle(m, f->root))
         return m->status;
     field_unlink_alias(f);
     field_slots_put(m, f, 0, f->bits, NULL, 0);
@@ -194,11 +196,11 @@ enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint
 
 enum machine_status machine_alias_remove(struct machine *m, uint32_t alias)
 {
-    replay_forget(m);
+    notes_forget(m);
     struct field *f = alias_exact(m, alias);
     if (!f)
         return m->status;
-    if (f->root->newest == f && !reshape_settle(m, f->root))
+    if (f->root->newest == f && !alias_settle(m, f->root))
         return m->status;
     field_destroy(m, f);
     return MACHINE_OK;

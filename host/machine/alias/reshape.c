@@ -1,10 +1,18 @@
 /* reshape.c - content on its way between a root and its aliases: woven, or through an image of the memory. See
  * reshape.h. */
-#include "internal.h"
+#include "alias/reshape.h"
 
 #include <stdlib.h>
 
-#include "alias/reshape.h"
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "kernels.h"
+#include "memory/call_set.h"
+#include "ops/scan.h"
+#include "run/materialise.h"
+#include "run/run.h"
+#include "run/slices.h"
+#include "values/graph.h"
 
 enum { PIECES_MANY = 8 };
 
@@ -34,7 +42,7 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
     for (uint32_t i = 0; i < count && good; i++) {
         if (y[i].value != known) {
             known = y[i].value;
-            in_memory = observe_materialise(m, set, known);
+            in_memory = materialise(m, set, known);
             good = in_memory != NULL;
         }
         y[i].value = in_memory;
@@ -51,12 +59,12 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
     struct device_buffer *out = NULL;
     enum machine_status status = MACHINE_OK;
     if (!words_evaluate(m, y, count, coarse) ||
-        !(out = device_rows_get(m, observe_rows(f, type))))
+        !(out = device_rows_get(m, geometry_rows(f, type))))
         return NULL;
     for (uint32_t at = 0, n, first = 0; at < count && !status;
          first += n * y[at].parts, at += n) {
         size_t whole = type_bytes(y[at].value->type);
-        for (n = 1; n < RESHAPE_BLOCK && at + n < count; n++)
+        for (n = 1; n < SLICES_BLOCK && at + n < count; n++)
             if (y[at + n].parts != y[at].parts || type_bytes(y[at + n].value->type) != whole)
                 break;
         char options[96];
@@ -75,7 +83,7 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
         call_uint(&c, y[at].parts);
         call_uint(&c, type.width);
         call_ulong(&c, scalar_ones(type.width).lo);
-        for (uint32_t i = 0; i < RESHAPE_BLOCK; i++)
+        for (uint32_t i = 0; i < SLICES_BLOCK; i++)
             call_buffer(&c, y[at + (i < n ? i : 0)].value->buffer);
         call_buffer(&c, out);
         status = call_processors(&c, m, (size_t)s->ratio, "reshaping");
@@ -140,7 +148,7 @@ static struct machine_value *piece_of_each(struct machine *m, const struct facto
     for (uint32_t i = 0; i < f->k && !alike; i++)
         if (!(y[i] = machine_reinterpret(m, y[i], MACHINE_UINT(width))))
             return NULL;
-    if (!reshape_lift(m, y, f->k, f->fine->vpset, &v))
+    if (!roll_lift(m, y, f->k, f->fine->vpset, &v))
         return NULL;
     if (v)
         return v;
@@ -274,7 +282,7 @@ bool reshape_coarse_from_fine(struct machine *m, const struct factor *f)
             const struct slot *s = &f->fine->slots[n];
             if (!machine_value_is_zero(s->value))
                 slots[put++] = slot_of(m, f->origin + i * f->stride + s->offset,
-                                       reshape_slice(m, s->value, f->coarse->vpset, f->k, i));
+                                       slice_make(m, s->value, f->coarse->vpset, f->k, i));
         }
     if (good && f->length)
         field_slots_put(m, f->coarse, f->origin, f->origin + (f->k - 1) * f->stride + f->length,
@@ -300,7 +308,7 @@ static enum machine_status image_pass(struct machine *m, const char *name,
 {
     const struct vpset *s = &m->values->sets[f->vpset];
     struct view view = reshape_view(f);
-    struct kernel_call c = reshape_call(m, type, name);
+    struct kernel_call c = slices_call(m, type, name);
     call_set(&c, m, s);
     call_uint(&c, call_processors_run(m));
     call_uint(&c, words);
@@ -319,7 +327,7 @@ static bool image_put(struct machine *m, const struct field *f, uint32_t words,
 {
     for (int i = 0; i < f->slots_count; i++) {
         const struct slot *s = &f->slots[i];
-        struct machine_value *v = observe_materialise(m, f->vpset, s->value);
+        struct machine_value *v = materialise(m, f->vpset, s->value);
         if (!v || image_pass(m, "put", f, words, s->offset, v->type, v->buffer, image))
             return false;
     }
@@ -333,7 +341,7 @@ static bool image_get(struct machine *m, struct field *f, uint32_t words,
     field_slots_put(m, f, 0, f->bits, NULL, 0);
     for (uint32_t at = 0; at < f->bits; at += 64) {
         struct machine_type type = MACHINE_UINT(f->bits - at < 64 ? f->bits - at : 64);
-        struct device_buffer *b = device_rows_get(m, observe_rows(s, type));
+        struct device_buffer *b = device_rows_get(m, geometry_rows(s, type));
         if (!b)
             return false;
         struct slot slot = slot_of(m, at, graph_buffer_node(m, type, f->vpset, b));

@@ -27,21 +27,7 @@
 #ifndef LUTETIA_MACHINE_RESHAPE_H
 #define LUTETIA_MACHINE_RESHAPE_H
 
-#include "device/call.h"
-#include "kernels.h"
-
-enum { RESHAPE_BLOCK = 16 }; /* arrays that a kernel weaves, or takes apart, at a time */
-
-/* The kernel of kernels/reshape.cl for values of that type. */
-static inline struct kernel_call reshape_call(struct machine *m, struct machine_type type,
-                                              const char *name)
-{
-    char options[64];
-    size_t bytes = type_bytes(type);
-    snprintf(options, sizeof options, "-DELEMENT=%s%s", call_element(bytes),
-             bytes == 16 ? " -DPAIR" : "");
-    return call_begin(m, kernel_reshape_cl, options, name);
-}
+#include "memory/memory.h"
 
 /* Element i of the k has bits [origin + i * stride, + length) of the coarse field, and all the fine
  * one's. */
@@ -54,15 +40,6 @@ static inline struct view reshape_view(const struct field *f)
 {
     return f->root ? f->view : (struct view){0, 1, f->bits, 0};
 }
-
-/* slices.c */
-/* Value i of the k that fine (in memory) is cut into, in the VP set. */
-struct machine_value *reshape_slice(struct machine *m, struct machine_value *fine, int set,
-                                    uint32_t k, uint32_t i);
-/* The one value of the finer set whose k slices these are, computed; NULL: there is none to be had for
- * nothing. False: error set. */
-bool reshape_lift(struct machine *m, struct machine_value *const *y, uint32_t k, int set,
-                  struct machine_value **whole);
 
 /* reshape.c; false: error set */
 bool reshape_fine_from_coarse(struct machine *m, const struct factor *f);

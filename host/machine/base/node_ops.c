@@ -1,5 +1,5 @@
 /* node_ops.c - what each operation of the graph is called, takes and costs. */
-#include "internal.h"
+#include "base/node_ops.h"
 
 /* name, operands, cost, NaNs */
 const struct node_op_info node_ops[NODE_OP_COUNT] = {

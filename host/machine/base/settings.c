@@ -2,12 +2,13 @@
  *
  * A row of the table for each; docs/engine.md says what they are for. One that is not set, or empty, is as if
  * it were not there; one that says nonsense makes no machine. */
-#include "internal.h"
-
 #include <errno.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "base/errors.h"
+#include "base/parts.h"
 
 enum { TILE_SIDE_MOST = 1024 };
 

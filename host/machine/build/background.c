@@ -18,8 +18,6 @@
  * to the machine, which compiles while the program waits, from then on. */
 #include "build/background.h"
 
-#include <user_folder.h>
-
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -29,11 +27,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <user_folder.h>
 
+#include "base/arrays.h"
 #include "build/compiler.h"
-#include "watch/watch.h"
+#include "build/plans.h"
+#include "device/cache.h"
+#include "run/run.h"
 
 /* A program that ends so soon after it first wanted something compiled is better off without. A process that says nothing
  * for so long is not going to. */
@@ -168,7 +171,7 @@ static bool compiler_start(struct background *b)
     close(ends[1]);
     b->socket = fcntl(ends[0], F_DUPFD_CLOEXEC, STDERR_FILENO + 1); /* no standard stream */
     close(ends[0]);
-    b->heard_s = machine_clock_s();
+    b->heard_s = clock_s();
     return b->child > 0 && b->socket >= 0;
 }
 
@@ -316,7 +319,7 @@ int background_want(struct machine *m, const struct background_wish *wish)
     struct background *b = background_of(m);
     bool failed = !b;
     if (!failed && b->count == b->capacity)
-        b->items = machine_more(b->items, &b->capacity, sizeof *b->items, &failed);
+        b->items = array_more(b->items, &b->capacity, sizeof *b->items, &failed);
     if (failed)
         return -1;
     struct item *item = &b->items[b->count];
@@ -422,7 +425,7 @@ bool background_begin(struct machine *m)
     b->begun = true;
     while (b->asked < b->count && b->items[b->asked].compiled)
         b->asked++;
-    b->heard_s = machine_clock_s();
+    b->heard_s = clock_s();
     if (b->asked < b->count && b->wanted_s <= 0)
         b->wanted_s = b->heard_s;
     return true;
@@ -438,7 +441,7 @@ static enum background_state background_lose(struct background *b)
 enum background_state background_take(struct machine *m)
 {
     struct background *b = m->plans->background;
-    double now = machine_clock_s();
+    double now = clock_s();
     bool waits = false, loaded = false;
     if (now - b->looked_s < LOOK_EVERY_S)
         return BACKGROUND_WAITS;
@@ -458,7 +461,7 @@ enum background_state background_take(struct machine *m)
         m->device->kernels_built_background += m->device->kernels_built - built;
         loaded = true;
     }
-    b->looked_s = machine_clock_s();
+    b->looked_s = clock_s();
     return waits ? BACKGROUND_WAITS : BACKGROUND_LOADED;
 }
 

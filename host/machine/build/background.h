@@ -13,7 +13,9 @@
 #ifndef LUTETIA_MACHINE_BACKGROUND_H
 #define LUTETIA_MACHINE_BACKGROUND_H
 
-#include "internal.h"
+#include <CL/cl.h>
+
+#include "machine.h"
 
 struct background_wish {
     const char *const *parts; /* DEVICE_PARTS; all but the last stay as they are */

@@ -2,6 +2,8 @@
  *
  * It is started and asked by background.c, which says why. It ends, whatever it is at, when the machine does not want it
  * any more or the machine's process has ended, and when nothing has been asked for in a while. */
+#include "build/compiler.h"
+
 #include <CL/cl.h>
 #include <poll.h>
 #include <pthread.h>
@@ -12,15 +14,17 @@
 #include <sys/pidfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/types.h>
 #include <unistd.h>
-
-#include "build/compiler.h"
 
 enum { IDLE_MS = 30000, MOST = 64, TEXT_MOST = 16 << 20, MEMORY_BYTES = 1 << 16 };
 
 static cl_device_id device;
+
 static cl_context context;
+
 static cl_command_queue queue;
+
 static cl_mem memory;
 
 /* Of the machine, to see it end: a child of a fork of it may keep the socket open. -1: the system has none. */

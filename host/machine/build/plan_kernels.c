@@ -1,24 +1,19 @@
-/* plan_kernels.c - plans kept: their kernels, made when a graph is first seen, and made better when it has been seen
- * often.
- *
- * Plans are kept by signature; numbers' values are no part of it. */
-#include "build/plan_kernels.h"
-
+/* plan_kernels.c - a plan's kernels: chosen, written, and built or asked for. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/errors.h"
 #include "build/background.h"
+#include "build/describe.h"
 #include "build/plans.h"
-#include "device/call.h"
 #include "kernels.h"
-#include "watch/watch.h"
 
 /* ---- life ---- */
 
-static void plan_free(struct plan *p)
+void plan_free(struct plan *p)
 {
     if (!p)
         return;
@@ -34,84 +29,12 @@ static void plan_free(struct plan *p)
     free(p);
 }
 
-/* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
-static void notes_settle(struct machine *m, struct plan *p)
+void plan_notes_settle(struct machine *m, struct plan *p)
 {
     for (int i = 0; m->watch && i < p->launches_count; i++) {
         struct launch *l = &p->launches[i];
-        l->note = watch_kernel_built(m, l->note, l->kernel);
+        l->note = describe_built(m, l->note, l->kernel);
     }
-}
-
-/* It does not take the other's place. */
-static void better_give_up(struct machine *m, struct plan *p)
-{
-    if (p->better)
-        notes_settle(m, p->better);
-    plan_free(p->better);
-    p->better = NULL;
-}
-
-void plans_finish(struct machine *m)
-{
-    for (int i = 0; i < m->plans->table_size; i++)
-        for (struct plan *p = m->plans->table[i], *next; p; p = next) {
-            next = p->next;
-            plan_free(p);
-        }
-    free(m->plans->table);
-}
-
-/* ---- a look inside ---- */
-
-/* NULL: it cannot be written. That is said once, and the program goes on without dumps. */
-static FILE *dump_open(struct machine *m, int number, const char *suffix)
-{
-    char path[600];
-    mkdir(m->plans->dump_dir, 0777);
-    snprintf(path, sizeof path, "%s/%04d%s", m->plans->dump_dir, number, suffix);
-    FILE *f = fopen(path, "w");
-    if (!f) {
-        fprintf(stderr,
-                "LUTETIA_DUMP: cannot write %s: %s; name a folder that can be written\n", path,
-                strerror(errno));
-        free(m->plans->dump_dir);
-        m->plans->dump_dir = NULL;
-    }
-    return f;
-}
-
-static void dump_text(struct machine *m, int number, const char *suffix, const char *options,
-                      const char *text)
-{
-    FILE *f = dump_open(m, number, suffix);
-    if (!f)
-        return;
-    if (options)
-        fprintf(f, "/* %s */\n", options);
-    fputs(text, f);
-    fclose(f);
-}
-
-static void dump_graph(struct machine *m, int number, const struct plan_graph *g)
-{
-    FILE *f = dump_open(m, number, ".graph");
-    if (!f)
-        return;
-    for (int i = 0; i < g->count; i++) {
-        const struct plan_node *n = &g->nodes[i];
-        fprintf(f, "%4d %-14s %s%d", i, n->leaf ? "buffer" : node_ops[n->op].name,
-                n->type.kind == MACHINE_FLOAT ? "f" : "u", n->type.width);
-        if (n->op == NODE_SHIFT && !n->leaf)
-            fprintf(f, " axis %d by %d", n->axis, n->detail);
-        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++)
-            fprintf(f, " %d", n->in[k]);
-        if (!n->leaf && !n->constant)
-            fprintf(f, "   stage %d%s%s", n->stage, n->stored ? ", stored" : "",
-                    n->target ? ", asked for" : "");
-        fprintf(f, "\n");
-    }
-    fclose(f);
 }
 
 /* ---- kernels ---- */
@@ -209,9 +132,9 @@ static bool plan_text(const struct machine *m, const struct plan_graph *g, const
 {
     const struct vpset *set = &m->values->sets[g->nodes[stores[0]].set];
     const struct device_shape *shape = &m->device->shape;
-    return !g->strips          ? emit_kernel(g, stores, count, set, shape, k)
-           : shape->vector < 2 ? emit_tiles(g, stores, count, set, shape, k)
-                               : emit_strips(g, stores, count, set, shape, k);
+    return !g->strips          ? rows_emit(g, stores, count, set, shape, k)
+           : shape->vector < 2 ? tiles_emit(g, stores, count, set, shape, k)
+                               : strips_emit(g, stores, count, set, shape, k);
 }
 
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
@@ -232,7 +155,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         int half = stores_count / 2;
         kernel_text_finish(&k);
         if (m->watch)
-            watch_split(m);
+            describe_split(m);
         return plan_kernel(m, p, g, stores, half) &&
                plan_kernel(m, p, g, stores + half, stores_count - half);
     }
@@ -283,7 +206,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     }
     const char *made = quick ? "quick" : g->boxes && k.has_boxes ? "boxed" : "optimised";
     struct kernel_note *note =
-        m->watch ? watch_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
+        m->watch ? describe_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
     p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
                                                        .number = number,
                                                        .note = note,
@@ -349,7 +272,7 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
         if (g->strips && !n->target)
             continue;
         p->arrays[p->stored_count] =
-            (struct array){observe_rows(&m->values->sets[n->set], n->type), p->launches_count,
+            (struct array){geometry_rows(&m->values->sets[n->set], n->type), p->launches_count,
                            p->launches_count};
         p->stored[p->stored_count++] = stores[i];
     }
@@ -430,28 +353,27 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
     free(stores);
     if (!good) {
         if (p && later)
-            notes_settle(m, p);
+            plan_notes_settle(m, p);
         plan_free(p);
         return NULL;
     }
     return p;
 }
 
-static bool is_one_kernel(const struct plan *p)
+bool plan_is_one_kernel(const struct plan *p)
 {
     return p->launches_count == 1 && (p->launches[0].strip_bytes || p->launches[0].group);
 }
 
-/* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
-static struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                              enum quality quality, bool later)
+struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
+                       enum quality quality, bool later)
 {
     bool strips = quality == BOXED || m->device->shape.always_strips;
     struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
     if (m->plans->rehearsing == REHEARSING_TURNS) {
-        if (p && !is_one_kernel(p)) {
+        if (p && !plan_is_one_kernel(p)) {
             if (later)
-                notes_settle(m, p);
+                plan_notes_settle(m, p);
             plan_free(p);
             p = NULL;
         }
@@ -469,223 +391,4 @@ static struct plan *plan_make(struct machine *m, const struct reach *r, const st
     if (!p && later)
         background_drop(m);
     return p;
-}
-
-/* ---- plans ---- */
-
-/* How well a plan that has run on so many processors is to be made. */
-static enum quality quality_after(const struct machine *m, uint64_t worked)
-{
-    return worked >= m->settings.box_after        ? BOXED
-           : worked >= m->settings.optimise_after ? OPTIMISED
-                                                  : QUICK;
-}
-
-/* Better kernels would be worth it by now, and can be seen to. */
-static bool plan_is_due(const struct machine *m, const struct plan *p)
-{
-    enum quality quality = quality_after(m, p->worked);
-    return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
-           (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
-            p->could_be_strips) &&
-           !background_busy(m);
-}
-
-static void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
-{
-    struct plan old = *p;
-    *p = *better;
-    p->signature = old.signature;
-    p->signature_length = old.signature_length;
-    p->hash = old.hash;
-    p->worked = old.worked;
-    p->version = old.version + 1;
-    p->next = old.next;
-    if (m->watch && !old.empty)
-        watch_improved(m);
-    better->launches = old.launches;
-    better->launches_count = old.launches_count;
-    better->stored = old.stored;
-    better->arrays = old.arrays;
-    better->signature = NULL;
-    plan_free(better);
-}
-
-/* The same plan with better kernels, now. What cannot be had is done without. */
-static void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
-                         const struct targets *t)
-{
-    struct plan *better = plan_make(m, r, t, quality_after(m, p->worked), false);
-    p->quality = BOXED; /* not again, unless it says so itself */
-    if (better)
-        plan_becomes(m, p, better);
-    else
-        machine_error_clear(m);
-}
-
-/* What is being compiled in the background is not wanted any more. */
-static void improvement_give_up(struct machine *m)
-{
-    better_give_up(m, m->plans->improving);
-    background_drop(m);
-    m->plans->improving = NULL;
-}
-
-void plans_see_to(struct machine *m)
-{
-    struct plan *p = m->plans->improving;
-    enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
-    if (state == BACKGROUND_WAITS)
-        return;
-    if (state == BACKGROUND_LOADED) {
-        struct plan *better = p->better;
-        for (int i = 0; i < better->launches_count; i++)
-            better->launches[i].kernel = background_kernel(m, better->launches[i].number);
-        notes_settle(m, better);
-        better->later = false;
-        p->better = NULL;
-        plan_becomes(m, p, better);
-    } else {
-        machine_error_clear(m);
-    }
-    improvement_give_up(m);
-}
-
-/* Better kernels for it are going to be compiled in the background. False: not so. */
-static bool improvement_begin(struct machine *m, struct plan *p, const struct reach *r,
-                              const struct targets *t, enum quality quality)
-{
-    if (!background_on(m) || background_busy(m))
-        return false;
-    p->better = plan_make(m, r, t, quality, true);
-    if (p->better && background_begin(m)) {
-        m->plans->improving = p;
-        return true;
-    }
-    machine_error_clear(m);
-    better_give_up(m, p);
-    return false;
-}
-
-uint32_t plan_version(const struct machine *m, const struct plan *p)
-{
-    return plan_is_due(m, p) ? UINT32_MAX : p->version;
-}
-
-/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
-int plan_turns(const struct plan *p)
-{
-    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
-}
-
-const int *plan_stored(const struct plan *p, int *count)
-{
-    *count = p->stored_count;
-    return p->stored;
-}
-
-bool plan_saves_nothing(const struct plan *p, int turns)
-{
-    int sets = 0;
-    for (int i = 0; i < p->launches_count; i++) {
-        bool first = true;
-        for (int k = 0; k < i; k++)
-            first = first && p->launches[k].set != p->launches[i].set;
-        sets += first;
-    }
-    return p->quality == BOXED && p->launches_count >= turns * sets;
-}
-
-bool plan_is_hopeless(const struct plan *p)
-{
-    return p->hopeless;
-}
-
-bool plan_waits(const struct machine *m, const struct plan *p)
-{
-    return p == m->plans->improving;
-}
-
-static struct plan *plan_find(const struct machine *m, const struct reach *r, uint64_t hash)
-{
-    struct plan *p = m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
-    while (p && !(p->hash == hash && p->signature_length == r->length &&
-                  !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
-        p = p->next;
-    return p;
-}
-
-/* It is known from now on. False: no memory, and it is no more. */
-static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
-{
-    struct plan **bucket = &m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
-    size_t bytes = r->length * sizeof *r->signature;
-    m->plans->built++;
-    p->signature = malloc(bytes);
-    if (!p->signature) {
-        plan_free(p);
-        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
-        return false;
-    }
-    memcpy(p->signature, r->signature, bytes);
-    p->signature_length = r->length;
-    p->hash = hash;
-    p->next = *bucket;
-    *bucket = p;
-    return true;
-}
-
-/* A plan that has been rehearsed is wanted now. False: error set. */
-static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
-                      const struct targets *t)
-{
-    if (m->plans->improving == p)
-        improvement_give_up(m);
-    struct plan *made = plan_make(m, r, t, BOXED, false);
-    if (made)
-        plan_becomes(m, p, made);
-    return made != NULL;
-}
-
-/* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
-static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struct reach *r,
-                                  const struct targets *t, uint64_t hash)
-{
-    if (p)
-        return p;
-    if (!(p = calloc(1, sizeof *p)))
-        return NULL;
-    p->empty = true;
-    p->quality = BOXED;
-    if (!plan_keep(m, p, r, hash))
-        return NULL;
-    bool made = background_on(m) ? improvement_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
-    p->hopeless = !made && m->plans->rehearsing == REHEARSING_TURNS;
-    return p;
-}
-
-struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
-{
-    uint64_t hash = machine_words_hash(r->signature, r->length);
-    if (!m->plans->table) {
-        m->plans->table_size = 1024;
-        m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
-        if (!m->plans->table) {
-            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
-            return NULL;
-        }
-    }
-    if (!m->plans->rehearsing)
-        plans_see_to(m);
-    struct plan *p = plan_find(m, r, hash);
-    if (m->plans->rehearsing)
-        return plan_rehearse(m, p, r, t, hash);
-    if (p && p->empty)
-        return plan_fill(m, p, r, t) ? p : NULL;
-    if (p && plan_is_due(m, p) && !improvement_begin(m, p, r, t, quality_after(m, p->worked)))
-        plan_improve(m, p, r, t);
-    if (p)
-        return p;
-    p = plan_make(m, r, t, m->run->building ? BOXED : quality_after(m, 0), false);
-    return p && plan_keep(m, p, r, hash) ? p : NULL;
 }

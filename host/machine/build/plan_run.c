@@ -4,7 +4,6 @@
 #include "build/plans.h"
 #include "device/call.h"
 #include "kernels.h"
-#include "watch/watch.h"
 
 size_t plan_run_columns(const struct machine *m, int vector)
 {

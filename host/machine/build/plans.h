@@ -2,7 +2,8 @@
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
-#include "internal.h"
+#include "codegen/codegen.h"
+#include "watch/sums.h"
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
 enum quality { QUICK, OPTIMISED, BOXED };
@@ -56,5 +57,93 @@ size_t plan_run_columns(const struct machine *m, int vector);
 size_t plan_tiles_across(const struct vpset *set, int tile_width);
 /* New values are to be written over old ones, where nobody wants those. */
 bool plan_in_place_wanted(const struct machine *m, const struct plan *p);
+struct background;
+/* A plan's kernels: of one turn of a loop; of many, which must be one kernel. */
+enum rehearsal { REHEARSING_NOTHING, REHEARSING_ONE, REHEARSING_TURNS };
+
+/* Plans kept, and their kernels. */
+struct plans {
+    struct plan **table; /* by signature; NULL: there has been none */
+    int table_size;
+    struct background *background; /* background.c; NULL: nothing was wanted so far */
+    struct plan *improving;        /* whose better kernels are being compiled there */
+    enum rehearsal rehearsing;     /* evaluations see to their plan's kernels, and run none */
+    bool silent; /* what calls do is told to nobody: they will be performed once more */
+    struct plan *rehearsed; /* by the last rehearsal; NULL: there was nothing to compute */
+    char *dump_dir;         /* NULL: nothing is dumped */
+    int dump_count;
+    uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
+    double predicted_s; /* of the plans that ran */
+};
+
+/* The nodes that are reached from the targets, inputs before users; and a number for each and what it is made of: what
+ * two evaluations that have the same plan have in common. */
+struct reach {
+    struct machine_value **nodes; /* inputs before users */
+    uint32_t *signature;
+    int count, capacity;
+    uint32_t length;
+    int signature_capacity;
+};
+
+struct targets {
+    struct machine_value **values;
+    int count, capacity;
+};
+
+/* The plan for them: a new one, or one seen before, with better kernels where those are due. NULL: error set. */
+struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t);
+uint32_t plan_version(const struct machine *m, const struct plan *p);
+/* Its kernels are still being compiled in the background. */
+bool plan_waits(const struct machine *m, const struct plan *p);
+/* It is as good as it will be, and takes a kernel or more of each VP set for each of so many turns. */
+bool plan_saves_nothing(const struct plan *p, int turns);
+/* It is of many turns, and they cannot be one kernel. */
+bool plan_is_hopeless(const struct plan *p);
+/* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
+void plans_see_to(struct machine *m);
+const int *plan_stored(const struct plan *p, int *count);
+int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
+
+/* What is known of buffers before a run that has been foreseen. */
+struct fates {
+    /* Of a node: nobody will look at its buffer afterwards, if this is the only reference. What is stored may take its
+     * place. */
+    const bool *dies;
+    /* Of a node that is stored: who asked wants it; else it is let go of when it has been used. */
+    const bool *kept;
+    /* What nobody will look at any more, nor this plan, where there is no other reference: room for what is stored. */
+    struct device_buffer *const *spare;
+    int spare_count;
+};
+
+/* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
+ * that are numbers. fates: NULL: nothing is known. On failure none is put. */
+enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
+                             struct machine_value *const *nodes, const struct fates *fates);
+void plans_finish(struct machine *m);
+void plan_free(struct plan *p);
+/* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
+void plan_notes_settle(struct machine *m, struct plan *p);
+bool plan_is_one_kernel(const struct plan *p);
+/* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
+struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
+                       enum quality quality, bool later);
+/* How well a plan that has run on so many processors is to be made. */
+enum quality plan_quality_after(const struct machine *m, uint64_t worked);
+/* Better kernels would be worth it by now, and can be seen to. */
+bool plan_is_due(const struct machine *m, const struct plan *p);
+void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
+/* The same plan with better kernels, now. What cannot be had is done without. */
+void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
+                  const struct targets *t);
+/* What is being compiled in the background is not wanted any more. */
+void improve_give_up(struct machine *m);
+/* Better kernels for it are going to be compiled in the background. False: not so. */
+bool improve_begin(struct machine *m, struct plan *p, const struct reach *r,
+                   const struct targets *t, enum quality quality);
+void dump_text(struct machine *m, int number, const char *suffix, const char *options,
+               const char *text);
+void dump_graph(struct machine *m, int number, const struct plan_graph *g);
 
 #endif

@@ -5,22 +5,8 @@
 #ifndef LUTETIA_MACHINE_BODY_H
 #define LUTETIA_MACHINE_BODY_H
 
-#include "internal.h"
-
-struct text {
-    char *data;
-    size_t length, capacity;
-    bool failed;
-};
-
-static inline void widen(int *have, int wanted)
-{
-    *have = wanted > *have ? wanted : *have;
-}
-
-__attribute__((format(printf, 2, 3))) void text_put(struct text *t, const char *format, ...);
-
-bool text_same(const struct text *a, const struct text *b);
+#include "codegen/codegen.h"
+#include "codegen/text.h"
 
 struct arguments {
     struct kernel_argument *list;
@@ -74,7 +60,7 @@ struct emitter {
     int *input_number, *constant_number; /* of a node: + 1 */
     struct arguments arguments;
     int inputs, constants_count, names;
-    int lane;  /* bits: 32, or of narrow.c */
+    int lane;  /* bits: 32, or as plan/lanes.h says */
     int reach; /* furthest column */
     bool wide, soft, formats, math, integers, axes_used, failed;
     bool bare; /* pointers are somebody else's: only which there are is noted */
@@ -91,12 +77,11 @@ void emitter_finish(struct emitter *e);
 struct operand {
     char text[24];
 };
+
 /* The node's value in that row and column; canonical: a NaN in it has the bits that are stored. */
 struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical);
-
 /* A comparison of a coordinate with a number. */
 bool emit_is_box(const struct plan_graph *g, const struct plan_node *n);
-
 /* The row at that distance along an axis from ours, which is row 0. */
 int emit_row(struct emitter *e, int axis, int distance);
 void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed);
@@ -109,7 +94,6 @@ void emit_find_bits(const struct plan_graph *g, bool *bits_matter);
 /* How a kernel's argument is declared that is a number, or its upper half; *count: numbers so far. */
 void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
                  int *count);
-
 /* Arrays and numbers that one part of a kernel takes are the kernel's arguments, too, once each. number: of a node
  * that is a number, + 1; of an array that is read, anything. *count: numbers so far. */
 void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,
@@ -117,16 +101,10 @@ void emit_collect(struct arguments *to, const struct emitter *e, int *number, in
 /* The numbers that a part takes: as it declares them, and as the kernel passes them. */
 void emit_numbers(struct text *t, const struct emitter *e);
 void emit_numbers_passed(struct text *t, const struct emitter *e, const int *number);
-
 /* The end of a kernel's text and its arguments: good: out has them; else they are freed. */
 void emit_hand_over(bool good, struct text *t, struct arguments *a, struct kernel_text *out);
-
 /* What the prelude is told. */
 void emit_options(struct kernel_text *k, int halo, bool wraps, bool streams, int lane);
-
-/* As the prelude calls a type in memory. */
-const char *memory_kind(struct machine_type t);
-const char *memory_type(struct machine_type t);
 /* Stores that pass the caches by pay where the arrays, of so many bytes, do not fit anyway. */
 bool emit_streams(const struct device_shape *shape, const struct vpset *set, int vector,
                   double bytes);

@@ -11,9 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/types.h"
 #include "codegen/body.h"
-#include "codegen/narrow.h"
 #include "kernels.h"
+#include "plan/lanes.h"
 
 /* Of all columns from `begin` to `end`; the last vector may overlap the one before it. boxes: whole vectors from `from` to
  * `to` are inside all boxes. Such columns are neighbours: they are looked for from both ends, where most boxes end. */
@@ -146,12 +147,12 @@ static bool rows_kernel(const struct plan_graph *g, const int *stores, int store
     return good;
 }
 
-bool emit_kernel(const struct plan_graph *g, const int *stores, int stores_count,
-                 const struct vpset *set, const struct device_shape *shape,
-                 struct kernel_text *out)
+bool rows_emit(const struct plan_graph *g, const int *stores, int stores_count,
+               const struct vpset *set, const struct device_shape *shape,
+               struct kernel_text *out)
 {
     int lane = shape->narrow && set->halo
-                   ? narrow_lane(g, stores, stores_count, g->nodes[stores[0]].stage)
+                   ? lanes_of_kernel(g, stores, stores_count, g->nodes[stores[0]].stage)
                    : LANE_WIDE;
     if (lane < LANE_WIDE && set->width >= shape->vector * LANE_WIDE / lane) {
         if (!rows_kernel(g, stores, stores_count, set, shape, lane, out))

@@ -5,9 +5,11 @@
  *     VI one bit, as 0 or -1     VU 2..32     VL 33..64     VQ 65..128       VF, VD  float,
  * double */
 #include "codegen/spell.h"
-#include "internal.h"
 
 #include <inttypes.h>
+#include <stdio.h>
+
+#include "base/node_ops.h"
 
 const char *spell_container(struct machine_type t)
 {

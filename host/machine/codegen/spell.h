@@ -2,13 +2,12 @@
 #ifndef LUTETIA_MACHINE_SPELL_H
 #define LUTETIA_MACHINE_SPELL_H
 
-#include "internal.h"
+#include "plan/plan.h"
 
 /* The vector type that holds values of a type: "VI", "VU", "VL", "VQ", "VF", "VD"; and its
  * letter. */
 const char *spell_container(struct machine_type t);
 char spell_letter(struct machine_type t);
-
 /* Each writes an expression to out. Operands are names or expressions in parentheses. */
 
 /* Bits of type, zero-extended or cut to the container with the letter want (U, L, Q). */
@@ -35,7 +34,7 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
 void spell_conversion(char *out, size_t size, const struct plan_node *n,
                       struct machine_type from, const char *a);
 
-/* ---- soft.c ---- */
+/* ---- spell_soft.c ---- */
 
 /* Operations on floats of other formats. NOT: as for doubles; else which kernel file they call,
  * soft.cl or formats.cl. */

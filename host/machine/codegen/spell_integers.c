@@ -1,4 +1,7 @@
 /* spell_integers.c - integers' operations in the words of kernels/integers.cl. */
+#include <stdio.h>
+
+#include "base/node_ops.h"
 #include "codegen/spell.h"
 
 void spell_integer(char *out, size_t size, int op, struct machine_type t, const char *a,

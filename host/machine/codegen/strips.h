@@ -144,4 +144,28 @@ int strips_columns(const struct strips *s, const struct device_shape *shape);
  * of the text: of few numbers, so that sheets of many sizes have the same. */
 int strips_near_columns(const struct strips *s, int columns);
 
+/* ---- strips_text.c ---- */
+
+/* -1: it has none. */
+int strips_border_of(const struct strips *s, int node);
+bool strips_in_places(const struct strips *s, int output);
+
+/* ---- strips_pass.c ---- */
+
+bool strips_has_boxes(const struct strips *s, const struct emitter *e);
+void strips_pass_make(struct strips *s, int number);
+
+/* ---- prefetch.c ---- */
+
+/* What the next turn of the loop over columns is going to want of the next row. */
+void prefetch_columns(const struct strips *s, struct pass *pass, struct text *t);
+/* What is looked at outside of boxes only: a vector or two of a row, each of which would be waited for. */
+void prefetch_outside(const struct strips *s, struct pass *pass, struct text *t);
+/* What is looked at beyond the columns that a loop goes over. */
+void prefetch_beyond(const struct strips *s, struct pass *pass, struct text *t);
+/* Rows one after the other: which rows there are, and what a turn fetches of them. */
+void prefetch_rows(const struct strips *s, struct pass *pass, struct text *before,
+                   struct text *turn);
+int prefetch_arrays(const struct strips *s, const struct pass *pass);
+
 #endif

@@ -4,6 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
+#include "base/node_ops.h"
+#include "base/parts.h"
+#include "base/types.h"
 #include "codegen/strips.h"
 
 enum {
@@ -276,7 +280,7 @@ static int rings_with(struct strips *s, int rows)
         if (s->rings[i].rows == rows)
             return i;
     if (s->rings_count == s->rings_capacity)
-        s->rings = machine_more(s->rings, &s->rings_capacity, sizeof *s->rings, &s->failed);
+        s->rings = array_more(s->rings, &s->rings_capacity, sizeof *s->rings, &s->failed);
     if (s->failed)
         return 0;
     s->rings[s->rings_count] = (struct rings){.rows = rows};
@@ -367,7 +371,7 @@ static void pair_add(struct strips *s, int output, int leaf)
     if (border < 0)
         return;
     if (in->pairs_count == in->pairs_capacity)
-        in->pairs = machine_more(in->pairs, &in->pairs_capacity, sizeof *in->pairs, &s->failed);
+        in->pairs = array_more(in->pairs, &in->pairs_capacity, sizeof *in->pairs, &s->failed);
     if (s->failed)
         return;
     in->pairs[in->pairs_count].output = output;

@@ -2,8 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "codegen/narrow.h"
+#include "base/types.h"
+#include "codegen/body.h"
 #include "kernels.h"
+#include "plan/lanes.h"
 #include "plan/tiles.h"
 
 struct stage {
@@ -414,7 +416,7 @@ static bool schedule(struct tiles *s)
     return tiles_choose(&s->tiling, s->set, s->shape, true);
 }
 
-bool emit_tiles(const struct plan_graph *g, const int *stores, int count,
+bool tiles_emit(const struct plan_graph *g, const int *stores, int count,
                 const struct vpset *set, const struct device_shape *shape,
                 struct kernel_text *out)
 {

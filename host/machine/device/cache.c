@@ -7,16 +7,17 @@
  *
  * Each appears under its name only when it is complete. What cannot be read or written is done without. An empty file,
  * named in the same way, is a mark: background.c notes what the driver has in a cache of its own. */
-#include "internal.h"
-
-#include <output_file.h>
-#include <user_folder.h>
+#include "device/cache.h"
 
 #include <fcntl.h>
+#include <output_file.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <user_folder.h>
+
+#include "output_file.h"
 
 uint64_t cache_hash(uint64_t h, const char *s)
 {

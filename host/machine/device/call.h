@@ -10,6 +10,7 @@
 #ifndef LUTETIA_MACHINE_CALL_H
 #define LUTETIA_MACHINE_CALL_H
 
+#include "device/device.h"
 #include "watch/watch.h"
 
 /* For a work-item on a CPU: columns; physical processors. */
@@ -63,51 +64,6 @@ static inline void call_buffer(struct kernel_call *c, const struct device_buffer
     c->bytes += b->bytes;
 }
 
-/* How rows lie in a buffer: width, pitch, halo. */
-static inline void call_layout(struct kernel_call *c, const struct vpset *s)
-{
-    call_uint(c, (uint64_t)s->width);
-    call_uint(c, s->pitch);
-    call_uint(c, (uint64_t)s->halo);
-}
-
-/* Which row-major index an address is: count, ratio, logarithm of the processors, order. */
-static inline void call_order(struct kernel_call *c, const struct machine *m,
-                              const struct vpset *s)
-{
-    call_uint(c, s->count);
-    call_uint(c, s->ratio);
-    call_uint(c, (uint64_t)m->values->processors_log2);
-    call_uint(c, s->order == MACHINE_SEND_ORDER);
-}
-
-/* Lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
-static inline void call_lines(struct kernel_call *c, const struct lines *l, int run)
-{
-    call_ulong(c, l->base);
-    call_ulong(c, (uint64_t)l->step);
-    call_ulong(c, l->inner_stride);
-    call_ulong(c, l->outer_stride);
-    call_int(c, l->length);
-    call_int(c, run);
-    call_int(c, l->columns);
-}
-
-/* How these lie in rows. */
-static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
-{
-    call_int(c, l->width);
-    call_int(c, l->halo);
-    call_int(c, l->along);
-}
-
-static inline void call_set(struct kernel_call *c, const struct machine *m,
-                            const struct vpset *s)
-{
-    call_order(c, m, s);
-    call_layout(c, s);
-}
-
 /* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
@@ -133,26 +89,10 @@ static inline size_t call_run(const struct machine *m)
     return m->device->is_cpu ? CALL_RUN : 1;
 }
 
-/* A work-item for each run of columns of each row. */
-static inline enum machine_status call_over(struct kernel_call *c, struct machine *m,
-                                            const struct vpset *s, const char *what)
-{
-    size_t run = call_run(m);
-    return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
-}
-
 /* Physical processors that a work-item of call_processors() does. */
 static inline size_t call_processors_run(const struct machine *m)
 {
     return m->device->is_cpu ? CALL_PROCESSORS_RUN : 1;
-}
-
-/* A work-item for each run of physical processors, times y. */
-static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
-                                                  size_t y, const char *what)
-{
-    size_t run = call_processors_run(m), p = (size_t)m->values->processors_count;
-    return call_start(c, m, (p + run - 1) / run, y, what);
 }
 
 /* The C type of an element in memory of so many bytes; 16 is a pair. */

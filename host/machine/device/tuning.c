@@ -14,15 +14,19 @@
  *
  * The file's name is of the platform and the device, so that one of another driver is found, and said to be too old. A
  * file that is not as it should be is as if it were not there. */
-#include "internal.h"
-
-#include <output_file.h>
+#include "device/tuning.h"
 
 #include <errno.h>
+#include <output_file.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "base/errors.h"
+#include "base/parts.h"
+#include "device/cache.h"
+#include "output_file.h"
 
 #define FIRST_LINE "lutetia tuning 1"
 

@@ -1,120 +1,27 @@
 /* observe.c - what the front end sees and sets: whole fields, single processors, reductions. */
-#include "internal.h"
-
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/call.h"
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "base/types.h"
 #include "kernels.h"
+#include "memory/call_set.h"
+#include "memory/memory.h"
+#include "run/materialise.h"
+#include "run/replay.h"
+#include "values/graph.h"
 
 enum {
     REDUCE_RUN = 4096
 }; /* columns: part of the order of float addition, see machine_reduce() */
 
-size_t machine_element_bytes(struct machine_type type)
-{
-    return type_bytes(type);
-}
-
-size_t observe_buffer_bytes(const struct vpset *s, struct machine_type type)
-{
-    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
-}
-
-struct rows observe_rows(const struct vpset *s, struct machine_type type)
-{
-    return (struct rows){observe_buffer_bytes(s, type), (size_t)s->halo * type_bytes(type)};
-}
-
-/* The position of a processor in a buffer, in elements. */
-static size_t place(const struct vpset *s, uint64_t index)
-{
-    return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
-}
-
-static bool has_strange_nan(struct machine_type type, const void *in, uint64_t count)
-{
-    size_t bytes = type_bytes(type);
-    bool has = false;
-    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++) {
-        uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
-        memcpy(&x, (const unsigned char *)in + i * bytes, bytes);
-        has = scalar_is_strange_nan(type, x);
-    }
-    return has;
-}
-
-static struct machine_value *upload_value(struct machine *m, int set, struct machine_type type,
-                                          const void *in)
-{
-    const struct vpset *s = &m->values->sets[set];
-    size_t element = type_bytes(type), bytes = observe_buffer_bytes(s, type);
-    unsigned char *image = calloc(1, bytes);
-    struct device_buffer *b = image ? device_rows_get(m, observe_rows(s, type)) : NULL;
-    if (!b) {
-        free(image);
-        if (!m->status)
-            machine_fail(m, MACHINE_NO_MEMORY,
-                         "not enough memory to write a field of %zu bytes", bytes);
-        return NULL;
-    }
-    size_t width = (size_t)s->width * element, halo = (size_t)s->halo * element;
-    for (uint64_t row = 0; row < s->rows; row++) {
-        unsigned char *to = image + row * s->pitch * element + halo;
-        memcpy(to, (const unsigned char *)in + row * width, width);
-        memcpy(to - halo, to + width - halo, halo);
-        memcpy(to + width, to, halo);
-    }
-    double start = device_wait_begin(m);
-    cl_int error =
-        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
-    if (m->watch)
-        watch_bytes(m, bytes);
-    free(image);
-    if (device_wait_end(m, error, start, "writing a field")) {
-        device_buffer_unref(m, b);
-        return NULL;
-    }
-    struct machine_value *v = graph_buffer_node(m, type, set, b);
-    v->strange_nan = has_strange_nan(type, in, s->count);
-    return v;
-}
-
-static void put_scalar(unsigned char *to, struct machine_scalar x, size_t element)
-{
-    memcpy(to, &x.lo, element < 8 ? element : 8);
-    if (element > 8)
-        memcpy(to + 8, &x.hi, 8);
-}
-
-struct machine_value *observe_materialise(struct machine *m, int set, struct machine_value *v)
-{
-    if (v->op == NODE_CONSTANT && !v->buffer) {
-        size_t element = type_bytes(v->type);
-        unsigned char pattern[16];
-        struct device_buffer *b =
-            device_rows_get(m, observe_rows(&m->values->sets[set], v->type));
-        if (!b)
-            return NULL;
-        put_scalar(pattern, v->imm, element);
-        if (device_fill(m, b, pattern, element, "filling a field")) {
-            device_buffer_unref(m, b);
-            return NULL;
-        }
-        struct machine_value *number = graph_buffer_node(m, v->type, set, b);
-        number->strange_nan = v->strange_nan;
-        return number;
-    }
-    if (!v->buffer && run_evaluate(m, &v, 1, false))
-        return NULL;
-    return v;
-}
-
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
                           uint32_t *offset)
 {
-    replay_settle(m);
+    notes_settle(m);
     struct field *f = field_find(m, id, offset);
     int bits = machine_type_bits(type);
     if (f && *offset + (uint32_t)bits > f->bits) {
@@ -139,10 +46,10 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     size_t element = type_bytes(type);
     if (v->op == NODE_CONSTANT && !v->buffer) {
         for (uint64_t i = 0; i < s->count; i++)
-            put_scalar((unsigned char *)out + i * element, v->imm, element);
+            materialise_put((unsigned char *)out + i * element, v->imm, element);
         return MACHINE_OK;
     }
-    v = observe_materialise(m, f->vpset, v);
+    v = materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
@@ -170,7 +77,7 @@ static void mask_elements(void *data, uint64_t count, struct machine_type type)
         memcpy(&x.lo, at, element < 8 ? element : 8);
         if (element > 8)
             memcpy(&x.hi, at + 8, 8);
-        put_scalar(at, scalar_cut(x, type.width), element);
+        materialise_put(at, scalar_cut(x, type.width), element);
     }
 }
 
@@ -188,7 +95,7 @@ enum machine_status machine_field_upload(struct machine *m, uint32_t field,
                             "not enough memory to write a field of %zu bytes", bytes);
     memcpy(copy, in, bytes);
     mask_elements(copy, m->values->sets[f->vpset].count, type);
-    struct machine_value *v = upload_value(m, f->vpset, type, copy);
+    struct machine_value *v = materialise_upload(m, f->vpset, type, copy);
     free(copy);
     return v ? machine_field_store(m, field, v, MACHINE_EVERYWHERE) : m->status;
 }
@@ -212,15 +119,16 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
         *out = v->imm;
         return MACHINE_OK;
     }
-    v = observe_materialise(m, f->vpset, v);
+    v = materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
     double start = device_wait_begin(m);
-    cl_int error = clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
-                                       place(&m->values->sets[f->vpset], index) * element,
-                                       element, raw, 0, NULL, NULL);
+    cl_int error =
+        clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
+                            geometry_place(&m->values->sets[f->vpset], index) * element,
+                            element, raw, 0, NULL, NULL);
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
     if (m->watch)
@@ -231,7 +139,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
 /* A buffer of the same content that nobody else looks at. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
-    struct rows rows = observe_rows(&m->values->sets[set], v->type);
+    struct rows rows = geometry_rows(&m->values->sets[set], v->type);
     struct device_buffer *b = device_rows_get(m, rows);
     if (!b)
         return NULL;
@@ -247,8 +155,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
                                         struct machine_scalar value)
 {
     uint32_t offset;
-    if (type.s && soft_type_good(type)) {
-        value = (struct machine_scalar){soft_packed_bits(value.lo, type), 0};
+    if (type.s && type_good(type)) {
+        value = (struct machine_scalar){type_packed_bits(value.lo, type), 0};
         type = MACHINE_UINT(machine_type_bits(type));
     }
     struct field *f = part(m, field, type, &offset);
@@ -259,13 +167,13 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
-    v = v ? observe_materialise(m, f->vpset, v) : NULL;
+    v = v ? materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
     /* In place where this part of the field alone holds the buffer: the slot's reference, and those of
      * this call. */
     uint32_t held = 0;
-    bool strange = v->strange_nan || has_strange_nan(type, &value.lo, 1);
+    bool strange = v->strange_nan || materialise_has_strange_nan(type, &value.lo, 1);
     for (int i = 0; i < m->values->borrowed_count; i++)
         held += m->values->borrowed[i] == v;
     if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
@@ -275,8 +183,9 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     v->strange_nan = strange;
     size_t element = type_bytes(type);
     unsigned char raw[16];
-    put_scalar(raw, scalar_cut(value, type.width), element);
-    size_t at = place(s, index), column = index % (uint64_t)s->width, width = (size_t)s->width;
+    materialise_put(raw, scalar_cut(value, type.width), element);
+    size_t at = geometry_place(s, index), column = index % (uint64_t)s->width,
+           width = (size_t)s->width;
     size_t places[3] = {at, 0, 0};
     int count = 1;
     if (column < (size_t)s->halo)
@@ -358,6 +267,7 @@ static double as_double(uint64_t bits)
         memcpy(&bits, &r, sizeof bits);                                                        \
         return (struct machine_scalar){bits, 0};                                               \
     }
+
 COMBINE_FLOATS(float, as_float, uint32_t)
 COMBINE_FLOATS(double, as_double, uint64_t)
 
@@ -473,7 +383,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_value *none = machine_constant(m, type, identity);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     value = value && none ? machine_select(m, context, value, none) : NULL;
-    value = value ? observe_materialise(m, m->values->set_current, value) : NULL;
+    value = value ? materialise(m, m->values->set_current, value) : NULL;
     if (!value || reduce_buffer(m, s, value, info->op, identity, out))
         return m->status;
     if (info->is_signed) {
@@ -486,6 +396,6 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
         out->lo = NAN_64;
     if (type.s)
-        out->lo = soft_rounded(out->lo, type);
+        out->lo = type_rounded(out->lo, type);
     return MACHINE_OK;
 }

@@ -5,12 +5,17 @@
  * processor's place among all of its line, sorted by that, is then already what is asked for:
  * segments follow each other with all their processors, so each begins where it did. Keys are cut
  * in words of 32 bits, and these in digits; each digit is a pass (kernels/sort.cl). */
-#include "internal.h"
+#include <stdio.h>
 
-#include "device/call.h"
+#include "base/scalar.h"
 #include "kernels.h"
+#include "memory/memory.h"
+#include "ops/scan.h"
+#include "run/materialise.h"
+#include "values/graph.h"
 
 enum { WORDS_MAX = 6, CHUNK_GPU = 2048, LONG = 1 << 15, SHORT = 64 };
+
 enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
 
 struct words {
@@ -191,14 +196,14 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
     if (!value || !s || (segmented && !bits) ||
         !scan_arguments_good(m, s, axis, value, segmented ? bits : NULL) ||
         !words_of(m, &how, key_of(m, value, downward, is_signed), &w) ||
-        !values_materialise(m, m->values->set_current, w.values, w.count))
+        !materialise_all(m, m->values->set_current, w.values, w.count))
         return NULL;
     s = &m->values->sets[m->values->set_current];
     struct sort t = sort_of(m, s, axis);
     size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
     struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
     const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
-                             observe_buffer_bytes(s, MACHINE_UINT(32))};
+                             geometry_bytes(s, MACHINE_UINT(32))};
     enum machine_status status = MACHINE_OK;
     for (int i = 0; i < 4 && !status; i++)
         if (!(*all[i] = device_buffer_get(m, bytes[i])))

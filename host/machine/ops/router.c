@@ -7,13 +7,19 @@
  * Else a send is three passes: each sender writes its index to its destination; those that find a lower
  * one there put it right with an atomic maximum; each destination fetches its owner's message. So
  * collisions end the same way on every device. */
-#include "internal.h"
-
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "device/call.h"
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "base/types.h"
 #include "kernels.h"
+#include "memory/call_set.h"
+#include "memory/memory.h"
+#include "run/materialise.h"
+#include "run/run.h"
+#include "values/graph.h"
 
 enum { GPU_SHARES = 4096, SCATTER_UNITS = 8, NO_PROCESSOR = -2 };
 
@@ -52,17 +58,17 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
     if (count && run_evaluate(m, wanted, count, false))
         return false;
     g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
-    g->address = observe_materialise(m, g->from_set, address);
+    g->address = materialise(m, g->from_set, address);
     if (g->address && source)
-        g->source = observe_materialise(m, source_set, source);
+        g->source = materialise(m, source_set, source);
     if (g->address && other)
-        g->old = observe_materialise(m, to_set, other);
+        g->old = materialise(m, to_set, other);
     if (!g->address || (source && !g->source) || (other && !g->old))
         return false;
     if (g->all)
         g->context = g->address; /* something to pass */
     else
-        g->context = observe_materialise(m, g->from_set, g->context);
+        g->context = materialise(m, g->from_set, g->context);
     g->from = &m->values->sets[g->from_set];
     g->to = &m->values->sets[to_set];
     g->flat = g->from->rows == 1 && g->to->rows == 1 &&
@@ -129,7 +135,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
 static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
                                    struct machine_type type)
 {
-    return device_rows_get(m, observe_rows(s, type));
+    return device_rows_get(m, geometry_rows(s, type));
 }
 
 /* The columns that repeat the other end. */
@@ -197,7 +203,7 @@ static enum machine_status scatter(struct machine *m, const struct message *g,
     call_uint(&c, g->all);
     call_uint(&c, share);
     call_uint(&c, notifies);
-    call_uint(&c, observe_buffer_bytes(g->to, type) / type_bytes(type));
+    call_uint(&c, geometry_bytes(g->to, type) / type_bytes(type));
     call_buffer(&c, g->address->buffer);
     call_buffer(&c, g->context->buffer);
     call_buffer(&c, g->source->buffer);
@@ -237,7 +243,7 @@ static enum machine_status combine(struct machine *m, const struct message *g, i
     call_uint(&c, g->from->count);
     call_uint(&c, share);
     call_uint(&c, notifies);
-    call_uint(&c, m->device->is_cpu ? observe_buffer_bytes(g->to, type) / type_bytes(type) : 0);
+    call_uint(&c, m->device->is_cpu ? geometry_bytes(g->to, type) / type_bytes(type) : 0);
     call_scalar(&c, scalar_sign(type.width));
     call_scalar(&c, scalar_ones(type.width));
     call_buffer(&c, to);
@@ -273,7 +279,7 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
 {
     struct machine_type type = g->source->type;
     bool combines = combiner != MACHINE_COMBINE_OVERWRITE, in_order = combines || scatters(m);
-    struct rows rows = observe_rows(g->to, type);
+    struct rows rows = geometry_rows(g->to, type);
     size_t bytes = rows.bytes;
     rows.bytes += in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0; /* thrown away */
     struct device_buffer *out = device_rows_get(m, rows), *owner = NULL, *to = NULL;

@@ -8,14 +8,23 @@
  *
  * Long lines are cut in runs: see kernels/scan.cl. For floats the length of a run is part of what
  * machine_scan() promises; for others it is what suits the device. */
-#include "internal.h"
+#include "ops/scan.h"
 
-#include "device/call.h"
+#include <stdio.h>
+
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "base/types.h"
 #include "kernels.h"
+#include "memory/memory.h"
+#include "run/materialise.h"
+#include "values/graph.h"
 
 enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
+
 /* As in kernels/scan.cl. */
 enum { COPY, ADD, MULTIPLY, MIN, OR, XOR };
+
 enum { JOINS, FINISHES, FILLS };
 
 struct element {
@@ -23,7 +32,9 @@ struct element {
     int kind;
     size_t bytes;
 };
+
 enum { UINT32, UINT64, UINT128, FLOAT32, FLOAT64 };
+
 static const struct element elements[] = {
     [UINT32] = {"uint", "int", 0, 4},      [UINT64] = {"ulong", "long", 0, 8},
     [UINT128] = {"ulong2", "long", 2, 16}, [FLOAT32] = {"float", "int", 1, 4},
@@ -32,22 +43,10 @@ static const struct element elements[] = {
 
 /* ---- lines and launches ---- */
 
-bool values_materialise(struct machine *m, int set, struct machine_value **values, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (values[i]->op == NODE_CONSTANT &&
-            !(values[i] = observe_materialise(m, set, values[i])))
-            return false;
-    for (int i = 0; i < count; i++)
-        if (!values[i]->buffer)
-            return run_evaluate(m, values, count, false) == MACHINE_OK;
-    return true;
-}
-
 static struct device_buffer *buffer_for(struct machine *m, const struct element *e)
 {
     const struct vpset *s = &m->values->sets[m->values->set_current];
-    return device_rows_get(m, observe_rows(s, MACHINE_UINT(8 * (int)e->bytes)));
+    return device_rows_get(m, geometry_rows(s, MACHINE_UINT(8 * (int)e->bytes)));
 }
 
 struct lines lines_of(const struct vpset *s, int axis, bool downward)
@@ -440,7 +439,7 @@ struct machine_value *scan_where(struct machine *m, const struct machine_scan *h
         values[masked = count++] = context;
     if (segmented && !is_constant(how->bits, 0))
         values[bits = count++] = how->bits;
-    if (!values[0] || !values_materialise(m, m->values->set_current, values, count))
+    if (!values[0] || !materialise_all(m, m->values->set_current, values, count))
         return NULL;
     s = &m->values->sets[m->values->set_current];
     struct device_buffer *out = buffer_for(m, f.element);
@@ -492,7 +491,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     struct machine_value *values[2] = {formed(m, op, value, &f), context};
     bool masked = !is_constant(context, 1);
-    if (!values[0] || !values_materialise(m, m->values->set_current, values, 1 + masked))
+    if (!values[0] || !materialise_all(m, m->values->set_current, values, 1 + masked))
         return NULL;
     s = &m->values->sets[m->values->set_current];
     struct device_buffer *out = values[0]->buffer;
@@ -536,7 +535,7 @@ static struct machine_value *spread_copy(struct machine *m, const struct lines *
 {
     struct form f;
     struct machine_value *v = formed(m, MACHINE_SCAN_COPY, value, &f);
-    if (!v || !values_materialise(m, m->values->set_current, &v, 1))
+    if (!v || !materialise_all(m, m->values->set_current, &v, 1))
         return NULL;
     struct device_buffer *out = buffer_for(m, f.element);
     if (!out)

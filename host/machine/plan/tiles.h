@@ -24,11 +24,11 @@
  * one that loads it.
  *
  * Turns of a loop are stages like others: those with the same text share a function. How large a tile is, and how many
- * turns pay, is by a cost (tiles_size.c): wider tiles compute less twice, and leave less of the local memory. */
+ * turns pay, is by a cost (tiles.c): wider tiles compute less twice, and leave less of the local memory. */
 #ifndef LUTETIA_MACHINE_TILES_H
 #define LUTETIA_MACHINE_TILES_H
 
-#include "codegen/body.h"
+#include "values/geometry.h"
 
 struct tile_stage {
     int left, right, above, below; /* how many processors around the tile it handles, too */
@@ -72,7 +72,6 @@ int tiling_array(struct tiling *t, struct tile_array array);
 void tiling_look(struct tiling *t, struct tile_look look);
 /* Each stage's columns and rows around the tile, when all is known. */
 void tiling_extents(struct tiling *t);
-
 /* Chooses a tile for that, which takes least time. placed: where each array is, too. False: none has room. */
 bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device_shape *shape,
                   bool placed);

@@ -1,12 +1,40 @@
-/* replay.h - what the files of replaying share: see replay.c for what states and edges are.
+/* replay.h - calls seen before: taken note of, and performed all at once.
+
+ * A program that repeats a step makes the same calls again, and they make the same graph again. So once
+ * a step has been recorded and evaluated between two states of the machine that look alike, the next time
+ * its calls are only compared with those expected; with the last one the plan that was made for them runs
+ * again, on other buffers.
  *
- *   replay.c  edges: calls noted, performed all at once, and what an evaluation made of them
- *   states.c  the graphs that fields and flags hold, found again by signature
- *   loops.c   calls that repeat, and how many turns of them are worth evaluating at once */
+ *     state   what all fields and flags hold, as a graph whose leaves are numbered buffers: which
+ *             buffers they are is no part of it. Found again by its signature.
+ *     edge    the calls that lead from a state to a state (often the same one), and what their
+ *             evaluation ran: for each argument of its kernels, which buffer of the first state or which
+ *             number, and for each buffer of the second, where it comes from.
+ *
+ *          calls 1..n      evaluation
+ *     S ---------------- > ---------- > T        S, T: found by signature when the evaluation is over
+ *
+ * A state keeps a graph of its own. While the machine is in it, that graph is what fields and flags hold:
+ * running an edge then only moves buffers from leaf to leaf (S = T), or puts T's graph in the place of
+ * S's. As soon as anything else is done to the graph the state leaves it to the machine and makes itself a
+ * copy (leave). Calls noted that turn out to lead elsewhere are performed after all (perform_calls): they
+ * change nothing that a program could have seen meanwhile, for whoever looks catches up first.
+ *
+ * What a call does follows from its words, the current VP set, the state, and which fields there are: when
+ * those die or change their VP sets' geometry everything noted is forgotten. Where there are aliases,
+ * nothing is noted.
+ *
+ *   states.c   the graphs that fields and flags hold, found again by signature
+ *   history.c  calls that repeat
+ *   record.c   what an evaluation made of the calls before it: edges
+ *   perform.c  an edge run once, or its calls performed one by one
+ *   turns.c    how many turns of a loop are worth evaluating at once
+ *   notes.c    calls that are foreseen */
 #ifndef LUTETIA_MACHINE_REPLAY_H
 #define LUTETIA_MACHINE_REPLAY_H
 
-#include "watch/watch.h"
+#include "build/plans.h"
+#include "run/run.h"
 
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
 
@@ -137,7 +165,8 @@ struct walk {
     bool of_state;
 };
 
-/* states.c */
+/* ---- states.c ---- */
+
 /* All that can be reached, and its signature; buffers and nodes are numbered. */
 void states_walk(struct machine *m, struct walk *w);
 void walk_finish(struct walk *w);
@@ -152,35 +181,85 @@ void state_buffers_put(struct machine *m, struct state *s,
 void state_leave(struct machine *m);
 /* There are no states any more. */
 void states_forget(struct machine *m);
+void deed_finish(struct machine *m, struct deed *d);
+void edge_finish(struct machine *m, struct edge *e);
+/* Calls from now on lead from that state; or from none. */
+void states_from(struct machine *m, int index);
+void states_from_forget(struct machine *m);
+/* Before the content of a field or flag changes, or a node that is kept. */
+void states_before_change(struct machine *m);
 
-/* loops.c */
+/* ---- history.c ---- */
+
 /* A call is going to be performed. */
-void loops_call(struct machine *m, const struct machine_call *call);
+void history_call(struct machine *m, const struct machine_call *call);
 /* After a call: a turn of the loop is complete, or several if they are short. */
-bool loop_turn_ends(const struct machine *m);
+bool history_turn_ends(const struct machine *m);
 /* What has been recorded since the last evaluation is going to be evaluated so. True: several turns of a loop, which are
  * evaluated one by one from now on. */
-bool loops_evaluate(struct machine *m, const struct plan *plan);
+bool history_evaluates(struct machine *m, const struct plan *plan);
+void history_looked(struct machine *m); /* somebody has, or something else begins */
+
+bool history_in_loop(const struct machine *m); /* then evaluations become due after calls */
+
+/* ---- record.c ---- */
+
+bool record_init(struct machine *m);
+void record_finish(struct machine *m);
+/* Something was done that depends on more than the call and the state. */
+void record_impure(struct machine *m);
+/* Calls are noted that lead from a state to the next evaluation. */
+bool record_follows(const struct machine *m);
+/* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
+ * could not. */
+void record_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
+                      int count, struct device_buffer *const *buffers);
+void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
+                      struct machine_value *const *wanted, int wanted_count);
+void record_failed(struct machine *m);
+bool record_same_call(const struct machine_call *a, const struct machine_call *b);
+bool record_begins_alike(const struct edge *a, const struct edge *b, int count);
+
+/* ---- perform.c ---- */
+
+/* False: that cannot be done now. */
+bool perform_deed(struct machine *m, const struct deed *d, int to);
+/* The calls noted are performed, one by one. */
+void perform_calls(struct machine *m);
+
+/* ---- turns.c ---- */
+
 /* How many turns of it are noted before any is performed. */
-int loop_turns_noted(struct machine *m, struct edge *e);
+int turns_noted(struct machine *m, struct edge *e);
 /* Many turns of the loop, for the first time: performed call by call, and evaluated at the end. */
-void loop_build_turns(struct machine *m);
+void turns_build(struct machine *m);
 /* Their kernels are seen to. AT_HAND: they can be built so without waiting for the background; WAIT: turns go on one by
  * one, for nothing has been performed; PERFORMED: all that was noted has been, and many turns are not worth it. */
 enum loop_turns { TURNS_AT_HAND, TURNS_WAIT, TURNS_PERFORMED };
-enum loop_turns loop_turns_see_to(struct machine *m);
+enum loop_turns turns_see_to(struct machine *m);
 /* So for one turn that leaves nothing to compute. False: all that was noted has been performed. */
-bool loop_thorough_see_to(struct machine *m);
+bool turns_thorough_see_to(struct machine *m);
 /* After turns of it, one by one (many: or many at once): whether evaluations are to be thorough. */
-void loops_turned(struct machine *m, struct edge *e, bool many);
+void turns_turned(struct machine *m, struct edge *e, bool many);
+/* All turns of the edge that have been noted, but for the last one that is not whole. False: it cannot be
+ * done, and nothing of what is still noted has been. */
+bool turns_do(struct machine *m);
 
-/* replay.c */
-void deed_finish(struct machine *m, struct deed *d);
-void edge_finish(struct machine *m, struct edge *e);
-/* The calls noted are performed, one by one. */
-void replay_catch_up(struct machine *m);
-/* Calls from now on lead from that state; or from none. */
-void replay_from(struct machine *m, int index);
-void replay_from_forget(struct machine *m);
+/* ---- notes.c ---- */
+
+/* Calls noted are performed: before anything looks at what fields and flags hold, or changes it. */
+void notes_perform(struct machine *m);
+
+static inline void notes_settle(struct machine *m)
+{
+    if (m->run->calls_noted)
+        notes_perform(m);
+}
+
+/* Before fields die, or VP sets change their shape. */
+void notes_forget(struct machine *m);
+bool notes_take(struct machine *m, const struct machine_call *call);
+/* The call is not the next one of the edge: but perhaps that of another. */
+bool notes_take_elsewhere(struct machine *m, const struct machine_call *call);
 
 #endif

@@ -10,7 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
+#include "base/errors.h"
+#include "memory/memory.h"
 #include "run/replay.h"
+#include "values/graph.h"
 
 /* The part of a place that is of a lazy overflow; others are flags and lengths. */
 #define OVERFLOW_PART (UINT32_MAX - 255)
@@ -74,8 +78,7 @@ static bool has_numbers(const struct machine_value *v)
 static void say(struct walk *w, uint32_t word)
 {
     if (w->length == w->signature_capacity)
-        w->signature =
-            machine_grown(w->signature, &w->signature_capacity, sizeof *w->signature);
+        w->signature = array_grown(w->signature, &w->signature_capacity, sizeof *w->signature);
     w->signature[w->length++] = word;
 }
 
@@ -91,7 +94,7 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
     if (v->op == NODE_SLICE)
         w->good = false;
     if (w->count == w->capacity)
-        w->nodes = machine_grown(w->nodes, &w->capacity, sizeof *w->nodes);
+        w->nodes = array_grown(w->nodes, &w->capacity, sizeof *w->nodes);
     v->local = (uint32_t)w->count;
     w->nodes[w->count++] = v;
     say(w, (uint32_t)v->op | (uint32_t)v->type.kind << 8 | (uint32_t)v->type.width << 16 |
@@ -107,8 +110,8 @@ static void walk_node(struct machine *m, struct walk *w, struct machine_value *v
             b->mark = m->values->mark;
             b->number = (uint32_t)w->buffers_count;
             if (w->buffers_count == w->buffers_capacity)
-                w->buffers = machine_grown(w->buffers, &w->buffers_capacity,
-                                           sizeof(struct device_buffer *));
+                w->buffers = array_grown(w->buffers, &w->buffers_capacity,
+                                         sizeof(struct device_buffer *));
             w->buffers[w->buffers_count++] = b;
         }
         say(w, b->number);
@@ -168,8 +171,8 @@ void walk_finish(struct walk *w)
  * their places: copies[i] is that of nodes[i]. */
 static void template_copy(struct machine *m, struct state *s, const struct walk *w)
 {
-    struct machine_value **copies = machine_allocated((size_t)w->count, sizeof *copies);
-    s->leaves = machine_allocated((size_t)w->count, sizeof *s->leaves);
+    struct machine_value **copies = array_zeroed((size_t)w->count, sizeof *copies);
+    s->leaves = array_zeroed((size_t)w->count, sizeof *s->leaves);
     s->leaves_count = 0;
     for (int i = 0; i < w->count; i++) {
         struct machine_value *v = w->nodes[i];
@@ -289,20 +292,20 @@ void state_leave(struct machine *m)
     for (int i = 0; i < s->roots_count; i++)
         if (s->roots[i])
             walk_node(m, &w, s->roots[i]);
-    s->roots = machine_allocated((size_t)s->roots_count, sizeof(struct machine_value *));
+    s->roots = array_zeroed((size_t)s->roots_count, sizeof(struct machine_value *));
     memcpy(s->roots, old.roots, (size_t)s->roots_count * sizeof(struct machine_value *));
     INVARIANT(w.buffers_count == s->buffers_count);
     template_copy(m, s, &w);
     for (int i = 0; i < w.count; i++)
         graph_keep(m, w.nodes[i], false);
     walk_finish(&w);
-    replay_from_forget(m);
+    states_from_forget(m);
     if (p->depth)
-        replay_from(m, index);
+        states_from(m, index);
     template_release(m, &old);
 }
 
-void replay_changes(struct machine *m)
+void states_before_change(struct machine *m)
 {
     struct replay *p = m->run->replay;
     if (!p)
@@ -311,7 +314,7 @@ void replay_changes(struct machine *m)
     if (p->active >= 0)
         state_leave(m);
     else if (!p->depth && p->from >= 0)
-        replay_from_forget(m);
+        states_from_forget(m);
 }
 
 /* ---- all of them ---- */
@@ -332,19 +335,11 @@ void states_forget(struct machine *m)
     INVARIANT(m->run->calls_noted == 0);
     if (p->active >= 0)
         state_leave(m);
-    replay_from_forget(m);
+    states_from_forget(m);
     p->edge = NULL;
     for (int i = 0; i < p->states_count; i++)
         state_finish(m, &p->states[i]);
     p->states_count = 0;
-}
-
-void replay_forget(struct machine *m)
-{
-    if (!m->run->replay || !m->run->replay->states_count)
-        return;
-    replay_settle(m);
-    states_forget(m);
 }
 
 static bool hash_seen(struct replay *p, uint64_t hash)
@@ -359,7 +354,7 @@ static bool hash_seen(struct replay *p, uint64_t hash)
 int state_find(struct machine *m, struct walk *w)
 {
     struct replay *p = m->run->replay;
-    uint64_t hash = machine_words_hash(w->signature, (size_t)w->length);
+    uint64_t hash = words_hash(w->signature, (size_t)w->length);
     for (int i = 0; i < p->states_count; i++)
         if (p->states[i].hash == hash && p->states[i].length == (uint32_t)w->length &&
             !memcmp(p->states[i].signature, w->signature,
@@ -371,14 +366,59 @@ int state_find(struct machine *m, struct walk *w)
     *s = (struct state){.signature = w->signature,
                         .length = (uint32_t)w->length,
                         .hash = hash,
-                        .roots = machine_allocated((size_t)w->roots_count, sizeof *s->roots),
+                        .roots = array_zeroed((size_t)w->roots_count, sizeof *s->roots),
                         .roots_count = w->roots_count,
-                        .overflows = machine_allocated((size_t)m->values->sets_count, 1),
+                        .overflows = array_zeroed((size_t)m->values->sets_count, 1),
                         .places = w->places,
-                        .buffers =
-                            machine_allocated((size_t)w->buffers_count, sizeof *s->buffers),
+                        .buffers = array_zeroed((size_t)w->buffers_count, sizeof *s->buffers),
                         .buffers_count = w->buffers_count};
     w->signature = NULL;
     template_make(m, s, w);
     return p->states_count++;
+}
+
+void deed_finish(struct machine *m, struct deed *d)
+{
+    for (int i = 0; d->values && i < d->nodes_count; i++)
+        if (d->values[i])
+            graph_unref(m, d->values[i]);
+    free(d->from);
+    free(d->values);
+    free(d->next);
+    free(d->dies);
+    free(d->kept);
+    free(d->spare);
+    *d = (struct deed){.plan = NULL};
+}
+
+void edge_finish(struct machine *m, struct edge *e)
+{
+    deed_finish(m, &e->deed);
+    deed_finish(m, &e->turns);
+    free(e->calls);
+}
+
+void states_from(struct machine *m, int index)
+{
+    struct replay *p = m->run->replay;
+    const struct state *s = &p->states[index];
+    p->from = index;
+    p->from_stores = m->run->stores;
+    p->from_buffers = array_zeroed((size_t)s->buffers_count, sizeof(struct device_buffer *));
+    p->from_buffers_count = s->buffers_count;
+    memcpy(p->from_buffers, s->buffers,
+           (size_t)s->buffers_count * sizeof(struct device_buffer *));
+    for (int i = 0; i < s->buffers_count; i++)
+        device_buffer_ref(s->buffers[i]);
+}
+
+void states_from_forget(struct machine *m)
+{
+    struct replay *p = m->run->replay;
+    for (int i = 0; i < p->from_buffers_count; i++)
+        device_buffer_unref(m, p->from_buffers[i]);
+    free(p->from_buffers);
+    p->from_buffers = NULL;
+    p->from_buffers_count = 0;
+    p->from = -1;
 }

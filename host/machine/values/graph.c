@@ -3,11 +3,16 @@
  * A node is immutable until it is evaluated; then its values are in a buffer, it is taken out
  * of the table and lets its inputs go. Nodes live in blocks that are kept until the machine
  * goes. */
-#include "base/scalar.h"
-#include "watch/watch.h"
+#include "values/graph.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/arrays.h"
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "base/types.h"
+#include "run/replay.h"
 
 enum { NODES_IN_BLOCK = 512, TABLE_FIRST = 4096 };
 
@@ -32,6 +37,7 @@ void graph_finish(struct machine *m)
 /* Nodes are used again at once. A fuzzing build gives each its own memory, so that ASan sees one that
  * is used after its release. */
 #ifdef LUTETIA_FUZZ
+
 static struct machine_value *node_new(struct machine *m)
 {
     struct machine_value *v = calloc(1, sizeof *v);
@@ -45,13 +51,15 @@ static void node_free(struct machine *m, struct machine_value *v)
     free(v);
     m->values->live--;
 }
+
 #else
+
 static struct machine_value *node_new(struct machine *m)
 {
     if (!m->values->free) {
         if (m->values->blocks_count == m->values->blocks_capacity)
-            m->values->blocks = machine_grown(m->values->blocks, &m->values->blocks_capacity,
-                                              sizeof *m->values->blocks);
+            m->values->blocks = array_grown(m->values->blocks, &m->values->blocks_capacity,
+                                            sizeof *m->values->blocks);
         struct machine_value *block = calloc(NODES_IN_BLOCK, sizeof *block);
         INVARIANT(block != NULL);
         m->values->blocks[m->values->blocks_count++] = block;
@@ -72,6 +80,7 @@ static void node_free(struct machine *m, struct machine_value *v)
     m->values->free = v;
     m->values->live--;
 }
+
 #endif
 
 void graph_ref(struct machine_value *v)
@@ -82,8 +91,8 @@ void graph_ref(struct machine_value *v)
 struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
 {
     if (m->values->borrowed_count == m->values->borrowed_capacity)
-        m->values->borrowed = machine_grown(m->values->borrowed, &m->values->borrowed_capacity,
-                                            sizeof *m->values->borrowed);
+        m->values->borrowed = array_grown(m->values->borrowed, &m->values->borrowed_capacity,
+                                          sizeof *m->values->borrowed);
     m->values->borrowed[m->values->borrowed_count++] = v;
     v->refs++;
     return v;
@@ -94,17 +103,6 @@ void graph_give_back(struct machine *m)
     for (int i = 0; i < m->values->borrowed_count; i++)
         graph_unref(m, m->values->borrowed[i]);
     m->values->borrowed_count = 0;
-}
-
-void machine_begin(struct machine *m)
-{
-    graph_give_back(m);
-    m->values->simplify_budget = 256;
-    if (!replay_in_call(m)) {
-        replay_settle(m);
-        run_flush_due(m);
-        replay_looked(m);
-    }
 }
 
 static uint32_t hash_of(const struct machine_value *k)
@@ -308,8 +306,8 @@ void graph_unref(struct machine *m, struct machine_value *v)
             if (v->in[i] && --v->in[i]->refs == 0) {
                 if (m->values->release_count == m->values->release_capacity)
                     m->values->release_stack =
-                        machine_grown(m->values->release_stack, &m->values->release_capacity,
-                                      sizeof *m->values->release_stack);
+                        array_grown(m->values->release_stack, &m->values->release_capacity,
+                                    sizeof *m->values->release_stack);
                 m->values->release_stack[m->values->release_count++] = v->in[i];
             }
         node_free(m, v);
@@ -332,7 +330,7 @@ void graph_keep(struct machine *m, struct machine_value *v, bool kept)
 static void let_go(struct machine *m, const struct machine_value *v)
 {
     if (v->kept)
-        replay_changes(m);
+        states_before_change(m);
     INVARIANT(!v->kept);
 }
 

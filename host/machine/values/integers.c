@@ -4,7 +4,12 @@
  * One bit is held otherwise than more are (spell.c), so these operations are done on two where
  * one was given: sign and value are the same there, and the low bit of what comes out is the
  * result. */
-#include "internal.h"
+#include "values/integers.h"
+
+#include "base/errors.h"
+#include "base/parts.h"
+#include "base/scalar.h"
+#include "values/make.h"
 
 typedef unsigned __int128 number;
 
@@ -181,7 +186,7 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     if (width == 1 && (op == MACHINE_ROTATE || op >= MACHINE_POPCOUNT))
         return a;
     if (width > 1)
-        return node_make(m, op, type, a, b);
+        return make_operation(m, op, type, a, b);
     if (gives_bit) { /* 0 and 1 to the power fit; -1 (a signed 1) does unless it becomes 1 */
         struct machine_value *even = machine_unary(m, MACHINE_NOT, b);
         return op == MACHINE_SPOW_BEYOND
@@ -191,8 +196,9 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     a = machine_resize(m, a, 2, keeps_sign(op));
     if (b && !shifts)
         b = machine_resize(m, b, 2, keeps_sign(op));
-    struct machine_value *v =
-        a && (b || node_ops[op].inputs == 1) ? node_make(m, op, MACHINE_UINT(2), a, b) : NULL;
+    struct machine_value *v = a && (b || node_ops[op].inputs == 1)
+                                  ? make_operation(m, op, MACHINE_UINT(2), a, b)
+                                  : NULL;
     return v ? machine_extract(m, v, 0, 1) : NULL;
 }
 

@@ -1,8 +1,11 @@
 /* math.c - kernels/math.cl for the front end: what the device computes, to the bit. */
-#include "internal.h"
+#include "values/math.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "base/node_ops.h"
+#include "base/scalar.h"
 
 static inline uint64_t bits_of(double x)
 {

@@ -1,6 +1,8 @@
 /* places.c - values that follow from where a processor is: its neighbours' (shifts), its coordinates and addresses, and
  * what is drawn for it at random. */
-#include "internal.h"
+#include "base/errors.h"
+#include "run/replay.h"
+#include "values/graph.h"
 
 static struct machine_value *bad(struct machine *m, const char *what)
 {
@@ -102,7 +104,7 @@ struct machine_value *machine_random(struct machine *m, int width, uint64_t limi
                   : machine_random(m, width - 64, 0);
         return machine_concat(m, low, high);
     }
-    replay_impure(m);
+    record_impure(m);
     uint64_t key =
         mix(mix(m->values->random_seed) + ++m->values->random_draws * 0x9e3779b97f4a7c15u);
     int fits32 = limit != 0 && limit <= UINT32_MAX;

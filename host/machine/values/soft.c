@@ -1,58 +1,12 @@
-/* soft.c - floats of other formats than single and double: kernels/soft.cl as C, the nodes that
- * bring them into fields and out, and the text of their operations.
- *
+/* soft.c - floats of other formats than single and double: the nodes that bring them into fields and out.
+
  * Their values are doubles that the format has (see machine_float_type()), so that whatever is
- * exact in double needs no more: comparisons, min, max, negation, whole parts that fit. Sums,
- * products, quotients and roots are the double's, rounded again, where that can do no harm: if
- * s <= 24 a double has 2 (s + 1) + 2 bits and a second rounding never sees a tie that the first
- * one made; and if e <= 9 no result has been rounded as a subnormal double. Elsewhere they are
- * whole-number arithmetic. */
-#include "codegen/spell.h"
-#include "internal.h"
+ * exact in double needs no more: comparisons, min, max, negation, whole parts that fit. */
+#include "values/soft.h"
 
-#include <string.h>
-
-/* ---- numbers, on the host ---- */
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#include "soft.cl"
-#pragma GCC diagnostic pop
-
-uint64_t soft_rounded(uint64_t x, struct machine_type type)
-{
-    return soft_fit(x, type.s, type.e);
-}
-
-uint64_t soft_packed_bits(uint64_t x, struct machine_type type)
-{
-    return soft_pack(x, type.s, type.e);
-}
-
-/* ---- types ---- */
-
-struct machine_type machine_float_type(int s, int e)
-{
-    if (s == 23 && e == 8)
-        return MACHINE_F32;
-    return s == 52 && e == 11 ? MACHINE_F64 : MACHINE_SOFT(s, e);
-}
-
-int machine_type_bits(struct machine_type type)
-{
-    return type.s ? type.s + type.e + 1 : type.width;
-}
-
-bool soft_type_good(struct machine_type type)
-{
-    if (!type.s && !type.e)
-        return true;
-    return type.kind == MACHINE_FLOAT && type.width == 64 && type.s >= 1 && type.s <= 52 &&
-           type.e >= 2 && type.e <= 11;
-}
-
-/* ---- values ---- */
+#include "base/parts.h"
+#include "base/types.h"
+#include "values/graph.h"
 
 static struct machine_value *node(struct machine *m, int op, struct machine_type type,
                                   struct machine_value *a)
@@ -69,7 +23,7 @@ struct machine_value *soft_packed(struct machine *m, struct machine_value *v)
     struct machine_type bits = MACHINE_UINT(machine_type_bits(v->type));
     if (v->op == NODE_CONSTANT)
         return machine_constant(
-            m, bits, (struct machine_scalar){soft_packed_bits(v->imm.lo, v->type), 0});
+            m, bits, (struct machine_scalar){type_packed_bits(v->imm.lo, v->type), 0});
     if (v->op == NODE_UNPACK && !v->buffer)
         return v->in[0]; /* a move: NaNs keep their bits */
     return node(m, NODE_PACK, bits, v);
@@ -82,141 +36,11 @@ struct machine_value *soft_unpacked(struct machine *m, struct machine_value *bit
         return NULL;
     if (bits->op == NODE_CONSTANT)
         return machine_constant(
-            m, type, (struct machine_scalar){soft_unpack(bits->imm.lo, type.s, type.e), 0});
+            m, type, (struct machine_scalar){type_unpacked_bits(bits->imm.lo, type), 0});
     /* What is in a buffer may have been brought there by something that does not round, such as
      * an upload. */
     if (bits->op == NODE_PACK && !bits->buffer && type_equal(bits->in[0]->type, type) &&
         bits->in[0]->op != NODE_BUFFER)
         return bits->in[0];
     return node(m, NODE_UNPACK, type, bits);
-}
-
-/* ---- the text of an operation ---- */
-
-static bool is_short(struct machine_type t)
-{
-    return t.s <= 24 && t.e <= 9;
-}
-
-static const char *soft_name(int op)
-{
-    switch (op) {
-    case MACHINE_FADD:
-    case NODE_OVERFLOW_FADD:
-        return "SOFT_ADD";
-    case MACHINE_FSUB:
-    case NODE_OVERFLOW_FSUB:
-        return "SOFT_SUB";
-    case MACHINE_FMUL:
-    case NODE_OVERFLOW_FMUL:
-        return "SOFT_MUL";
-    default:
-        return "SOFT_DIV";
-    }
-}
-
-/* Whole numbers that a double need not hold. */
-static enum spell_soft spell_whole(char *out, size_t size, const struct plan_node *n,
-                                   struct machine_type from, const char *a)
-{
-    char inner[200];
-    int s = n->type.s, e = n->type.e;
-    if (from.width <= 32)
-        return SPELL_SOFT_NOT;
-    if (from.width > 64 && n->op == NODE_U_TO_F) {
-        snprintf(out, size, "as_double(soft_whole(0, %s.lo, %s.hi, %d, %d))", a, a, s, e);
-    } else if (from.width > 64) {
-        snprintf(inner, sizeof inner, "q_magnitude(%s, %d)", a, from.width);
-        snprintf(out, size, "as_double(soft_whole(q_sign(%s, %d), %s.lo, %s.hi, %d, %d))", a,
-                 from.width, inner, inner, s, e);
-    } else if (n->op == NODE_U_TO_F) {
-        snprintf(out, size, "SOFT_FROM_U(%s, %d, %d)", a, s, e);
-    } else {
-        snprintf(out, size, "SOFT_FROM_S((AS_M(%s << %dUL) >> %dL), %d, %d)", a,
-                 64 - from.width, 64 - from.width, s, e);
-    }
-    return SPELL_SOFT_SCALAR;
-}
-
-enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
-                           struct machine_type from, const char *a, const char *b)
-{
-    static const char symbols[] = {'+', '-', '*', '/'};
-    struct machine_type t = n->type.s ? n->type : from;
-    int s = t.s, e = t.e;
-    if (!s)
-        return SPELL_SOFT_NOT;
-    bool vectors = is_short(t);
-    enum spell_soft kind = vectors ? SPELL_SOFT_VECTOR : SPELL_SOFT_SCALAR;
-    switch (n->op) {
-    case MACHINE_FADD:
-    case MACHINE_FSUB:
-    case MACHINE_FMUL:
-    case MACHINE_FDIV:
-        if (vectors)
-            return SPELL_SOFT_NOT;
-        snprintf(out, size, "%s(%s, %s, %d, %d)", soft_name(n->op), a, b, s, e);
-        return kind;
-    case MACHINE_FSQRT:
-        if (vectors)
-            return SPELL_SOFT_NOT;
-        snprintf(out, size, "SOFT_ROOT(%s, %d, %d)", a, s, e);
-        return kind;
-    case NODE_OVERFLOW_FADD:
-    case NODE_OVERFLOW_FSUB:
-    case NODE_OVERFLOW_FMUL:
-    case NODE_OVERFLOW_FDIV:
-        if (vectors)
-            snprintf(out, size,
-                     "INFINITE_D(short_fit(%s %c %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)", a,
-                     symbols[n->op - NODE_OVERFLOW_FADD], b, s, e, a, b);
-        else
-            snprintf(out, size, "INFINITE_D(%s(%s, %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)",
-                     soft_name(n->op), a, b, s, e, a, b);
-        return kind;
-    case NODE_PACK:
-        if (n->type.width <= 32)
-            snprintf(out, size, "CONVERT(uint, %s(%s, %d, %d))",
-                     vectors ? "short_pack" : "SOFT_PACK", a, s, e);
-        else
-            snprintf(out, size, "%s(%s, %d, %d)", vectors ? "short_pack" : "SOFT_PACK", a, s,
-                     e);
-        return kind;
-    case NODE_UNPACK:
-        snprintf(out, size, "%s(CONVERT(ulong, %s), %d, %d)",
-                 vectors ? "short_unpack" : "SOFT_UNPACK", a, s, e);
-        return kind;
-    case NODE_U_TO_F:
-    case NODE_S_TO_F:
-        return spell_whole(out, size, n, from, a);
-    default:
-        return SPELL_SOFT_NOT;
-    }
-}
-
-enum spell_soft spell_soft_rounding(char *text, size_t size, const struct plan_node *n)
-{
-    struct machine_type t = n->type;
-    if (!t.s)
-        return SPELL_SOFT_NOT;
-    switch (n->op) {
-    case MACHINE_FNEG:
-    case MACHINE_FABS:
-    case MACHINE_FMIN:
-    case MACHINE_FMAX:
-    case NODE_SELECT:
-    case NODE_REINTERPRET:
-        return SPELL_SOFT_NOT;
-    default: {
-        const char *begin = is_short(t) ? "short_fit(" : "SOFT_FIT(";
-        char end[24];
-        snprintf(end, sizeof end, ", %d, %d)", t.s, t.e);
-        size_t length = strlen(text), before = strlen(begin);
-        INVARIANT(length + before + sizeof end < size);
-        memmove(text + before, text, length + 1);
-        memcpy(text, begin, before);
-        strcat(text, end);
-        return is_short(t) ? SPELL_SOFT_VECTOR : SPELL_SOFT_SCALAR;
-    }
-    }
 }

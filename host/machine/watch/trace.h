@@ -13,13 +13,11 @@
 #ifndef LUTETIA_MACHINE_TRACE_H
 #define LUTETIA_MACHINE_TRACE_H
 
-#include <stdbool.h>
+#include "machine.h"
 
 enum trace_track { TRACE_FRONT_END = 1, TRACE_DEVICE = 2, TRACE_BACKGROUND = 3 };
-
 /* More events than this are not kept, and that is said: about 250 MB. */
 enum { TRACE_EVENTS_MOST = 2000000 };
-
 /* The number of the machine in the file, from 1 on; 0: there is none. */
 int trace_open(const char *path);
 /* What the machine is called in the file. */

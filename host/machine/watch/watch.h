@@ -7,9 +7,10 @@
  *
  * Nobody looks: m->watch is NULL, and each hook is that test.
  *
- *   watch.c     takes what the hooks say, and the device's own times of its commands
+ *   watch.c     takes what the hooks say
+ *   commands.c  takes the device's own times of its commands
  *   trace.c     writes it to a file as it happens
- *   explain.c   adds it up: machine_explain()
+ *   sums.c      adds it up, for machine_explain()
  *
  * What the file has on its tracks, and what is inside of what:
  *
@@ -22,7 +23,12 @@
 #ifndef LUTETIA_MACHINE_WATCH_H
 #define LUTETIA_MACHINE_WATCH_H
 
-#include "internal.h"
+#include <CL/cl.h>
+
+#include "base/clock.h"
+#include "base/parts.h"
+
+struct watch_sums;
 
 enum watch_phase {
     WATCH_RECORD,    /* an instruction; simplifying is part of it */
@@ -43,9 +49,8 @@ enum watch_phase {
     WATCH_PHASES_COUNT
 };
 
-/* A kernel as those who watch know it: explain.c. */
+/* A kernel as those who watch know it: sums.h. */
 struct kernel_note;
-
 bool watch_open(struct machine *m, const struct machine_config *config);
 /* The machine has its device. */
 void watch_ready(struct machine *m);
@@ -56,7 +61,7 @@ void watch_close(struct machine *m);
 /* When it is, where somebody looks. */
 static inline double watch_clock(const struct machine *m)
 {
-    return m->watch ? machine_clock_s() : 0;
+    return m->watch ? clock_s() : 0;
 }
 
 /* All that follow are called only where m->watch is not NULL. */
@@ -64,7 +69,6 @@ static inline double watch_clock(const struct machine *m)
 /* From start to now. details: JSON members for the trace; NULL: none. */
 void watch_span(struct machine *m, enum watch_phase phase, double start, const char *details,
                 ...) __attribute__((format(printf, 4, 5)));
-
 /* Calls: one that is foreseen, or is now going to be performed; a performed one's end. So many turns of some that were
  * noted have been performed. */
 void watch_call(struct machine *m, const char *name, bool foreseen);
@@ -72,80 +76,25 @@ void watch_performed(struct machine *m);
 void watch_call_failed(struct machine *m);
 void watch_replayed(struct machine *m, double start, const struct machine_call *calls,
                     int count, int turns, bool alone);
-
-/* Values: one is let go of; one in a field or flag gives way to another; some are going to be computed. */
-void watch_released(struct machine *m, const struct machine_value *v);
-void watch_overwritten(struct machine *m, const struct machine_value *old,
-                       const struct machine_value *new);
-void watch_reached(struct machine *m, struct machine_value *const *nodes, int count,
-                   int stored);
 void watch_evaluated(struct machine *m, double start, bool wanted, int targets);
-
-/* Plans: the values that the next one is for (kept until the next evaluation's); a kernel of it. */
-void watch_nodes(struct machine *m, struct machine_value *const *nodes,
-                 struct machine_value *const *wanted, int wanted_count);
-struct kernel_note *watch_kernel(struct machine *m, cl_kernel kernel,
-                                 const struct plan_graph *g, const int *stores,
-                                 int stores_count, const struct kernel_text *k,
-                                 const char *made);
-/* That kernel was not there yet (NULL): now it is; NULL: it will not be. */
-struct kernel_note *watch_kernel_built(struct machine *m, struct kernel_note *note,
-                                       cl_kernel kernel);
-void watch_split(struct machine *m);
-void watch_improved(struct machine *m);
 void watch_background(struct machine *m, double start, double end, const char *options);
-
 /* Commands. Which kernel the next device_launch() starts: a generated one, or one by hand that was given so
  * many bytes of arrays. Then where its event goes, and what it was; after an error, nothing. */
 void watch_launch(struct machine *m, struct kernel_note *note);
 void watch_arrays(struct machine *m, size_t bytes);
 cl_event *watch_command(struct machine *m, double start); /* 0: now */
+
 void watch_launched(struct machine *m, cl_int error, cl_kernel kernel, const char *what);
 void watch_moves(struct machine *m, cl_int error, const char *what, size_t bytes);
-
 /* The front end waited; how much it got or gave, said before. */
 void watch_bytes(struct machine *m, size_t bytes);
 void watch_waited(struct machine *m, double start, const char *what);
 
-/* ---- between watch.c and explain.c ---- */
-
-struct kernel_note {
-    struct kernel_note *next;
-    cl_kernel kernel; /* NULL: of no kernel */
-    struct machine_explained_kernel facts;
-    char *name; /* owned, as the facts' stores are */
-};
-
-enum { CALL_NAMES_SIZE = 4096, CALL_NAMES_MOST = CALL_NAMES_SIZE / 2 };
-
-struct explain {
-    struct machine_explained facts;
-    struct kernel_note *notes;
-    struct machine_explained_row calls[CALL_NAMES_MOST];
-    int16_t calls_hashed[CALL_NAMES_SIZE]; /* + 1 */
-    uint64_t vanished[NODE_OP_COUNT];
-    uint64_t overwritten; /* never in memory when it was */
-    uint64_t looked, flushed, alone, eager;
-    int parts; /* of a kernel that was split, still to come */
-    struct machine_value *const *nodes, *const *wanted; /* of the plan that is made now */
-    int wanted_count;
-    struct machine_explained_row phases[WATCH_PHASES_COUNT];
-    struct machine_explained_kernel *kernels; /* as last told */
-    cl_kernel copies[2];                      /* see explain.c; NULL: there is none */
-    void (*between)(void);
-};
-
-struct explain *explain_create(void); /* NULL: not enough memory */
-void explain_ready(struct machine *m, struct explain *e);
-void explain_destroy(struct explain *e);
-/* One that was recorded, or so many that were foreseen. */
-void explain_call(struct explain *e, const char *name, int foreseen, double time_s);
-/* The kernel's note, made if there is none of it: its name, by hand, and of which VP set (0: none). */
-struct kernel_note *explain_note(struct explain *e, cl_kernel kernel, const char *name,
-                                 int vpset, uint64_t processors);
 extern const char *const watch_phase_names[WATCH_PHASES_COUNT];
-struct explain *watch_sums(const struct machine *m);    /* where m->watch is not NULL */
-struct explain *watch_explain(const struct machine *m); /* NULL: nobody asked for it */
+struct watch_sums *watch_sums(const struct machine *m); /* where m->watch is not NULL */
+
+struct watch_sums *watch_explain(const struct machine *m); /* NULL: nobody asked for it */
+
 /* Waits until all commands have ended, and takes their times. */
 void watch_settle(struct machine *m);
 

@@ -17,6 +17,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/arrays.h"
+#include "plan/plan.h"
+
 /* Work-items that go in step load whole lines of a row: 32 elements of 4 bytes, at least. */
 enum { ALIGNED = 8, WIDTH_LEAST = 32, WIDTH_MOST = 128, HEIGHT_MOST = 64 };
 
@@ -33,7 +36,7 @@ void tiling_finish(struct tiling *t)
 void tiling_begin(struct tiling *t, int stages)
 {
     while (t->stages_capacity < stages)
-        t->stages = machine_grown(t->stages, &t->stages_capacity, sizeof *t->stages);
+        t->stages = array_grown(t->stages, &t->stages_capacity, sizeof *t->stages);
     for (int k = 0; k < stages; k++)
         t->stages[k] = (struct tile_stage){0};
     t->stages_count = stages;
@@ -45,7 +48,7 @@ void tiling_begin(struct tiling *t, int stages)
 int tiling_array(struct tiling *t, struct tile_array array)
 {
     if (t->arrays_count == t->arrays_capacity)
-        t->arrays = machine_grown(t->arrays, &t->arrays_capacity, sizeof *t->arrays);
+        t->arrays = array_grown(t->arrays, &t->arrays_capacity, sizeof *t->arrays);
     t->arrays[t->arrays_count] = array;
     return t->arrays_count++;
 }
@@ -57,7 +60,7 @@ void tiling_look(struct tiling *t, struct tile_look look)
         i++;
     if (i == t->looks_count) {
         if (t->looks_count == t->looks_capacity)
-            t->looks = machine_grown(t->looks, &t->looks_capacity, sizeof *t->looks);
+            t->looks = array_grown(t->looks, &t->looks_capacity, sizeof *t->looks);
         t->looks[t->looks_count++] = look;
         return;
     }

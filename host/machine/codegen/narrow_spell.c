@@ -1,81 +1,10 @@
-/* narrow.c - kernels in narrow lanes: of nothing but short integers and bits, which fit 8 or 16 bits each. A vector of
- * 512 bits is 64 or 32 of them then, not 16.
- *
- * Bits are held as they are in wide lanes: VI one bit, as 0 or -1     VU 2..16, unused high bits 0. Literals are cast,
- * since an int is no operand of shorter lanes. */
+/* narrow_spell.c - the text of operations in lanes of 8 or 16 bits. */
+#include "codegen/narrow_spell.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 
-#include "codegen/narrow.h"
-
-enum { NARROWEST = 8, NARROW_MOST = 16 };
-
-int narrow_lane_of(const struct plan_graph *g, int node, bool loaded)
-{
-    const struct plan_node *n = &g->nodes[node];
-    if (n->type.kind != MACHINE_BITS || n->type.width > NARROW_MOST)
-        return LANE_WIDE;
-    int lane = n->type.width > NARROWEST ? NARROW_MOST : NARROWEST;
-    if (loaded || n->constant)
-        return lane;
-    bool of_bits = g->nodes[n->in[0]].type.width == 1;
-    switch (n->op) {
-    case NODE_SHIFT:
-    case NODE_SELECT:
-    case NODE_SIGN_EXTEND:
-    case NODE_CONCAT:
-    case MACHINE_NOT:
-    case MACHINE_AND:
-    case MACHINE_OR:
-    case MACHINE_XOR:
-        return lane;
-    case NODE_ZERO_EXTEND:
-        return n->type.width > 1 ? lane : LANE_WIDE;
-    case NODE_EXTRACT:
-    case MACHINE_NEG:
-    case MACHINE_ADD:
-    case MACHINE_SUB:
-    case MACHINE_EQ:
-    case MACHINE_NE:
-    case MACHINE_ULT:
-    case MACHINE_ULE:
-    case MACHINE_SLT:
-    case MACHINE_SLE:
-    case MACHINE_UMIN:
-    case MACHINE_UMAX:
-    case MACHINE_SMIN:
-    case MACHINE_SMAX:
-    case NODE_OVERFLOW_UADD:
-    case NODE_OVERFLOW_USUB:
-    case NODE_OVERFLOW_SADD:
-    case NODE_OVERFLOW_SSUB:
-        return of_bits ? LANE_WIDE : lane;
-    default:
-        return LANE_WIDE;
-    }
-}
-
-int narrow_lane(const struct plan_graph *g, const int *stores, int count, int stage)
-{
-    bool *needed = calloc((size_t)g->count, sizeof *needed);
-    int lane = needed ? NARROWEST : LANE_WIDE;
-    for (int i = 0; needed && i < count; i++)
-        needed[stores[i]] = true;
-    for (int i = g->count - 1; i >= 0 && lane < LANE_WIDE; i--) {
-        const struct plan_node *n = &g->nodes[i];
-        if (!needed[i])
-            continue;
-        bool loads = stage < 0 ? n->leaf : plan_loads(n, stage);
-        int own = narrow_lane_of(g, i, loads);
-        lane = own > lane ? own : lane;
-        for (int k = 0; !loads && k < node_ops[n->op].inputs; k++) {
-            needed[n->in[k]] = true;
-            if (n->instead[k] >= 0)
-                needed[n->instead[k]] = true;
-        }
-    }
-    free(needed);
-    return lane;
-}
+#include "base/node_ops.h"
 
 /* ---- the text of one operation ---- */
 

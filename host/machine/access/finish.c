@@ -1,0 +1,24 @@
+/* finish.c - all that waits is computed. */
+#include "run/replay.h"
+
+enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
+{
+    return run_evaluate(m, values, count, false);
+}
+
+enum machine_status machine_flush(struct machine *m)
+{
+    notes_settle(m);
+    run_flush_due(m);
+    history_looked(m);
+    return run_evaluate(m, NULL, 0, false);
+}
+
+enum machine_status machine_finish(struct machine *m)
+{
+    enum machine_status status = machine_flush(m);
+    double start = device_wait_begin(m);
+    cl_int error = clFinish(m->device->queue);
+    enum machine_status waited = device_wait_end(m, error, start, "waiting for the device");
+    return status ? status : waited;
+}

@@ -1,0 +1,43 @@
+/* arrays.c - see arrays.h. */
+#include "base/arrays.h"
+
+#include <stdlib.h>
+
+#include "base/errors.h"
+
+void *array_more(void *old, int *capacity, size_t element, bool *failed)
+{
+    int wanted = *capacity ? *capacity * 2 : 64;
+    void *new = realloc(old, (size_t)wanted * element);
+    if (!new) {
+        *failed = true;
+        return old;
+    }
+    *capacity = wanted;
+    return new;
+}
+
+void *array_grown(void *old, int *capacity, size_t element)
+{
+    bool failed = false;
+    void *new = array_more(old, capacity, element, &failed);
+    INVARIANT(!failed);
+    return new;
+}
+
+void *array_zeroed(size_t count, size_t element)
+{
+    void *new = calloc(count ? count : 1, element);
+    INVARIANT(new != NULL);
+    return new;
+}
+
+uint64_t words_hash(const uint32_t *words, size_t count)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++) {
+        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}

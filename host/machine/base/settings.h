@@ -1,0 +1,32 @@
+/* settings.h - what can be forced by environment variables. */
+#ifndef LUTETIA_MACHINE_SETTINGS_H
+#define LUTETIA_MACHINE_SETTINGS_H
+
+#include "machine.h"
+
+#define SETTING_FREE UINT64_MAX /* the device decides */
+
+enum { PENDING_MANY = 384 }; /* values waiting: enough for an evaluation */
+
+/* By environment variables: settings.c. */
+struct settings {
+    uint64_t eager, replay;
+    uint64_t flush_after; /* values waiting */
+    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
+    uint64_t optimise_after, box_after;
+    uint64_t background; /* better kernels are compiled while others run */
+    uint64_t knob[MACHINE_KNOBS];
+    uint64_t strips, in_place, scatter, narrow, keeps_nan;
+    uint64_t tile; /* width << 16 | height */
+    uint64_t processors;
+    uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
+    uint64_t keep;    /* programs on disk */
+    uint64_t verbose; /* says on the standard error what is wrong with it */
+};
+
+enum machine_status settings_read(struct machine *m);
+bool settings_number(const char *text, uint64_t *out); /* false: the text is no number */
+
+const char *settings_knob_may_be(enum machine_knob knob);
+
+#endif

@@ -1,0 +1,57 @@
+/* types.c - the types of values. Other formats' numbers are kernels/soft.cl, compiled as C. */
+#include "base/types.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#include "soft.cl"
+#pragma GCC diagnostic pop
+
+size_t type_bytes(struct machine_type type)
+{
+    return type.width <= 8    ? 1
+           : type.width <= 16 ? 2
+           : type.width <= 32 ? 4
+           : type.width <= 64 ? 8
+                              : 16;
+}
+
+size_t machine_element_bytes(struct machine_type type)
+{
+    return type_bytes(type);
+}
+
+struct machine_type machine_float_type(int s, int e)
+{
+    if (s == 23 && e == 8)
+        return MACHINE_F32;
+    return s == 52 && e == 11 ? MACHINE_F64 : MACHINE_SOFT(s, e);
+}
+
+int machine_type_bits(struct machine_type type)
+{
+    return type.s ? type.s + type.e + 1 : type.width;
+}
+
+bool type_good(struct machine_type type)
+{
+    if (!type.s && !type.e)
+        return true;
+    return type.kind == MACHINE_FLOAT && type.width == 64 && type.s >= 1 && type.s <= 52 &&
+           type.e >= 2 && type.e <= 11;
+}
+
+uint64_t type_rounded(uint64_t x, struct machine_type type)
+{
+    return soft_fit(x, type.s, type.e);
+}
+
+uint64_t type_packed_bits(uint64_t x, struct machine_type type)
+{
+    return soft_pack(x, type.s, type.e);
+}
+
+uint64_t type_unpacked_bits(uint64_t x, struct machine_type type)
+{
+    return soft_unpack(x, type.s, type.e);
+}

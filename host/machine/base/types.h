@@ -1,0 +1,30 @@
+/* types.h - the types of values: their bytes in memory, and the floats of other formats than single and double. */
+#ifndef LUTETIA_MACHINE_TYPES_H
+#define LUTETIA_MACHINE_TYPES_H
+
+#include "machine.h"
+
+static inline bool type_equal(struct machine_type a, struct machine_type b)
+{
+    return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
+}
+
+size_t type_bytes(struct machine_type type); /* in a buffer */
+
+bool type_good(struct machine_type type); /* s and e are what they may be, or 0 */
+
+uint64_t type_rounded(uint64_t x, struct machine_type type); /* a double's bits */
+
+uint64_t type_packed_bits(uint64_t x, struct machine_type type); /* ... as in a field */
+
+static inline struct machine_scalar type_rounded_scalar(struct machine_scalar x,
+                                                        struct machine_type type)
+{
+    if (type.s)
+        x.lo = type_rounded(x.lo, type);
+    return x;
+}
+
+uint64_t type_unpacked_bits(uint64_t x, struct machine_type type); /* ... and back */
+
+#endif

@@ -1,0 +1,112 @@
+/* improve.c - better kernels for a plan that has run often: now, or compiled in the background. */
+#include "build/background.h"
+#include "build/describe.h"
+#include "build/plans.h"
+
+/* It does not take the other's place. */
+static void better_give_up(struct machine *m, struct plan *p)
+{
+    if (p->better)
+        plan_notes_settle(m, p->better);
+    plan_free(p->better);
+    p->better = NULL;
+}
+
+enum quality plan_quality_after(const struct machine *m, uint64_t worked)
+{
+    return worked >= m->settings.box_after        ? BOXED
+           : worked >= m->settings.optimise_after ? OPTIMISED
+                                                  : QUICK;
+}
+
+bool plan_is_due(const struct machine *m, const struct plan *p)
+{
+    enum quality quality = plan_quality_after(m, p->worked);
+    return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
+           (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
+            p->could_be_strips) &&
+           !background_busy(m);
+}
+
+void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
+{
+    struct plan old = *p;
+    *p = *better;
+    p->signature = old.signature;
+    p->signature_length = old.signature_length;
+    p->hash = old.hash;
+    p->worked = old.worked;
+    p->version = old.version + 1;
+    p->next = old.next;
+    if (m->watch && !old.empty)
+        describe_improved(m);
+    better->launches = old.launches;
+    better->launches_count = old.launches_count;
+    better->stored = old.stored;
+    better->arrays = old.arrays;
+    better->signature = NULL;
+    plan_free(better);
+}
+
+void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
+                  const struct targets *t)
+{
+    struct plan *better = plan_make(m, r, t, plan_quality_after(m, p->worked), false);
+    p->quality = BOXED; /* not again, unless it says so itself */
+    if (better)
+        plan_becomes(m, p, better);
+    else
+        machine_error_clear(m);
+}
+
+void improve_give_up(struct machine *m)
+{
+    better_give_up(m, m->plans->improving);
+    background_drop(m);
+    m->plans->improving = NULL;
+}
+
+void plans_see_to(struct machine *m)
+{
+    struct plan *p = m->plans->improving;
+    enum background_state state = p ? background_take(m) : BACKGROUND_WAITS;
+    if (state == BACKGROUND_WAITS)
+        return;
+    if (state == BACKGROUND_LOADED) {
+        struct plan *better = p->better;
+        for (int i = 0; i < better->launches_count; i++)
+            better->launches[i].kernel = background_kernel(m, better->launches[i].number);
+        plan_notes_settle(m, better);
+        better->later = false;
+        p->better = NULL;
+        plan_becomes(m, p, better);
+    } else {
+        machine_error_clear(m);
+    }
+    improve_give_up(m);
+}
+
+bool improve_begin(struct machine *m, struct plan *p, const struct reach *r,
+                   const struct targets *t, enum quality quality)
+{
+    if (!background_on(m) || background_busy(m))
+        return false;
+    p->better = plan_make(m, r, t, quality, true);
+    if (p->better && background_begin(m)) {
+        m->plans->improving = p;
+        return true;
+    }
+    machine_error_clear(m);
+    better_give_up(m, p);
+    return false;
+}
+
+uint32_t plan_version(const struct machine *m, const struct plan *p)
+{
+    return plan_is_due(m, p) ? UINT32_MAX : p->version;
+}
+
+bool plan_waits(const struct machine *m, const struct plan *p)
+{
+    return p == m->plans->improving;
+}

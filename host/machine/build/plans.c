@@ -1,0 +1,135 @@
+/* plans.c - plans kept: found by signature, made when a graph is first seen, and made better when it has been seen often.
+
+ * Numbers' values are no part of a signature. */
+#include "build/plans.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arrays.h"
+#include "base/errors.h"
+#include "build/background.h"
+#include "run/run.h"
+
+void plans_finish(struct machine *m)
+{
+    for (int i = 0; i < m->plans->table_size; i++)
+        for (struct plan *p = m->plans->table[i], *next; p; p = next) {
+            next = p->next;
+            plan_free(p);
+        }
+    free(m->plans->table);
+}
+
+/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
+int plan_turns(const struct plan *p)
+{
+    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
+}
+
+const int *plan_stored(const struct plan *p, int *count)
+{
+    *count = p->stored_count;
+    return p->stored;
+}
+
+bool plan_saves_nothing(const struct plan *p, int turns)
+{
+    int sets = 0;
+    for (int i = 0; i < p->launches_count; i++) {
+        bool first = true;
+        for (int k = 0; k < i; k++)
+            first = first && p->launches[k].set != p->launches[i].set;
+        sets += first;
+    }
+    return p->quality == BOXED && p->launches_count >= turns * sets;
+}
+
+bool plan_is_hopeless(const struct plan *p)
+{
+    return p->hopeless;
+}
+
+static struct plan *plan_find(const struct machine *m, const struct reach *r, uint64_t hash)
+{
+    struct plan *p = m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
+    while (p && !(p->hash == hash && p->signature_length == r->length &&
+                  !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
+        p = p->next;
+    return p;
+}
+
+/* It is known from now on. False: no memory, and it is no more. */
+static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
+{
+    struct plan **bucket = &m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
+    size_t bytes = r->length * sizeof *r->signature;
+    m->plans->built++;
+    p->signature = malloc(bytes);
+    if (!p->signature) {
+        plan_free(p);
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a plan");
+        return false;
+    }
+    memcpy(p->signature, r->signature, bytes);
+    p->signature_length = r->length;
+    p->hash = hash;
+    p->next = *bucket;
+    *bucket = p;
+    return true;
+}
+
+/* A plan that has been rehearsed is wanted now. False: error set. */
+static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
+                      const struct targets *t)
+{
+    if (m->plans->improving == p)
+        improve_give_up(m);
+    struct plan *made = plan_make(m, r, t, BOXED, false);
+    if (made)
+        plan_becomes(m, p, made);
+    return made != NULL;
+}
+
+/* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
+static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struct reach *r,
+                                  const struct targets *t, uint64_t hash)
+{
+    if (p)
+        return p;
+    if (!(p = calloc(1, sizeof *p)))
+        return NULL;
+    p->empty = true;
+    p->quality = BOXED;
+    if (!plan_keep(m, p, r, hash))
+        return NULL;
+    bool made = background_on(m) ? improve_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
+    p->hopeless = !made && m->plans->rehearsing == REHEARSING_TURNS;
+    return p;
+}
+
+struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
+{
+    uint64_t hash = words_hash(r->signature, r->length);
+    if (!m->plans->table) {
+        m->plans->table_size = 1024;
+        m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
+        if (!m->plans->table) {
+            machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");
+            return NULL;
+        }
+    }
+    if (!m->plans->rehearsing)
+        plans_see_to(m);
+    struct plan *p = plan_find(m, r, hash);
+    if (m->plans->rehearsing)
+        return plan_rehearse(m, p, r, t, hash);
+    if (p && p->empty)
+        return plan_fill(m, p, r, t) ? p : NULL;
+    if (p && plan_is_due(m, p) && !improve_begin(m, p, r, t, plan_quality_after(m, p->worked)))
+        plan_improve(m, p, r, t);
+    if (p)
+        return p;
+    p = plan_make(m, r, t, m->run->building ? BOXED : plan_quality_after(m, 0), false);
+    return p && plan_keep(m, p, r, hash) ? p : NULL;
+}

@@ -1,0 +1,70 @@
+/* codegen.h - the text of a kernel, and what it takes. */
+#ifndef LUTETIA_MACHINE_CODEGEN_H
+#define LUTETIA_MACHINE_CODEGEN_H
+
+#include "plan/plan.h"
+
+/* Which arrays that a kernel stores may take the place of which that it reads: see strips.h. */
+enum { BORDERS_MOST = 16 };
+
+struct in_place {
+    int leaves[BORDERS_MOST]; /* nodes whose borders can be copied */
+    int leaves_count;
+    struct {
+        int output, leaf; /* nodes */
+        int border;       /* of the leaf, in leaves */
+    } * pairs;
+    int pairs_count, pairs_capacity;
+    int above, below; /* rows of a border */
+    int bytes;        /* of an element of each leaf, all together */
+    bool pays;        /* all arrays together are larger than what is near anyway */
+};
+
+enum kernel_argument_kind {
+    ARGUMENT_INPUT,
+    ARGUMENT_OUTPUT,
+    ARGUMENT_CONSTANT,
+    ARGUMENT_SECOND,
+    ARGUMENT_BORDERS, /* of strips: which arrays are written in place */
+    ARGUMENT_SCRATCH  /* of strips */
+};
+
+struct kernel_argument {
+    uint8_t kind; /* enum kernel_argument_kind; SECOND: imm.hi of the node */
+    uint8_t size; /* of a constant, bytes */
+    int32_t node;
+};
+
+struct kernel_text {
+    char *text; /* without the prelude */
+    char options[160];
+    struct kernel_argument *arguments;
+    int arguments_count;
+    int vector;
+    bool wide, soft, formats, wraps, math;
+    bool has_boxes;     /* or would have, if asked for */
+    int ops, loads;     /* emitted */
+    size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
+    int strip_margin;   /* rows that each computes besides its own */
+    int strip_columns;  /* of all but the last, which has what is left, too */
+    int group;          /* of a tile: work-items; 0: not in tiles */
+    int tile_width, tile_height;
+    struct in_place in_place;
+    int cost; /* node_cost() of these operations, and of coordinates and random numbers */
+};
+
+/* One kernel that stores the given nodes, all of one stage and VP set. false: out of memory. */
+bool rows_emit(const struct plan_graph *g, const int *stores, int stores_count,
+               const struct vpset *set, const struct device_shape *shape,
+               struct kernel_text *out);
+/* strips_text.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
+bool strips_emit(const struct plan_graph *g, const int *stores, int count,
+                 const struct vpset *set, const struct device_shape *shape,
+                 struct kernel_text *out);
+/* tiles_text.c: likewise, on scalar work-items. */
+bool tiles_emit(const struct plan_graph *g, const int *stores, int count,
+                const struct vpset *set, const struct device_shape *shape,
+                struct kernel_text *out);
+void kernel_text_finish(struct kernel_text *k);
+
+#endif

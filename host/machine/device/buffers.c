@@ -1,0 +1,170 @@
+/* buffers.c - device memory.
+
+ * Versions of values come and go at every step, so released buffers are kept in a pool by size. The queue is in
+ * order: a buffer may be used again as soon as nobody refers to it. Arrays that begin at the same offset from a
+ * page disturb each other in the caches (1.5 to 2 times slower sweeps over large sheets), so each begins at another
+ * multiple of 128 bytes, as a sub-buffer. */
+#include <stdlib.h>
+#include <sys/mman.h>
+
+#include "base/errors.h"
+#include "base/parts.h"
+#include "device/device.h"
+
+enum {
+    LARGE_PAGE_BYTES = 2 << 20,
+    SKEW_BYTES = 7 * 128,
+    SKEW_PAGE_BYTES = 4096,
+    SKEW_LARGE_BYTES = 64 << 10,
+    POOL_BYTES_MAX = 1 << 30
+};
+
+void device_pool_empty(struct device *d)
+{
+    for (int i = 0; i < d->pool_count; i++) {
+        clReleaseMemObject(d->pool[i]->mem);
+        free(d->pool[i]);
+    }
+    d->pool_count = 0;
+    d->pool_bytes = 0;
+}
+
+static void CL_CALLBACK memory_free(cl_mem memory, void *address)
+{
+    (void)memory;
+    free(address);
+}
+
+/* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own: large ones are in
+ * large pages where the system has them, or looking for pages takes as long as computing. */
+static cl_mem memory_get(const struct device *d, struct rows rows, cl_int *error)
+{
+    void *address;
+    size_t bytes = rows.bytes, skipped = -rows.first % LINE_BYTES;
+    bool large = bytes >= LARGE_PAGE_BYTES;
+    if (!d->is_cpu || (!large && !skipped))
+        return clCreateBuffer(d->context, CL_MEM_READ_WRITE, bytes, NULL, error);
+    *error = CL_OUT_OF_HOST_MEMORY;
+    if (posix_memalign(&address, large ? LARGE_PAGE_BYTES : DEVICE_GUARD_BYTES,
+                       skipped + bytes))
+        return NULL;
+#ifdef MADV_HUGEPAGE
+    madvise(address, bytes / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES, MADV_HUGEPAGE);
+#endif
+    cl_mem memory = clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes,
+                                   (char *)address + skipped, error);
+    if (!*error)
+        *error = clSetMemObjectDestructorCallback(memory, memory_free, address);
+    if (!*error)
+        return memory;
+    if (memory)
+        clReleaseMemObject(memory);
+    free(address);
+    return NULL;
+}
+
+/* How far behind a page's beginning the next array begins at most. Processors compare addresses by their last 12 bits first,
+ * and hold back what reads where something a little before it seems to write: nine arrays in a row are 384 bytes apart
+ * in this or more (sub-buffers begin at multiples of 128). And of many large ones, rows are not all in the same places
+ * of a cache. */
+static size_t skew_room(size_t bytes)
+{
+    return bytes < LARGE_PAGE_BYTES ? SKEW_PAGE_BYTES : SKEW_LARGE_BYTES;
+}
+
+struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
+{
+    return device_rows_get(m, (struct rows){bytes, 0});
+}
+
+bool device_rows_fit(const struct device_buffer *b, struct rows rows)
+{
+    return b->bytes == rows.bytes && b->first == rows.first % LINE_BYTES;
+}
+
+struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
+{
+    struct device *d = m->device;
+    size_t bytes = rows.bytes;
+    rows.first %= LINE_BYTES;
+    for (int i = d->pool_count - 1; i >= 0; i--)
+        if (device_rows_fit(d->pool[i], rows)) {
+            struct device_buffer *b = d->pool[i];
+            d->pool[i] = d->pool[--d->pool_count];
+            d->pool_bytes -= bytes;
+            d->held_bytes += bytes;
+            b->refs = 1;
+            return b;
+        }
+    size_t whole = bytes + skew_room(bytes) + 2 * DEVICE_GUARD_BYTES;
+    if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
+        device_pool_empty(d);
+        machine_fail(
+            m, MACHINE_NO_MEMORY,
+            "%.1f MB more for one field do not fit in the memory of %s (%.0f MB, %.0f in use)",
+            1e-6 * (double)whole, d->name, 1e-6 * (double)d->memory_bytes,
+            1e-6 * (double)d->held_bytes);
+        return NULL;
+    }
+    struct device_buffer *b = calloc(1, sizeof *b);
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
+    if (error && d->pool_count) {
+        m->device->inside++;
+        clFinish(d->queue);
+        m->device->inside--;
+        device_pool_empty(d);
+        parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
+    }
+    if (!error) {
+        cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES +
+                                             SKEW_BYTES * d->skew++ % skew_room(bytes),
+                                   .size = bytes};
+        b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                                   &region, &error);
+        if (error) { /* an alignment that the device does not like */
+            region.origin = DEVICE_GUARD_BYTES;
+            b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                                       &region, &error);
+        }
+        clReleaseMemObject(parent); /* lives as long as the part of it does */
+    }
+    if (error) {
+        free(b);
+        device_check(m, error, "memory for a field");
+        return NULL;
+    }
+    b->bytes = bytes;
+    b->first = rows.first;
+    b->refs = 1;
+    d->held_bytes += bytes;
+    return b;
+}
+
+void device_buffer_ref(struct device_buffer *b)
+{
+    b->refs++;
+}
+
+void device_buffer_unref(struct machine *m, struct device_buffer *b)
+{
+    struct device *d = m->device;
+    if (--b->refs)
+        return;
+    d->held_bytes -= b->bytes;
+    if (d->pool_count == d->pool_capacity) {
+        int capacity = d->pool_capacity ? 2 * d->pool_capacity : 64;
+        struct device_buffer **pool = realloc(d->pool, (size_t)capacity * sizeof *pool);
+        if (pool) {
+            d->pool = pool;
+            d->pool_capacity = capacity;
+        }
+    }
+    if (d->pool_count == d->pool_capacity || d->pool_bytes + b->bytes > POOL_BYTES_MAX) {
+        clReleaseMemObject(b->mem);
+        free(b);
+        return;
+    }
+    d->pool[d->pool_count++] = b;
+    d->pool_bytes += b->bytes;
+}

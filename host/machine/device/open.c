@@ -1,0 +1,153 @@
+/* open.c - which device, opened and closed. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/errors.h"
+#include "base/parts.h"
+#include "device/tuning.h"
+#include "devices.h"
+
+int machine_devices_list(void (*each)(void *context, int index, const char *platform,
+                                      const char *device, const char *version,
+                                      int compute_units, uint64_t memory_bytes),
+                         void *context)
+{
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
+    if (!all)
+        return 0;
+    int count = opencl_devices(all, NULL);
+    for (int i = 0; i < count; i++) {
+        cl_uint units = 0;
+        cl_ulong memory = 0;
+        clGetDeviceInfo(all[i].id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+        clGetDeviceInfo(all[i].id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+        each(context, i, all[i].platform_name, all[i].name, all[i].version, (int)units, memory);
+    }
+    free(all);
+    return count;
+}
+
+/* PoCL has no device where it cannot make the folder that it compiles in. */
+static enum machine_status no_device_on(struct machine *m, cl_platform_id platform)
+{
+    char name[128] = "";
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name - 1, name, NULL);
+    return machine_fail(
+        m, MACHINE_NO_DEVICE,
+        "the OpenCL platform \"%s\" has no device; if it is PoCL: can it write in "
+        "POCL_CACHE_DIR, XDG_CACHE_HOME or ~/.cache?",
+        name);
+}
+
+static enum machine_status choose_and_open(struct machine *m,
+                                           const struct machine_config *config)
+{
+    struct device *d = m->device;
+    struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
+    if (!all)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to list devices");
+    cl_platform_id without;
+    const char *choice;
+    int count = opencl_devices(all, &without);
+    int chosen = opencl_device_choose(all, count, config->device, &choice);
+    if (chosen < 0) {
+        enum machine_status status =
+            count > 0 ? machine_fail(m, MACHINE_NO_DEVICE,
+                                     "no OpenCL device is called \"%s\": `lutetia info` lists "
+                                     "the %d there are",
+                                     choice, count)
+            : without ? no_device_on(m, without)
+                      : machine_fail(m, MACHINE_NO_DEVICE,
+                                     "no OpenCL device was found: install one (Debian: apt-get "
+                                     "install pocl-opencl-icd)");
+        free(all);
+        return status;
+    }
+    d->platform = all[chosen].platform;
+    d->id = all[chosen].id;
+    snprintf(d->name, sizeof d->name, "%s", all[chosen].name);
+    snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
+    free(all);
+    cl_device_type type = 0;
+    cl_uint units = 0;
+    cl_ulong memory = 0, max_alloc = 0;
+    cl_device_fp_config doubles = 0, singles = 0;
+    clGetDeviceInfo(d->id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof max_alloc, &max_alloc, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
+    clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof singles, &singles, NULL);
+    clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
+    d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    d->is_pocl = d->is_cpu && strcmp(d->platform_name, "Portable Computing Language") == 0;
+    /* PoCL has a cache of its own, and would compile each program once more to give it away. */
+    d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;
+    d->units = units ? (int)units : 1;
+    d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
+    d->memory_max_alloc_bytes = max_alloc;
+    if (!doubles)
+        return machine_fail(m, MACHINE_NO_DEVICE,
+                            "%s has no double precision, which the machine needs", d->name);
+    d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
+                     ? "-cl-fp32-correctly-rounded-divide-sqrt"
+                     : "";
+    tuning_apply(m, config);
+    d->shape = shape_of(d, &m->settings);
+    cl_int error;
+    d->context = clCreateContext(NULL, 1, &d->id, NULL, NULL, &error);
+    if (error)
+        return device_check(m, error, "a context cannot be made");
+    const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
+    d->queue = clCreateCommandQueueWithProperties(d->context, d->id,
+                                                  m->watch ? profiling : NULL, &error);
+    if (error && m->watch) /* then without times */
+        d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
+    if (error)
+        return device_check(m, error, "a command queue cannot be made");
+    return device_programs_begin(d)
+               ? MACHINE_OK
+               : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
+}
+
+/* The driver's threads do not take what a terminal says to the program, nor do the linkers that they run: PoCL aborts
+ * when one of those is interrupted. */
+enum machine_status device_open(struct machine *m, const struct machine_config *config)
+{
+    sigset_t interrupt, before;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &interrupt, &before);
+    enum machine_status status = choose_and_open(m, config);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return status;
+}
+
+void device_close(struct machine *m)
+{
+    struct device *d = m->device;
+    if (d->queue)
+        clFinish(d->queue);
+    if (d->fence)
+        clReleaseEvent(d->fence);
+    device_pool_empty(d);
+    free(d->pool);
+    device_programs_finish(d);
+    free(d->unstarted);
+    if (d->queue)
+        clReleaseCommandQueue(d->queue);
+    if (d->context)
+        clReleaseContext(d->context);
+}
+
+const char *machine_device_name(const struct machine *m)
+{
+    return m->device->name;
+}
+
+const char *machine_device_driver(const struct machine *m)
+{
+    return m->device->driver;
+}

@@ -1,0 +1,228 @@
+/* programs.c - kernels: known by their whole text and options, in memory by a hash table, on disk by a file of cache.c. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/errors.h"
+#include "device/cache.h"
+#include "kernels.h"
+#include "watch/watch.h"
+
+enum { PROGRAMS_SIZE = 1024 };
+
+struct program_entry {
+    char *key; /* options, then text */
+    cl_program program;
+    cl_kernel kernel;
+    struct program_entry *next;
+};
+
+bool device_programs_begin(struct device *d)
+{
+    d->programs = calloc(PROGRAMS_SIZE, sizeof *d->programs);
+    return d->programs != NULL;
+}
+
+void device_programs_finish(struct device *d)
+{
+    if (d->programs)
+        for (int i = 0; i < PROGRAMS_SIZE; i++)
+            for (struct program_entry *p = d->programs[i].next, *next; p; p = next) {
+                next = p->next;
+                clReleaseKernel(p->kernel);
+                clReleaseProgram(p->program);
+                free(p->key);
+                free(p);
+            }
+    free(d->programs);
+}
+
+char *device_text_without_header(const char *const parts[DEVICE_PARTS])
+{
+    size_t size = strlen(kernel_functions_cl) + 1;
+    for (int i = 0; i < DEVICE_PARTS; i++)
+        size += strlen(parts[i]);
+    char *text = malloc(size), *end = text;
+    if (text)
+        end = stpcpy(end, kernel_functions_cl);
+    for (int i = 0; i < DEVICE_PARTS && text; i++)
+        end = stpcpy(end, parts[i]);
+    return text;
+}
+
+/* Programs compare what they like, a number with itself, say: compilers need not tell users. */
+void device_options(const struct device *d, const char *options, bool header,
+                    char out[DEVICE_OPTIONS_BYTES])
+{
+    snprintf(out, DEVICE_OPTIONS_BYTES, "%s -w %s%s", options, d->options,
+             header ? "" : " -D_OPENCL_H_");
+}
+
+/* NULL: the program needs the header after all. */
+static cl_program build_without_header(const struct device *d,
+                                       const char *const parts[DEVICE_PARTS],
+                                       const char *options)
+{
+    char all_options[DEVICE_OPTIONS_BYTES];
+    char *text = device_text_without_header(parts);
+    const char *source = text;
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    cl_program program =
+        text ? clCreateProgramWithSource(d->context, 1, &source, NULL, &error) : NULL;
+    free(text);
+    if (error)
+        return NULL;
+    device_options(d, options, false, all_options);
+    if (clBuildProgram(program, 1, &d->id, all_options, NULL, NULL) == CL_SUCCESS)
+        return program;
+    clReleaseProgram(program);
+    return NULL;
+}
+
+static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *own_options, const char *key)
+{
+    struct device *d = m->device;
+    char options[DEVICE_OPTIONS_BYTES];
+    double start = watch_clock(m);
+    size_t size = 0;
+    unsigned char *binary = d->keeps_programs ? cache_program_read(d, key, &size) : NULL;
+    cl_int error = CL_SUCCESS, status = CL_SUCCESS;
+    cl_program program = NULL;
+    device_options(d, own_options, true, options);
+    if (binary) {
+        const unsigned char *data = binary;
+        program =
+            clCreateProgramWithBinary(d->context, 1, &d->id, &size, &data, &status, &error);
+        free(binary);
+        if (!error && !status &&
+            clBuildProgram(program, 1, &d->id, options, NULL, NULL) == CL_SUCCESS) {
+            if (m->watch)
+                watch_span(m, WATCH_BUILD_LOAD, start, "\"options\":\"%s\"", options);
+            return program;
+        }
+        if (program)
+            clReleaseProgram(program);
+    }
+    if (d->is_pocl && (program = build_without_header(d, parts, own_options)))
+        goto built;
+    const char *sources[DEVICE_PARTS];
+    memcpy(sources, parts, sizeof sources);
+    program = clCreateProgramWithSource(d->context, DEVICE_PARTS, sources, NULL, &error);
+    if (error) {
+        device_check(m, error, "a program cannot be made");
+        return NULL;
+    }
+    error = clBuildProgram(program, 1, &d->id, options, NULL, NULL);
+    if (error) {
+        char log[900] = "";
+        clGetProgramBuildInfo(program, d->id, CL_PROGRAM_BUILD_LOG, sizeof log - 1, log, NULL);
+        for (char *c = log; *c; c++)
+            if (*c == '\n')
+                *c = ' ';
+        machine_fail(m, MACHINE_BUILD_FAILED, "a kernel did not compile on %s (%d): %s",
+                     d->name, error, log);
+        if (getenv("LUTETIA_DUMP"))
+            fprintf(stderr, "%s\n%s\n", options, parts[DEVICE_PARTS - 1]);
+        clReleaseProgram(program);
+        return NULL;
+    }
+built:
+    if (d->keeps_programs)
+        cache_program_write(d, key, program);
+    if (m->watch)
+        watch_span(m, WATCH_BUILD, start, "\"options\":\"%s\"", options);
+    return program;
+}
+
+char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name)
+{
+    size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
+    char *key = malloc(size);
+    uint64_t library = CACHE_HASH_BEGIN;
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        library = cache_hash(library, parts[i]);
+    if (key)
+        snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
+                 (unsigned long long)library, parts[DEVICE_PARTS - 1]);
+    return key;
+}
+
+static struct program_entry *program_bucket(struct device *d, const char *key)
+{
+    return &d->programs[cache_hash(CACHE_HASH_BEGIN, key) % PROGRAMS_SIZE];
+}
+
+static cl_kernel program_find(struct device *d, const char *key)
+{
+    for (struct program_entry *p = program_bucket(d, key)->next; p; p = p->next)
+        if (!strcmp(p->key, key))
+            return p->kernel;
+    return NULL;
+}
+
+bool device_takes_group(const struct device *d, cl_kernel kernel, int items)
+{
+    size_t most = 0;
+    return !clGetKernelWorkGroupInfo(kernel, d->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
+                                     &most, NULL) &&
+           (size_t)items <= most;
+}
+
+bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
+                           const char *options, const char *name)
+{
+    char *key = device_kernel_key(m->device, parts, options, name);
+    bool found = key && (program_find(m->device, key) ||
+                         (m->device->keeps_programs && cache_program_is_there(m->device, key)));
+    free(key);
+    return found;
+}
+
+cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
+                        const char *options, const char *name)
+{
+    struct device *d = m->device;
+    char *key = device_kernel_key(d, parts, options, name);
+    if (!key) {
+        machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
+        return NULL;
+    }
+    cl_kernel known = program_find(d, key);
+    if (known) {
+        free(key);
+        return known;
+    }
+    struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
+    cl_int error = CL_OUT_OF_HOST_MEMORY;
+    m->device->inside++;
+    if (entry && (entry->program = build(m, parts, options, key)))
+        entry->kernel = clCreateKernel(entry->program, name, &error);
+    m->device->inside--;
+    if (entry && entry->program) {
+        if (!error) {
+            entry->key = key;
+            entry->next = bucket->next;
+            bucket->next = entry;
+            d->kernels_built++;
+            device_unstarted_add(d, entry->kernel);
+            return entry->kernel;
+        }
+        device_check(m, error, "a kernel cannot be made");
+        clReleaseProgram(entry->program);
+    }
+    free(entry);
+    free(key);
+    return NULL;
+}
+
+cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
+                                const char *name)
+{
+    const char *parts[DEVICE_PARTS];
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        parts[i] = "";
+    parts[DEVICE_PARTS - 1] = text;
+    return device_kernel(m, parts, options, name);
+}

@@ -1,0 +1,122 @@
+/* queue.c - commands: started, waited for, and kept from running too far ahead. */
+#include <stdlib.h>
+
+#include "build/background.h"
+#include "device/device.h"
+#include "watch/watch.h"
+
+double device_wait_begin(struct machine *m)
+{
+    m->device->inside++;
+    return clock_s();
+}
+
+enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
+                                    const char *what)
+{
+    m->device->inside--;
+    m->device->busy_s += clock_s() - start;
+    if (m->watch)
+        watch_waited(m, start, what);
+    return device_check(m, error, what);
+}
+
+enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
+                                const void *pattern, size_t pattern_bytes, const char *what)
+{
+    m->device->inside++;
+    cl_event *done = m->watch ? watch_command(m, 0) : NULL;
+    cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, pattern, pattern_bytes, 0,
+                                       b->bytes, 0, NULL, done);
+    m->device->inside--;
+    if (done)
+        watch_moves(m, error, "fill", b->bytes);
+    return device_check(m, error, what);
+}
+
+enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
+                                const struct device_buffer *to, size_t bytes, const char *what)
+{
+    m->device->inside++;
+    cl_event *done = m->watch ? watch_command(m, 0) : NULL;
+    cl_int error =
+        clEnqueueCopyBuffer(m->device->queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
+    m->device->inside--;
+    if (done)
+        watch_moves(m, error, "copy", 2 * bytes);
+    return device_check(m, error, what);
+}
+
+void device_flush(struct machine *m)
+{
+    m->device->inside++;
+    clFlush(m->device->queue);
+    m->device->inside--;
+}
+
+/* While better kernels are being built no more are put into the queue than keep the device busy: they would all be of
+ * the old ones. */
+enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
+
+/* A fence is put behind so many kernels, and the one before it waited for. */
+enum machine_status device_pace(struct machine *m)
+{
+    struct device *d = m->device;
+    uint64_t ahead = background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD;
+    if (d->kernels_run - d->fence_kernels < ahead)
+        return MACHINE_OK;
+    cl_event reached = d->fence;
+    cl_int error = clEnqueueMarkerWithWaitList(d->queue, 0, NULL, &d->fence);
+    if (error)
+        d->fence = NULL;
+    d->fence_kernels = d->kernels_run;
+    if (!reached)
+        return device_check(m, error, "waiting for the device");
+    double start = device_wait_begin(m);
+    error |= clWaitForEvents(1, &reached);
+    clReleaseEvent(reached);
+    return device_wait_end(m, error, start, "waiting for the device");
+}
+
+void device_unstarted_add(struct device *d, cl_kernel kernel)
+{
+    if (d->unstarted_count == d->unstarted_capacity) {
+        int capacity = d->unstarted_capacity ? 2 * d->unstarted_capacity : 16;
+        cl_kernel *list = realloc(d->unstarted, (size_t)capacity * sizeof(cl_kernel));
+        if (!list)
+            return;
+        d->unstarted = list;
+        d->unstarted_capacity = capacity;
+    }
+    d->unstarted[d->unstarted_count++] = kernel;
+}
+
+enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
+                                  cl_uint dimensions, const size_t *global, const size_t *local,
+                                  const char *what)
+{
+    static const size_t one[3] = {1, 1, 1};
+    struct device *d = m->device;
+    m->device->inside++;
+    double start = watch_clock(m);
+    cl_event *done = m->watch ? watch_command(m, start) : NULL;
+    if (!error)
+        error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
+                                       local       ? local
+                                       : d->is_cpu ? one
+                                                   : NULL,
+                                       0, NULL, done);
+    if (m->watch)
+        watch_launched(m, error, kernel, what);
+    d->kernels_run++;
+    for (int i = 0; i < d->unstarted_count; i++)
+        if (d->unstarted[i] == kernel) {
+            d->unstarted[i] = d->unstarted[--d->unstarted_count];
+            error = error ? error : clFinish(d->queue);
+            if (m->watch)
+                watch_span(m, WATCH_BUILD_FIRST, start, NULL);
+            break;
+        }
+    m->device->inside--;
+    return device_check(m, error, what);
+}

@@ -1,0 +1,47 @@
+/* cost.h - a search for a plan, and what a choice costs: see plan.c. */
+#ifndef LUTETIA_MACHINE_COST_H
+#define LUTETIA_MACHINE_COST_H
+
+#include "plan/plan.h"
+#include "plan/tiles.h"
+
+#define IMPOSSIBLE 1e300 /* cost of a plan that does until there is another */
+
+enum { LIGHT = 8, EVALUATIONS_MAX = 1200, OFFSETS_MAX = 512 };
+
+struct visit {
+    uint32_t stamp;
+    int32_t node;
+    int32_t offset;
+};
+
+struct search {
+    struct plan_graph *g;
+    const struct vpset *sets;
+    const struct device_shape *shape;
+    bool *barrier; /* of shift nodes */
+    bool *light;   /* never stored: computed wherever it is needed */
+    int *earliest;
+    int *loaded, loads_stamp; /* stamp: counted in this kernel's bytes already */
+    struct visit *visits;
+    uint32_t visits_size, stamp, visits_count;
+    /* offsets met: vectors of rank numbers */
+    int (*offsets)[MACHINE_AXES_MAX];
+    int offsets_count;
+    bool strips; /* all stages in one kernel */
+    bool tiles;  /* ... of tiles */
+    struct tiling tiling;
+    int *array;     /* of a node that is stored: in the tiling */
+    int cost_began; /* loads_stamp then: what has a later one was loaded by some stage already */
+    bool first;     /* the first plan must do, whatever it costs */
+    double operations, bytes, near_bytes; /* near: of rings */
+    int lane;                             /* the widest that the kernel needs; bits */
+    bool too_much;
+};
+
+/* Stages and what is stored, for the barriers as they are. Returns the last stage. */
+int cost_assign(struct search *s);
+double cost_of(struct search *s);
+void cost_find_light(struct search *s, double *weight);
+
+#endif

@@ -1,0 +1,66 @@
+/* plan.h - what a plan decides: see plan.c. */
+#ifndef LUTETIA_MACHINE_PLAN_H
+#define LUTETIA_MACHINE_PLAN_H
+
+#include "values/geometry.h"
+
+struct plan_node {
+    uint8_t op;
+    struct machine_type type;
+    uint8_t axis;
+    uint8_t generator;
+    bool maybe_nan;
+    bool leaf;     /* a buffer */
+    bool constant; /* an argument */
+    bool target;
+    uint16_t set;
+    int32_t detail;
+    int32_t in[3];
+    int32_t instead[3]; /* another node that may stand for in[k] here, if it is in memory; else
+                           -1 */
+    /* decided */
+    int stage;
+    bool stored;
+};
+
+struct plan_graph {
+    struct plan_node *nodes; /* inputs before users */
+    int count;
+    bool boxes;     /* write kernels that tell inside from outside: see codegen/body.c */
+    bool strips;    /* decided: all stages in one kernel, see strips.h and tiles.h */
+    bool no_strips; /* but not so */
+    int turns_most; /* of a loop, in one kernel; 1: that cannot be, or does not pay */
+    double cost_ns; /* of one run, by the model */
+};
+
+void plan_choose(struct plan_graph *g, const struct vpset *sets,
+                 const struct device_shape *shape);
+
+/* What a kernel finds in memory: leaves, and what an earlier stage stored. */
+static inline bool plan_loads(const struct plan_node *n, int stage)
+{
+    return n->leaf || (n->stored && n->stage < stage);
+}
+
+/* What node n, evaluated in a kernel of that stage, takes as its operand k. */
+static inline int plan_input(const struct plan_graph *g, const struct plan_node *n, int k,
+                             int stage)
+{
+    int instead = n->instead[k];
+    return instead >= 0 && plan_loads(&g->nodes[instead], stage) &&
+                   !plan_loads(&g->nodes[n->in[k]], stage)
+               ? instead
+               : n->in[k];
+}
+
+/* More arrays than a processor foresees at once. */
+enum { ARRAYS_MANY = 16 };
+/* Strips are not cut narrower than that. */
+enum { STRIPS_LEAST_COLUMNS = 128 };
+
+static inline void widen(int *have, int wanted)
+{
+    *have = wanted > *have ? wanted : *have;
+}
+
+#endif

@@ -1,0 +1,101 @@
+/* materialise.c - values in memory: computed, filled in, or brought from the front end. */
+#include "run/materialise.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/errors.h"
+#include "base/scalar.h"
+#include "base/types.h"
+#include "run/run.h"
+#include "values/graph.h"
+#include "watch/watch.h"
+
+bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count)
+{
+    size_t bytes = type_bytes(type);
+    bool has = false;
+    for (uint64_t i = 0; i < count && type.kind == MACHINE_FLOAT && !has; i++) {
+        uint64_t x = 0; /* the host is little-endian, as OpenCL's devices are */
+        memcpy(&x, (const unsigned char *)in + i * bytes, bytes);
+        has = scalar_is_strange_nan(type, x);
+    }
+    return has;
+}
+
+struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,
+                                         const void *in)
+{
+    const struct vpset *s = &m->values->sets[set];
+    size_t element = type_bytes(type), bytes = geometry_bytes(s, type);
+    unsigned char *image = calloc(1, bytes);
+    struct device_buffer *b = image ? device_rows_get(m, geometry_rows(s, type)) : NULL;
+    if (!b) {
+        free(image);
+        if (!m->status)
+            machine_fail(m, MACHINE_NO_MEMORY,
+                         "not enough memory to write a field of %zu bytes", bytes);
+        return NULL;
+    }
+    size_t width = (size_t)s->width * element, halo = (size_t)s->halo * element;
+    for (uint64_t row = 0; row < s->rows; row++) {
+        unsigned char *to = image + row * s->pitch * element + halo;
+        memcpy(to, (const unsigned char *)in + row * width, width);
+        memcpy(to - halo, to + width - halo, halo);
+        memcpy(to + width, to, halo);
+    }
+    double start = device_wait_begin(m);
+    cl_int error =
+        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+    if (m->watch)
+        watch_bytes(m, bytes);
+    free(image);
+    if (device_wait_end(m, error, start, "writing a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    struct machine_value *v = graph_buffer_node(m, type, set, b);
+    v->strange_nan = materialise_has_strange_nan(type, in, s->count);
+    return v;
+}
+
+void materialise_put(unsigned char *to, struct machine_scalar x, size_t element)
+{
+    memcpy(to, &x.lo, element < 8 ? element : 8);
+    if (element > 8)
+        memcpy(to + 8, &x.hi, 8);
+}
+
+struct machine_value *materialise(struct machine *m, int set, struct machine_value *v)
+{
+    if (v->op == NODE_CONSTANT && !v->buffer) {
+        size_t element = type_bytes(v->type);
+        unsigned char pattern[16];
+        struct device_buffer *b =
+            device_rows_get(m, geometry_rows(&m->values->sets[set], v->type));
+        if (!b)
+            return NULL;
+        materialise_put(pattern, v->imm, element);
+        if (device_fill(m, b, pattern, element, "filling a field")) {
+            device_buffer_unref(m, b);
+            return NULL;
+        }
+        struct machine_value *number = graph_buffer_node(m, v->type, set, b);
+        number->strange_nan = v->strange_nan;
+        return number;
+    }
+    if (!v->buffer && run_evaluate(m, &v, 1, false))
+        return NULL;
+    return v;
+}
+
+bool materialise_all(struct machine *m, int set, struct machine_value **values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (values[i]->op == NODE_CONSTANT && !(values[i] = materialise(m, set, values[i])))
+            return false;
+    for (int i = 0; i < count; i++)
+        if (!values[i]->buffer)
+            return run_evaluate(m, values, count, false) == MACHINE_OK;
+    return true;
+}

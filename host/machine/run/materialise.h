@@ -1,0 +1,17 @@
+/* materialise.h - values in memory. */
+#ifndef LUTETIA_MACHINE_MATERIALISE_H
+#define LUTETIA_MACHINE_MATERIALISE_H
+
+#include "values/values.h"
+
+/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
+ * everywhere the same). Does not wait. NULL: error set. */
+struct machine_value *materialise(struct machine *m, int set, struct machine_value *v);
+/* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
+bool materialise_all(struct machine *m, int set, struct machine_value **values, int count);
+bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count);
+struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,
+                                         const void *in);
+void materialise_put(unsigned char *to, struct machine_scalar x, size_t element);
+
+#endif

@@ -1,0 +1,74 @@
+/* notes.c - calls that are foreseen are noted, and performed when somebody looks. */
+#include "run/replay.h"
+
+/* Another edge with the calls noted so far, and this one next (NULL: no more than those, for somebody is
+ * going to look). */
+static struct edge *other_edge(struct machine *m, const struct machine_call *call)
+{
+    struct replay *p = m->run->replay;
+    struct state *s = &p->states[p->active];
+    for (int i = 0; i < s->edges_count; i++) {
+        struct edge *e = &s->edges[i];
+        if (e != p->edge && record_begins_alike(e, p->edge, m->run->calls_noted) &&
+            (call ? e->calls_count > m->run->calls_noted &&
+                        record_same_call(&e->calls[m->run->calls_noted], call)
+                  : e->calls_count == m->run->calls_noted && !e->alone))
+            return e;
+    }
+    return NULL;
+}
+
+void notes_perform(struct machine *m)
+{
+    struct replay *p = m->run->replay;
+    if (m->run->calls_noted > p->edge->calls_count && !turns_do(m)) {
+        perform_calls(m);
+        return;
+    }
+    if (!m->run->calls_noted)
+        return;
+    struct edge *e =
+        p->edge->calls_count == m->run->calls_noted ? p->edge : other_edge(m, NULL);
+    if (e) {
+        p->edge = e;
+        if (turns_do(m))
+            return;
+    }
+    perform_calls(m);
+}
+
+bool notes_take(struct machine *m, const struct machine_call *call)
+{
+    struct replay *p = m->run->replay;
+    struct edge *e = p->edge;
+    if (!e || p->at >= e->calls_count || !record_same_call(call, &e->calls[p->at]))
+        return false;
+    m->run->calls_noted++;
+    if (++p->at == e->calls_count && e->alone) {
+        p->at = 0;
+        if (m->run->calls_noted >= turns_noted(m, e) * e->calls_count && !turns_do(m))
+            perform_calls(m);
+    }
+    return true;
+}
+
+bool notes_take_elsewhere(struct machine *m, const struct machine_call *call)
+{
+    struct replay *p = m->run->replay;
+    if (p->edge && m->run->calls_noted > p->edge->calls_count && !turns_do(m))
+        return false;
+    struct edge *other = p->edge ? other_edge(m, call) : NULL;
+    if (!other)
+        return false;
+    p->edge = other;
+    p->at = m->run->calls_noted;
+    return notes_take(m, call);
+}
+
+void notes_forget(struct machine *m)
+{
+    if (!m->run->replay || !m->run->replay->states_count)
+        return;
+    notes_settle(m);
+    states_forget(m);
+}

@@ -1,0 +1,134 @@
+/* geometry.c - see geometry.h.
+
+ * Rows run along the last axis, with columns of padding on both sides where vectors are used. */
+#include <string.h>
+
+#include "base/errors.h"
+#include "base/parts.h"
+#include "base/types.h"
+#include "values/values.h"
+
+struct vpset *vpset_get(struct machine *m, int vpset)
+{
+    if (vpset > 0 && vpset < m->values->sets_count && m->values->sets[vpset].used)
+        return &m->values->sets[vpset];
+    machine_fail(m, MACHINE_BAD_ARGUMENT,
+                 vpset ? "there is no VP set %d" : "there is no current VP set (%d)", vpset);
+    return NULL;
+}
+
+void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
+                   enum machine_order order)
+{
+    s->order = order;
+    s->rank = rank;
+    memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
+    s->count = 1;
+    for (int i = 0; i < rank; i++)
+        s->count *= (uint64_t)dimensions[i];
+    s->width = dimensions[rank - 1];
+    s->rows = s->count / (uint64_t)s->width;
+    s->ratio = (s->count + (uint64_t)m->values->processors_count - 1) /
+               (uint64_t)m->values->processors_count;
+    const struct device_shape *shape = &m->device->shape;
+    s->halo = s->width >= shape->vector ? shape->halo : 0;
+    s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
+    size_t whole =
+        s->width < LINE_BYTES ? 16 : LINE_BYTES; /* of bytes, too, rows begin lines */
+    if (s->halo)
+        s->pitch = (s->pitch + whole - 1) / whole * whole;
+}
+
+size_t geometry_bytes(const struct vpset *s, struct machine_type type)
+{
+    return (s->pitch * s->rows + (s->halo ? 16 : 0)) * type_bytes(type);
+}
+
+struct rows geometry_rows(const struct vpset *s, struct machine_type type)
+{
+    return (struct rows){geometry_bytes(s, type), (size_t)s->halo * type_bytes(type)};
+}
+
+size_t geometry_place(const struct vpset *s, uint64_t index)
+{
+    return index / (uint64_t)s->width * s->pitch + (size_t)s->halo + index % (uint64_t)s->width;
+}
+
+int machine_vpset_current(const struct machine *m)
+{
+    return m->values->set_current;
+}
+
+static const struct vpset *peek(const struct machine *m, int vpset)
+{
+    return vpset > 0 && vpset < m->values->sets_count && m->values->sets[vpset].used
+               ? &m->values->sets[vpset]
+               : NULL;
+}
+
+int machine_vpset_rank(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->rank : 0;
+}
+
+int machine_vpset_length(const struct machine *m, int vpset, int axis)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s && axis >= 0 && axis < s->rank ? s->dimensions[axis] : 0;
+}
+
+uint64_t machine_vpset_count(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->count : 0;
+}
+
+uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->ratio : 0;
+}
+
+enum machine_order machine_vpset_order(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    return s ? s->order : MACHINE_NEWS_ORDER;
+}
+
+int machine_address_bits(const struct machine *m, int vpset)
+{
+    const struct vpset *s = peek(m, vpset);
+    uint64_t addresses = s ? (uint64_t)m->values->processors_count * s->ratio : 1;
+    int bits = 1;
+    while (bits < 63 && UINT64_C(1) << bits < addresses)
+        bits++;
+    return bits;
+}
+
+uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
+{
+    const struct vpset *s = peek(m, vpset);
+    uint64_t processors = (uint64_t)m->values->processors_count;
+    if (s && s->order == MACHINE_SEND_ORDER)
+        return index;
+    return s ? index % processors * s->ratio + index / processors : 0;
+}
+
+uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address)
+{
+    const struct vpset *s = peek(m, vpset);
+    if (!s)
+        return UINT64_MAX;
+    uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
+    uint64_t index = s->order == MACHINE_SEND_ORDER
+                         ? send_address
+                         : which * (uint64_t)m->values->processors_count + processor;
+    return processor < (uint64_t)m->values->processors_count && index < s->count ? index
+                                                                                 : UINT64_MAX;
+}
+
+int machine_processors_count(const struct machine *m)
+{
+    return m->values->processors_count;
+}

@@ -1,0 +1,30 @@
+/* geometry.h - VP sets: their geometries, where their processors are in memory, their addresses. */
+#ifndef LUTETIA_MACHINE_GEOMETRY_H
+#define LUTETIA_MACHINE_GEOMETRY_H
+
+#include "device/device.h"
+
+struct vpset {
+    bool used;
+    uint16_t generation; /* of those that had this id */
+    int rank;
+    int dimensions[MACHINE_AXES_MAX];
+    uint64_t count, rows; /* rows: product of all axes but the last */
+    int width;            /* the last axis: what vectors run along */
+    int halo;             /* columns repeated on both sides of a row */
+    size_t pitch;         /* elements from row to row */
+    uint64_t ratio;
+    enum machine_order order;
+};
+
+struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
+
+void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
+                   enum machine_order order);
+/* The position of a processor in a buffer, in elements. */
+size_t geometry_place(const struct vpset *s, uint64_t index);
+/* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */
+size_t geometry_bytes(const struct vpset *s, struct machine_type type);
+struct rows geometry_rows(const struct vpset *s, struct machine_type type);
+
+#endif
