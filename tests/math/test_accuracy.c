@@ -13,7 +13,7 @@
 #include <mpfr.h>
 
 #include "sample.h"
-#include "values/math.h"
+#include "values/math_ops.h"
 
 struct function {
     const char *name;

@@ -13,7 +13,7 @@
 
 #include "base/node_ops.h"
 #include "sample.h"
-#include "values/math.h"
+#include "values/math_ops.h"
 
 enum { COLUMNS = 272, ROWS = 16, COUNT = COLUMNS * ROWS, FIRST = MACHINE_FEXP };
 enum { OPS = MACHINE_FSCALE - MACHINE_FEXP + 1 };

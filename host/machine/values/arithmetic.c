@@ -3,7 +3,7 @@
 #include "base/types.h"
 #include "values/integers.h"
 #include "values/make.h"
-#include "values/math.h"
+#include "values/math_ops.h"
 #include "values/rules.h"
 
 static bool fold_bits(enum machine_op op, unsigned __int128 a, unsigned __int128 b,

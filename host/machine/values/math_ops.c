@@ -1,5 +1,5 @@
-/* math.c - kernels/math.cl for the front end: what the device computes, to the bit. */
-#include "values/math.h"
+/* math_ops.c - kernels/math.cl for the front end: what the device computes, to the bit. */
+#include "values/math_ops.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* math.h - transcendental operations on the front end. */
-#ifndef LUTETIA_MACHINE_MATH_H
-#define LUTETIA_MACHINE_MATH_H
+/* math_ops.h - transcendental operations on the front end. */
+#ifndef LUTETIA_MACHINE_MATH_OPS_H
+#define LUTETIA_MACHINE_MATH_OPS_H
 
 #include "machine.h"
 
