@@ -108,8 +108,8 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
                         error[m] = error[m - 1];
                 }
             }
-            if (l == 8 && s == 0 && error[4] * t->dx > FONT_PIECE_TOLERANCE)
-                return; /* a pixel's length needs more than four: steps */
+            if (l == 4 && s == 0 && error[4] * t->dx > FONT_PIECE_TOLERANCE)
+                return; /* half a pixel needs more than four: steps, 16 a pixel, are as few */
         }
     f->use_nodes = true;
 }
