@@ -283,7 +283,9 @@ static bool case_prepare(struct fonts *f, double size_px)
         struct font_rectangles rectangles = {0};
         bool ok =
             font_edges_build(&f->edges[i], &f->outlines[i], &f->map, f->filter) == FONT_OK &&
-            font_many_edges(f->many, &f->edges[i]) == i &&
+            font_edges_build_tabled(&f->scratch, &f->outlines[i], &f->map, f->filter) ==
+                FONT_OK &&
+            font_many_edges(f->many, &f->scratch) == i &&
             font_master_make(&f->masters[i], &f->outlines[i], 980) == FONT_OK &&
             font_rectangles_make(&rectangles, &f->masters[i]) == FONT_OK &&
             font_rectangles_edges(&rectangles, size_px, &f->master_edges[i]) == FONT_OK &&
@@ -391,7 +393,9 @@ static bool forty_run(struct fonts *f, struct bench_report *r)
         struct font_map map = font_map_size(8 + 0.75 * (i / LETTERS), f->units);
         ok = font_edges_build(&t.edges[i], &f->outlines[i % LETTERS], &map, f->filter) ==
                  FONT_OK &&
-             (f->jobs[i].edges = font_many_edges(f->many, &t.edges[i])) >= 0;
+             font_edges_build_tabled(&f->scratch, &f->outlines[i % LETTERS], &map, f->filter) ==
+                 FONT_OK &&
+             (f->jobs[i].edges = font_many_edges(f->many, &f->scratch)) >= 0;
         f->jobs[i].x_px = (float)(i % 16) / 16;
         f->jobs[i].y_px = (float)(i / 16 % 16) / 16;
     }

@@ -20,6 +20,7 @@ void font_edges_finish(struct font_edges *e)
 {
     free(e->memory);
     free(e->line_x0);
+    free(e->arcs);
     *e = (struct font_edges){.x0 = 1, .x1 = -1, .y0 = 1, .y1 = -1};
 }
 
@@ -271,12 +272,51 @@ static bool fits(const double *m, const struct font_box *box)
            fabs(m[3]) * x + fabs(m[4]) * y + fabs(m[5]) <= 2 * FONT_SIDE_MAX;
 }
 
-enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
-                                  const struct font_map *map, const struct font_filter *filter)
+/* All segments, in the form that the filter is drawn from. */
+static enum font_status segments_build(struct font_edges *e, const struct font_outline *outline,
+                                       const struct font_map *map, const struct font_filter *f,
+                                       bool tabled, int orientation)
 {
-    e->nodes_count = e->lines_count = 0;
+    const double *m = map->m;
+    double side = outline->turn * -orientation;
+    enum font_status status = FONT_OK;
+    if (f->use_arcs && !tabled)
+        return font_arcs_build(e, outline, map, FONT_ARCS_AREA, orientation, (float)side);
+    if (map->kind == FONT_AFFINE && f->use_nodes) {
+        struct font_edges_job job = {e, outline, f, {0}, (float)side};
+        for (int i = 0; i < 6; i++)
+            job.m[i] = (float)m[i];
+        return font_edges_kernel(&job);
+    }
+    for (int i = 0; i < outline->segments_count && status == FONT_OK; i++) {
+        const struct font_segment *from = &outline->segments[i];
+        if (map->kind != FONT_AFFINE) {
+            status = mapped_build(e, f, from, map, orientation, side);
+            continue;
+        }
+        struct font_segment to = {.degree = from->degree};
+        for (int k = 0; k <= from->degree; k++)
+            to.p[k] = (struct font_point){m[0] * from->p[k].x + m[1] * from->p[k].y + m[2],
+                                          m[3] * from->p[k].x + m[4] * from->p[k].y + m[5]};
+        status = steps_build(e, f, &to, side);
+    }
+    if (status == FONT_OK)
+        bounds_find(e);
+    return status;
+}
+
+static void clear(struct font_edges *e)
+{
+    e->nodes_count = e->lines_count = e->arcs_count = 0;
     e->x0 = e->y0 = 1;
     e->x1 = e->y1 = -1;
+}
+
+static enum font_status build(struct font_edges *e, const struct font_outline *outline,
+                              const struct font_map *map, const struct font_filter *filter,
+                              bool tabled)
+{
+    clear(e);
     if (!outline->prepared)
         return font_fail(FONT_BAD_ARGUMENT, "an outline is prepared before it is drawn");
     for (int i = 0; i < 9; i++)
@@ -297,50 +337,34 @@ enum font_status font_edges_build(struct font_edges *e, const struct font_outlin
             return FONT_OK; /* squashed flat: no ink */
         return outside();
     }
-    if (map->kind == FONT_AFFINE && !fits(m, &outline->box))
-        return font_fail(FONT_TOO_LARGE,
-                         "a glyph would reach more than %d pixels from its origin",
-                         FONT_SIDE_MAX);
-    double side = outline->turn * -orientation;
-    enum font_status status = FONT_OK;
-    bool bounded = map->kind == FONT_AFFINE && filter->use_nodes;
-    if (bounded) {
-        struct font_edges_job job = {e, outline, filter, {0}, (float)side};
-        for (int i = 0; i < 6; i++)
-            job.m[i] = (float)m[i];
-        status = font_edges_kernel(&job);
-    }
-    for (int i = 0; i < outline->segments_count && status == FONT_OK; i++) {
-        const struct font_segment *from = &outline->segments[i];
-        if (map->kind != FONT_AFFINE) {
-            status = mapped_build(e, filter, from, map, orientation, side);
-            continue;
-        }
-        if (filter->use_nodes)
-            break;
-        struct font_segment to = {.degree = from->degree};
-        for (int k = 0; k <= from->degree; k++)
-            to.p[k] = (struct font_point){m[0] * from->p[k].x + m[1] * from->p[k].y + m[2],
-                                          m[3] * from->p[k].x + m[4] * from->p[k].y + m[5]};
-        status = steps_build(e, filter, &to, side);
-    }
-    if (status == FONT_OK) {
-        if (!bounded)
-            bounds_find(e);
-        if (e->x0 <= e->x1 && !(e->x0 >= -FONT_SIDE_MAX && e->x1 <= FONT_SIDE_MAX &&
-                                e->y0 >= -FONT_SIDE_MAX && e->y1 <= FONT_SIDE_MAX))
-            status = font_fail(FONT_TOO_LARGE,
-                               "a glyph would reach more than %d pixels from its origin",
-                               FONT_SIDE_MAX);
-    }
-    if (status != FONT_OK) {
-        e->nodes_count = e->lines_count = 0;
-        e->x0 = e->y0 = 1;
-        e->x1 = e->y1 = -1;
-    }
+    bool far = map->kind == FONT_AFFINE && !fits(m, &outline->box);
+    enum font_status status =
+        far ? FONT_OK : segments_build(e, outline, map, filter, tabled, orientation);
+    if (far || (status == FONT_OK && e->x0 <= e->x1 &&
+                !(e->x0 >= -FONT_SIDE_MAX && e->x1 <= FONT_SIDE_MAX &&
+                  e->y0 >= -FONT_SIDE_MAX && e->y1 <= FONT_SIDE_MAX)))
+        status =
+            font_fail(FONT_TOO_LARGE, "a glyph would reach more than %d pixels from its origin",
+                      FONT_SIDE_MAX);
+    if (status != FONT_OK)
+        clear(e);
     if (e->nodes_count) { /* drawing reads whole vectors */
         memset(e->node_x + e->nodes_count, 0, PAD * sizeof(float));
         memset(e->node_y + e->nodes_count, 0, PAD * sizeof(float));
     }
     return status;
+}
+
+enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
+                                  const struct font_map *map, const struct font_filter *filter)
+{
+    return build(e, outline, map, filter, false);
+}
+
+enum font_status font_edges_build_tabled(struct font_edges *e,
+                                         const struct font_outline *outline,
+                                         const struct font_map *map,
+                                         const struct font_filter *filter)
+{
+    return build(e, outline, map, filter, true);
 }

@@ -10,12 +10,13 @@
  * Edges are in pixels, y downwards, relative to the glyph's origin: a size, a rotation, a distortion are in them, the
  * place is not. Curves are points on the curve itself with weights (Gauss's nodes), as many as keep what
  * they are wrong by below a tenth of a 255th each; horizontal lines are their two ends; vertical ones are nothing
- * at all. See docs/fonts.md.
+ * at all. For filters that are areas they are arcs instead (arcs.h). See docs/fonts.md.
  *
  * Threads. Building writes the edges alone; drawing reads them. */
 #ifndef LUTETIA_FONT_EDGES_H
 #define LUTETIA_FONT_EDGES_H
 
+#include "arcs.h"
 #include "filter.h"
 #include "outline.h"
 
@@ -53,7 +54,9 @@ struct font_edges {
     float *node_x, *node_y, *node_weight;
     float *line_x0, *line_x1, *line_y;
     int nodes_count, lines_count;
-    float x0, y0, x1, y1; /* around nodes and lines, if there are any */
+    struct font_arc *arcs; /* where there are some, there are no nodes and no lines */
+    int arcs_count, arcs_capacity;
+    float x0, y0, x1, y1; /* around all of them, if there are any */
     double advance_px;    /* of an affine map along the x-axis, else that many font units */
     void *memory;
     int nodes_capacity, lines_capacity;
@@ -66,6 +69,11 @@ void font_edges_finish(struct font_edges *e);
  * TOO_LARGE (past FONT_SIDE_MAX pixels, or too many edges), NO_MEMORY; the edges are then empty. */
 enum font_status font_edges_build(struct font_edges *e, const struct font_outline *outline,
                                   const struct font_map *map, const struct font_filter *filter);
+/* The same as nodes and lines, whatever the filter, never as arcs: what OpenCL draws, and what arcs are tested against. */
+enum font_status font_edges_build_tabled(struct font_edges *e,
+                                         const struct font_outline *outline,
+                                         const struct font_map *map,
+                                         const struct font_filter *filter);
 
 /* Pixels that a picture's side may have, and how far from the origin it may be. */
 enum { FONT_SIDE_MAX = 32768, FONT_EDGES_MAX = 40000000 };

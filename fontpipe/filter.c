@@ -333,6 +333,7 @@ enum font_status font_filter_create(const struct font_filter_def *def, struct fo
     f->taps = (int)ceil(2 * f->radius - 1e-9);
     f->round = f->def.kind == FONT_PILLBOX || f->def.kind == FONT_CONE ||
                f->def.kind == FONT_ROUND_SAMPLES;
+    f->use_arcs = f->def.kind == FONT_BOX && f->radius == 0.5;
     f->scale = 1;
     if (status == FONT_OK)
         status = f->round ? font_filter_decompose(f) : product_make(f);

@@ -48,7 +48,7 @@ struct font_filter {
     /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
      * font_slants[s] of |dx|. */
     float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
-    bool use_nodes;
+    bool use_nodes, use_arcs; /* areas are drawn as arcs, else at nodes or in steps */
     double step_px;
     struct font_filter_info info;
 };

@@ -103,7 +103,7 @@ static enum font_status place(struct font_gray *gray, const struct font_edges *e
     empty(gray);
     if (!(fabs(x_px) <= FONT_SIDE_MAX && fabs(y_px) <= FONT_SIDE_MAX))
         return font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be drawn at (%g, %g)", x_px, y_px);
-    if (e->nodes_count + e->lines_count == 0)
+    if (e->nodes_count + e->lines_count + e->arcs_count == 0)
         return FONT_OK;
     float radius = (float)f->radius, x = (float)x_px, y = (float)y_px;
     int left = (int)floorf(e->x0 + x + 0.5f - radius);
@@ -159,16 +159,25 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
                                 .line_x1 = e->line_x1,
                                 .line_y = e->line_y,
                                 .nodes_count = e->nodes_count,
-                                .lines_count = e->lines_count};
+                                .lines_count = e->lines_count,
+                                .arcs = e->arcs,
+                                .arcs_count = e->arcs_count};
     enum font_status status = place(gray, e, f, x_px, y_px, &job);
     if (status != FONT_OK || !gray->width_px)
         return status;
+    if (e->arcs_count && !f->use_arcs) {
+        empty(gray);
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "edges are drawn with the filter they were made for");
+    }
 
     int pitch = gray->pitch, height = gray->height_px;
     job.width = gray->width_px;
     job.pitch = pitch;
     /* Odd blocks end up to 8 floats past the width; with more taps a block of 16 does. */
-    if (f->taps <= 5) {
+    if (e->arcs_count) {
+        job.stride = pitch;
+    } else if (f->taps <= 5) {
         job.odd = pitch == 16 ? FONT_NARROW_ODD : pitch + 16;
         job.stride = pitch == 16 ? FONT_NARROW_STRIDE : 2 * pitch + 48;
     } else {

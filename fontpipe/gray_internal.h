@@ -21,7 +21,8 @@ struct font_gray_job {
     const struct font_filter *filter;
     const float *node_x, *node_y, *node_weight;
     const float *line_x0, *line_x1, *line_y;
-    int nodes_count, lines_count;
+    const struct font_arc *arcs;
+    int nodes_count, lines_count, arcs_count;
     float ax, ay; /* a = x + ax: the column, and the place between two, where the taps begin */
     int width, stride, pitch;
     int odd;       /* where a row's odd blocks begin (see gray_kernel.h); 0: there are none */

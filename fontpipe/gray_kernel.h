@@ -307,6 +307,8 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
     }
 }
 
+#include "gray_area.h"
+
 /* ---- by the number of taps: loops of a known length ---- */
 
 INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, bool banded)
@@ -328,6 +330,14 @@ INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
 
 void KERNEL(const struct font_gray_job *job)
 {
+    if (job->arcs_count) {
+        areas_add(job);
+        if (job->exact)
+            rows_add_up(job, job->stride, 0, true);
+        else
+            rows_add_up(job, job->stride, 0, false);
+        return;
+    }
     switch (job->filter->taps) {
     case 1:
         edges_add_taps(job, 1);

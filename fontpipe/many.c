@@ -234,6 +234,10 @@ static void nodes_copy(float *to, const float *from, int count)
 
 int font_many_edges(struct font_many *m, const struct font_edges *e)
 {
+    if (e->arcs_count) {
+        font_fail(FONT_BAD_ARGUMENT, "OpenCL draws edges of font_edges_build_tabled()");
+        return -1;
+    }
     if (e->nodes_count > (1 << 24) || m->nodes_count > (1 << 28) ||
         m->lines_count > (1 << 28) ||
         !array_reserve(&m->kept, &m->kept_capacity, m->kept_count + 1, sizeof *m->kept) ||

@@ -36,7 +36,7 @@ enum font_status font_many_create(const char *device, const struct font_filter *
 void font_many_destroy(struct font_many *many); /* NULL is fine */
 const char *font_many_device(const struct font_many *many);
 
-/* Keeps edges and returns their number, from 0 on; -1 with font_error() set. They go to the device with the next
+/* Keeps edges, made by font_edges_build_tabled(), and returns their number, from 0 on; -1 with font_error() set. They go to the device with the next
  * drawing. */
 int font_many_edges(struct font_many *many, const struct font_edges *edges);
 void font_many_edges_forget(struct font_many *many); /* all of them */

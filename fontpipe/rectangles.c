@@ -227,7 +227,7 @@ int font_rectangles_merge(struct font_rectangles *r, int slack)
 enum font_status font_rectangles_edges(const struct font_rectangles *r, double size_px,
                                        struct font_edges *e)
 {
-    e->nodes_count = e->lines_count = 0;
+    e->nodes_count = e->lines_count = e->arcs_count = 0;
     e->x0 = e->y0 = 1;
     e->x1 = e->y1 = -1;
     if (!(size_px > 0 && size_px <= FONT_SIDE_MAX) || (r->count && r->em_px < 1))

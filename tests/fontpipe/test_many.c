@@ -12,7 +12,7 @@ enum { GLYPHS = 60, SIZES = 3, JOBS = GLYPHS * SIZES };
 static void many_are_as_one(void **state)
 {
     (void)state;
-    static const char *const filters[] = {"gaussian-fast", "cone", "lanczos"};
+    static const char *const filters[] = {"gaussian-fast", "cone", "lanczos", "box"};
     static const double sizes[] = {12.25, 31, 150}; /* the last is drawn in bands */
     struct font_face *face = face_open("EBGaramond12-Italic");
     struct font_face_info info;
@@ -32,7 +32,7 @@ static void many_are_as_one(void **state)
             struct font_map map = font_map_size(sizes[k % SIZES], info.units_per_em);
             if (k % 5 == 0)
                 map = font_map_then(map, font_map_rotation(k));
-            assert_font(font_edges_build(&edges[k], &outline, &map, filter));
+            assert_font(font_edges_build_tabled(&edges[k], &outline, &map, filter));
             jobs[k] = (struct font_many_job){font_many_edges(many, &edges[k]),
                                              (float)(k % 16) / 16, (float)(k % 7) / 7};
             assert_int_equal(jobs[k].edges, k);
