@@ -11,9 +11,9 @@ enum { BUCKETS = 2048, PAGES_MAX = 64, GAP = 1, STEP = 4 };
 /* Compared whole: no padding, all of it set. */
 struct key {
     uint64_t version;
-    double size_px, map[4];
+    double size_px, map[9];
     uint32_t glyph;
-    int32_t place_x, place_y, unused;
+    int32_t place_x, place_y, kind;
 };
 
 struct entry {
@@ -390,8 +390,11 @@ enum font_status font_atlas_get(struct font_atlas *a, struct font_face *face, ui
     *out = (struct font_atlas_slot){0};
     if (!(fabs(x_px) < 1e6 && fabs(y_px) < 1e6))
         return font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be at (%g, %g)", x_px, y_px);
-    if (map && map->kind != FONT_AFFINE)
-        return font_fail(FONT_BAD_ARGUMENT, "an atlas has glyphs through affine maps only");
+    bool affine = !map || map->kind == FONT_AFFINE;
+    if (!affine && (x_px != 0 || y_px != 0))
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "a distorted glyph's place is in its map: it cannot be at (%g, %g)",
+                         x_px, y_px);
     int step_x = (int)floor(x_px * a->def.places_x + 0.5);
     int step_y = (int)floor(y_px * a->def.places_y + 0.5);
     int whole_x = (int)floor((double)step_x / a->def.places_x);
@@ -401,10 +404,15 @@ enum font_status font_atlas_get(struct font_atlas *a, struct font_face *face, ui
     key.version = font_face_version(face);
     key.glyph = glyph;
     key.size_px = size_px;
-    key.map[0] = map ? map->m[0] : 1;
-    key.map[1] = map ? map->m[1] : 0;
-    key.map[2] = map ? map->m[3] : 0;
-    key.map[3] = map ? map->m[4] : 1;
+    key.kind = map ? (int32_t)map->kind : FONT_AFFINE;
+    if (!affine) {
+        memcpy(key.map, map->m, sizeof key.map);
+    } else { /* its place is not of the picture */
+        key.map[0] = map ? map->m[0] : 1;
+        key.map[1] = map ? map->m[1] : 0;
+        key.map[2] = map ? map->m[3] : 0;
+        key.map[3] = map ? map->m[4] : 1;
+    }
     key.place_x = step_x - whole_x * a->def.places_x;
     key.place_y = step_y - whole_y * a->def.places_y;
     a->now++;

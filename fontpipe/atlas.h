@@ -57,7 +57,8 @@ struct font_atlas_slot {
         top_px; /* of its first pixel in the picture, whose origin is the origin asked for */
 };
 
-/* The glyph at a size, through an affine map's linear part (NULL: upright), its origin at (x_px, y_px) of a picture.
+/* The glyph at a size, through an affine map's linear part (NULL: upright), its origin at (x_px, y_px) of a picture; or through
+ * a distortion, which has the place in it: x_px and y_px are then 0, and places between pixels are not rounded.
  * Errors: FULL, TOO_LARGE (for a page), BAD_ARGUMENT, those of outlines and edges. Nothing asked for before changes. */
 enum font_status font_atlas_get(struct font_atlas *atlas, struct font_face *face,
                                 uint32_t glyph, double size_px, const struct font_map *map,

@@ -1,6 +1,8 @@
 /* gl_offscreen.c - see gl_offscreen.h.
  *
- * libEGL stays loaded: the driver keeps things to the end of the process. */
+ * libEGL and libOSMesa stay loaded: drivers keep things to the end of the process.
+ *
+ * Either way what is drawn to is a framebuffer object. OSMesa wants memory of its own to draw to as well; nothing is drawn there. */
 #include "gl_offscreen.h"
 #include "display_internal.h"
 
@@ -8,6 +10,9 @@
 #include <EGL/eglext.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
+#ifdef LUTETIA_OSMESA
+#include <GL/osmesa.h>
+#endif
 #include <dlfcn.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -37,21 +42,41 @@
     X(void, RenderbufferStorage, (GLenum, GLenum, GLsizei, GLsizei))                           \
     X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
 
-struct functions {
 #define MEMBER(result, name, parameters) result(*name) parameters;
-    EGL_FUNCTIONS(MEMBER)
+struct functions {
     GL_FUNCTIONS(MEMBER)
 };
 
-struct gl_offscreen {
-    struct functions f;
-    int width_px, height_px;
+struct egl {
+    EGL_FUNCTIONS(MEMBER)
     EGLDisplay display;
     EGLContext context;
-    GLuint framebuffer, colors;
 };
 
 typedef void (*function)(void);
+
+#ifdef LUTETIA_OSMESA
+struct osmesa {
+    OSMesaContext (*CreateContextExt)(GLenum, GLint, GLint, GLint, OSMesaContext);
+    GLboolean (*MakeCurrent)(OSMesaContext, void *, GLenum, GLsizei, GLsizei);
+    void (*DestroyContext)(OSMesaContext);
+    function (*GetProcAddress)(const char *);
+    OSMesaContext context;
+    uint8_t unused[4]; /* its own picture, of one pixel */
+};
+#endif
+
+struct gl_offscreen {
+    enum gl_offscreen_way way;
+    function (*function)(const char *name);
+    struct functions f;
+    int width_px, height_px;
+    struct egl egl;
+#ifdef LUTETIA_OSMESA
+    struct osmesa osmesa;
+#endif
+    GLuint framebuffer, colors;
+};
 
 function gl_offscreen_function(const char *name)
 {
@@ -66,33 +91,100 @@ function gl_offscreen_function(const char *name)
     return find(name);
 }
 
-static bool functions_find(struct functions *f)
+static bool functions_find(struct functions *f, function (*find)(const char *name))
 {
     bool all = true;
-#define FIND(prefix, result, name, parameters)                                                 \
-    f->name = (result(*) parameters)gl_offscreen_function(prefix #name);                       \
+#define FIND_GL(result, name, parameters)                                                      \
+    f->name = (result(*) parameters)find("gl" #name);                                          \
     all = all && f->name;
-#define FIND_EGL(result, name, parameters) FIND("egl", result, name, parameters)
-#define FIND_GL(result, name, parameters) FIND("gl", result, name, parameters)
-    EGL_FUNCTIONS(FIND_EGL)
     GL_FUNCTIONS(FIND_GL)
     return all;
 }
 
-static bool context_make(struct gl_offscreen *s)
+static bool egl_context_make(struct egl *e)
 {
     static const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3,
                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                      EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT, EGL_NONE};
-    s->display =
-        s->f.GetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (!s->display || !s->f.Initialize(s->display, NULL, NULL) ||
-        !s->f.BindAPI(EGL_OPENGL_API))
+    e->display =
+        e->GetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (!e->display || !e->Initialize(e->display, NULL, NULL) || !e->BindAPI(EGL_OPENGL_API))
         return false;
-    s->context = s->f.CreateContext(s->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
-    return s->context &&
-           s->f.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, s->context);
+    e->context = e->CreateContext(e->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
+    return e->context && e->MakeCurrent(e->display, EGL_NO_SURFACE, EGL_NO_SURFACE, e->context);
 }
+
+static enum display_status egl_make(struct gl_offscreen *s)
+{
+    bool all = true;
+#define FIND_EGL(result, name, parameters)                                                     \
+    s->egl.name = (result(*) parameters)gl_offscreen_function("egl" #name);                    \
+    all = all && s->egl.name;
+    EGL_FUNCTIONS(FIND_EGL)
+    s->function = gl_offscreen_function;
+    if (!all || !functions_find(&s->f, s->function))
+        return display_fail(DISPLAY_NO_WINDOW,
+                            "no OpenGL without a window: libEGL.so.1 is missing or old; "
+                            "install libegl1 and libgl1-mesa-dri");
+    if (!egl_context_make(&s->egl))
+        return display_fail(
+            DISPLAY_NO_WINDOW,
+            "no OpenGL 3 without a window: EGL has no driver for it; install libgl1-mesa-dri");
+    return DISPLAY_OK;
+}
+
+#ifdef LUTETIA_OSMESA
+static bool osmesa_load(struct osmesa *o)
+{
+    static void *library;
+    if (!library)
+        library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+    bool all = library != NULL;
+#define FIND_OSMESA(member)                                                                    \
+    if (all) {                                                                                 \
+        void *symbol = dlsym(library, "OSMesa" #member);                                       \
+        memcpy(&o->member, &symbol, sizeof o->member);                                         \
+        all = symbol != NULL;                                                                  \
+    }
+    FIND_OSMESA(CreateContextExt)
+    FIND_OSMESA(MakeCurrent)
+    FIND_OSMESA(DestroyContext)
+    FIND_OSMESA(GetProcAddress)
+    return all;
+}
+
+static enum display_status osmesa_make(struct gl_offscreen *s)
+{
+    struct osmesa *o = &s->osmesa;
+    if (!osmesa_load(o))
+        return display_fail(
+            DISPLAY_NO_WINDOW,
+            "no OpenGL by OSMesa: libOSMesa.so.8 is missing; install libosmesa6");
+    s->function = o->GetProcAddress;
+    o->context = o->CreateContextExt(OSMESA_RGBA, 0, 0, 0, NULL);
+    if (!o->context || !o->MakeCurrent(o->context, o->unused, GL_UNSIGNED_BYTE, 1, 1) ||
+        !functions_find(&s->f, s->function))
+        return display_fail(DISPLAY_NO_WINDOW,
+                            "no OpenGL by OSMesa: it makes no context of OpenGL 3");
+    return DISPLAY_OK;
+}
+
+static void osmesa_end(struct osmesa *o)
+{
+    if (!o->context)
+        return;
+    o->MakeCurrent(NULL, NULL, 0, 0, 0);
+    o->DestroyContext(o->context);
+}
+#else
+static enum display_status osmesa_make(struct gl_offscreen *s)
+{
+    (void)s;
+    return display_fail(DISPLAY_NO_WINDOW,
+                        "no OpenGL by OSMesa: this lutetia was built without "
+                        "it (libosmesa6-dev was not there)");
+}
+#endif
 
 static bool framebuffer_make(struct gl_offscreen *s)
 {
@@ -111,7 +203,8 @@ static bool framebuffer_make(struct gl_offscreen *s)
     return true;
 }
 
-enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_offscreen **out)
+enum display_status gl_offscreen_create_by(enum gl_offscreen_way way, int width_px,
+                                           int height_px, struct gl_offscreen **out)
 {
     enum display_status status = DISPLAY_OK;
     *out = NULL;
@@ -123,17 +216,11 @@ enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_o
     struct gl_offscreen *s = calloc(1, sizeof *s);
     if (!s)
         return display_fail(DISPLAY_NO_MEMORY, "no memory to draw with OpenGL");
+    s->way = way;
     s->width_px = width_px;
     s->height_px = height_px;
-    if (!functions_find(&s->f))
-        status = display_fail(DISPLAY_NO_WINDOW,
-                              "no OpenGL without a window: libEGL.so.1 is missing or old; "
-                              "install libegl1 and libgl1-mesa-dri");
-    else if (!context_make(s))
-        status = display_fail(
-            DISPLAY_NO_WINDOW,
-            "no OpenGL 3 without a window: EGL has no driver for it; install libgl1-mesa-dri");
-    else if (!framebuffer_make(s))
+    status = way == GL_OFFSCREEN_OSMESA ? osmesa_make(s) : egl_make(s);
+    if (status == DISPLAY_OK && !framebuffer_make(s))
         status = display_fail(DISPLAY_NO_MEMORY,
                               "OpenGL has no memory for a picture of %dx%d pixels", width_px,
                               height_px);
@@ -144,6 +231,16 @@ enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_o
     return status;
 }
 
+enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_offscreen **out)
+{
+    return gl_offscreen_create_by(GL_OFFSCREEN_EGL, width_px, height_px, out);
+}
+
+gl_offscreen_find *gl_offscreen_functions(const struct gl_offscreen *s)
+{
+    return s->function;
+}
+
 void gl_offscreen_destroy(struct gl_offscreen *s)
 {
     if (!s)
@@ -152,10 +249,13 @@ void gl_offscreen_destroy(struct gl_offscreen *s)
         s->f.DeleteFramebuffers(1, &s->framebuffer);
     if (s->colors)
         s->f.DeleteRenderbuffers(1, &s->colors);
-    if (s->context) {
-        s->f.MakeCurrent(s->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        s->f.DestroyContext(s->display, s->context);
+    if (s->egl.context) {
+        s->egl.MakeCurrent(s->egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        s->egl.DestroyContext(s->egl.display, s->egl.context);
     }
+#ifdef LUTETIA_OSMESA
+    osmesa_end(&s->osmesa);
+#endif
     free(s);
 }
 

@@ -7,8 +7,9 @@
  *     gl_offscreen_read(screen, &image);
  *     gl_offscreen_destroy(screen);
  *
- * EGL makes the context, without a surface, and is looked for when one is asked for: the program starts where there is
- * none. What is drawn to is encoded as sRGB: with GL_FRAMEBUFFER_SRGB enabled colours are light, and light is mixed.
+ * There are two ways to a context. EGL makes one without a surface and takes the graphics card if it can. OSMesa is a library that
+ * draws by itself: it wants no display, no EGL and no graphics card. Each is looked for when one is asked for: the program
+ * starts where there is neither. What is drawn to is encoded as sRGB: with GL_FRAMEBUFFER_SRGB enabled colours are light, and light is mixed.
  *
  * Threads. The context belongs to the thread that created it, which can have one at a time. */
 #ifndef LUTETIA_GL_OFFSCREEN_H
@@ -25,7 +26,17 @@ enum { GL_OFFSCREEN_SIDE_MAX = 8192 };
 enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_offscreen **out);
 void gl_offscreen_destroy(struct gl_offscreen *screen); /* NULL is fine */
 
-/* Of OpenGL, by its name; NULL: there is none. */
+enum gl_offscreen_way { GL_OFFSCREEN_EGL, GL_OFFSCREEN_OSMESA };
+/* The same in one way or the other; gl_offscreen_create() is by EGL. Errors: NO_WINDOW says what is missing, which may be that
+ * this lutetia was built without OSMesa. */
+enum display_status gl_offscreen_create_by(enum gl_offscreen_way way, int width_px,
+                                           int height_px, struct gl_offscreen **out);
+
+/* What finds functions of OpenGL by their names: that of the screen's own way. */
+typedef void (*gl_offscreen_find(const char *name))(void);
+gl_offscreen_find *gl_offscreen_functions(const struct gl_offscreen *screen);
+
+/* EGL's, without a screen: of OpenGL, by its name; NULL: there is none. */
 void (*gl_offscreen_function(const char *name))(void);
 
 /* All of one colour, 0..1, as numbers of sRGB. */

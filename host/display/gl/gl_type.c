@@ -15,6 +15,7 @@ enum { QUADS = 1024, PAGES_MAX = 64 };
     X(void, BindTexture, (GLenum, GLuint))                                                     \
     X(void, BlendFunc, (GLenum, GLenum))                                                       \
     X(void, Color3f, (GLfloat, GLfloat, GLfloat))                                              \
+    X(void, Color4f, (GLfloat, GLfloat, GLfloat, GLfloat))                                     \
     X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
     X(void, Disable, (GLenum))                                                                 \
     X(void, Enable, (GLenum))                                                                  \
@@ -48,6 +49,7 @@ struct gl_type {
     int width_px, height_px; /* of the viewport */
     bool light;              /* it is encoded as sRGB */
     struct font_quad quads[QUADS];
+    float colors[QUADS][4]; /* of quads that have their own */
 };
 
 struct gl_type_def gl_type_def_default(void)
@@ -203,19 +205,29 @@ static void quads_draw(const struct gl_type *t, int count)
     }
 }
 
-static void state_set(const struct gl_type *t, const double ink[3])
+/* A part of a colour, as the framebuffer mixes it. */
+static float mixed(const struct gl_type *t, double number)
+{
+    return (float)(t->light ? font_light(number, 0) : number);
+}
+
+static void state_set(const struct gl_type *t)
 {
     const struct gl *gl = &t->gl;
-    float color[3];
-    for (int i = 0; i < 3; i++)
-        color[i] = (float)(t->light ? font_light(ink[i], 0) : ink[i]);
     gl->Enable(GL_TEXTURE_2D);
     gl->Enable(GL_BLEND);
     gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
     if (t->light)
         gl->Enable(GL_FRAMEBUFFER_SRGB);
-    gl->Color3f(color[0], color[1], color[2]);
+}
+
+static void state_reset(const struct gl_type *t)
+{
+    t->gl.Disable(GL_BLEND);
+    t->gl.Disable(GL_TEXTURE_2D);
+    if (t->light)
+        t->gl.Disable(GL_FRAMEBUFFER_SRGB);
 }
 
 enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
@@ -225,7 +237,8 @@ enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *la
     enum display_status status = DISPLAY_OK;
     bool emptied = false; /* nothing has been asked of the atlas since */
     int first = 0;
-    state_set(t, ink);
+    state_set(t);
+    t->gl.Color3f(mixed(t, ink[0]), mixed(t, ink[1]), mixed(t, ink[2]));
     while (status == DISPLAY_OK && first < layout->glyphs_count) {
         int count = 0;
         enum font_status placed = font_atlas_layout(t->atlas, layout, map, x_px, y_px, t->quads,
@@ -241,9 +254,97 @@ enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *la
         if (emptied) /* what has been drawn may go */
             font_atlas_begin(t->atlas);
     }
-    t->gl.Disable(GL_BLEND);
-    t->gl.Disable(GL_TEXTURE_2D);
-    if (t->light)
-        t->gl.Disable(GL_FRAMEBUFFER_SRGB);
+    state_reset(t);
+    return status;
+}
+
+/* ---- glyphs one by one ---- */
+
+/* Quads in their order, each in its colour. */
+static void quads_draw_in_order(const struct gl_type *t, int count)
+{
+    int bound = -1;
+    for (int i = 0; i < count; i++) {
+        const struct font_quad *q = &t->quads[i];
+        if (q->page != bound) {
+            if (bound >= 0)
+                t->gl.End();
+            t->gl.BindTexture(GL_TEXTURE_2D, t->textures[q->page]);
+            t->gl.Begin(GL_QUADS);
+            bound = q->page;
+        }
+        t->gl.Color4f(t->colors[i][0], t->colors[i][1], t->colors[i][2], t->colors[i][3]);
+        corner(t, q->x0, q->y0, q->u0, q->v0);
+        corner(t, q->x1, q->y0, q->u1, q->v0);
+        corner(t, q->x1, q->y1, q->u1, q->v1);
+        corner(t, q->x0, q->y1, q->u0, q->v1);
+    }
+    if (bound >= 0)
+        t->gl.End();
+}
+
+static struct font_quad quad_of(const struct gl_type *t, const struct font_atlas_slot *slot)
+{
+    const float width = (float)t->def.width_px, height = (float)t->def.height_px;
+    return (struct font_quad){.x0 = (float)slot->left_px,
+                              .y0 = (float)slot->top_px,
+                              .x1 = (float)(slot->left_px + slot->width_px),
+                              .y1 = (float)(slot->top_px + slot->height_px),
+                              .u0 = (float)slot->x / width,
+                              .v0 = (float)slot->y / height,
+                              .u1 = (float)(slot->x + slot->width_px) / width,
+                              .v1 = (float)(slot->y + slot->height_px) / height,
+                              .page = slot->page};
+}
+
+/* Asks the atlas for glyphs from *first on, as many as there is room for. FONT_FULL: draw them, begin again, go on. */
+static enum font_status glyphs_place(struct gl_type *t, const struct gl_type_glyph *glyphs,
+                                     int glyphs_count, int *first, int *count, int *left_out)
+{
+    for (; *first < glyphs_count && *count < QUADS; ++*first) {
+        const struct gl_type_glyph *g = &glyphs[*first];
+        struct font_atlas_slot slot;
+        enum font_status status = font_atlas_get(t->atlas, g->face, g->glyph, g->size_px,
+                                                 &g->map, g->x_px, g->y_px, &slot);
+        if (status == FONT_BAD_ARGUMENT && g->map.kind != FONT_AFFINE) {
+            ++*left_out;
+            continue;
+        }
+        if (status != FONT_OK)
+            return status;
+        if (!slot.width_px)
+            continue;
+        for (int i = 0; i < 3; i++)
+            t->colors[*count][i] = mixed(t, g->color[i]);
+        t->colors[*count][3] = g->color[3];
+        t->quads[(*count)++] = quad_of(t, &slot);
+    }
+    return FONT_OK;
+}
+
+enum display_status gl_type_glyphs(struct gl_type *t, const struct gl_type_glyph *glyphs,
+                                   int glyphs_count, int *left_out)
+{
+    enum display_status status = DISPLAY_OK;
+    bool emptied = false;
+    int first = 0;
+    *left_out = 0;
+    state_set(t);
+    while (status == DISPLAY_OK && first < glyphs_count) {
+        int count = 0;
+        enum font_status placed =
+            glyphs_place(t, glyphs, glyphs_count, &first, &count, left_out);
+        if (placed != FONT_OK && (placed != FONT_FULL || (emptied && !count))) {
+            status = fail_font(placed);
+            break;
+        }
+        status = textures_update(t);
+        if (status == DISPLAY_OK)
+            quads_draw_in_order(t, count);
+        emptied = placed == FONT_FULL;
+        if (emptied)
+            font_atlas_begin(t->atlas);
+    }
+    state_reset(t);
     return status;
 }

@@ -47,6 +47,20 @@ enum display_status gl_type_draw(struct gl_type *type, const struct font_layout 
                                  const struct font_map *map, double x_px, double y_px,
                                  const double ink[3]);
 
+/* Glyphs one by one, each through a map and in a colour of its own, one over the other in that order. */
+struct gl_type_glyph {
+    struct font_face *face;
+    uint32_t glyph;
+    double size_px;
+    struct font_map map; /* as font_atlas_get() has it */
+    double x_px, y_px;   /* of the origin; 0 where the map is a distortion */
+    float color[4]; /* 0..1, as numbers of sRGB; and how much it covers of what is behind it */
+};
+/* A glyph that a distortion folds over, or sends beyond the horizon, has no picture and is left out; *left_out counts them.
+ * Errors: as gl_type_draw(). */
+enum display_status gl_type_glyphs(struct gl_type *type, const struct gl_type_glyph *glyphs,
+                                   int count, int *left_out);
+
 struct font_atlas *gl_type_atlas(struct gl_type *type); /* for its statistics */
 
 #endif
