@@ -1,4 +1,5 @@
-"""embed.py OUT.c OUT.h KERNEL.cl…: writes kernels as C arrays, `kernel_<name>_cl[]`, zero-terminated.
+"""embed.py [--prefix=PREFIX] OUT.c OUT.h FILE…: writes text files as C arrays, `PREFIX<name>_<ending>[]` (of kernels:
+`kernel_<name>_cl[]`), zero-terminated.
 
 Bytes rather than string literals: compilers need only take literals of 4095 characters.
 """
@@ -15,15 +16,15 @@ def array(name, data):
     return "\n".join(lines)
 
 
-def main(out_c, out_h, *kernels):
-    header = ["/* Made by embed.py from kernels/. */", "#pragma once"]
+def main(out_c, out_h, *kernels, prefix="kernel_"):
+    header = ["/* Made by embed.py. */", "#pragma once"]
     source = ['#include "%s"\n' % pathlib.Path(out_h).name]
     for kernel in sorted(map(pathlib.Path, kernels), key=lambda path: path.name):
         data = kernel.read_bytes()
         wrong = [byte for byte in data if byte == 0 or byte > 126]
         if wrong:
-            sys.exit("%s: byte %d: kernels are plain ASCII" % (kernel, wrong[0]))
-        name = "kernel_" + re.sub(r"\W", "_", kernel.name)
+            sys.exit("%s: byte %d: what is embedded is plain ASCII" % (kernel, wrong[0]))
+        name = prefix + re.sub(r"\W", "_", kernel.name)
         header.append("extern const char %s[%d];" % (name, len(data) + 1))
         source.append(array(name, data))
     if not kernels:
@@ -32,4 +33,8 @@ def main(out_c, out_h, *kernels):
     pathlib.Path(out_c).write_text("\n".join(source) + "\n")
 
 
-main(*sys.argv[1:])
+arguments = sys.argv[1:]
+if arguments and arguments[0].startswith("--prefix="):
+    main(*arguments[1:], prefix=arguments[0].removeprefix("--prefix="))
+else:
+    main(*arguments)

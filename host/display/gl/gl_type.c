@@ -2,6 +2,7 @@
  * viewport here, so there are no matrices, and quads of all pages go through one pass for each page. */
 #include "gl_type.h"
 #include "display_internal.h"
+#include "gl_light.h"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -36,12 +37,11 @@ enum { QUADS = 1024, PAGES_MAX = 64 };
 struct gl {
 #define MEMBER(result, name, parameters) result(*name) parameters;
     GL_FUNCTIONS(MEMBER)
-    /* NULL before OpenGL 3: numbers are mixed */
-    void (*GetFramebufferAttachmentParameteriv)(GLenum, GLenum, GLenum, GLint *);
 };
 
 struct gl_type {
     struct gl gl;
+    void (*(*function)(const char *name))(void);
     struct font_atlas *atlas;
     struct font_atlas_def def;
     GLuint textures[PAGES_MAX];
@@ -60,20 +60,11 @@ struct gl_type_def gl_type_def_default(void)
 static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
 {
     bool all = true;
-    GLint major = 0;
 #define FIND(result, name, parameters)                                                         \
     gl->name = (result(*) parameters)function("gl" #name);                                     \
     all = all && gl->name;
     GL_FUNCTIONS(FIND)
-    if (!all)
-        return false;
-    gl->GetFramebufferAttachmentParameteriv = (void (*)(
-        GLenum, GLenum, GLenum, GLint *))function("glGetFramebufferAttachmentParameteriv");
-    gl->GetIntegerv(GL_MAJOR_VERSION,
-                    &major); /* a driver may name functions that it does not have */
-    if (gl->GetError() != GL_NO_ERROR || major < 3)
-        gl->GetFramebufferAttachmentParameteriv = NULL;
-    return true;
+    return all;
 }
 
 static enum display_status fail_font(enum font_status status)
@@ -91,6 +82,7 @@ enum display_status gl_type_create(const struct gl_type_def *def, struct gl_type
         return display_fail(DISPLAY_NO_MEMORY, "no memory for type on a display");
     t->def = def->atlas;
     t->def.filter = NULL;
+    t->function = def->function;
     enum display_status status = DISPLAY_OK;
     if (!def->function || !functions_find(&t->gl, def->function))
         status = display_fail(DISPLAY_NO_WINDOW, "no type: this display has no OpenGL 2.1");
@@ -132,19 +124,9 @@ struct font_atlas *gl_type_atlas(struct gl_type *t)
 
 void gl_type_begin(struct gl_type *t, int width_px, int height_px)
 {
-    const struct gl *gl = &t->gl;
-    GLint encoding = 0, bound = 0;
     t->width_px = width_px;
     t->height_px = height_px;
-    if (gl->GetFramebufferAttachmentParameteriv) {
-        gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-        gl->GetFramebufferAttachmentParameteriv(
-            GL_DRAW_FRAMEBUFFER, bound ? GL_COLOR_ATTACHMENT0 : GL_BACK_LEFT,
-            GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING, &encoding);
-        if (gl->GetError() != GL_NO_ERROR)
-            encoding = 0;
-    }
-    t->light = encoding == GL_SRGB;
+    t->light = gl_light_mixed(t->function);
     font_atlas_begin(t->atlas);
 }
 

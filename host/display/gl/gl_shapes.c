@@ -1,0 +1,190 @@
+/* gl_shapes.c - see gl_shapes.h. */
+#include "gl_shapes.h"
+#include "display_internal.h"
+#include "gl_light.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#define GL_FUNCTIONS(X)                                                                        \
+    X(void, AttachShader, (GLuint, GLuint))                                                    \
+    X(void, Begin, (GLenum))                                                                   \
+    X(void, BlendFunc, (GLenum, GLenum))                                                       \
+    X(void, Clear, (GLbitfield))                                                               \
+    X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                  \
+    X(void, Color4f, (GLfloat, GLfloat, GLfloat, GLfloat))                                     \
+    X(void, CompileShader, (GLuint))                                                           \
+    X(GLuint, CreateProgram, (void))                                                           \
+    X(GLuint, CreateShader, (GLenum))                                                          \
+    X(void, DeleteProgram, (GLuint))                                                           \
+    X(void, DeleteShader, (GLuint))                                                            \
+    X(void, Disable, (GLenum))                                                                 \
+    X(void, Enable, (GLenum))                                                                  \
+    X(void, End, (void))                                                                       \
+    X(void, GetProgramiv, (GLuint, GLenum, GLint *))                                           \
+    X(void, LinkProgram, (GLuint))                                                             \
+    X(void, MultiTexCoord2f, (GLenum, GLfloat, GLfloat))                                       \
+    X(void, MultiTexCoord4f, (GLenum, GLfloat, GLfloat, GLfloat, GLfloat))                     \
+    X(void, ShaderSource, (GLuint, GLsizei, const char *const *, const GLint *))               \
+    X(void, UseProgram, (GLuint))                                                              \
+    X(void, Vertex2f, (GLfloat, GLfloat))                                                      \
+    X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
+
+struct gl {
+#define MEMBER(result, name, parameters) result(*name) parameters;
+    GL_FUNCTIONS(MEMBER)
+};
+
+struct gl_shapes {
+    struct gl gl;
+    void (*(*function)(const char *name))(void);
+    GLuint program;
+    int width_px, height_px;
+    bool light;
+};
+
+static const char vertex_text[] = "#version 120\n"
+                                  "varying vec4 place;\n"
+                                  "varying vec2 form;\n"
+                                  "void main()\n"
+                                  "{\n"
+                                  "    place = gl_MultiTexCoord0;\n"
+                                  "    form = gl_MultiTexCoord1.xy;\n"
+                                  "    gl_FrontColor = gl_Color;\n"
+                                  "    gl_Position = gl_Vertex;\n"
+                                  "}\n";
+
+/* Depth is the distance to the edge, positive inside; a pixel covers depths half a pixel to both sides, and the bar those
+ * from 0 to its thickness. */
+static const char fragment_text[] =
+    "#version 120\n"
+    "varying vec4 place;\n"
+    "varying vec2 form;\n"
+    "void main()\n"
+    "{\n"
+    "    vec2 q = abs(place.xy) - place.zw + form.x;\n"
+    "    float depth = form.x - length(max(q, 0.0)) - min(max(q.x, q.y), 0.0);\n"
+    "    float thick = 2.0 * min(place.z, place.w);\n"
+    "    if (form.y > 0.0) {\n"
+    "        depth = 0.5 * form.y - abs(depth);\n"
+    "        thick = form.y;\n"
+    "    }\n"
+    "    float cover = min(depth + 0.5, thick) - max(depth - 0.5, 0.0);\n"
+    "    gl_FragColor = vec4(gl_Color.rgb, gl_Color.a * clamp(cover, 0.0, 1.0));\n"
+    "}\n";
+
+static bool functions_find(struct gl *gl, void (*(*function)(const char *name))(void))
+{
+    bool all = true;
+#define FIND(result, name, parameters)                                                         \
+    gl->name = (result(*) parameters)function("gl" #name);                                     \
+    all = all && gl->name;
+    GL_FUNCTIONS(FIND)
+    return all;
+}
+
+static bool program_make(struct gl_shapes *s)
+{
+    const struct gl *gl = &s->gl;
+    const char *texts[2] = {vertex_text, fragment_text};
+    GLint linked = 0;
+    s->program = gl->CreateProgram();
+    for (int i = 0; i < 2; i++) {
+        GLuint shader = gl->CreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
+        gl->ShaderSource(shader, 1, &texts[i], NULL);
+        gl->CompileShader(shader);
+        gl->AttachShader(s->program, shader);
+        gl->DeleteShader(shader); /* goes with the program */
+    }
+    gl->LinkProgram(s->program);
+    gl->GetProgramiv(s->program, GL_LINK_STATUS, &linked);
+    return linked != 0;
+}
+
+enum display_status gl_shapes_create(void (*(*function)(const char *name))(void),
+                                     struct gl_shapes **out)
+{
+    *out = NULL;
+    struct gl_shapes *s = calloc(1, sizeof *s);
+    if (!s)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory to draw shapes");
+    s->function = function;
+    if (!functions_find(&s->gl, function) || !program_make(s)) {
+        gl_shapes_destroy(s);
+        return display_fail(DISPLAY_NO_WINDOW,
+                            "no shapes: this display has no OpenGL 2.1 with shaders");
+    }
+    *out = s;
+    return DISPLAY_OK;
+}
+
+void gl_shapes_destroy(struct gl_shapes *s)
+{
+    if (!s)
+        return;
+    if (s->program)
+        s->gl.DeleteProgram(s->program);
+    free(s);
+}
+
+void gl_shapes_begin(struct gl_shapes *s, int width_px, int height_px)
+{
+    s->width_px = width_px;
+    s->height_px = height_px;
+    s->light = gl_light_mixed(s->function);
+    s->gl.Viewport(0, 0, width_px, height_px);
+}
+
+/* A part of a colour, as the framebuffer mixes it: light of a number of sRGB. Source: IEC 61966-2-1. */
+static float mixed(const struct gl_shapes *s, float number)
+{
+    if (!s->light)
+        return number;
+    return number <= 0.04045f ? number / 12.92f : powf((number + 0.055f) / 1.055f, 2.4f);
+}
+
+void gl_shapes_clear(struct gl_shapes *s, const float color[3])
+{
+    s->gl.ClearColor(color[0], color[1], color[2],
+                     1); /* without GL_FRAMEBUFFER_SRGB: as it is */
+    s->gl.Clear(GL_COLOR_BUFFER_BIT);
+}
+
+static void bar_draw(const struct gl_shapes *s, const struct gl_bar *b)
+{
+    static const float corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const struct gl *gl = &s->gl;
+    float margin = 1 + b->ring_px / 2;
+    gl->Color4f(mixed(s, b->color[0]), mixed(s, b->color[1]), mixed(s, b->color[2]),
+                b->color[3]);
+    gl->MultiTexCoord2f(GL_TEXTURE1, b->radius_px, b->ring_px);
+    for (int i = 0; i < 4; i++) {
+        float along = corners[i][0] * (b->half_length_px + margin);
+        float across = corners[i][1] * (b->half_width_px + margin);
+        float x = b->x_px + along * b->ux - across * b->uy;
+        float y = b->y_px + along * b->uy + across * b->ux;
+        gl->MultiTexCoord4f(GL_TEXTURE0, along, across, b->half_length_px, b->half_width_px);
+        gl->Vertex2f(2 * x / (float)s->width_px - 1, 1 - 2 * y / (float)s->height_px);
+    }
+}
+
+void gl_shapes_bars(struct gl_shapes *s, const struct gl_bar *bars, int count)
+{
+    const struct gl *gl = &s->gl;
+    gl->UseProgram(s->program);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    if (s->light)
+        gl->Enable(GL_FRAMEBUFFER_SRGB);
+    gl->Begin(GL_QUADS);
+    for (int i = 0; i < count; i++)
+        bar_draw(s, &bars[i]);
+    gl->End();
+    if (s->light)
+        gl->Disable(GL_FRAMEBUFFER_SRGB);
+    gl->Disable(GL_BLEND);
+    gl->UseProgram(0);
+}

@@ -1,0 +1,111 @@
+/* draw_list.h - a picture as a list of what is drawn, from back to front: letters under any map, lines, discs, rings, boxes.
+ * Actors write it; renderer.h draws it by OpenGL and exact.h through fontpipe's filter.
+ *
+ *     struct stage_draw_list list = {0};
+ *     stage_draw_begin(&list, view);                         // the world: y upwards
+ *     stage_draw_line(&list, 0, 0, 3, 0, 2, floor_color);
+ *     stage_draw_letter(&list, &letter, corners, ink);
+ *     ...
+ *     stage_draw_finish(&list);
+ *
+ * Units. Places are in the world's units and go through the view, which the list has when they are given; widths are in
+ * pixels. What is kept is in pixels, y downwards.
+ * Errors. Where there is no memory the list is incomplete, and says so when it is drawn. Places that are no numbers or far
+ * beyond any picture are left out.
+ * Threads. A list belongs to one thread at a time. */
+#ifndef LUTETIA_STAGE_DRAW_LIST_H
+#define LUTETIA_STAGE_DRAW_LIST_H
+
+#include <edges.h>
+#include <text.h>
+
+#include "theme.h"
+
+#include <stdbool.h>
+
+/* From the world to pixels: x_px = x0_px + scale x, y_px = y0_px - scale y. */
+struct stage_view {
+    double scale, x0_px, y0_px;
+};
+/* Pixels as they are: y is downwards. */
+#define STAGE_VIEW_PIXELS ((struct stage_view){0, 0, 0})
+
+enum stage_draw_kind { STAGE_DRAW_BAR, STAGE_DRAW_GLYPH };
+
+struct stage_bar {
+    double x_px, y_px, ux, uy;
+    double half_length_px, half_width_px, radius_px;
+    double ring_px; /* 0: filled; else its outline, so wide */
+};
+
+struct stage_glyph {
+    struct font_face *face;
+    uint32_t glyph;
+    double size_px;
+    struct font_map map; /* from the glyph at that size to the picture */
+    double x_px,
+        y_px; /* of its origin, where the map is affine; its translation is then not used */
+};
+
+struct stage_item {
+    enum stage_draw_kind kind;
+    struct stage_color color;
+    union {
+        struct stage_bar bar;
+        struct stage_glyph glyph;
+    };
+};
+
+/* All zeros is an empty list. */
+struct stage_draw_list {
+    struct stage_item *items;
+    int count, capacity;
+    struct stage_view view;
+    bool incomplete;
+};
+
+void stage_draw_finish(struct stage_draw_list *list); /* frees; zeros it */
+
+/* An empty list whose memory is used again. */
+void stage_draw_begin(struct stage_draw_list *list, struct stage_view view);
+/* The view of what comes next. */
+void stage_draw_view(struct stage_draw_list *list, struct stage_view view);
+
+void stage_draw_line(struct stage_draw_list *list, double x0, double y0, double x1, double y1,
+                     double width_px, struct stage_color color);
+void stage_draw_disc(struct stage_draw_list *list, double x, double y, double radius_px,
+                     struct stage_color color);
+void stage_draw_ring(struct stage_draw_list *list, double x, double y, double radius_px,
+                     double width_px, struct stage_color color);
+/* A box from one corner to the opposite one, with round corners; ring_px above 0: its outline. */
+void stage_draw_box(struct stage_draw_list *list, double x0, double y0, double x1, double y1,
+                    double radius_px, double ring_px, struct stage_color color);
+
+/* A letter: what of its plane comes to lie in the corners. */
+struct stage_letter {
+    struct font_face *face;
+    uint32_t glyph;
+    double size; /* an em is so long in the plane, y downwards, the origin on the baseline */
+    double x0, y0, x1, y1; /* the box that is spread between the corners */
+};
+
+/* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places. Where they go round a shape without a
+ * dent the map is projective, else bilinear. */
+void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *letter,
+                       const struct font_point corners[4], struct stage_color color);
+
+/* A layout with its origin there, at its own size in pixels; and of all its lines. */
+void stage_draw_text(struct stage_draw_list *list, const struct font_layout *layout, double x,
+                     double y, struct stage_color color);
+
+/* Everything of another list, moved by so many pixels and fainter; only its letters where letters_only is set. */
+void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list *other,
+                      double x_px, double y_px, double fade, bool letters_only);
+
+/* ---- places ---- */
+
+void stage_view_to_px(struct stage_view view, double x, double y, double *x_px, double *y_px);
+void stage_view_to_world(struct stage_view view, double x_px, double y_px, double *x,
+                         double *y);
+
+#endif

@@ -1,0 +1,234 @@
+/* exact.c - see exact.h. The picture is kept as light, three floats a pixel, until all is drawn. */
+#include "exact.h"
+
+#include <gray.h>
+#include <paint.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TO_NUMBER = 4096 };
+
+struct stage_exact {
+    struct font_painter *painter;
+    struct font_edges edges;
+    struct font_gray gray;
+    float *light;
+    size_t light_count;
+    uint8_t to_number[TO_NUMBER +
+                      1]; /* by the root of light: dark numbers are as close as light ones */
+    int left_out;
+};
+
+enum stage_status stage_exact_create(const char *filter, struct stage_exact **out)
+{
+    *out = NULL;
+    struct stage_exact *e = calloc(1, sizeof *e);
+    if (!e)
+        return stage_fail(STAGE_NO_MEMORY, "no memory to draw exactly");
+    struct font_painter_def def = font_painter_def_default();
+    def.filter = filter;
+    if (font_painter_create(&def, &e->painter) != FONT_OK) {
+        free(e);
+        return stage_fail(STAGE_BAD_ARGUMENT, "%s", font_error());
+    }
+    for (int i = 0; i <= TO_NUMBER; i++) {
+        double root = (double)i / TO_NUMBER;
+        e->to_number[i] = (uint8_t)lrint(255 * font_number(root * root, 0));
+    }
+    *out = e;
+    return STAGE_OK;
+}
+
+void stage_exact_destroy(struct stage_exact *e)
+{
+    if (!e)
+        return;
+    font_painter_destroy(e->painter);
+    font_edges_finish(&e->edges);
+    font_gray_finish(&e->gray);
+    free(e->light);
+    free(e);
+}
+
+int stage_exact_left_out(const struct stage_exact *e)
+{
+    return e->left_out;
+}
+
+/* ---- light ---- */
+
+static void light_of(struct stage_color color, float light[3])
+{
+    light[0] = (float)font_light((double)color.r, 0);
+    light[1] = (float)font_light((double)color.g, 0);
+    light[2] = (float)font_light((double)color.b, 0);
+}
+
+static void gray_blend(struct stage_exact *e, const struct font_gray *gray, int x, int y,
+                       struct stage_color color, const struct display_image *image)
+{
+    float ink[3];
+    int left = x + gray->left_px, top = y + gray->top_px;
+    int column = left < 0 ? -left : 0, row = top < 0 ? -top : 0;
+    int columns =
+        gray->width_px < image->width_px - left ? gray->width_px : image->width_px - left;
+    int rows =
+        gray->height_px < image->height_px - top ? gray->height_px : image->height_px - top;
+    light_of(color, ink);
+    for (int r = row; gray->pixels && r < rows; r++) {
+        const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
+        float *to = e->light + 3 * ((ptrdiff_t)(top + r) * image->width_px + left);
+        for (int c = column; c < columns; c++) {
+            float cover = (float)from[c] * (1 / 255.0f) * color.a;
+            for (int i = 0; from[c] && i < 3; i++)
+                to[3 * c + i] += (ink[i] - to[3 * c + i]) * cover;
+        }
+    }
+}
+
+/* ---- bars as outlines ---- */
+
+/* Draws a box with round corners around (x, y), turned. */
+static enum font_status contour_add(struct font_outline *o, const struct stage_bar *b, double x,
+                                    double y, double grow)
+{
+    /* A quarter of a circle is this cubic within 3e-4 of its radius. */
+    const double arc = 0.5522847498;
+    static const int quarter[4][4] = {/* corner, and which way it is gone round */
+                                      {1, -1, 0, 1},
+                                      {1, 1, -1, 0},
+                                      {-1, 1, 0, -1},
+                                      {-1, -1, 1, 0}};
+    double l = b->half_length_px + grow, w = b->half_width_px + grow;
+    double r = fmax(0, fmin(b->radius_px + grow, fmin(l, w)));
+    enum font_status status = FONT_OK;
+    for (int k = 0; k < 4 && status == FONT_OK; k++) {
+        double cx = quarter[k][0] * (l - r), cy = quarter[k][1] * (w - r);
+        double ax = quarter[k][3] ? 0 : quarter[k][0], ay = quarter[k][3] ? quarter[k][1] : 0;
+        double bx = ax != 0 ? 0 : quarter[k][0], by = ay != 0 ? 0 : quarter[k][1];
+        double p[4][2] = {{cx + r * ax, cy + r * ay},
+                          {cx + r * (ax + arc * bx), cy + r * (ay + arc * by)},
+                          {cx + r * (bx + arc * ax), cy + r * (by + arc * ay)},
+                          {cx + r * bx, cy + r * by}};
+        double q[4][2];
+        for (int i = 0; i < 4; i++) {
+            q[i][0] = x + p[i][0] * b->ux - p[i][1] * b->uy;
+            q[i][1] = y + p[i][0] * b->uy + p[i][1] * b->ux;
+        }
+        status =
+            k ? font_outline_line(o, q[0][0], q[0][1]) : font_outline_move(o, q[0][0], q[0][1]);
+        if (status == FONT_OK && r > 0)
+            status =
+                font_outline_cubic(o, q[1][0], q[1][1], q[2][0], q[2][1], q[3][0], q[3][1]);
+    }
+    return status == FONT_OK ? font_outline_close(o) : status;
+}
+
+/* Cuts from the bar's length what is beyond the picture: its middle line against the picture with a margin. False: nothing
+ * of it is seen. */
+static bool bar_clip(struct stage_bar *b, const struct display_image *image)
+{
+    double margin = b->half_width_px + b->radius_px + b->ring_px + 16;
+    double least = -b->half_length_px, most = b->half_length_px;
+    const double at[2] = {b->x_px, b->y_px}, along[2] = {b->ux, b->uy};
+    const double size[2] = {image->width_px, image->height_px};
+    for (int i = 0; i < 2; i++) {
+        double low = -margin - at[i], high = size[i] + margin - at[i];
+        if (fabs(along[i]) < 1e-12) {
+            if (low > 0 || high < 0)
+                return false;
+            continue;
+        }
+        double t0 = low / along[i], t1 = high / along[i];
+        least = fmax(least, fmin(t0, t1));
+        most = fmin(most, fmax(t0, t1));
+    }
+    if (!(most >= least))
+        return false;
+    b->x_px += b->ux * (least + most) / 2;
+    b->y_px += b->uy * (least + most) / 2;
+    b->half_length_px = (most - least) / 2;
+    return true;
+}
+
+static enum font_status bar_draw(struct stage_exact *e, struct stage_bar bar,
+                                 struct stage_color color, struct display_image *image)
+{
+    static const struct font_map same = {FONT_AFFINE, {1, 0, 0, 0, 1, 0}};
+    struct font_outline o = {0};
+    if (!bar_clip(&bar, image))
+        return FONT_OK;
+    double whole_x = floor(bar.x_px), whole_y = floor(bar.y_px);
+    double x = bar.x_px - whole_x, y = bar.y_px - whole_y;
+    enum font_status status = contour_add(&o, &bar, x, y, bar.ring_px / 2);
+    if (status == FONT_OK && bar.ring_px > 0 &&
+        fmin(bar.half_length_px, bar.half_width_px) > bar.ring_px / 2)
+        status = contour_add(&o, &bar, x, y, -bar.ring_px / 2);
+    o.units_per_em = 1;
+    if (status == FONT_OK)
+        status = font_outline_prepare(&o, FONT_EVEN_ODD);
+    if (status == FONT_OK)
+        status = font_edges_build(&e->edges, &o, &same, font_painter_filter(e->painter));
+    if (status == FONT_OK)
+        status = font_gray_draw(&e->gray, &e->edges, font_painter_filter(e->painter), 0, 0);
+    if (status == FONT_OK)
+        gray_blend(e, &e->gray, (int)whole_x, (int)whole_y, color, image);
+    font_outline_finish(&o);
+    return status;
+}
+
+/* ---- the picture ---- */
+
+static enum font_status glyph_draw(struct stage_exact *e, const struct stage_glyph *g,
+                                   struct stage_color color, struct display_image *image)
+{
+    const struct font_gray *gray;
+    double x = floor(g->x_px), y = floor(g->y_px);
+    enum font_status status = font_painter_glyph(e->painter, g->face, g->glyph, g->size_px,
+                                                 &g->map, g->x_px - x, g->y_px - y, &gray);
+    if (status == FONT_OK)
+        gray_blend(e, gray, (int)x, (int)y, color, image);
+    return status;
+}
+
+static void numbers_put(const struct stage_exact *e, struct display_image *image)
+{
+    size_t count = (size_t)image->width_px * (size_t)image->height_px * 3;
+    for (size_t i = 0; i < count; i++)
+        image->pixels[i] =
+            e->to_number[(int)(sqrtf(fminf(1, fmaxf(0, e->light[i]))) * TO_NUMBER + 0.5f)];
+}
+
+enum stage_status stage_exact_draw(struct stage_exact *e, const struct stage_draw_list *list,
+                                   struct stage_color background, struct display_image *image)
+{
+    size_t count = (size_t)image->width_px * (size_t)image->height_px * 3;
+    float behind[3];
+    e->left_out = 0;
+    if (list->incomplete)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
+    if (count > e->light_count) {
+        free(e->light);
+        e->light = malloc(count * sizeof *e->light);
+        e->light_count = e->light ? count : 0;
+        if (!e->light)
+            return stage_fail(STAGE_NO_MEMORY, "no memory for a picture of %dx%d pixels",
+                              image->width_px, image->height_px);
+    }
+    light_of(background, behind);
+    for (size_t i = 0; i < count; i++)
+        e->light[i] = behind[i % 3];
+    for (int i = 0; i < list->count; i++) {
+        const struct stage_item *item = &list->items[i];
+        enum font_status status = item->kind == STAGE_DRAW_BAR
+                                      ? bar_draw(e, item->bar, item->color, image)
+                                      : glyph_draw(e, &item->glyph, item->color, image);
+        if (status == FONT_NO_MEMORY)
+            return stage_fail(STAGE_NO_MEMORY, "%s", font_error());
+        e->left_out += status != FONT_OK;
+    }
+    numbers_put(e, image);
+    return STAGE_OK;
+}

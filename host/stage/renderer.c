@@ -1,0 +1,218 @@
+/* renderer.c - see renderer.h. The list is drawn in runs: bars that follow each other by one call, glyphs by another. */
+#include "renderer.h"
+
+#include <gl_offscreen.h>
+#include <gl_shapes.h>
+#include <gl_target.h>
+#include <gl_type.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Pages of glyphs: a large one where the picture is large, for a glyph must fit a page. */
+enum { RUN = 512, PAGE_SMALL = 2048, PAGE_LARGE = 4096, LARGE_FROM_PX = 1400, PLACES = 8 };
+
+struct stage_renderer {
+    struct window *window;          /* or */
+    struct gl_offscreen *offscreen; /* what is drawn to */
+    struct gl_target *target;       /* of a window */
+    struct gl_type *type;
+    struct gl_shapes *shapes;
+    void (*(*function)(const char *name))(void);
+    int width_px, height_px, page_px;
+    struct gl_bar bars[RUN];
+    struct gl_type_glyph glyphs[RUN];
+};
+
+static enum stage_status fail_display(enum display_status status)
+{
+    return stage_fail(status == DISPLAY_NO_MEMORY      ? STAGE_NO_MEMORY
+                      : status == DISPLAY_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT
+                      : status == DISPLAY_NO_WINDOW    ? STAGE_NO_DISPLAY
+                                                       : STAGE_FAILED,
+                      "%s", display_error());
+}
+
+/* Makes what keeps glyphs, again where the picture has become large. */
+static enum display_status type_make(struct stage_renderer *r)
+{
+    struct gl_type_def def = gl_type_def_default();
+    bool large = r->width_px > LARGE_FROM_PX || r->height_px > LARGE_FROM_PX;
+    int page_px = large ? PAGE_LARGE : PAGE_SMALL;
+    if (r->type && page_px <= r->page_px)
+        return DISPLAY_OK;
+    gl_type_destroy(r->type);
+    def.function = r->function;
+    def.atlas.width_px = def.atlas.height_px = r->page_px = page_px;
+    def.atlas.pages_max = 2;
+    def.atlas.places_x = def.atlas.places_y = PLACES;
+    return gl_type_create(&def, &r->type);
+}
+
+static enum stage_status tools_make(struct stage_renderer *r)
+{
+    enum display_status status = type_make(r);
+    if (status == DISPLAY_OK)
+        status = gl_shapes_create(r->function, &r->shapes);
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+enum stage_status stage_renderer_offscreen(enum stage_way way, int width_px, int height_px,
+                                           struct stage_renderer **out)
+{
+    *out = NULL;
+    struct stage_renderer *r = calloc(1, sizeof *r);
+    if (!r)
+        return stage_fail(STAGE_NO_MEMORY, "no memory to draw with OpenGL");
+    r->width_px = width_px;
+    r->height_px = height_px;
+    enum display_status made =
+        gl_offscreen_create_by(way == STAGE_BY_OSMESA ? GL_OFFSCREEN_OSMESA : GL_OFFSCREEN_EGL,
+                               width_px, height_px, &r->offscreen);
+    if (made == DISPLAY_OK)
+        r->function = gl_offscreen_functions(r->offscreen);
+    enum stage_status status = made == DISPLAY_OK ? tools_make(r) : fail_display(made);
+    if (status == STAGE_OK)
+        *out = r;
+    else
+        stage_renderer_destroy(r);
+    return status;
+}
+
+enum stage_status stage_renderer_window(struct window *window, struct stage_renderer **out)
+{
+    *out = NULL;
+    struct stage_renderer *r = calloc(1, sizeof *r);
+    if (!r)
+        return stage_fail(STAGE_NO_MEMORY, "no memory to draw with OpenGL");
+    r->window = window;
+    r->function = window_functions();
+    window_frame_begin(window);
+    window_size(window, &r->width_px, &r->height_px);
+    enum display_status made = gl_target_create(r->function, &r->target);
+    enum stage_status status = made == DISPLAY_OK ? tools_make(r) : fail_display(made);
+    if (status == STAGE_OK)
+        *out = r;
+    else
+        stage_renderer_destroy(r);
+    return status;
+}
+
+void stage_renderer_destroy(struct stage_renderer *r)
+{
+    if (!r)
+        return;
+    if (r->window)
+        window_frame_begin(r->window);
+    gl_type_destroy(r->type);
+    gl_shapes_destroy(r->shapes);
+    gl_target_destroy(r->target);
+    gl_offscreen_destroy(r->offscreen);
+    free(r);
+}
+
+void stage_renderer_size(const struct stage_renderer *r, int *width_px, int *height_px)
+{
+    *width_px = r->width_px;
+    *height_px = r->height_px;
+    if (r->window)
+        window_size(r->window, width_px, height_px);
+}
+
+/* ---- runs ---- */
+
+static void color_put(struct stage_color color, float out[4])
+{
+    out[0] = color.r;
+    out[1] = color.g;
+    out[2] = color.b;
+    out[3] = color.a;
+}
+
+/* Draws the bars from item i on; returns the item after them. */
+static int bars_draw(struct stage_renderer *r, const struct stage_draw_list *list, int i)
+{
+    int count = 0;
+    for (; i < list->count && list->items[i].kind == STAGE_DRAW_BAR && count < RUN; i++) {
+        const struct stage_bar *b = &list->items[i].bar;
+        struct gl_bar *to = &r->bars[count++];
+        *to = (struct gl_bar){.x_px = (float)b->x_px,
+                              .y_px = (float)b->y_px,
+                              .ux = (float)b->ux,
+                              .uy = (float)b->uy,
+                              .half_length_px = (float)b->half_length_px,
+                              .half_width_px = (float)b->half_width_px,
+                              .radius_px = (float)b->radius_px,
+                              .ring_px = (float)b->ring_px};
+        color_put(list->items[i].color, to->color);
+    }
+    gl_shapes_bars(r->shapes, r->bars, count);
+    return i;
+}
+
+static int glyphs_draw(struct stage_renderer *r, const struct stage_draw_list *list, int i,
+                       enum display_status *status)
+{
+    int count = 0, left_out;
+    for (; i < list->count && list->items[i].kind == STAGE_DRAW_GLYPH && count < RUN; i++) {
+        const struct stage_glyph *g = &list->items[i].glyph;
+        struct gl_type_glyph *to = &r->glyphs[count++];
+        *to = (struct gl_type_glyph){.face = g->face,
+                                     .glyph = g->glyph,
+                                     .size_px = g->size_px,
+                                     .map = g->map,
+                                     .x_px = g->x_px,
+                                     .y_px = g->y_px};
+        color_put(list->items[i].color, to->color);
+    }
+    *status = gl_type_glyphs(r->type, r->glyphs, count, &left_out);
+    return i;
+}
+
+static enum display_status frame_begin(struct stage_renderer *r)
+{
+    enum display_status status = DISPLAY_OK;
+    if (r->window) {
+        window_frame_begin(r->window);
+        window_size(r->window, &r->width_px, &r->height_px);
+        if (r->width_px < 1 || r->height_px < 1) /* an icon now */
+            r->width_px = r->height_px = 1;
+        status = gl_target_begin(r->target, r->width_px, r->height_px);
+    }
+    return status == DISPLAY_OK ? type_make(r) : status;
+}
+
+enum stage_status stage_renderer_draw(struct stage_renderer *r,
+                                      const struct stage_draw_list *list,
+                                      struct stage_color background)
+{
+    if (list->incomplete)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for all that is to be drawn");
+    enum display_status status = frame_begin(r);
+    if (status != DISPLAY_OK)
+        return fail_display(status);
+    gl_type_begin(r->type, r->width_px, r->height_px);
+    gl_shapes_begin(r->shapes, r->width_px, r->height_px);
+    gl_shapes_clear(r->shapes, (const float[]){background.r, background.g, background.b});
+    for (int i = 0; i < list->count && status == DISPLAY_OK;)
+        i = list->items[i].kind == STAGE_DRAW_BAR ? bars_draw(r, list, i)
+                                                  : glyphs_draw(r, list, i, &status);
+    if (r->window) {
+        gl_target_show(r->target);
+        window_frame_end(r->window);
+    }
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+enum stage_status stage_renderer_read(struct stage_renderer *r, struct display_image *image)
+{
+    enum display_status status;
+    if (r->window) {
+        window_frame_begin(r->window);
+        status = gl_target_read(r->target, image);
+    } else {
+        display_image_destroy(image);
+        status = gl_offscreen_read(r->offscreen, image);
+    }
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}

@@ -1,0 +1,122 @@
+/* test_control.c - a table of controls: found, read, written, refused; along a slider and back. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <control.h>
+
+#include <math.h>
+#include <string.h>
+
+static double value_read(void *actor, int index)
+{
+    return ((double *)actor)[index];
+}
+
+static enum stage_status value_write(void *actor, int index, double value)
+{
+    if (value == 13)
+        return stage_fail(STAGE_FAILED, "thirteen is not wanted");
+    ((double *)actor)[index] = value;
+    return STAGE_OK;
+}
+
+#define ACCESS .read = value_read, .write = value_write
+static const struct stage_control rows[] = {
+    {"gravity", "em/s2", -100, 100, 9.81, STAGE_LINEAR, NULL, "", ACCESS, .index = 0},
+    {"stiffness", "kg/s2", 0, 1e6, 500, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 1},
+    {"mass", "kg", 1e-3, 1e3, 1, STAGE_LOGARITHMIC, NULL, "", ACCESS, .index = 2},
+    {"floor", "", 0, 1, 1, STAGE_SWITCH, NULL, "", ACCESS, .index = 3},
+    {"step", "", 0, 2, 0, STAGE_CHOICE, "symplectic verlet thesis", "", ACCESS, .index = 4}};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+static void names_are_found(void **state)
+{
+    (void)state;
+    for (int i = 0; i < ROWS; i++)
+        assert_ptr_equal(stage_control_find(rows, ROWS, rows[i].name), &rows[i]);
+    assert_null(stage_control_find(rows, ROWS, "gravita"));
+    assert_string_equal(stage_error(), "there is no control 'gravita'; there are gravity, "
+                                       "stiffness, mass, floor, step");
+}
+
+static void values_are_within_their_range(void **state)
+{
+    (void)state;
+    double values[ROWS] = {0};
+    assert_int_equal(stage_control_write(&rows[0], values, 3.5), STAGE_OK);
+    assert_true(stage_control_read(&rows[0], values) == 3.5);
+    const double wrong[] = {-100.1, 101, NAN, INFINITY};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(stage_control_write(&rows[0], values, wrong[i]), STAGE_BAD_ARGUMENT);
+    assert_string_equal(stage_error(), "gravity must be -100..100 em/s2 (got inf)");
+    assert_int_equal(stage_control_write(&rows[3], values, 0.5), STAGE_BAD_ARGUMENT);
+    assert_int_equal(stage_control_write(&rows[4], values, 3), STAGE_BAD_ARGUMENT);
+    assert_int_equal(stage_control_write(&rows[0], values, 13), STAGE_FAILED);
+    assert_true(values[0] == 3.5 && values[3] == 0 && values[4] == 0);
+}
+
+static void texts_are_values_and_back(void **state)
+{
+    (void)state;
+    static const struct {
+        int row;
+        const char *text;
+        double value;
+        const char *written;
+    } good[] = {{0, "9.81", 9.81, "9.81"},  {0, "-1e1", -10, "-10"},
+                {3, "on", 1, "on"},         {3, "off", 0, "off"},
+                {3, "1", 1, "on"},          {4, "verlet", 1, "verlet"},
+                {4, "thesis", 2, "thesis"}, {1, "123456", 123456, "1.235e+05"}};
+    static const struct {
+        int row;
+        const char *text;
+    } bad[] = {{0, ""},    {0, "1x"},      {0, "nan"}, {0, "inf"}, {3, "yes"},
+               {4, "ver"}, {4, "thesis2"}, {4, " "},   {4, "1"}};
+    double value;
+    char text[32];
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        assert_int_equal(stage_control_parse(&rows[good[i].row], good[i].text, &value),
+                         STAGE_OK);
+        assert_true(value == good[i].value);
+        stage_control_text(&rows[good[i].row], value, text, sizeof text);
+        assert_string_equal(text, good[i].written);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        if (stage_control_parse(&rows[bad[i].row], bad[i].text, &value) != STAGE_BAD_ARGUMENT)
+            fail_msg("'%s' is %g", bad[i].text, value);
+}
+
+/* A slider goes from least to most, always upwards, and a value comes back from where it is. */
+static void sliders_are_curves(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 3; r++) {
+        double before = -INFINITY;
+        assert_true(stage_control_at(&rows[r], 0) == rows[r].least);
+        assert_true(fabs(stage_control_at(&rows[r], 1) / rows[r].most - 1) < 1e-12);
+        for (int i = 0; i <= 1000; i++) {
+            double along = i / 1000.0, value = stage_control_at(&rows[r], along);
+            assert_true(value > before);
+            assert_true(fabs(stage_control_along(&rows[r], value) - along) < 1e-9);
+            before = value;
+        }
+    }
+    assert_true(stage_control_at(&rows[4], 0.4) == 1);
+    assert_true(stage_control_at(&rows[3], 0.4) == 0);
+    assert_true(stage_control_along(&rows[0], 1e9) == 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_found),
+        cmocka_unit_test(values_are_within_their_range),
+        cmocka_unit_test(texts_are_values_and_back),
+        cmocka_unit_test(sliders_are_curves),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
