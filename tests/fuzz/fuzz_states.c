@@ -130,8 +130,8 @@ static void run_take(struct sample *s, const uint8_t *run, size_t count)
     struct event_bytes b = {0};
     const uint8_t *at = run;
     sample_check(paper_history_describe(run, count, &config));
-    event_config_encode(&b, &config);
-    event_air_encode(&b, &air);
+    sheet_config_encode(&b, &config);
+    sheet_air_encode(&b, &air);
     piece_take(s, &at, 8 + b.count);
     free(b.at);
     piece_take(s, &at, 8);
