@@ -1,0 +1,148 @@
+/* controls.c - see controls.h. */
+#include "controls.h"
+#include "internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define AT(member) offsetof(struct dyn_world, member)
+#define FAR_AWAY 1e6
+
+const struct dyn_control dyn_controls[] = {
+    {"gravity", "units/s2", -100, 100, 9.81, DYN_LINEAR, NULL, "pulls masses down",
+     AT(gravity)},
+    {"wind_x", "units/s", -100, 100, 0, DYN_LINEAR, NULL,
+     "what drag drags along: the air's speed to the right", AT(wind_x)},
+    {"wind_y", "units/s", -100, 100, 0, DYN_LINEAR, NULL, "the air's speed upwards",
+     AT(wind_y)},
+    {"drag", "kg/s", 0, 1000, 0.02, DYN_LOGARITHMIC, NULL,
+     "viscous damping: how strongly the air slows masses down", AT(drag)},
+    {"stiffness", "", 0, 1000, 1, DYN_LOGARITHMIC, NULL, "of all springs' constants",
+     AT(stiffness)},
+    {"damping", "", 0, 1000, 1, DYN_LOGARITHMIC, NULL, "of all springs' damping", AT(damping)},
+    {"rest", "", 0.01, 10, 1, DYN_LOGARITHMIC, NULL, "of all springs' rest lengths", AT(rest)},
+    {"mass", "", 0.001, 1000, 1, DYN_LOGARITHMIC, NULL, "of all masses", AT(mass)},
+    {"breaking", "", 0.001, 1000, 1, DYN_LOGARITHMIC, NULL,
+     "of all springs' breaking strains; those that never break never do", AT(breaking)},
+    {"restitution", "", 0, 1, 0.6, DYN_LINEAR, NULL,
+     "how much of its speed a mass has after a bounce", AT(restitution)},
+    {"friction", "", 0, 10, 0.3, DYN_LINEAR, NULL,
+     "Coulomb's: how much of a bounce's change of speed is taken from the speed along the "
+     "floor",
+     AT(friction)},
+    {"floor_on", "", 0, 1, 1, DYN_SWITCH, NULL, "there is a floor", AT(floor_on)},
+    {"floor", "units", -FAR_AWAY, FAR_AWAY, 0, DYN_LINEAR, NULL, "how high the floor is",
+     AT(floor)},
+    {"ceiling_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a ceiling", AT(ceiling_on)},
+    {"ceiling", "units", -FAR_AWAY, FAR_AWAY, 10, DYN_LINEAR, NULL, "how high the ceiling is",
+     AT(ceiling)},
+    {"left_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a wall on the left", AT(left_on)},
+    {"left", "units", -FAR_AWAY, FAR_AWAY, -10, DYN_LINEAR, NULL, "where the left wall is",
+     AT(left)},
+    {"right_on", "", 0, 1, 0, DYN_SWITCH, NULL, "there is a wall on the right", AT(right_on)},
+    {"right", "units", -FAR_AWAY, FAR_AWAY, 10, DYN_LINEAR, NULL, "where the right wall is",
+     AT(right)},
+    {"speed_limit", "units/s", 1, DYN_SPEED_MAX, 1000, DYN_LOGARITHMIC, NULL,
+     "no mass is faster along an axis", AT(speed_limit)},
+    {"clank_speed", "units/s", 0, 1000, 0.2, DYN_LINEAR, NULL,
+     "bounces that leave a mass slower are not heard", AT(clank_speed)},
+    {"safety", "", 0.05, 0.95, 0.5, DYN_LINEAR, NULL,
+     "the longest part of a step, of what would just be stable", AT(safety)},
+    {"integrator", "", 0, 2, DYN_SYMPLECTIC, DYN_CHOICE, "symplectic verlet thesis",
+     "how steps are made", AT(integrator)},
+};
+
+const int dyn_controls_count = sizeof dyn_controls / sizeof *dyn_controls;
+
+struct dyn_world dyn_world_usual(void)
+{
+    struct dyn_world world = {0};
+    for (int i = 0; i < dyn_controls_count; i++)
+        memcpy((char *)&world + dyn_controls[i].at, &dyn_controls[i].usual, sizeof(double));
+    return world;
+}
+
+const struct dyn_control *dyn_control_find(const char *name)
+{
+    char all[400] = "";
+    size_t length = 0;
+    for (int i = 0; i < dyn_controls_count; i++) {
+        if (strcmp(dyn_controls[i].name, name) == 0)
+            return &dyn_controls[i];
+        length +=
+            (size_t)snprintf(all + length, sizeof all - length, " %s", dyn_controls[i].name);
+    }
+    dyn_fail(DYN_BAD_ARGUMENT, "there is no control '%.40s'; there are%s", name, all);
+    return NULL;
+}
+
+enum dyn_status dyn_control_check(const struct dyn_control *c, double value)
+{
+    if (!(value >= c->least && value <= c->most))
+        return dyn_fail(DYN_BAD_ARGUMENT, "%s must be %g..%g%s%s (got %g)", c->name, c->least,
+                        c->most, *c->unit ? " " : "", c->unit, value);
+    if ((c->curve == DYN_SWITCH || c->curve == DYN_CHOICE) && value != floor(value))
+        return dyn_fail(DYN_BAD_ARGUMENT, "%s must be whole (got %g)", c->name, value);
+    return DYN_OK;
+}
+
+double dyn_control_read(const struct dyn_control *c, const void *of)
+{
+    double value;
+    memcpy(&value, (const char *)of + c->at, sizeof value);
+    return value;
+}
+
+enum dyn_status dyn_control_write(const struct dyn_control *c, void *of, double value)
+{
+    enum dyn_status status = dyn_control_check(c, value);
+    if (status == DYN_OK)
+        memcpy((char *)of + c->at, &value, sizeof value);
+    return status;
+}
+
+/* The number of the word among those of a list with blanks between them; else -1. */
+static int word_number(const char *list, const char *word)
+{
+    size_t length = strlen(word);
+    for (int i = 0; *list; i++) {
+        size_t have = strcspn(list, " ");
+        if (have == length && memcmp(list, word, length) == 0)
+            return i;
+        list += have + (list[have] == ' ');
+    }
+    return -1;
+}
+
+enum dyn_status dyn_control_parse(const struct dyn_control *c, const char *text, double *value)
+{
+    const char *words = c->curve == DYN_SWITCH ? "off on" : c->choices;
+    int chosen = words ? word_number(words, text) : -1;
+    if (chosen >= 0) {
+        *value = chosen;
+        return DYN_OK;
+    }
+    char *end;
+    double number = strtod(text, &end);
+    if (end == text || *end)
+        return dyn_fail(DYN_BAD_ARGUMENT, "%s: '%.40s' is no number%s%s", c->name, text,
+                        words ? " and none of: " : "", words ? words : "");
+    enum dyn_status status = dyn_control_check(c, number);
+    if (status == DYN_OK)
+        *value = number;
+    return status;
+}
+
+enum dyn_status dyn_controls_check(const struct dyn_control *controls, int count,
+                                   const void *of)
+{
+    for (int i = 0; i < count; i++) {
+        enum dyn_status status =
+            dyn_control_check(&controls[i], dyn_control_read(&controls[i], of));
+        if (status != DYN_OK)
+            return status;
+    }
+    return DYN_OK;
+}

@@ -1,0 +1,21 @@
+/* energy.h - a network's energy, by kind.
+ *
+ *     struct dyn_energy e = dyn_network_energy(network);
+ *     double all = e.motion + e.gravity + e.springs + e.pulls; */
+#ifndef LUTETIA_DYN_ENERGY_H
+#define LUTETIA_DYN_ENERGY_H
+
+#include "network.h"
+
+/* kg units2/s2. */
+struct dyn_energy {
+    double motion; /* kinetic, of masses that are free */
+    double
+        gravity; /* potential, against the floor's height (0 without a floor), of masses that are free */
+    double springs; /* potential, of springs that are not broken */
+    double pulls;   /* potential, of the hand's springs */
+};
+
+struct dyn_energy dyn_network_energy(const struct dyn_network *n);
+
+#endif

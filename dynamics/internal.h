@@ -1,0 +1,184 @@
+/* internal.h - what the simulation's files share.
+ *
+ * What the user set is kept apart from what a step reads:
+ *
+ *     mass_field[]   spring_field[]   world          as set: fields.c, network.c
+ *          \              |             /
+ *           prepare.c: scaled by the world, springs that are broken left out, stiff ones softened, h found
+ *                         |
+ *     kick keep push ...  springs: end, k, k_rest, c, limit      as read: step_kernel.h
+ *                         |
+ *     state (x y vx vy of each mass)    force (fx fy of each mass)
+ *
+ * Parameters are structures of arrays, and vectors go along them. What a spring looks up of its ends is kept together: a mass's
+ * state is 32 bytes, a force 16, so that an end is one load, and a force one load and store, where arrays of x, y, vx and
+ * vy would be four. Vectors are turned from one form to the other in registers.
+ *
+ * Arrays of masses are as long as a whole number of vectors of 8, and one mass more: number masses_count is nobody's, is fixed, and
+ * is both ends of the springs that fill the last vector. */
+#ifndef LUTETIA_DYN_INTERNAL_H
+#define LUTETIA_DYN_INTERNAL_H
+
+#include "events.h"
+#include "fields.h"
+#include "hand.h"
+#include "network.h"
+#include "step.h"
+
+#include <error_text.h>
+
+#include <stdint.h>
+
+#define DYN_SPEED_MAX 1e4
+#define DYN_EDGE 1e6 /* of the plane: masses bounce there */
+
+/* Keeps the text for dyn_error() and returns the status. */
+extern _Thread_local struct error_text dyn_last_error;
+#define dyn_fail(status, ...)                                                                  \
+    ((enum dyn_status)error_text_fail(&dyn_last_error, (int)(status), __VA_ARGS__))
+
+/* Makes room for count elements, aligned to 64 bytes, of an array with room for *capacity; what it holds stays. The room grows by
+ * doubling. False: no memory, and all is as it was. */
+bool dyn_array_reserve(void **array, size_t *capacity, size_t count, size_t element_bytes);
+
+/* ---- as set ---- */
+
+enum dyn_mass_parameter {
+    MASS_MASS,
+    MASS_DRAG,
+    MASS_GRAVITY,
+    MASS_RESTITUTION,
+    MASS_FRICTION,
+    MASS_PARAMETERS
+};
+enum dyn_spring_parameter {
+    SPRING_CONSTANT,
+    SPRING_REST,
+    SPRING_DAMPING,
+    SPRING_BREAKING,
+    SPRING_PARAMETERS
+};
+
+/* ---- as read ---- */
+
+struct dyn_force {
+    double x, y;
+};
+
+/* A hand's spring. */
+struct dyn_pull {
+    int mass;
+    double x, y, constant, damping;
+};
+
+/* Of springs that are not broken; count is a multiple of 8. */
+struct dyn_packed {
+    int32_t *end[2];
+    double *k, *k_rest, *c, *limit; /* limit: the length at which it breaks */
+    int32_t *which;                 /* the spring's number; -1 of those that fill up */
+    int count;
+};
+
+struct dyn_prepared {
+    double *kick, *keep, *push_x, *push_y; /* v = keep v + kick f + push */
+    double *restitution, *friction;
+    struct dyn_packed springs;
+    double pull_soft[DYN_PULLS_MAX]; /* of the pulls' strength */
+    double dt_s, h;
+    struct dyn_plan plan;
+    /* One block each, cut up. */
+    double *mass_block, *spring_block;
+    size_t mass_capacity, spring_capacity;
+};
+
+struct dyn_network {
+    struct dyn_world world;
+    double time_s;
+    int masses_count, springs_count;
+    size_t masses_capacity, springs_capacity, ends_capacity, flags_capacity, holds_capacity;
+    /* Of masses. */
+    struct dyn_state *state;
+    struct dyn_force *force; /* zeros between steps */
+    size_t state_capacity, force_capacity;
+    double *mass_field; /* MASS_PARAMETERS rows of masses_capacity */
+    uint8_t *hold;
+    int32_t *degree; /* springs on it */
+    size_t degree_capacity;
+    /* Of springs. */
+    int32_t (*end)[2];
+    double *spring_field; /* SPRING_PARAMETERS rows of springs_capacity */
+    uint8_t *broken;
+    /* Others. */
+    struct dyn_pull pulls[DYN_PULLS_MAX];
+    int pulls_count;
+    struct dyn_event *events; /* a ring */
+    int events_first, events_count;
+    long long events_lost;
+    struct dyn_prepared prepared;
+    bool changed; /* what was prepared is no longer so */
+};
+
+static inline double *dyn_mass_row(const struct dyn_network *n, int row)
+{
+    return n->mass_field + (size_t)row * n->masses_capacity;
+}
+
+static inline double *dyn_spring_row(const struct dyn_network *n, int row)
+{
+    return n->spring_field + (size_t)row * n->springs_capacity;
+}
+
+/* Masses with those that fill a vector up, and nobody's. */
+static inline size_t dyn_masses_padded(int count)
+{
+    return ((size_t)count + 1 + 7) / 8 * 8;
+}
+
+/* prepare.c: makes what a step of dt_s reads, if something changed. Errors: NO_MEMORY. */
+enum dyn_status dyn_prepare(struct dyn_network *n, double dt_s);
+void dyn_prepared_finish(struct dyn_prepared *p);
+
+/* events.c: side, mass and spring as they are. */
+void dyn_event_add(struct dyn_network *n, struct dyn_event event);
+/* The spring breaks, strained as much as that, at that time. */
+void dyn_snap(struct dyn_network *n, int spring, double strain, double time_s);
+
+/* network.c: all that can be set, unchecked. */
+void dyn_mass_put(struct dyn_network *n, int index, const struct dyn_mass *mass);
+void dyn_spring_put(struct dyn_network *n, int index, const struct dyn_spring *spring);
+
+/* fields.c: whether the mass is there. */
+enum dyn_status dyn_mass_check(const struct dyn_network *n, int mass);
+enum dyn_status dyn_spring_check(const struct dyn_network *n, int spring);
+
+/* step_thesis.c: one step; what it reads is prepared. */
+void dyn_thesis_step(struct dyn_network *n, double dt_s);
+
+/* ---- kernels ---- */
+
+struct dyn_job {
+    struct dyn_state *state;
+    struct dyn_force *force;
+    const double *kick, *keep, *push_x, *push_y, *restitution, *friction;
+    int masses; /* a multiple of 8 */
+    struct dyn_packed springs;
+    double h, dt_s; /* of a part, of a step */
+    double least_x, most_x, least_y,
+        most_y; /* where the sides are; infinities where there are none */
+    double slow_speed, clank_speed, speed_limit;
+    bool verlet;      /* kick, keep and push are of half an h */
+    int parts, steps; /* as many parts in each of the steps */
+    bool
+        stop; /* after the step in which it was set; what is left of the steps stays in `steps` */
+    double time_s; /* of the part's end */
+    struct dyn_network *network;
+    void (*on_clank)(struct dyn_job *job, int mass, enum dyn_side side, double speed);
+    void (*on_snap)(struct dyn_job *job, int packed, double length);
+    void (*pull)(struct dyn_job *job); /* adds to forces; NULL: nobody pulls */
+};
+
+void dyn_kernel_plain(struct dyn_job *job);
+void dyn_kernel_avx2(struct dyn_job *job);
+void dyn_kernel_avx512(struct dyn_job *job);
+
+#endif

@@ -1,0 +1,22 @@
+/* status.h - what can go wrong in the simulation.
+ *
+ *     if (dyn_network_create(&network) != DYN_OK)
+ *         die(dyn_error());
+ *
+ * Threads. dyn_error() belongs to the thread that failed. */
+#ifndef LUTETIA_DYN_STATUS_H
+#define LUTETIA_DYN_STATUS_H
+
+enum dyn_status {
+    DYN_OK = 0,
+    DYN_BAD_ARGUMENT, /* a number, name or index that cannot be */
+    DYN_BAD_FILE,     /* a network that cannot be read, or a file that cannot be written */
+    DYN_TOO_LARGE,    /* beyond the limits in network.h */
+    DYN_NO_MEMORY
+};
+
+/* Detail of this thread's last failure, one line; "" if there was none.
+ * Owns: the library; valid until this thread's next failure. */
+const char *dyn_error(void);
+
+#endif

@@ -1,0 +1,156 @@
+/* step_kernel.h - steps, included by step_plain.c, step_avx2.c and step_avx512.c with
+ *     LANES    doubles in a vector: 1, 4 or 8
+ *     KERNEL   the function's name
+ *
+ * A part of a step is two passes: along the springs, whose forces are added to their ends, and along the masses, which are moved and
+ * meet the sides. Formulas: step.h. All instruction sets do the same operations in the same order, none fused, so that
+ * the bits are the same. */
+#include "turn.h"
+
+#include <string.h>
+
+INLINE void springs_pass(struct dyn_job *job)
+{
+    const struct dyn_packed *s = &job->springs;
+    const lanes none = lanes_all(0), one = lanes_all(1);
+    for (int i = 0; i < s->count; i += LANES) {
+        const int32_t *a = s->end[0] + i, *b = s->end[1] + i;
+        struct lanes_state d = states_difference(job->state, a, b);
+        lanes length = lanes_sqrt(d.x * d.x + d.y * d.y);
+        lanes inverse = lanes_pick(lanes_less(none, length), one / length, none);
+        lanes pull = (lanes_load(s->k + i) - lanes_load(s->k_rest + i) * inverse) +
+                     lanes_load(s->c + i) * (d.x * d.vx + d.y * d.vy) * inverse * inverse;
+        lanes_mask over = lanes_less(lanes_load(s->limit + i), length);
+        unsigned snaps = lanes_bits(over);
+        if (__builtin_expect(snaps != 0, 0)) {
+            double lengths[LANES];
+            lanes_store(lengths, length);
+            pull = lanes_pick(over, none, pull);
+            for (; snaps; snaps &= snaps - 1) {
+                int lane = __builtin_ctz(snaps);
+                job->on_snap(job, i + lane, lengths[lane]);
+            }
+        }
+        forces_add(job->force, a, b, (struct lanes_force){pull * d.x, pull * d.y});
+    }
+}
+
+/* Bounces that are to be told, of LANES masses: told mass by mass, whatever LANES is. */
+struct heard {
+    unsigned any, of_side[DYN_RIGHT + 1];
+    double speed[DYN_RIGHT + 1][LANES];
+};
+
+/* One side: p is the place across it and v the speed, t the speed along it. inwards: 1 where p grows inwards, else -1. */
+INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
+                      lanes *p, lanes *v, lanes *t, struct heard *heard)
+{
+    const lanes none = lanes_all(0), bound = lanes_all(at);
+    lanes beyond = inwards > 0 ? bound - *p : *p - bound;
+    lanes speed = inwards > 0 ? -*v : *v;
+    lanes_mask hit = lanes_both(lanes_less(none, beyond), lanes_less(none, speed));
+    heard->of_side[side] = 0;
+    if (!lanes_bits(hit))
+        return;
+    lanes e = lanes_pick(lanes_less(lanes_all(job->slow_speed), speed),
+                         lanes_load(job->restitution + i), none);
+    lanes after = e * speed, back = e * lanes_min(beyond, lanes_all(job->h) * speed);
+    *p = lanes_pick(hit, inwards > 0 ? bound + back : bound - back, *p);
+    *v = lanes_pick(hit, inwards > 0 ? after : -after, *v);
+    lanes grip = lanes_load(job->friction + i) * (speed + after);
+    *t = lanes_pick(hit, *t - lanes_max(lanes_min(*t, grip), -grip), *t);
+    heard->of_side[side] =
+        lanes_bits(lanes_both(hit, lanes_less(lanes_all(job->clank_speed), after)));
+    heard->any |= heard->of_side[side];
+    lanes_store(heard->speed[side], after);
+}
+
+INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s, struct heard *heard)
+{
+    lanes_mask out = lanes_either(lanes_either(lanes_less(s->y, lanes_all(job->least_y)),
+                                               lanes_less(lanes_all(job->most_y), s->y)),
+                                  lanes_either(lanes_less(s->x, lanes_all(job->least_x)),
+                                               lanes_less(lanes_all(job->most_x), s->x)));
+    heard->any = 0;
+    if (!lanes_bits(out))
+        return;
+    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, &s->vx, heard);
+    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, &s->vx, heard);
+    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, &s->vy, heard);
+    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, &s->vy, heard);
+}
+
+static void clanks_tell(struct dyn_job *job, int i, const struct heard *heard)
+{
+    for (unsigned rest = heard->any; rest; rest &= rest - 1) {
+        int lane = __builtin_ctz(rest);
+        for (enum dyn_side side = DYN_FLOOR; side <= DYN_RIGHT; side++)
+            if (heard->of_side[side] >> lane & 1)
+                job->on_clank(job, i + lane, side, heard->speed[side][lane]);
+    }
+}
+
+/* Forces to speeds; and, where `moves`, speeds to places, and forces to 0. */
+INLINE void masses_pass(struct dyn_job *job, bool moves)
+{
+    const lanes limit = lanes_all(job->speed_limit), h = lanes_all(job->h);
+    for (int i = 0; i < job->masses; i += LANES) {
+        struct lanes_state s = states_load(job->state + i);
+        struct lanes_force f = forces_load(job->force + i);
+        struct heard heard;
+        lanes keep = lanes_load(job->keep + i), kick = lanes_load(job->kick + i);
+        s.vx = keep * s.vx + kick * f.x + lanes_load(job->push_x + i);
+        s.vy = keep * s.vy + kick * f.y + lanes_load(job->push_y + i);
+        s.vx = lanes_max(lanes_min(s.vx, limit), -limit);
+        s.vy = lanes_max(lanes_min(s.vy, limit), -limit);
+        if (moves) {
+            s.x = s.x + h * s.vx;
+            s.y = s.y + h * s.vy;
+            sides_meet(job, i, &s, &heard);
+            forces_clear(job->force + i);
+        }
+        states_store(job->state + i, s);
+        if (moves && __builtin_expect(heard.any != 0, 0))
+            clanks_tell(job, i, &heard);
+    }
+}
+
+INLINE void forces_find(struct dyn_job *job)
+{
+    springs_pass(job);
+    if (job->pull)
+        job->pull(job);
+}
+
+INLINE void part_verlet(struct dyn_job *job)
+{
+    masses_pass(job, true);
+    forces_find(job);
+    masses_pass(job, false);
+}
+
+INLINE void part_symplectic(struct dyn_job *job)
+{
+    forces_find(job);
+    masses_pass(job, true);
+}
+
+void KERNEL(struct dyn_job *job)
+{
+    while (job->steps > 0 && !job->stop) {
+        double begin_s = job->time_s;
+        if (job->verlet)
+            forces_find(job);
+        for (int part = 0; part < job->parts; part++) {
+            job->time_s = begin_s + (part + 1) * job->h;
+            if (job->verlet)
+                part_verlet(job);
+            else
+                part_symplectic(job);
+        }
+        if (job->verlet)
+            memset(job->force, 0, (size_t)job->masses * sizeof *job->force);
+        job->time_s = begin_s + job->dt_s;
+        job->steps--;
+    }
+}
