@@ -191,16 +191,20 @@ static void item_move(struct stage_item *item, double x_px, double y_px)
 }
 
 void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list *other,
-                      double x_px, double y_px, double fade, bool letters_only)
+                      double x_px, double y_px, const struct stage_color *tint, double fade,
+                      bool letters_only)
 {
     for (int i = 0; i < other->count; i++) {
-        if (letters_only && other->items[i].kind != STAGE_DRAW_GLYPH)
+        struct stage_item from = other->items[i];
+        if (letters_only && from.kind != STAGE_DRAW_GLYPH)
             continue;
-        struct stage_item *item = item_add(list, other->items[i].kind, other->items[i].color);
+        if (tint)
+            from.color = stage_color_fade(*tint, (double)from.color.a);
+        struct stage_item *item = item_add(list, from.kind, stage_color_fade(from.color, fade));
         if (!item)
             return;
-        *item = other->items[i];
-        item->color = stage_color_fade(item->color, fade);
+        from.color = item->color;
+        *item = from;
         item_move(item, x_px, y_px);
     }
 }

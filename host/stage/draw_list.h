@@ -98,9 +98,11 @@ void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *
 void stage_draw_text(struct stage_draw_list *list, const struct font_layout *layout, double x,
                      double y, struct stage_color color);
 
-/* Everything of another list, moved by so many pixels and fainter; only its letters where letters_only is set. */
+/* Everything of another list, or its letters alone, moved by so many pixels. tint: in that colour, covering as much of what is
+ * behind as both together; NULL: as it was. fade: 0..1, covering so much less. */
 void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list *other,
-                      double x_px, double y_px, double fade, bool letters_only);
+                      double x_px, double y_px, const struct stage_color *tint, double fade,
+                      bool letters_only);
 
 /* ---- places ---- */
 

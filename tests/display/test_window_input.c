@@ -8,7 +8,7 @@
 
 #include <window.h>
 
-#include "hand.h"
+#include "xtest.h"
 
 #include <X11/keysym.h>
 
@@ -43,24 +43,24 @@ static void pointers_move_press_and_release(void **state)
     settle();
     for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
         int x = 40 + 30 * (int)i, y = 20 + 7 * (int)i;
-        hand_move(there, x, y);
+        xtest_move(there, x, y);
         struct input_event event = next(INPUT_POINTER_MOVE);
         assert_true(event.x_px == x && event.y_px == y && event.buttons == 0);
         assert_false(event.pen);
         assert_true(event.pressure == 0);
 
-        hand_button(buttons[i].x11, true);
+        xtest_button(buttons[i].x11, true);
         event = next(INPUT_POINTER_DOWN);
         assert_int_equal(event.button, buttons[i].button);
         assert_int_equal(event.buttons, 1u << buttons[i].button);
         assert_true(event.x_px == x && event.y_px == y);
 
         /* Held, the pointer is followed beyond the window. */
-        hand_move(there, x + 400, y + 5);
+        xtest_move(there, x + 400, y + 5);
         event = next(INPUT_POINTER_MOVE);
         assert_true(event.x_px == x + 400 && event.y_px == y + 5);
         assert_int_equal(event.buttons, 1u << buttons[i].button);
-        hand_button(buttons[i].x11, false);
+        xtest_button(buttons[i].x11, false);
         event = next(INPUT_POINTER_UP);
         assert_int_equal(event.button, buttons[i].button);
         assert_int_equal(event.buttons, 0);
@@ -70,11 +70,11 @@ static void pointers_move_press_and_release(void **state)
 static void wheels_scroll(void **state)
 {
     (void)state;
-    hand_move(there, 50, 50);
+    xtest_move(there, 50, 50);
     settle();
     for (unsigned button = 4; button <= 5; button++) {
-        hand_button(button, true);
-        hand_button(button, false);
+        xtest_button(button, true);
+        xtest_button(button, false);
         struct input_event event = next(INPUT_SCROLL);
         assert_true(event.scroll_x == 0 && event.scroll_y == (button == 4 ? 1 : -1));
         assert_true(event.x_px == 50 && event.y_px == 50);
@@ -85,22 +85,22 @@ static void modifiers_are_those_held(void **state)
 {
     (void)state;
     settle();
-    hand_key(XK_Shift_L, true);
+    xtest_key(XK_Shift_L, true);
     assert_int_equal(next(INPUT_KEY_DOWN).modifiers, INPUT_SHIFT);
-    hand_type(XK_a);
+    xtest_type(XK_a);
     struct input_event event = next(INPUT_KEY_DOWN);
     assert_true(event.key == 'A' && event.modifiers == INPUT_SHIFT);
     assert_int_equal(next(INPUT_TEXT).character, 'A');
-    hand_button(1, true);
+    xtest_button(1, true);
     assert_int_equal(next(INPUT_POINTER_DOWN).modifiers, INPUT_SHIFT);
-    hand_key(XK_Shift_L, false);
+    xtest_key(XK_Shift_L, false);
     do
         event = next(INPUT_KEY_UP);
     while (event.key != INPUT_KEY_SHIFT);
     assert_int_equal(event.modifiers, 0);
-    hand_button(1, false);
+    xtest_button(1, false);
     assert_int_equal(next(INPUT_POINTER_UP).modifiers, 0);
-    hand_type(XK_a);
+    xtest_type(XK_a);
     assert_int_equal(next(INPUT_TEXT).character, 'a');
 }
 
@@ -108,10 +108,10 @@ static void held_keys_repeat(void **state)
 {
     (void)state;
     settle();
-    hand_key(XK_Right, true);
+    xtest_key(XK_Right, true);
     assert_int_equal(next(INPUT_KEY_DOWN).key, INPUT_KEY_RIGHT);
     assert_int_equal(next(INPUT_KEY_REPEAT).key, INPUT_KEY_RIGHT);
-    hand_key(XK_Right, false);
+    xtest_key(XK_Right, false);
     assert_int_equal(next(INPUT_KEY_UP).key, INPUT_KEY_RIGHT);
 }
 

@@ -240,11 +240,11 @@ static void lists_are_drawn_again(void **state)
     struct stage_draw_list list = {0}, again = {0}, moved = {0};
     scene_make(&list);
     stage_draw_begin(&again, STAGE_VIEW_PIXELS);
-    stage_draw_again(&again, &list, 0, 0, 1, false);
+    stage_draw_again(&again, &list, 0, 0, NULL, 1, false);
     struct display_image one = exact_picture(&list), two = exact_picture(&again);
     assert_memory_equal(one.pixels, two.pixels, 3 * WIDTH * HEIGHT);
     stage_draw_begin(&moved, STAGE_VIEW_PIXELS);
-    stage_draw_again(&moved, &list, 5, -3, 0.5, true);
+    stage_draw_again(&moved, &list, 5, -3, NULL, 0.5, true);
     int letters = 0;
     for (int i = 0; i < list.count; i++)
         letters += list.items[i].kind == STAGE_DRAW_GLYPH;
@@ -255,7 +255,7 @@ static void lists_are_drawn_again(void **state)
     /* Where a letter's middle was there is half as much ink, so many pixels away. */
     double before = 1, after = 1;
     stage_draw_begin(&again, STAGE_VIEW_PIXELS);
-    stage_draw_again(&again, &list, 0, 0, 1, true);
+    stage_draw_again(&again, &list, 0, 0, NULL, 1, true);
     display_image_destroy(&one);
     one = exact_picture(&again);
     before = ink_weight(&one, paper_bytes);

@@ -1,10 +1,10 @@
-/* hand.c - see hand.h. */
-#include "hand.h"
+/* xtest.c - see xtest.h. */
+#include "xtest.h"
 
 #include <X11/extensions/XTest.h>
 #include <assert.h>
 
-void hand_move(Window window, int x_px, int y_px)
+void xtest_move(Window window, int x_px, int y_px)
 {
     Display *display = screen_display();
     Window child;
@@ -15,13 +15,13 @@ void hand_move(Window window, int x_px, int y_px)
     XSync(display, False);
 }
 
-void hand_button(unsigned button, bool down)
+void xtest_button(unsigned button, bool down)
 {
     XTestFakeButtonEvent(screen_display(), button, down, CurrentTime);
     XSync(screen_display(), False);
 }
 
-void hand_key(KeySym key, bool down)
+void xtest_key(KeySym key, bool down)
 {
     KeyCode code = XKeysymToKeycode(screen_display(), key);
     assert(code);
@@ -29,8 +29,8 @@ void hand_key(KeySym key, bool down)
     XSync(screen_display(), False);
 }
 
-void hand_type(KeySym key)
+void xtest_type(KeySym key)
 {
-    hand_key(key, true);
-    hand_key(key, false);
+    xtest_key(key, true);
+    xtest_key(key, false);
 }

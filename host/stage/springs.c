@@ -1,0 +1,267 @@
+/* springs.c - see springs.h. springs_hand.c is what hands do, springs_draw.c how it looks. */
+#include "springs.h"
+
+#include <events.h>
+#include <hand.h>
+#include <step.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "springs_internal.h"
+
+enum { OWN_ROWS = 5 };
+
+struct stage_springs_def stage_springs_def_default(void)
+{
+    return (struct stage_springs_def){.show_masses = true, .show_springs = true};
+}
+
+enum stage_status springs_fail(enum dyn_status status)
+{
+    return stage_fail(status == DYN_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT
+                      : status == DYN_BAD_FILE   ? STAGE_BAD_FILE
+                      : status == DYN_NO_MEMORY  ? STAGE_NO_MEMORY
+                                                 : STAGE_FAILED,
+                      "%s", dyn_error());
+}
+
+/* ---- controls ---- */
+
+static double world_read(void *actor, int index)
+{
+    const struct springs *s = actor;
+    return dyn_control_read(&dyn_controls[index], dyn_network_world(s->network));
+}
+
+static enum stage_status world_write(void *actor, int index, double value)
+{
+    struct springs *s = actor;
+    struct dyn_world world = *dyn_network_world(s->network);
+    enum dyn_status status = dyn_control_write(&dyn_controls[index], &world, value);
+    if (status == DYN_OK)
+        status = dyn_network_world_set(s->network, &world);
+    return status == DYN_OK ? STAGE_OK : springs_fail(status);
+}
+
+static double *own_setting(struct springs *s, int index)
+{
+    double *const settings[OWN_ROWS] = {&s->shown.hand, &s->shown.masses, &s->shown.springs,
+                                        &s->shown.letters, &s->shown.full_strain};
+    return settings[index];
+}
+
+static double own_read(void *actor, int index)
+{
+    return *own_setting(actor, index);
+}
+
+static enum stage_status own_write(void *actor, int index, double value)
+{
+    *own_setting(actor, index) = value;
+    return STAGE_OK;
+}
+
+static const struct stage_control own_rows[OWN_ROWS] = {
+    {"hand", "kg/s2", 1, 1e5, 300, STAGE_LOGARITHMIC, NULL, "how stiff the hand's spring is",
+     own_read, own_write, 0},
+    {"show_masses", "", 0, 1, 1, STAGE_SWITCH, NULL, "masses are seen", own_read, own_write, 1},
+    {"show_springs", "", 0, 1, 1, STAGE_SWITCH, NULL, "springs are seen, coloured by strain",
+     own_read, own_write, 2},
+    {"show_letters", "", 0, 1, 1, STAGE_SWITCH, NULL, "letters are seen", own_read, own_write,
+     3},
+    {"full_strain", "", 0.001, 10, 0.25, STAGE_LOGARITHMIC, NULL,
+     "the strain at which a spring has all of its colour", own_read, own_write, 4}};
+
+static enum stage_status rows_make(struct springs *s)
+{
+    static const enum stage_curve curves[] = {[DYN_LINEAR] = STAGE_LINEAR,
+                                              [DYN_LOGARITHMIC] = STAGE_LOGARITHMIC,
+                                              [DYN_SWITCH] = STAGE_SWITCH,
+                                              [DYN_CHOICE] = STAGE_CHOICE};
+    s->rows_count = OWN_ROWS + dyn_controls_count;
+    s->rows = calloc((size_t)s->rows_count, sizeof *s->rows);
+    if (!s->rows)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
+    memcpy(s->rows, own_rows, sizeof own_rows);
+    for (int i = 0; i < dyn_controls_count; i++) {
+        const struct dyn_control *c = &dyn_controls[i];
+        s->rows[OWN_ROWS + i] = (struct stage_control){
+            c->name,    c->unit, c->least,   c->most,     c->usual, curves[c->curve],
+            c->choices, c->does, world_read, world_write, i};
+    }
+    return STAGE_OK;
+}
+
+static const struct stage_control *springs_controls(void *actor, int *count)
+{
+    const struct springs *s = actor;
+    *count = s->rows_count;
+    return s->rows;
+}
+
+/* ---- time ---- */
+
+static enum stage_status springs_step(void *actor, double dt_s)
+{
+    struct springs *s = actor;
+    enum dyn_status status = dyn_network_step(s->network, dt_s, 1);
+    return status == DYN_OK ? STAGE_OK : springs_fail(status);
+}
+
+static int springs_heard(void *actor, struct stage_sound *out, int most)
+{
+    struct springs *s = actor;
+    struct dyn_event event;
+    int count = 0;
+    while (count < most && dyn_events_take(s->network, &event, 1) > 0)
+        out[count++] = (struct stage_sound){.name = dyn_event_name(event.kind),
+                                            .time_s = event.time_s,
+                                            .strength = event.strength,
+                                            .x = event.x,
+                                            .y = event.y};
+    return count;
+}
+
+/* ---- going back ---- */
+
+struct kept {
+    struct dyn_network *network;
+    struct springs_shown shown;
+};
+
+static void springs_forget(void *state)
+{
+    struct kept *kept = state;
+    if (kept)
+        dyn_network_destroy(kept->network);
+    free(kept);
+}
+
+static enum stage_status springs_keep(void *actor, void **state)
+{
+    const struct springs *s = actor;
+    struct kept *kept = calloc(1, sizeof *kept);
+    *state = NULL;
+    if (!kept)
+        return stage_fail(STAGE_NO_MEMORY, "no memory to keep springs as they are");
+    kept->shown = s->shown;
+    enum dyn_status status = dyn_network_create(&kept->network);
+    if (status == DYN_OK)
+        status = dyn_network_copy(kept->network, s->network);
+    if (status != DYN_OK) {
+        springs_forget(kept);
+        return springs_fail(status);
+    }
+    *state = kept;
+    return STAGE_OK;
+}
+
+static enum stage_status springs_restore(void *actor, const void *state)
+{
+    struct springs *s = actor;
+    const struct kept *kept = state;
+    enum dyn_status status = dyn_network_copy(s->network, kept->network);
+    if (status != DYN_OK)
+        return springs_fail(status);
+    s->shown = kept->shown;
+    s->hand = (struct springs_hand){0};
+    return STAGE_OK;
+}
+
+/* ---- an actor ---- */
+
+static struct font_box springs_extent(void *actor)
+{
+    const struct springs *s = actor;
+    const struct dyn_state *states = dyn_network_states(s->network);
+    const struct dyn_world *world = dyn_network_world(s->network);
+    if (s->extent.x1 > s->extent.x0 && s->extent.y1 > s->extent.y0)
+        return s->extent;
+    struct font_box box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (int i = 0; i < dyn_masses_count(s->network); i++) {
+        box.x0 = fmin(box.x0, states[i].x);
+        box.x1 = fmax(box.x1, states[i].x);
+        box.y0 = fmin(box.y0, states[i].y);
+        box.y1 = fmax(box.y1, states[i].y);
+    }
+    if (!(box.x1 >= box.x0))
+        box = (struct font_box){-1, -1, 1, 1};
+    if (world->floor_on != 0 && fabs(box.y0 - world->floor) < 100)
+        box.y0 = fmin(box.y0, world->floor);
+    double margin = fmax(0.5, 0.12 * fmax(box.x1 - box.x0, box.y1 - box.y0));
+    return (struct font_box){box.x0 - margin, box.y0 - margin, box.x1 + margin,
+                             box.y1 + margin};
+}
+
+static void springs_destroy(void *actor)
+{
+    struct springs *s = actor;
+    dyn_network_destroy(s->network);
+    free(s->letters);
+    free(s->rows);
+    free(s);
+}
+
+static const struct stage_actor_kind springs_kind = {.name = "springs",
+                                                     .controls = springs_controls,
+                                                     .step = springs_step,
+                                                     .draw = springs_draw,
+                                                     .event = springs_event,
+                                                     .extent = springs_extent,
+                                                     .keep = springs_keep,
+                                                     .restore = springs_restore,
+                                                     .forget = springs_forget,
+                                                     .heard = springs_heard,
+                                                     .destroy = springs_destroy};
+
+static enum stage_status letters_copy(struct springs *s, const struct stage_springs_def *def)
+{
+    for (int i = 0; i < def->letters_count; i++)
+        for (int k = 0; k < 4; k++)
+            if (def->letters[i].masses[k] < 0 ||
+                def->letters[i].masses[k] >= dyn_masses_count(def->network))
+                return stage_fail(STAGE_BAD_ARGUMENT,
+                                  "letter %d stands on mass %d; there are %d", i,
+                                  def->letters[i].masses[k], dyn_masses_count(def->network));
+    size_t bytes = (size_t)def->letters_count * sizeof *s->letters;
+    s->letters = malloc(bytes ? bytes : 1);
+    if (!s->letters)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for letters");
+    if (bytes)
+        memcpy(s->letters, def->letters, bytes);
+    s->letters_count = def->letters_count;
+    return STAGE_OK;
+}
+
+enum stage_status stage_springs_create(const struct stage_springs_def *def,
+                                       struct stage_actor *out)
+{
+    *out = (struct stage_actor){0};
+    struct springs *s = calloc(1, sizeof *s);
+    if (!s) {
+        dyn_network_destroy(def->network);
+        return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
+    }
+    s->network = def->network;
+    s->extent = def->extent;
+    for (int i = 0; i < OWN_ROWS; i++)
+        *own_setting(s, i) = own_rows[i].usual;
+    s->shown.masses = def->show_masses;
+    s->shown.springs = def->show_springs;
+    enum stage_status status = letters_copy(s, def);
+    if (status == STAGE_OK)
+        status = rows_make(s);
+    if (status != STAGE_OK) {
+        springs_destroy(s);
+        return status;
+    }
+    *out = (struct stage_actor){&springs_kind, s};
+    return STAGE_OK;
+}
+
+struct dyn_network *stage_springs_network(const struct stage_actor *actor)
+{
+    return actor->kind == &springs_kind ? ((struct springs *)actor->self)->network : NULL;
+}

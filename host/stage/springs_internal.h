@@ -1,0 +1,53 @@
+/* springs_internal.h - what springs.c, springs_hand.c and springs_draw.c share. */
+#ifndef LUTETIA_STAGE_SPRINGS_INTERNAL_H
+#define LUTETIA_STAGE_SPRINGS_INTERNAL_H
+
+#include "springs.h"
+
+/* What a hand is doing.
+ *
+ *     NONE --press--> PULL      one mass by the hand's spring; Shift or pressure make it a HOLD
+ *                     LETTER    four masses by springs, each as far from the pointer as it was
+ *                     HOLD      a mass is where the pointer is; tacked when it is let go
+ *                     CUT       springs that the pointer crosses
+ */
+enum springs_mode { SPRINGS_NONE, SPRINGS_PULL, SPRINGS_LETTER, SPRINGS_HOLD, SPRINGS_CUT };
+
+struct springs_hand {
+    enum springs_mode mode;
+    int button;
+    int masses[4], masses_count;
+    double away_x[4], away_y[4]; /* of masses from the pointer, when they were taken */
+    double x, y, near;           /* the pointer */
+    double from_x, from_y;       /* where it was pressed */
+    bool moved, untack;          /* further than a touch; if not, the tack is taken out */
+};
+
+/* What can be adjusted; doubles all, for the table's sake. */
+struct springs_shown {
+    double hand, masses, springs, letters, full_strain;
+};
+
+struct springs {
+    struct dyn_network *network;
+    struct stage_springs_letter *letters;
+    int letters_count;
+    struct stage_control *rows;
+    int rows_count;
+    struct font_box extent;
+    struct springs_shown shown;
+    struct springs_hand hand;
+};
+
+bool springs_event(void *actor, const struct stage_event *event);
+enum stage_status springs_save(void *actor, const char *path);
+enum stage_status springs_load(void *actor, const char *path);
+void springs_draw(void *actor, const struct stage_look *look, struct stage_draw_list *list);
+
+/* Where a mass is, so many seconds ahead of the last step. */
+struct font_point springs_place(const struct springs *s, int mass, double ahead_s);
+
+/* Remembers what the simulation said. */
+enum stage_status springs_fail(enum dyn_status status);
+
+#endif

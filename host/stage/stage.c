@@ -1,0 +1,449 @@
+/* stage.c - see stage.h. */
+#include "stage.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OWN_CONTROLS = 5 };
+
+/* What of a stage can be adjusted, all doubles. */
+struct settings {
+    double rate, skins, skin_every_s, grid, shadow;
+};
+
+/* A state to go back to; actor: what its keep() made, NULL if it has none. */
+struct mark {
+    struct settings settings;
+    void *actor;
+    bool kept;
+};
+
+struct stage {
+    struct stage_actor actor;
+    struct stage_theme theme;
+    struct frame_clock clock;
+    bool began;
+    struct settings settings;
+    struct stage_control *controls; /* the stage's and the actor's */
+    int controls_count;
+    const struct stage_control *actors_rows;
+    /* The view, for a size. */
+    struct stage_view view;
+    int width_px, height_px;
+    double px;
+    /* What earlier frames left: a ring, the newest at skins_last. */
+    struct stage_draw_list own, skins[STAGE_SKINS_MAX];
+    int skins_last, skins_count;
+    double skin_taken_s;
+    /* States to go back to. */
+    struct mark marks[STAGE_UNDO_MAX], beginning;
+    int marks_count;
+    bool handed; /* the actor took a press that is not released yet */
+};
+
+struct stage_def stage_def_default(void)
+{
+    return (struct stage_def){.theme = "light", .step_s = 1.0 / 240};
+}
+
+/* ---- controls ---- */
+
+static double own_read(void *stage, int index)
+{
+    const struct settings *s = &((struct stage *)stage)->settings;
+    const double values[OWN_CONTROLS] = {s->rate, s->skins, s->skin_every_s, s->grid,
+                                         s->shadow};
+    return values[index];
+}
+
+static void skins_drop(struct stage *s)
+{
+    s->skins_count = 0;
+    s->skin_taken_s = -INFINITY;
+}
+
+static enum stage_status own_write(void *of, int index, double value)
+{
+    struct stage *stage = of;
+    struct settings *s = &stage->settings;
+    double *const values[OWN_CONTROLS] = {&s->rate, &s->skins, &s->skin_every_s, &s->grid,
+                                          &s->shadow};
+    *values[index] = value;
+    frame_clock_rate_set(&stage->clock, s->rate);
+    if (values[index] == &s->skins || values[index] == &s->skin_every_s)
+        skins_drop(stage);
+    return STAGE_OK;
+}
+
+static const struct stage_control own_rows[OWN_CONTROLS] = {
+    {"rate", "", 0.01, 10, 1, STAGE_LOGARITHMIC, NULL,
+     "simulated seconds in one second: below 1 slow motion", own_read, own_write, 0},
+    {"skins", "", 0, STAGE_SKINS_MAX, 0, STAGE_LINEAR, NULL,
+     "how many earlier moments are seen behind the present", own_read, own_write, 1},
+    {"skin_every", "s", 0.01, 2, 0.1, STAGE_LOGARITHMIC, NULL,
+     "how far these moments are apart", own_read, own_write, 2},
+    {"grid", "", 0, 1, 0, STAGE_SWITCH, NULL, "lines a unit of the world apart", own_read,
+     own_write, 3},
+    {"shadow", "", 0, 1, 0, STAGE_SWITCH, NULL, "letters throw a shadow on what is behind",
+     own_read, own_write, 4}};
+
+static const struct stage_control *actors_row(const struct stage *s, int index)
+{
+    return &s->actors_rows[index];
+}
+
+/* The actor's rows are wrapped, so that all are handed the stage. */
+static double actors_read(void *stage, int index)
+{
+    const struct stage *s = stage;
+    return stage_control_read(actors_row(s, index), s->actor.self);
+}
+
+static enum stage_status actors_write(void *stage, int index, double value)
+{
+    const struct stage *s = stage;
+    return stage_control_write(actors_row(s, index), s->actor.self, value);
+}
+
+static enum stage_status controls_make(struct stage *s)
+{
+    int count = 0;
+    if (s->actor.kind->controls)
+        s->actors_rows = s->actor.kind->controls(s->actor.self, &count);
+    s->controls = malloc(((size_t)count + OWN_CONTROLS) * sizeof *s->controls);
+    if (!s->controls)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for a stage");
+    memcpy(s->controls, own_rows, sizeof own_rows);
+    for (int i = 0; i < count; i++) {
+        struct stage_control row = s->actors_rows[i];
+        row.index = i;
+        row.read = actors_read;
+        row.write = actors_write;
+        s->controls[OWN_CONTROLS + i] = row;
+    }
+    s->controls_count = OWN_CONTROLS + count;
+    return STAGE_OK;
+}
+
+const struct stage_control *stage_controls(struct stage *s, int *count)
+{
+    *count = s->controls_count;
+    return s->controls;
+}
+
+enum stage_status stage_set(struct stage *s, const char *assignment)
+{
+    char name[64];
+    const char *equals = strchr(assignment, '=');
+    double value;
+    if (!equals || equals == assignment || equals - assignment >= (ptrdiff_t)sizeof name)
+        return stage_fail(STAGE_BAD_ARGUMENT, "a control is set by NAME=VALUE (got '%.60s')",
+                          assignment);
+    memcpy(name, assignment, (size_t)(equals - assignment));
+    name[equals - assignment] = '\0';
+    const struct stage_control *row = stage_control_find(s->controls, s->controls_count, name);
+    if (!row)
+        return STAGE_BAD_ARGUMENT;
+    enum stage_status status = stage_control_parse(row, equals + 1, &value);
+    return status == STAGE_OK ? stage_control_write(row, s, value) : status;
+}
+
+struct stage_actor stage_actor(const struct stage *s)
+{
+    return s->actor;
+}
+
+/* ---- time ---- */
+
+struct frame_clock *stage_clock(struct stage *s)
+{
+    return &s->clock;
+}
+
+static enum stage_status mark_keep(const struct stage *s, struct mark *mark)
+{
+    *mark = (struct mark){.settings = s->settings};
+    enum stage_status status = STAGE_OK;
+    if (s->actor.kind->keep)
+        status = s->actor.kind->keep(s->actor.self, &mark->actor);
+    mark->kept = status == STAGE_OK;
+    return status;
+}
+
+static void mark_forget(const struct stage *s, struct mark *mark)
+{
+    if (mark->actor)
+        s->actor.kind->forget(mark->actor);
+    *mark = (struct mark){0};
+}
+
+static enum stage_status mark_restore(struct stage *s, const struct mark *mark)
+{
+    s->settings = mark->settings;
+    frame_clock_rate_set(&s->clock, s->settings.rate);
+    s->handed = false;
+    skins_drop(s);
+    return mark->actor ? s->actor.kind->restore(s->actor.self, mark->actor) : STAGE_OK;
+}
+
+/* The state that a reset goes back to: that before the first frame, when all has been set. */
+static enum stage_status beginning_keep(struct stage *s)
+{
+    return s->beginning.kept ? STAGE_OK : mark_keep(s, &s->beginning);
+}
+
+static struct stage_look look_of(const struct stage *s)
+{
+    return (struct stage_look){.theme = &s->theme,
+                               .view = s->view,
+                               .width_px = s->width_px,
+                               .height_px = s->height_px,
+                               .px = s->px,
+                               .fraction = frame_clock_fraction(&s->clock),
+                               .step_s = s->clock.step_s};
+}
+
+/* After each step that ends a skin's time the letters are kept as they are. */
+static void skin_take(struct stage *s)
+{
+    double now_s = (double)s->clock.steps_count * s->clock.step_s;
+    if (s->settings.skins < 1 || s->width_px == 0 ||
+        now_s < s->skin_taken_s + s->settings.skin_every_s - s->clock.step_s / 2)
+        return;
+    s->skin_taken_s = now_s;
+    s->skins_last = (s->skins_last + 1) % STAGE_SKINS_MAX;
+    if (s->skins_count < STAGE_SKINS_MAX)
+        s->skins_count++;
+    struct stage_look look = look_of(s);
+    look.fraction = 0;
+    stage_draw_begin(&s->skins[s->skins_last], s->view);
+    s->actor.kind->draw(s->actor.self, &look, &s->skins[s->skins_last]);
+}
+
+enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
+{
+    enum stage_status status = beginning_keep(s);
+    if (!s->began) {
+        struct frame_clock *c = &s->clock;
+        *c = frame_clock_begin(c->step_s, now_s);
+        frame_clock_rate_set(c, s->settings.rate);
+        s->began = true;
+    }
+    int due = frame_clock_advance(&s->clock, now_s);
+    if (steps)
+        *steps = due;
+    int64_t last = s->clock.steps_count;
+    for (int i = 0; i < due && status == STAGE_OK; i++) {
+        s->clock.steps_count = last - due + i;
+        skin_take(s);
+        status = s->actor.kind->step(s->actor.self, s->clock.step_s);
+    }
+    s->clock.steps_count = last;
+    return status;
+}
+
+/* ---- pictures ---- */
+
+/* The actor in the middle, with room around it; the same units across as up. */
+static void view_make(struct stage *s, int width_px, int height_px, double px)
+{
+    struct font_box box = {-1, -1, 1, 1};
+    if (s->actor.kind->extent)
+        box = s->actor.kind->extent(s->actor.self);
+    double width = fmax(1e-6, box.x1 - box.x0), height = fmax(1e-6, box.y1 - box.y0);
+    double scale = fmin(width_px / width, height_px / height);
+    s->view.scale = scale;
+    s->view.x0_px = width_px / 2.0 - scale * (box.x0 + box.x1) / 2;
+    s->view.y0_px = height_px / 2.0 + scale * (box.y0 + box.y1) / 2;
+    s->width_px = width_px;
+    s->height_px = height_px;
+    s->px = px;
+    skins_drop(s);
+}
+
+static void grid_draw(const struct stage *s, struct stage_draw_list *list)
+{
+    double x0, y0, x1, y1, px = s->px * s->theme.sizes[STAGE_SIZE_GRID_WIDTH];
+    const struct stage_color color = s->theme.colors[STAGE_COLOR_GRID];
+    stage_view_to_world(s->view, 0, s->height_px, &x0, &y0);
+    stage_view_to_world(s->view, s->width_px, 0, &x1, &y1);
+    if (!(x1 - x0 < 500 && y1 - y0 < 500)) /* lines everywhere */
+        return;
+    for (double x = ceil(x0); x <= x1; x++)
+        stage_draw_line(list, x, y0, x, y1, px, color);
+    for (double y = ceil(y0); y <= y1; y++)
+        stage_draw_line(list, x0, y, x1, y, px, color);
+}
+
+static void skins_draw(const struct stage *s, struct stage_draw_list *list)
+{
+    int count = (int)s->settings.skins;
+    if (count > s->skins_count)
+        count = s->skins_count;
+    for (int back = count - 1; back >= 0; back--) {
+        int i = (s->skins_last - back + STAGE_SKINS_MAX) % STAGE_SKINS_MAX;
+        stage_draw_again(list, &s->skins[i], 0, 0, &s->theme.colors[STAGE_COLOR_SKIN],
+                         1 - (double)back / (count + 1), true);
+    }
+}
+
+void stage_picture(struct stage *s, int width_px, int height_px, double px,
+                   struct stage_draw_list *list)
+{
+    if (width_px != s->width_px || height_px != s->height_px || px != s->px)
+        view_make(s, width_px, height_px, px);
+    struct stage_look look = look_of(s);
+    stage_draw_begin(&s->own, s->view);
+    s->actor.kind->draw(s->actor.self, &look, &s->own);
+    stage_draw_begin(list, s->view);
+    if (s->settings.grid != 0)
+        grid_draw(s, list);
+    skins_draw(s, list);
+    if (s->settings.shadow != 0)
+        stage_draw_again(list, &s->own, px * s->theme.sizes[STAGE_SIZE_SHADOW_X],
+                         px * s->theme.sizes[STAGE_SIZE_SHADOW_Y],
+                         &s->theme.colors[STAGE_COLOR_SHADOW], 1, true);
+    stage_draw_again(list, &s->own, 0, 0, NULL, 1, false);
+    list->incomplete |= s->own.incomplete;
+}
+
+struct stage_view stage_view(const struct stage *s)
+{
+    return s->view;
+}
+
+const struct stage_theme *stage_theme(const struct stage *s)
+{
+    return &s->theme;
+}
+
+struct stage_color stage_background(const struct stage *s)
+{
+    return s->theme.colors[STAGE_COLOR_BACKGROUND];
+}
+
+/* ---- hands ---- */
+
+static const double near_px = 14;
+
+bool stage_hand(struct stage *s, enum stage_event_kind kind, double x_px, double y_px,
+                double pressure, int button, unsigned modifiers)
+{
+    struct stage_event event = {
+        .kind = kind, .pressure = pressure, .button = button, .modifiers = modifiers};
+    if (!s->actor.kind->event || s->view.scale == 0 ||
+        (kind != STAGE_POINTER_DOWN && !s->handed))
+        return false;
+    stage_view_to_world(s->view, x_px, y_px, &event.x, &event.y);
+    event.near = near_px * s->px / s->view.scale;
+    bool taken = s->actor.kind->event(s->actor.self, &event);
+    if (kind == STAGE_POINTER_DOWN)
+        s->handed = taken;
+    else if (kind != STAGE_POINTER_MOVE)
+        s->handed = false;
+    return taken;
+}
+
+/* ---- going back ---- */
+
+enum stage_status stage_mark(struct stage *s)
+{
+    struct mark mark;
+    enum stage_status status = mark_keep(s, &mark);
+    if (status != STAGE_OK)
+        return status;
+    if (s->marks_count == STAGE_UNDO_MAX) {
+        mark_forget(s, &s->marks[0]);
+        memmove(s->marks, s->marks + 1, (STAGE_UNDO_MAX - 1) * sizeof *s->marks);
+        s->marks_count--;
+    }
+    s->marks[s->marks_count++] = mark;
+    return STAGE_OK;
+}
+
+bool stage_undo(struct stage *s)
+{
+    if (!s->marks_count)
+        return false;
+    struct mark mark = s->marks[--s->marks_count];
+    bool done = mark_restore(s, &mark) == STAGE_OK;
+    mark_forget(s, &mark);
+    return done;
+}
+
+void stage_mark_drop(struct stage *s)
+{
+    if (s->marks_count)
+        mark_forget(s, &s->marks[--s->marks_count]);
+}
+
+enum stage_status stage_reset(struct stage *s)
+{
+    enum stage_status status = beginning_keep(s);
+    if (status == STAGE_OK)
+        status = stage_mark(s);
+    return status == STAGE_OK ? mark_restore(s, &s->beginning) : status;
+}
+
+enum stage_status stage_save(struct stage *s, const char *path)
+{
+    if (!s->actor.kind->save)
+        return stage_fail(STAGE_BAD_ARGUMENT, "%s: %s has no files", path, s->actor.kind->name);
+    return s->actor.kind->save(s->actor.self, path);
+}
+
+enum stage_status stage_load(struct stage *s, const char *path)
+{
+    if (!s->actor.kind->load)
+        return stage_fail(STAGE_BAD_ARGUMENT, "%s: %s has no files", path, s->actor.kind->name);
+    enum stage_status status = stage_mark(s);
+    if (status != STAGE_OK)
+        return status;
+    status = s->actor.kind->load(s->actor.self, path);
+    if (status != STAGE_OK)
+        stage_mark_drop(s);
+    s->handed = false;
+    skins_drop(s);
+    return status;
+}
+
+/* ---- a stage ---- */
+
+void stage_destroy(struct stage *s)
+{
+    if (!s)
+        return;
+    for (int i = 0; i < s->marks_count; i++)
+        mark_forget(s, &s->marks[i]);
+    mark_forget(s, &s->beginning);
+    for (int i = 0; i < STAGE_SKINS_MAX; i++)
+        stage_draw_finish(&s->skins[i]);
+    stage_draw_finish(&s->own);
+    if (s->actor.kind->destroy)
+        s->actor.kind->destroy(s->actor.self);
+    free(s->controls);
+    free(s);
+}
+
+enum stage_status stage_create(const struct stage_def *def, struct stage **out)
+{
+    *out = NULL;
+    struct stage *s = calloc(1, sizeof *s);
+    if (!s) {
+        def->actor.kind->destroy(def->actor.self);
+        return stage_fail(STAGE_NO_MEMORY, "no memory for a stage");
+    }
+    s->actor = def->actor;
+    s->clock = frame_clock_begin(def->step_s, 0);
+    for (int i = 0; i < OWN_CONTROLS; i++)
+        own_write(s, i, own_rows[i].usual);
+    enum stage_status status = stage_theme_open(def->theme, &s->theme);
+    if (status == STAGE_OK)
+        status = controls_make(s);
+    if (status == STAGE_OK)
+        *out = s;
+    else
+        stage_destroy(s);
+    return status;
+}

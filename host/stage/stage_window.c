@@ -1,0 +1,427 @@
+/* stage_window.c - see stage_window.h. */
+#include "stage_window.h"
+
+#include "renderer.h"
+
+#include <video.h>
+#include <window.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { RECORDING_FPS = 30, MESSAGE_S = 4 };
+
+struct stage_window {
+    struct stage *stage;
+    struct stage_window_def def;
+    struct window *window;
+    struct stage_renderer *renderer;
+    struct stage_panel *panel;
+    struct stage_draw_list list;
+    struct frame_pace pace;
+    bool open, help;
+    char message[240];
+    double message_s; /* when it was said */
+    /* A recording: pictures at times that are a thirtieth apart. */
+    struct video *video;
+    struct display_image image;
+    double record_next_s, record_began_s;
+    char recorded[512];
+};
+
+struct stage_window_def stage_window_def_default(void)
+{
+    return (struct stage_window_def){.title = "stage",
+                                     .width_px = 1280,
+                                     .height_px = 800,
+                                     .record_path = "stage.mp4",
+                                     .save_path = "stage.net",
+                                     .font = "DejaVuSans",
+                                     .fps = 60};
+}
+
+__attribute__((format(printf, 2, 3))) static void say(struct stage_window *w,
+                                                      const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(w->message, sizeof w->message, format, arguments);
+    va_end(arguments);
+    w->message_s = input_now_s();
+}
+
+/* ---- recording ---- */
+
+static void recording_end(struct stage_window *w)
+{
+    if (!w->video)
+        return;
+    long frames = video_frames(w->video);
+    snprintf(w->recorded, sizeof w->recorded, "%s", video_path(w->video));
+    if (video_finish(w->video) != DISPLAY_OK) {
+        say(w, "%s", display_error());
+        w->recorded[0] = '\0';
+    } else {
+        say(w, "%ld pictures in %s", frames, w->recorded);
+    }
+    w->video = NULL;
+}
+
+static void recording_begin(struct stage_window *w)
+{
+    int width, height;
+    stage_renderer_size(w->renderer, &width, &height);
+    if (video_create(w->def.record_path, width & ~1, height & ~1, RECORDING_FPS, &w->video) !=
+        DISPLAY_OK) {
+        say(w, "%s", display_error());
+        return;
+    }
+    w->record_began_s = w->record_next_s = input_now_s();
+    say(w, "recording to %s", video_path(w->video));
+}
+
+/* Films have even sides: a last odd column or row is left out. */
+static void image_make_even(struct display_image *image)
+{
+    int width = image->width_px & ~1, height = image->height_px & ~1;
+    for (int y = 0; width != image->width_px && y < height; y++)
+        memmove(image->pixels + 3 * (size_t)y * (size_t)width,
+                image->pixels + 3 * (size_t)y * (size_t)image->width_px, 3 * (size_t)width);
+    image->width_px = width;
+    image->height_px = height;
+}
+
+/* The picture that was drawn is that of all times until now that have none. */
+static void recording_add(struct stage_window *w, double now_s)
+{
+    if (!w->video || now_s < w->record_next_s)
+        return;
+    int width = w->image.width_px, height = w->image.height_px;
+    bool failed = stage_renderer_read(w->renderer, &w->image) != STAGE_OK;
+    if (!failed)
+        image_make_even(&w->image);
+    if (!failed && video_frames(w->video) > 0 &&
+        (width != w->image.width_px || height != w->image.height_px)) {
+        recording_end(w); /* a film has one size */
+        return;
+    }
+    for (; !failed && w->record_next_s <= now_s; w->record_next_s += 1.0 / RECORDING_FPS)
+        failed = video_add(w->video, w->image.pixels) != DISPLAY_OK;
+    if (failed) {
+        say(w, "%s", display_error());
+        video_abandon(w->video);
+        w->video = NULL;
+    }
+}
+
+/* ---- keys ---- */
+
+static void key_pause(struct stage_window *w)
+{
+    struct frame_clock *clock = stage_clock(w->stage);
+    clock->paused = !clock->paused;
+}
+
+static void key_single(struct stage_window *w)
+{
+    frame_clock_single(stage_clock(w->stage));
+}
+
+static void rate_times(struct stage_window *w, double factor)
+{
+    char text[64];
+    struct frame_clock *clock = stage_clock(w->stage);
+    snprintf(text, sizeof text, "rate=%.9g", fmin(10, fmax(0.01, clock->rate * factor)));
+    stage_mark(w->stage);
+    stage_set(w->stage, text);
+    say(w, "rate %.3g", clock->rate);
+}
+
+static void key_slower(struct stage_window *w)
+{
+    rate_times(w, 0.5);
+}
+
+static void key_faster(struct stage_window *w)
+{
+    rate_times(w, 2);
+}
+
+static void key_reset(struct stage_window *w)
+{
+    if (stage_reset(w->stage) != STAGE_OK)
+        say(w, "%s", stage_error());
+}
+
+static void key_undo(struct stage_window *w)
+{
+    if (!stage_undo(w->stage))
+        say(w, "nothing to undo");
+}
+
+static void key_panel(struct stage_window *w)
+{
+    stage_panel_show(w->panel, !stage_panel_shown(w->panel));
+}
+
+static void key_record(struct stage_window *w)
+{
+    if (w->video)
+        recording_end(w);
+    else
+        recording_begin(w);
+}
+
+static void key_save(struct stage_window *w)
+{
+    if (stage_save(w->stage, w->def.save_path) == STAGE_OK)
+        say(w, "saved in %s", w->def.save_path);
+    else
+        say(w, "%s", stage_error());
+}
+
+static void load(struct stage_window *w, const char *path)
+{
+    if (stage_load(w->stage, path) == STAGE_OK)
+        say(w, "loaded from %s", path);
+    else
+        say(w, "%s", stage_error());
+}
+
+static void key_load(struct stage_window *w)
+{
+    load(w, w->def.save_path);
+}
+
+static void key_full(struct stage_window *w)
+{
+    window_fullscreen_set(w->window, !window_fullscreen(w->window));
+}
+
+static void key_help(struct stage_window *w)
+{
+    w->help = !w->help;
+}
+
+static void key_end(struct stage_window *w)
+{
+    if (w->help)
+        w->help = false;
+    else
+        window_close(w->window);
+}
+
+/* shift: pressed with it; control: with it. Without a function: what hands do. */
+static const struct {
+    int key;
+    bool shift, control;
+    const char *name, *does;
+    void (*press)(struct stage_window *w);
+} keys[] = {
+    {' ', false, false, "Space", "stop, go on", key_pause},
+    {'.', false, false, ".", "one step", key_single},
+    {'-', false, false, "-", "half as fast", key_slower},
+    {'=', false, false, "=", "twice as fast", key_faster},
+    {'R', false, false, "R", "as it was in the beginning", key_reset},
+    {'Z', false, true, "Control Z", "undo", key_undo},
+    {'U', false, false, "U", "undo", key_undo},
+    {INPUT_KEY_TAB, false, false, "Tab", "the panel of controls", key_panel},
+    {'V', false, false, "V", "record a film, and end it", key_record},
+    {'S', false, true, "Control S", "save", key_save},
+    {'O', false, true, "Control O", "load what was saved", key_load},
+    {'F', false, false, "F", "fill the screen", key_full},
+    {INPUT_KEY_F1 + 10, false, false, "F11", "fill the screen", key_full},
+    {'/', true, false, "?", "these keys", key_help},
+    {INPUT_KEY_ESCAPE, false, false, "Esc", "end", key_end},
+    {0, false, false, "drag", "pull a mass, or a whole letter", NULL},
+    {0, false, false, "Shift, or press hard", "tack it where it is", NULL},
+    {0, false, false, "Shift and click", "tack a mass, or take the tack out", NULL},
+    {0, false, false, "drag with the right", "cut springs", NULL},
+    {0, false, false, "drop a file", "load it", NULL},
+};
+enum { KEYS = sizeof keys / sizeof *keys };
+
+const char *stage_window_key(int row, const char **does)
+{
+    if (row < 0 || row >= KEYS)
+        return NULL;
+    *does = keys[row].does;
+    return keys[row].name;
+}
+
+static void key_take(struct stage_window *w, const struct input_event *e)
+{
+    for (int i = 0; i < KEYS; i++)
+        if (keys[i].press && keys[i].key == e->key &&
+            keys[i].shift == ((e->modifiers & INPUT_SHIFT) != 0) &&
+            keys[i].control == ((e->modifiers & INPUT_CONTROL) != 0)) {
+            keys[i].press(w);
+            return;
+        }
+}
+
+/* ---- hands ---- */
+
+static void hand_take(struct stage_window *w, const struct input_event *e)
+{
+    static const enum stage_event_kind kinds[] = {[INPUT_POINTER_DOWN] = STAGE_POINTER_DOWN,
+                                                  [INPUT_POINTER_MOVE] = STAGE_POINTER_MOVE,
+                                                  [INPUT_POINTER_UP] = STAGE_POINTER_UP};
+    bool down = e->kind == INPUT_POINTER_DOWN;
+    if (down)
+        stage_mark(w->stage);
+    bool taken = stage_hand(w->stage, kinds[e->kind], e->x_px, e->y_px,
+                            e->pen ? e->pressure : 0, e->button, e->modifiers);
+    if (down && !taken)
+        stage_mark_drop(w->stage);
+}
+
+static void event_take(struct stage_window *w, const struct input_event *e)
+{
+    if (stage_panel_input(w->panel, w->stage, e)) {
+        if (stage_panel_message(w->panel)[0])
+            say(w, "%s", stage_panel_message(w->panel));
+        return;
+    }
+    if (e->kind == INPUT_KEY_DOWN)
+        key_take(w, e);
+    else if (e->kind == INPUT_POINTER_DOWN || e->kind == INPUT_POINTER_MOVE ||
+             e->kind == INPUT_POINTER_UP)
+        hand_take(w, e);
+    else if (e->kind == INPUT_FOCUS_LOST)
+        stage_hand(w->stage, STAGE_POINTER_CANCEL, e->x_px, e->y_px, 0, 0, 0);
+    else if (e->kind == INPUT_DROP)
+        load(w, e->path);
+    else if (e->kind == INPUT_CLOSE)
+        w->open = false;
+}
+
+/* ---- what lies over the stage ---- */
+
+static void help_draw(struct stage_window *w, double px)
+{
+    const struct stage_color *colors = stage_theme(w->stage)->colors;
+    const double text = px * stage_theme(w->stage)->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
+    const double line = 1.6 * text, x = 3 * text, y = 3 * text;
+    stage_draw_box(&w->list, x - 1.5 * text, y - 1.5 * text, x + 34 * text, y + line * KEYS,
+                   text / 2, 0, colors[STAGE_COLOR_PANEL]);
+    for (int i = 0; i < KEYS; i++) {
+        stage_panel_text(w->panel, &w->list, keys[i].name, x, y + line * i + text / 2, text,
+                         false, colors[STAGE_COLOR_PANEL_VALUE]);
+        stage_panel_text(w->panel, &w->list, keys[i].does, x + 14 * text,
+                         y + line * i + text / 2, text, false, colors[STAGE_COLOR_PANEL_TEXT]);
+    }
+}
+
+static void overlay_draw(struct stage_window *w, int width, int height, double px, double now_s)
+{
+    const struct stage_color *colors = stage_theme(w->stage)->colors;
+    const double text = px * stage_theme(w->stage)->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
+    stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
+    if (w->help)
+        help_draw(w, px);
+    stage_panel_draw(w->panel, w->stage, width, height, px, &w->list);
+    stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
+    if (w->message[0] && now_s < w->message_s + MESSAGE_S)
+        stage_panel_text(w->panel, &w->list, w->message, text, height - text, text, false,
+                         colors[STAGE_COLOR_PANEL_TEXT]);
+    if (w->video)
+        stage_draw_disc(&w->list, text, text, 0.5 * text, colors[STAGE_COLOR_RECORDING]);
+}
+
+static enum stage_status frame_draw(struct stage_window *w, double now_s)
+{
+    int width, height;
+    double px = window_scale(w->window);
+    stage_renderer_size(w->renderer, &width, &height);
+    if (width < 1 || height < 1)
+        return STAGE_OK; /* an icon now */
+    stage_picture(w->stage, width, height, px, &w->list);
+    overlay_draw(w, width, height, px, now_s);
+    return stage_renderer_draw(w->renderer, &w->list, stage_background(w->stage));
+}
+
+enum stage_status stage_window_turn(struct stage_window *w)
+{
+    struct input_event event;
+    double wait_s = fmax(0, w->pace.due_s - input_now_s());
+    while (window_input_take(w->window, wait_s, &event)) {
+        event_take(w, &event);
+        wait_s = fmax(0, w->pace.due_s - input_now_s());
+    }
+    double began_s = input_now_s();
+    enum stage_status status = stage_frame(w->stage, began_s, NULL);
+    if (status == STAGE_OK)
+        status = frame_draw(w, began_s);
+    recording_add(w, began_s);
+    w->pace.due_s = began_s + w->pace.least_s;
+    return status;
+}
+
+/* ---- a window ---- */
+
+enum stage_status stage_window_create(struct stage *stage, const struct stage_window_def *def,
+                                      struct stage_window **out)
+{
+    struct window_config config = window_config_default();
+    *out = NULL;
+    struct stage_window *w = calloc(1, sizeof *w);
+    if (!w)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for a window");
+    w->stage = stage;
+    w->def = *def;
+    w->open = true;
+    w->pace.least_s = 1 / def->fps;
+    config.title = def->title;
+    config.width_px = def->width_px;
+    config.height_px = def->height_px;
+    config.drawn_by_caller = true;
+    enum stage_status status = STAGE_OK;
+    if (window_create(&config, &w->window) != DISPLAY_OK)
+        status = stage_fail(STAGE_NO_DISPLAY, "%s", display_error());
+    if (status == STAGE_OK)
+        status = stage_renderer_window(w->window, &w->renderer);
+    if (status == STAGE_OK)
+        status = stage_panel_create(def->font, &w->panel);
+    if (status == STAGE_OK)
+        *out = w;
+    else
+        stage_window_destroy(w);
+    return status;
+}
+
+void stage_window_destroy(struct stage_window *w)
+{
+    if (!w)
+        return;
+    recording_end(w);
+    stage_panel_destroy(w->panel);
+    stage_renderer_destroy(w->renderer);
+    window_destroy(w->window);
+    display_image_destroy(&w->image);
+    stage_draw_finish(&w->list);
+    free(w);
+}
+
+bool stage_window_open(const struct stage_window *w)
+{
+    return w->open;
+}
+
+const char *stage_window_recorded(const struct stage_window *w)
+{
+    return w->recorded[0] ? w->recorded : NULL;
+}
+
+const char *stage_window_message(const struct stage_window *w)
+{
+    return w->message;
+}
+
+struct stage_panel *stage_window_panel(struct stage_window *w)
+{
+    return w->panel;
+}

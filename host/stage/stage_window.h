@@ -1,0 +1,57 @@
+/* stage_window.h - a stage in a window: hands, keys, the panel, recordings.
+ *
+ *     struct stage_window *w;
+ *     struct stage_window_def def = stage_window_def_default();
+ *     if (stage_window_create(stage, &def, &w) != STAGE_OK)
+ *         die(stage_error());
+ *     while (stage_window_turn(w) == STAGE_OK && stage_window_open(w))
+ *         ;
+ *     stage_window_destroy(w);
+ *
+ * A turn takes all that people did, makes the steps that are due, and draws: where the pointer is now is in the simulation and
+ * on the screen in the same picture. `?` shows the keys (stage_window_keys()).
+ *
+ * Threads. The main thread, as window.h. */
+#ifndef LUTETIA_STAGE_WINDOW_H
+#define LUTETIA_STAGE_WINDOW_H
+
+#include "panel.h"
+#include "stage.h"
+
+struct stage_window_def {
+    const char *title;       /* "stage" */
+    int width_px, height_px; /* 1280x800 */
+    const char *record_path; /* where recordings go; "stage.mp4" */
+    const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
+    const char *font;        /* of the panel; "DejaVuSans" */
+    double fps;              /* pictures a second at most; 60 */
+};
+struct stage_window_def stage_window_def_default(void);
+
+struct stage_window;
+/* stage: borrowed. Errors: NO_DISPLAY, FAILED (no font), NO_MEMORY. */
+enum stage_status stage_window_create(struct stage *stage, const struct stage_window_def *def,
+                                      struct stage_window **out);
+/* Ends a recording. NULL is fine. */
+void stage_window_destroy(struct stage_window *w);
+
+/* One frame: waits until it is due. Errors: what the actor or the drawing says; a file that could not be written or read is only
+ * said on the screen. */
+enum stage_status stage_window_turn(struct stage_window *w);
+
+/* Nobody has closed it, nor pressed Esc. */
+bool stage_window_open(const struct stage_window *w);
+
+/* Where the last recording is; NULL: nothing was recorded. */
+const char *stage_window_recorded(const struct stage_window *w);
+
+/* What was said last on the screen; "" if nothing was. */
+const char *stage_window_message(const struct stage_window *w);
+
+/* Its panel, for tests. */
+struct stage_panel *stage_window_panel(struct stage_window *w);
+
+/* A row of the table of keys: what it is called and does. NULL: there is no such row. */
+const char *stage_window_key(int row, const char **does);
+
+#endif

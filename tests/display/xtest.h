@@ -1,0 +1,20 @@
+/* xtest.h - a hand on the tests' screen: the pointer, its buttons and the keyboard as a person moves them (XTest), so that
+ * grabs, focus and modifiers are the real ones.
+ *
+ *     xtest_move(window, 100, 50);
+ *     xtest_button(1, true);
+ *     xtest_move(window, 180, 90);
+ *     xtest_button(1, false);
+ */
+#ifndef LUTETIA_TEST_XTEST_H
+#define LUTETIA_TEST_XTEST_H
+
+#include "xvfb.h"
+
+void xtest_move(Window window, int x_px, int y_px);
+void xtest_button(unsigned button,
+                  bool down); /* X11's: 1 left, 2 middle, 3 right, 4 and 5 the wheel */
+void xtest_key(KeySym key, bool down);
+void xtest_type(KeySym key); /* down and up */
+
+#endif
