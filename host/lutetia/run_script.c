@@ -90,7 +90,8 @@ static void divergence_report(const struct run *run, const struct paper_state_sh
 static enum script_status save(struct run *run, const struct paper_state_sheet *papers,
                                int count, enum script_status status)
 {
-    struct paper_state_sheet kept[PAPER_STATE_SHEETS_MAX];
+    struct paper_state_sheet
+        kept[PAPER_STATE_SHEETS_MAX]; /* papers_max, where there is a --save */
     int kept_count = 0;
     for (int i = 0; i < count && kept_count < PAPER_STATE_SHEETS_MAX; i++)
         if (paper_history_has(papers[i].sheet))

@@ -99,6 +99,7 @@ int verb_run(int argc, char **argv)
     struct script_config *config = &run.config;
     config->out_folder = o.out;
     config->trusted = o.trusted;
+    config->papers_max = o.save ? PAPER_STATE_SHEETS_MAX : 0;
     config->timeout_s = o.timeout_s;
     config->memory_bytes = (size_t)o.memory_mb << 20;
     config->seed = (uint64_t)o.seed;

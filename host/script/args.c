@@ -43,10 +43,17 @@ static double number_pop(lua_State *L, const char *what, const char *name, doubl
     return value;
 }
 
+/* Raw: of a copy (script_arg_options). Returns the type. */
+static int field_push(lua_State *L, int index, const char *name)
+{
+    lua_pushstring(L, name);
+    return lua_rawget(L, index);
+}
+
 double script_arg_number(lua_State *L, int index, const char *what, const char *name,
                          double fallback, double low, double high)
 {
-    if (lua_getfield(L, index, name) == LUA_TNIL) {
+    if (field_push(L, index, name) == LUA_TNIL) {
         lua_pop(L, 1);
         return fallback;
     }
@@ -57,7 +64,7 @@ int script_arg_integer(lua_State *L, int index, const char *what, const char *na
                        int fallback, double low, double high)
 {
     char shown[64];
-    if (lua_getfield(L, index, name) == LUA_TNIL) {
+    if (field_push(L, index, name) == LUA_TNIL) {
         lua_pop(L, 1);
         return fallback;
     }
@@ -73,7 +80,7 @@ bool script_arg_boolean(lua_State *L, int index, const char *what, const char *n
                         bool fallback)
 {
     char shown[64];
-    int type = lua_getfield(L, index, name);
+    int type = field_push(L, index, name);
     if (type != LUA_TNIL && type != LUA_TBOOLEAN)
         luaL_error(L, "%s %s must be true or false (got %s)", what, name,
                    described(L, -1, shown));
@@ -85,11 +92,11 @@ bool script_arg_boolean(lua_State *L, int index, const char *what, const char *n
 const char *script_arg_text(lua_State *L, int index, const char *what, const char *name)
 {
     char shown[64];
-    int type = lua_getfield(L, index, name);
+    int type = field_push(L, index, name);
     if (type != LUA_TNIL && type != LUA_TSTRING)
         luaL_error(L, "%s %s must be a text (got %s)", what, name, described(L, -1, shown));
     const char *value = type == LUA_TNIL ? NULL : lua_tostring(L, -1);
-    lua_pop(L, 1); /* the table holds it */
+    lua_pop(L, 1); /* the copy holds it */
     return value;
 }
 
@@ -97,7 +104,7 @@ bool script_arg_numbers(lua_State *L, int index, const char *what, const char *n
                         double *out, int count, double low, double high)
 {
     char shown[64];
-    int type = lua_getfield(L, index, name);
+    int type = field_push(L, index, name);
     if (type == LUA_TNIL) {
         lua_pop(L, 1);
         return false;
@@ -123,7 +130,7 @@ bool script_arg_color(lua_State *L, int index, const char *what, const char *nam
                       double out[3])
 {
     char shown[64];
-    if (lua_getfield(L, index, name) != LUA_TSTRING) {
+    if (field_push(L, index, name) != LUA_TSTRING) {
         lua_pop(L, 1);
         return script_arg_numbers(L, index, what, name, out, 3, 0, 1);
     }
@@ -141,11 +148,14 @@ bool script_arg_color(lua_State *L, int index, const char *what, const char *nam
     return true;
 }
 
-void script_arg_keys(lua_State *L, int index, const char *what, const char *const *names)
+void script_arg_options(lua_State *L, int index, const char *what, const char *const *names)
 {
-    index = lua_absindex(L, index);
+    if (!lua_isnil(L, index))
+        luaL_checktype(L, index, LUA_TTABLE);
+    lua_newtable(L);
+    int copy = lua_gettop(L);
     lua_pushnil(L);
-    while (lua_next(L, index)) {
+    while (lua_istable(L, index) && lua_next(L, index)) {
         char shown[64];
         bool known = false;
         if (lua_type(L, -2) == LUA_TSTRING)
@@ -153,8 +163,12 @@ void script_arg_keys(lua_State *L, int index, const char *what, const char *cons
                 known = strcmp(lua_tostring(L, -2), names[i]) == 0;
         if (!known)
             luaL_error(L, "%s has no %s", what, described(L, -2, shown));
-        lua_pop(L, 1);
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, copy);
     }
+    lua_settop(L, copy);
+    lua_replace(L, index);
 }
 
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
@@ -191,14 +205,4 @@ int script_arg_choice(lua_State *L, const char *what, const char *text,
     }
     luaL_pushresult(&list);
     return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
-}
-
-void script_arg_table(lua_State *L, int index)
-{
-    if (lua_isnoneornil(L, index)) {
-        lua_settop(L, index - 1);
-        lua_newtable(L);
-    }
-    lua_settop(L, index);
-    luaL_checktype(L, index, LUA_TTABLE);
 }

@@ -45,10 +45,10 @@ struct script_mask *script_mask_gray_new(lua_State *L, double width, double heig
     struct script_mask *mask = script_mask_new(L);
     if (!(width >= 1 && height >= 1))
         return mask;
-    if (!(width <= PLACE_MAX && height <= PLACE_MAX && fabs(x) <= 10.0 * PLACE_MAX &&
-          fabs(y) <= 10.0 * PLACE_MAX))
+    if (!(width <= SCRIPT_PLACE_MAX && height <= SCRIPT_PLACE_MAX &&
+          fabs(x) <= 10.0 * SCRIPT_PLACE_MAX && fabs(y) <= 10.0 * SCRIPT_PLACE_MAX))
         luaL_error(L, "a mask must be up to %d pixels wide and high, and near the paper",
-                   PLACE_MAX);
+                   SCRIPT_PLACE_MAX);
     script_memory_take(L, width * height, "a mask");
     mask->bytes = width * height;
     mask->width = (int)width;
@@ -142,26 +142,37 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
     return true;
 }
 
+bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,
+                       struct paper_screen *screen, struct paper_place *place)
+{
+    const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
+    *place = (struct paper_place){0};
+    if (lua_getfield(L, index, "mask") == LUA_TNIL) {
+        lua_pop(L, 1);
+        return true;
+    }
+    if (!script_mask_screen(L, lua_gettop(L), config->width, config->height, screen, &place->x,
+                            &place->y))
+        return false;
+    place->screen = screen;
+    return true;
+}
+
 /* ---- making ---- */
 
 static int make_rectangle(lua_State *L)
 {
-    double x = script_arg_at(L, 1, "rect's x", -PLACE_MAX, PLACE_MAX);
-    double y = script_arg_at(L, 2, "rect's y", -PLACE_MAX, PLACE_MAX);
-    double width = script_arg_at(L, 3, "rect's width", 0, PLACE_MAX);
-    double height = script_arg_at(L, 4, "rect's height", 0, PLACE_MAX);
+    double x = script_arg_at(L, 1, "rect's x", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = script_arg_at(L, 2, "rect's y", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double width = script_arg_at(L, 3, "rect's width", 0, SCRIPT_PLACE_MAX);
+    double height = script_arg_at(L, 4, "rect's height", 0, SCRIPT_PLACE_MAX);
     const double corners[8] = {x, y, x + width, y, x + width, y + height, x, y + height};
     memcpy(script_mask_polygon_new(L, 4)->points, corners, sizeof corners);
     return 1;
 }
 
-static int make_ellipse(lua_State *L)
+static void ellipse_push(lua_State *L, double x, double y, double a, double b)
 {
-    double x = script_arg_at(L, 1, "ellipse's x", -PLACE_MAX, PLACE_MAX);
-    double y = script_arg_at(L, 2, "ellipse's y", -PLACE_MAX, PLACE_MAX);
-    double a = script_arg_at(L, 3, "ellipse's radius", 0, PLACE_MAX);
-    double b =
-        lua_isnoneornil(L, 4) ? a : script_arg_at(L, 4, "ellipse's radius", 0, PLACE_MAX);
     int count = (int)fmin(1024, 24 + 2 * sqrt(fmax(a, b)) * 4);
     struct script_mask *mask = script_mask_polygon_new(L, count);
     for (int i = 0; i < count; i++) {
@@ -169,6 +180,17 @@ static int make_ellipse(lua_State *L)
         mask->points[2 * i] = x + a * cos(angle);
         mask->points[2 * i + 1] = y + b * sin(angle);
     }
+}
+
+static int make_ellipse(lua_State *L)
+{
+    double x = script_arg_at(L, 1, "ellipse's x", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = script_arg_at(L, 2, "ellipse's y", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double a = script_arg_at(L, 3, "ellipse's radius", 0, SCRIPT_PLACE_MAX);
+    double b = lua_isnoneornil(L, 4)
+                   ? a
+                   : script_arg_at(L, 4, "ellipse's radius", 0, SCRIPT_PLACE_MAX);
+    ellipse_push(L, x, y, a, b);
     return 1;
 }
 
@@ -180,7 +202,7 @@ static void corner_read(lua_State *L, int index, int i, const char *what, double
                    luaL_typename(L, -1));
     for (int j = 0; j < 2; j++) {
         lua_rawgeti(L, -1, j + 1);
-        out[j] = script_arg_at(L, -1, what, -PLACE_MAX, PLACE_MAX);
+        out[j] = script_arg_at(L, -1, what, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
@@ -243,11 +265,7 @@ static int make_line(lua_State *L)
         lua_rawgeti(L, -1, 3);
         at[2] = (lua_isnil(L, -1) ? width : lua_tonumber(L, -1)) / 2;
         lua_settop(L, all_index);
-        lua_pushcfunction(L, make_ellipse);
-        lua_pushnumber(L, at[0]);
-        lua_pushnumber(L, at[1]);
-        lua_pushnumber(L, at[2]);
-        lua_call(L, 3, 1);
+        ellipse_push(L, at[0], at[1], at[2], at[2]);
         struct script_mask *part = script_mask_grayed(L, -1);
         if (part->gray)
             gray_join(all, part);
@@ -284,13 +302,13 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
                                          [PAPER_ALIGN_RIGHT] = "right",
                                          [PAPER_ALIGN_CENTER] = "center",
                                          [PAPER_ALIGN_JUSTIFY] = "justify"};
-    script_arg_keys(L, index, "text", keys);
+    script_arg_options(L, index, "text", keys);
     line->font = script_arg_text(L, index, "text", "font");
     line->size_px = script_arg_number(L, index, "text", "size", 100, 1, 8192);
     line->tracking_em = script_arg_number(L, index, "text", "tracking", 0, -1, 10);
     line->filter = script_arg_text(L, index, "text", "filter");
     line->angle_deg = script_arg_number(L, index, "text", "angle", 0, -3600, 3600);
-    line->width_px = script_arg_number(L, index, "text", "width", 0, 0, PLACE_MAX);
+    line->width_px = script_arg_number(L, index, "text", "width", 0, 0, SCRIPT_PLACE_MAX);
     line->leading = script_arg_number(L, index, "text", "leading", 0, 0, 100);
     line->features = script_arg_text(L, index, "text", "features");
     line->language = script_arg_text(L, index, "text", "language");
@@ -319,14 +337,11 @@ int script_mask_text_push(lua_State *L, int index)
     struct paper_line line = {.text = luaL_checkstring(L, index)};
     struct script *script = script_of(L);
     int options = index + 1;
-    if (lua_isnoneornil(L, options)) {
-        lua_newtable(L);
-        options = lua_gettop(L);
-    }
-    luaL_checktype(L, options, LUA_TTABLE);
     text_options(L, options, &line);
-    double x = script_arg_number(L, options, "text", "x", 0, -PLACE_MAX, PLACE_MAX);
-    double y = script_arg_number(L, options, "text", "y", line.size_px, -PLACE_MAX, PLACE_MAX);
+    double x =
+        script_arg_number(L, options, "text", "x", 0, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = script_arg_number(L, options, "text", "y", line.size_px, -SCRIPT_PLACE_MAX,
+                                 SCRIPT_PLACE_MAX);
     line.x_px = x - floor(x);
     line.y_px = y - floor(y);
     /* What drawing takes at most for a letter, and its place in the picture: given back but for the picture. */
@@ -361,10 +376,12 @@ static int make_text(lua_State *L)
 static int make_image(lua_State *L)
 {
     const char *name = luaL_checkstring(L, 1);
-    double x =
-        lua_isnoneornil(L, 2) ? 0 : script_arg_at(L, 2, "image's x", -PLACE_MAX, PLACE_MAX);
-    double y =
-        lua_isnoneornil(L, 3) ? 0 : script_arg_at(L, 3, "image's y", -PLACE_MAX, PLACE_MAX);
+    double x = lua_isnoneornil(L, 2)
+                   ? 0
+                   : script_arg_at(L, 2, "image's x", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = lua_isnoneornil(L, 3)
+                   ? 0
+                   : script_arg_at(L, 3, "image's y", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
     const char *path = script_path(L, script_of(L)->config->in_folder, name, "image");
     struct script_mask *mask = script_mask_new(L);
     struct display_image image;
@@ -386,8 +403,8 @@ static int make_image(lua_State *L)
 /* mask(width, height, function(x, y) ... end): its values, 0..1. */
 static int make_function(lua_State *L)
 {
-    double width = floor(script_arg_at(L, 1, "mask's width", 1, PLACE_MAX));
-    double height = floor(script_arg_at(L, 2, "mask's height", 1, PLACE_MAX));
+    double width = floor(script_arg_at(L, 1, "mask's width", 1, SCRIPT_PLACE_MAX));
+    double height = floor(script_arg_at(L, 2, "mask's height", 1, SCRIPT_PLACE_MAX));
     luaL_checktype(L, 3, LUA_TFUNCTION);
     struct script_mask *mask = script_mask_gray_new(L, width, height, 0, 0);
     for (int y = 0; y < mask->height; y++)
@@ -395,7 +412,7 @@ static int make_function(lua_State *L)
             lua_pushvalue(L, 3);
             lua_pushinteger(L, x);
             lua_pushinteger(L, y);
-            lua_call(L, 2, 1);
+            script_callback(L, 2, 1);
             double value = lua_tonumber(L, -1);
             lua_pop(L, 1);
             mask->gray[(size_t)y * (size_t)mask->width + (size_t)x] =

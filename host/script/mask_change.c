@@ -58,8 +58,8 @@ static int transformed(lua_State *L, const double m[6])
 
 static int mask_move(lua_State *L)
 {
-    double x = script_arg_at(L, 2, "move's x", -PLACE_MAX, PLACE_MAX);
-    double y = script_arg_at(L, 3, "move's y", -PLACE_MAX, PLACE_MAX);
+    double x = script_arg_at(L, 2, "move's x", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
+    double y = script_arg_at(L, 3, "move's y", -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
     return transformed(L, (double[6]){1, 0, x, 0, 1, y});
 }
 
@@ -69,7 +69,8 @@ static void center_read(lua_State *L, int index, double center[2])
     for (int i = 0; i < 2; i++)
         center[i] = lua_isnoneornil(L, index + i)
                         ? 0
-                        : script_arg_at(L, index + i, "the center", -PLACE_MAX, PLACE_MAX);
+                        : script_arg_at(L, index + i, "the center", -SCRIPT_PLACE_MAX,
+                                        SCRIPT_PLACE_MAX);
 }
 
 static int mask_rotate(lua_State *L)

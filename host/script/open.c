@@ -5,15 +5,19 @@ const struct script_functions script_functions[] = {
     {NULL, script_sandbox_functions, false},
     {NULL, script_mask_makers, false},
     {NULL, script_paper_time_functions, false},
-    {NULL, script_brush_functions, false},
-    {NULL, script_technique_functions, false},
+    {NULL, script_stroke_functions, false},
+    {NULL, script_picture_functions, false},
     {script_mask_type, script_mask_methods, false},
     {script_mask_type, script_mask_operators, true},
+    {script_papers_type, script_papers_operators, true},
+    {script_papers_type, script_papers_functions, false},
     {script_paper_type, script_paper_methods, false},
     {script_paper_type, script_paper_look_methods, false},
     {script_paper_type, script_paper_time_methods, false},
     {script_paper_type, script_brush_paper_methods, false},
+    {script_paper_type, script_stroke_methods, false},
     {script_paper_type, script_technique_methods, false},
+    {script_paper_type, script_picture_paper_methods, false},
     {script_brush_type, script_brush_methods, false},
     {script_picture_type, script_picture_methods, false},
     {NULL, NULL, false}};
@@ -28,7 +32,7 @@ static void functions_open(lua_State *L, const struct script_functions *f)
         luaL_getmetatable(L, f->of);
     if (f->of && !f->operators)
         lua_getfield(L, -1, "methods");
-    luaL_setfuncs(L, f->functions, 0);
+    script_functions_set(L, f->functions);
     lua_settop(L, top);
 }
 
@@ -51,11 +55,13 @@ void script_type_open(lua_State *L, const char *name, lua_CFunction gc)
 int script_open(lua_State *L)
 {
     script_sandbox_open(L);
+    script_call_open(L);
     script_mask_open(L);
     script_paper_open(L);
     script_paper_time_open(L);
     script_brush_open(L);
-    script_technique_open(L);
+    script_stroke_open(L);
+    script_picture_open(L);
     for (const struct script_functions *f = script_functions; f->functions; f++)
         functions_open(L, f);
     return 0;

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const char script_paper_type[] = "lutetia paper";
+const char script_paper_type[] = "lutetia paper", script_papers_type[] = "lutetia papers";
 
 /* What the past of a paper takes in checkpoints, of the memory that a run may take, and at most. */
 #define UNDO_SHARE 16
@@ -22,26 +22,6 @@ static void check(lua_State *L, enum paper_status status)
         script_check(L); /* what fails after Ctrl-C fails because of it */
         luaL_error(L, "%s", paper_error());
     }
-}
-
-/* What has been done since, and how it is remembered, is counted. */
-static struct script_paper *paper_settled(lua_State *L, int index)
-{
-    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
-    if (!paper->sheet)
-        luaL_error(L, "this paper is closed");
-    double more = paper_history_bytes(paper->sheet) - paper->history_bytes;
-    if (more > 0)
-        script_memory_take(L, more, "a paper's history (history = false does without)");
-    else
-        script_memory_give(paper->script, -more);
-    paper->history_bytes += more;
-    return paper;
-}
-
-struct script_paper *script_paper_at(lua_State *L)
-{
-    return paper_settled(L, 1);
 }
 
 static const struct paper_sheet_config *config_of(const struct script_paper *paper)
@@ -68,7 +48,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     if (lua_type(L, -1) != LUA_TTABLE)
         luaL_error(L, "a pigment must be a name or a table (got a %s)", luaL_typename(L, -1));
     int t = lua_gettop(L);
-    script_arg_keys(L, t, "pigment", keys);
+    script_arg_options(L, t, "pigment", keys);
     const char *like = script_arg_text(L, t, "pigment", "like"),
                *name = script_arg_text(L, t, "pigment", "name");
     const struct paper_pigment *known = paper_pigment_find(like ? like : "cyan");
@@ -105,7 +85,8 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
 
 static void pigments_read(lua_State *L, struct paper_sheet_config *config)
 {
-    int type = lua_getfield(L, 1, "pigments");
+    lua_pushliteral(L, "pigments");
+    int type = lua_rawget(L, 1);
     if (type == LUA_TNIL) {
         lua_pop(L, 1);
         return;
@@ -129,7 +110,8 @@ static const char *const parts_names[] = {"infused", "surface", "fixing", "edge"
 static void parts_read(lua_State *L, struct paper_sheet_config *config)
 {
     static const char *const models[] = {"full", "thesis", NULL};
-    int type = lua_getfield(L, 1, "model");
+    lua_pushliteral(L, "model");
+    int type = lua_rawget(L, 1);
     if (type == LUA_TTABLE) {
         config->parts = PAPER_PART_INFUSED;
         int count = (int)lua_rawlen(L, -1);
@@ -178,8 +160,21 @@ static void stock_read(lua_State *L, struct paper_stock *stock)
 
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
+/* Only so many can be saved. Those that nobody holds are closed first. */
+static void papers_check(lua_State *L)
+{
+    const struct script *script = script_of(L);
+    int most = script->config->papers_max;
+    if (most > 0 && script->papers_open >= most)
+        lua_gc(L, LUA_GCCOLLECT);
+    if (most > 0 && script->papers_open >= most)
+        luaL_error(L, "a run that is saved has up to %d papers open; p:close() closes one",
+                   most);
+}
+
 struct script_paper *script_paper_new(lua_State *L)
 {
+    papers_check(L);
     struct script_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
     memset(paper, 0, sizeof *paper);
     paper->script = script_of(L);
@@ -248,9 +243,9 @@ static int make_paper(lua_State *L)
                                        "undo",
                                        NULL};
     lua_remove(L, 1); /* the table `paper`, which is called */
-    luaL_checktype(L, 1, LUA_TTABLE);
     lua_settop(L, 1);
-    script_arg_keys(L, 1, "paper", keys);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    script_arg_options(L, 1, "paper", keys);
     struct script *script = script_of(L);
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width =
@@ -286,14 +281,31 @@ static int make_paper(lua_State *L)
     return 1;
 }
 
-static int paper_close(lua_State *L)
+static void finish(struct script_paper *paper)
 {
-    struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
     script_paper_forget(paper);
     paper_sheet_destroy(paper->sheet);
     paper->sheet = NULL;
     script_memory_give(paper->script, paper->bytes + paper->history_bytes);
     paper->bytes = paper->history_bytes = 0;
+}
+
+/* A paper that is in use keeps its sheet: it is a debugger's call, and comes again. */
+static int paper_gc(lua_State *L)
+{
+    struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
+    if (paper->pins == 0)
+        finish(paper);
+    return 0;
+}
+
+static int paper_close(lua_State *L)
+{
+    struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
+    if (paper->pins > 0)
+        luaL_error(L, "this paper is in use: it cannot be closed before the call ends that "
+                      "uses it");
+    finish(paper);
     return 0;
 }
 
@@ -338,11 +350,10 @@ static bool screen_read(lua_State *L, int index, const struct script_paper *pape
 
 static int paper_put(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 3);
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
-    lua_settop(L, 3);
     script_paper_amounts(L, 3, paper->sheet, amount);
     if (screen_read(L, 2, paper, &screen, &x, &y))
         check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
@@ -353,11 +364,10 @@ static int paper_put(lua_State *L)
 /* p:type("word", {…}, {water = …}): text() put onto the sheet. Returns its length, and its lines' height. */
 static int paper_put_type(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 4);
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
-    lua_settop(L, 4);
     script_paper_amounts(L, 4, paper->sheet, amount);
     int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
@@ -368,7 +378,7 @@ static int paper_put_type(lua_State *L)
 
 static int paper_blot(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 4);
     struct paper_screen screen;
     int x, y;
     double part = lua_isnoneornil(L, 3) ? 1 : script_arg_at(L, 3, "blot's part", 0, 1);
@@ -381,7 +391,7 @@ static int paper_blot(lua_State *L)
 
 static int resist_set(lua_State *L, bool on)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     struct paper_screen screen;
     int x, y;
     if (screen_read(L, 2, paper, &screen, &x, &y))
@@ -402,22 +412,17 @@ static int paper_unresist(lua_State *L)
 
 static int paper_dry(lua_State *L)
 {
-    check(L, paper_sheet_dry(script_paper_at(L)->sheet));
+    check(L, paper_sheet_dry(script_paper_begin(L, 1)->sheet));
     return 0;
 }
 
 static int paper_seal(lua_State *L)
 {
-    check(L, paper_sheet_seal(script_paper_at(L)->sheet));
+    check(L, paper_sheet_seal(script_paper_begin(L, 1)->sheet));
     return 0;
 }
 
 /* ---- for the files beside this one ---- */
-
-struct paper_sheet *script_paper_arg(lua_State *L, int index)
-{
-    return paper_settled(L, index)->sheet;
-}
 
 /* Between the steps of a stroke. */
 static bool due(void *context)
@@ -427,9 +432,8 @@ static bool due(void *context)
     return script_due(paper->script);
 }
 
-void script_paper_stop_when_due(lua_State *L, int index)
+void script_paper_stop_when_due(lua_State *L, struct script_paper *paper)
 {
-    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
     paper_sheet_stop_when(paper->sheet, due, paper);
     script_paper_show(L, paper);
 }
@@ -437,13 +441,6 @@ void script_paper_stop_when_due(lua_State *L, int index)
 void script_paper_check(lua_State *L, enum paper_status status)
 {
     check(L, status);
-}
-
-void script_paper_memory_take(lua_State *L, int index, double bytes, const char *what)
-{
-    struct script_paper *paper = luaL_checkudata(L, index, script_paper_type);
-    script_memory_take(L, bytes, what);
-    paper->bytes += bytes;
 }
 
 /* ---- time ---- */
@@ -454,9 +451,9 @@ static int paper_air(lua_State *L)
                                        "relief",     "film",     "pinning",  "damp",
                                        "absorption", "carry",    "humidity", "edge",
                                        "edge_width", "settling", NULL};
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     luaL_checktype(L, 2, LUA_TTABLE);
-    script_arg_keys(L, 2, "air", keys);
+    script_arg_options(L, 2, "air", keys);
     struct paper_air air = *paper_sheet_get_air(paper->sheet);
     const struct {
         const char *name;
@@ -487,7 +484,7 @@ static int paper_air(lua_State *L)
 
 static int paper_step(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     struct script *script = paper->script;
     int count = (int)script_arg_count(L, 2, "step's count", 1, 0, 1000000);
     script_words_check(L);
@@ -502,7 +499,6 @@ static int paper_step(lua_State *L)
     const char *error = NULL;
     paper_history_mark(paper->sheet);
     enum paper_status status = PAPER_OK;
-    script_at_work(script, true);
     for (int i = 0; i < count && status == PAPER_OK && !error; i++) {
         status = paper_sheet_step(paper->sheet);
         if (status == PAPER_OK)
@@ -516,7 +512,6 @@ static int paper_step(lua_State *L)
             break;
     }
     script_progress_tell(script, NULL);
-    script_at_work(script, false);
     script_check(L);
     check(L, status);
     if (error)
@@ -550,23 +545,19 @@ const luaL_Reg script_paper_methods[] = {
     {"air", paper_air},           {"step", paper_step}, {"type", paper_put_type},
     {"close", paper_close},       {NULL, NULL}};
 
+const luaL_Reg script_papers_operators[] = {{"__call", make_paper}, {NULL, NULL}};
+
 void script_paper_open(lua_State *L)
 {
-    script_type_open(L, script_paper_type, paper_close);
+    script_type_open(L, script_paper_type, paper_gc);
     luaL_getmetatable(L, script_paper_type);
     lua_getfield(L, -1, "methods");
     lua_pushcclosure(L, paper_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pop(L, 1);
     /* paper{...} and paper.load(...) */
+    script_type_open(L, script_papers_type, NULL);
     lua_newtable(L);
-    lua_pushcfunction(L, script_paper_load);
-    lua_setfield(L, -2, "load");
-    lua_newtable(L);
-    lua_pushcfunction(L, make_paper);
-    lua_setfield(L, -2, "__call");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_setmetatable(L, -2);
+    luaL_setmetatable(L, script_papers_type);
     lua_setglobal(L, "paper");
 }

@@ -29,17 +29,27 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_FIXED_PIGMENT] = "fixed pigment",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
-/* The layer and pigment named by the arguments at index and pigment_index. */
-static enum paper_layer layer_read(lua_State *L, const struct script_paper *paper, int index,
-                                   int pigment_index, int *pigment)
+/* The layer of that name, and of the pigment if it has one. */
+static enum paper_layer layer_read(lua_State *L, const struct script_paper *paper,
+                                   const char *name, const char *pigment_name, int *pigment)
 {
-    enum paper_layer layer = (enum paper_layer)script_arg_choice(
-        L, "a layer", luaL_checkstring(L, index), layer_names);
+    enum paper_layer layer =
+        (enum paper_layer)script_arg_choice(L, "a layer", name, layer_names);
     *pigment = 0;
-    if (layer >= PAPER_LAYER_SURFACE_PIGMENT)
-        *pigment =
-            script_paper_pigment_number_of(L, paper->sheet, luaL_checkstring(L, pigment_index));
+    if (layer < PAPER_LAYER_SURFACE_PIGMENT)
+        return layer;
+    if (!pigment_name)
+        luaL_error(L, "layer '%s' needs a pigment's name", name);
+    *pigment = script_paper_pigment_number_of(L, paper->sheet, pigment_name);
     return layer;
+}
+
+/* The same, named by the arguments at index and pigment_index. */
+static enum paper_layer layer_arg(lua_State *L, const struct script_paper *paper, int index,
+                                  int pigment_index, int *pigment)
+{
+    return layer_read(L, paper, luaL_checkstring(L, index),
+                      luaL_optstring(L, pigment_index, NULL), pigment);
 }
 
 /* A buffer of a number for each fiber that the state frees. */
@@ -52,10 +62,10 @@ static float *values_new(lua_State *L, const struct paper_sheet_config *config)
 /* paper:layer(name, value [, pigment]): value is a number, a mask, or a function of x and y. */
 static int paper_layer(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 4);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment, x = 0, y = 0;
-    enum paper_layer layer = layer_read(L, paper, 2, 4, &pigment);
+    enum paper_layer layer = layer_arg(L, paper, 2, 4, &pigment);
     size_t width = (size_t)config->width, count = width * (size_t)config->height;
     float *values = values_new(L, config);
     memset(values, 0, count * sizeof *values);
@@ -68,7 +78,7 @@ static int paper_layer(lua_State *L)
             lua_pushvalue(L, 3);
             lua_pushinteger(L, (lua_Integer)(i % width));
             lua_pushinteger(L, (lua_Integer)(i / width));
-            lua_call(L, 2, 1);
+            script_callback(L, 2, 1);
             values[i] = (float)script_arg_at(L, -1, "a layer's value", -1e6, 1e6);
             lua_pop(L, 1);
         }
@@ -93,10 +103,10 @@ static int paper_layer(lua_State *L)
 /* paper:mask(name, low, high [, pigment]): a layer as a mask, 0 at low and 1 at high. */
 static int paper_mask(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 5);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment;
-    enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
+    enum paper_layer layer = layer_arg(L, paper, 2, 5, &pigment);
     double low = lua_isnoneornil(L, 3) ? 0 : script_arg_at(L, 3, "a mask's black", -1e6, 1e6);
     double high = lua_isnoneornil(L, 4) ? 1 : script_arg_at(L, 4, "a mask's white", -1e6, 1e6);
     if (low == high)
@@ -117,10 +127,10 @@ static int paper_at_fiber(lua_State *L)
 {
     if (lua_type(L, 2) == LUA_TNUMBER)
         return script_paper_at_time(L);
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 5);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment;
-    enum paper_layer layer = layer_read(L, paper, 2, 5, &pigment);
+    enum paper_layer layer = layer_arg(L, paper, 2, 5, &pigment);
     double x = floor(script_arg_at(L, 3, "x", 0, config->width - 1));
     double y = floor(script_arg_at(L, 4, "y", 0, config->height - 1));
     float *values = values_new(L, config);
@@ -131,7 +141,7 @@ static int paper_at_fiber(lua_State *L)
 
 static int paper_total_of(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     const char *name = luaL_checkstring(L, 2);
     int substance = strcmp(name, "water") == 0 ? 0
                     : strcmp(name, "dried") == 0
@@ -151,20 +161,17 @@ static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
 static int paper_frame(lua_State *L)
 {
     static const char *const keys[] = {"show", "layer", "pigment", "low", "high", "bits", NULL};
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 3);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     const char *name = luaL_checkstring(L, 2);
-    script_arg_table(L, 3);
-    script_arg_keys(L, 3, "frame", keys);
+    script_arg_options(L, 3, "frame", keys);
     struct paper_sheet_view view = {.high = 1};
     const char *show = script_arg_text(L, 3, "frame", "show"),
                *layer = script_arg_text(L, 3, "frame", "layer");
     if (layer) {
         view.show = PAPER_SHOW_LAYER;
-        lua_getfield(L, 3, "layer");
-        lua_getfield(L, 3, "pigment");
-        view.layer = layer_read(L, paper, 4, 5, &view.pigment);
-        lua_settop(L, 3);
+        view.layer = layer_read(L, paper, layer, script_arg_text(L, 3, "frame", "pigment"),
+                                &view.pigment);
     }
     if (show)
         view.show = (enum paper_show)script_arg_choice(L, "frame show", show, shows);

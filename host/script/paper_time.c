@@ -38,6 +38,7 @@ void script_paper_keep(struct script_paper *paper)
     struct script_paper *before = script->last_paper;
     while (before && before->number > paper->number)
         before = before->before;
+    script->papers_open++;
     paper->before = before;
     paper->next = before ? before->next : script->first_paper;
     *(before ? &before->next : &script->first_paper) = paper;
@@ -50,6 +51,7 @@ void script_paper_forget(struct script_paper *paper)
     struct script *script = paper->script;
     if (!paper->before && script->first_paper != paper)
         return;
+    script->papers_open--;
     *(paper->before ? &paper->before->next : &script->first_paper) = paper->next;
     *(paper->next ? &paper->next->before : &script->last_paper) = paper->before;
     paper->before = paper->next = NULL;
@@ -94,7 +96,7 @@ static void history_need(lua_State *L, const struct script_paper *paper)
 static int paper_go(lua_State *L, int (*go)(struct paper_sheet *sheet, int count),
                     const char *what)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     history_need(L, paper);
     lua_pushinteger(L, go(paper->sheet, (int)script_arg_count(L, 2, what, 1, 0, TIME_MOST)));
     return 1;
@@ -113,7 +115,7 @@ static int paper_redo(lua_State *L)
 /* paper:to(time) */
 static int paper_to(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     history_need(L, paper);
     script_paper_check(
         L, paper_history_seek(paper->sheet, script_arg_count(L, 2, "a time", 0, 0, TIME_MOST)));
@@ -123,7 +125,7 @@ static int paper_to(lua_State *L)
 /* paper:moments(): a list of {what =, time =, steps =, done =}. */
 static int paper_moments(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 1);
     struct paper_moment moment;
     history_need(L, paper);
     int done = paper_history_done(paper->sheet);
@@ -146,16 +148,15 @@ static int paper_moments(lua_State *L)
 /* paper:at(time, function): what the function does is done at that time, and all that followed after it. */
 int script_paper_at_time(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 3);
     history_need(L, paper);
     long time = script_arg_count(L, 2, "a time", 0, 0, TIME_MOST);
     luaL_checktype(L, 3, LUA_TFUNCTION);
-    lua_settop(L, 3);
     script_paper_check(L, paper_history_insert_begin(paper->sheet, time));
+    lua_pushvalue(L, 3);
     lua_pushvalue(L, 1);
-    int status = lua_pcall(L, 1, 0, 0);
-    if (paper->sheet) /* it may have been closed */
-        script_paper_check(L, paper_history_insert_end(paper->sheet, status == LUA_OK));
+    int status = script_callback_protected(L, 1);
+    script_paper_check(L, paper_history_insert_end(paper->sheet, status == LUA_OK));
     if (status != LUA_OK)
         lua_error(L);
     return 0;
@@ -164,7 +165,7 @@ int script_paper_at_time(lua_State *L)
 /* paper:render(scale [, pace]): another paper, on which the same was done larger or smaller. */
 static int paper_render(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 3);
     history_need(L, paper);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     double scale = script_arg_at(L, 2, "render's scale", 1.0 / 64, 64);
@@ -184,7 +185,7 @@ static int paper_render(lua_State *L)
 /* paper:save("state.h5") */
 static int paper_save(lua_State *L)
 {
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     history_need(L, paper);
     const char *path = script_path(L, paper->script->config->out_folder, luaL_checkstring(L, 2),
                                    "a saved paper");
@@ -204,7 +205,7 @@ static int state_gc(lua_State *L)
 }
 
 /* paper.load("state.h5" [, number]) */
-int script_paper_load(lua_State *L)
+static int papers_load(lua_State *L)
 {
     struct script *script = script_of(L);
     const char *name = luaL_checkstring(L, 1);
@@ -238,12 +239,11 @@ int script_paper_load(lua_State *L)
 static int paper_film(lua_State *L)
 {
     static const char *const keys[] = {"show", "x", "y", "width", "height", NULL};
-    struct script_paper *paper = script_paper_at(L);
+    struct script_paper *paper = script_paper_begin(L, 2);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     const struct script_host *host = paper->script->host;
     struct script_camera camera = {.paper = paper->number, .show = PAPER_SHOW_COLOR};
-    script_arg_table(L, 2);
-    script_arg_keys(L, 2, "film", keys);
+    script_arg_options(L, 2, "film", keys);
     const char *show = script_arg_text(L, 2, "film", "show");
     if (show && strcmp(show, "color") != 0 && strcmp(show, "wet") != 0)
         luaL_error(L, "film show must be one of color, wet (got '%s')", show);
@@ -271,6 +271,8 @@ const luaL_Reg script_paper_time_methods[] = {{"undo", paper_undo}, {"redo", pap
                                               {"to", paper_to},     {"moments", paper_moments},
                                               {"save", paper_save}, {"render", paper_render},
                                               {"film", paper_film}, {NULL, NULL}};
+
+const luaL_Reg script_papers_functions[] = {{"load", papers_load}, {NULL, NULL}};
 
 const luaL_Reg script_paper_time_functions[] = {{"expect", expect}, {NULL, NULL}};
 

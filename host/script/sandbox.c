@@ -52,14 +52,56 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
 static void hook(lua_State *L, lua_Debug *event)
 {
     (void)event;
-    const struct script *script = script_of(L);
+    struct script *script = script_of(L);
+    script_at_work(script, false); /* it is Lua that runs */
     if (script_due(script)) {
         lua_sethook(L, hook, LUA_MASKCOUNT, 1);
         script_stop_if_due(L, 0);
     }
 }
 
-/* print: as Lua's; progress lines are on the standard error. */
+/* setmetatable: as Lua's, but nothing gets a finalizer. One would run in the midst of whatever allocates, and Lua calls no hook
+ * there: nothing but the end of the process would stop it. Lua looks for __gc only here; a __gc that a metatable gets later
+ * is never called. */
+static int set_metatable(lua_State *L)
+{
+    lua_settop(L, 2);
+    if (lua_istable(L, 2)) {
+        lua_pushliteral(L, "__gc");
+        if (lua_rawget(L, 2) != LUA_TNIL)
+            luaL_error(L, "a script's tables have no __gc; local x <close> = ... is closed "
+                          "where its block ends");
+        lua_pop(L, 1);
+    }
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 2, 1);
+    return 1;
+}
+
+/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, and what it had pinned is free. */
+static int resume(lua_State *L)
+{
+    lua_State *other = lua_tothread(L, 1);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    if (other && lua_status(other) != LUA_OK && lua_status(other) != LUA_YIELD) {
+        lua_resetthread(other);
+        lua_settop(other, 0); /* its error is already here */
+    }
+    return lua_gettop(L);
+}
+
+/* Puts a function, whose upvalue is the one that was there, in the place of a field of the table on the top. */
+static void replace(lua_State *L, const char *name, lua_CFunction function)
+{
+    lua_getfield(L, -1, name);
+    lua_pushcclosure(L, function, 1);
+    lua_setfield(L, -2, name);
+}
+
+/* print: as Lua's, to the host. */
 static int print(lua_State *L)
 {
     const struct script_host *host = script_of(L)->host;
@@ -205,11 +247,16 @@ void script_sandbox_open(lua_State *L)
             lua_pushnil(L);
             lua_setglobal(L, taken[i]);
         }
+        lua_pushglobaltable(L);
+        replace(L, "setmetatable", set_metatable);
         lua_getglobal(L, "string");
         lua_pushnil(L);
         lua_setfield(L, -2, "dump");
-        lua_pop(L, 1);
+        lua_pop(L, 2);
     }
+    lua_getglobal(L, "coroutine");
+    replace(L, "resume", resume);
+    lua_pop(L, 1);
     lua_getglobal(L, "math");
     lua_getfield(L, -1, "randomseed");
     lua_pushinteger(L, (lua_Integer)script->config->seed);

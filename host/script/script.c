@@ -75,6 +75,19 @@ static int message(lua_State *L)
     return 1;
 }
 
+/* What a script's names and texts hold must not end a line, nor steer a terminal: C0, DEL, and C1 in UTF-8. */
+static void one_line(char *text)
+{
+    for (unsigned char *c = (unsigned char *)text; *c; c++) {
+        if (*c == '\n' || *c == '\r')
+            *c = ' ';
+        else if (*c < ' ' || *c == 127)
+            *c = '?';
+        else if (*c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0)
+            c[0] = c[1] = '?';
+    }
+}
+
 static enum script_status perform(struct script *script, lua_State *L)
 {
     const char *path = script->config->path;
@@ -95,9 +108,7 @@ static enum script_status perform(struct script *script, lua_State *L)
                  (double)script->config->memory_bytes * 1e-6);
     else
         snprintf(line, sizeof line, "%s", text ? text : "error");
-    for (char *c = line; *c; c++)
-        if (*c == '\n' || *c == '\r')
-            *c = ' ';
+    one_line(line);
     script_error_tell(script, line);
     return script_interrupted(script) ? SCRIPT_INTERRUPTED : SCRIPT_FAILED;
 }

@@ -33,6 +33,7 @@ struct script_config {
     const char *out_folder; /* of those that it writes */
     bool trusted;           /* no sandbox: all of Lua's library, names of files as they come */
     double timeout_s;       /* 0: any */
+    int papers_max;         /* most that are open at a time; 0: any */
     size_t memory_bytes;    /* most that papers, masks and Lua take together */
     uint64_t seed;          /* of papers and of math.random */
     const char *const *words; /* key=value, for param(); of the same key the last one counts */

@@ -7,12 +7,16 @@
 #include "script.h"
 
 #include <paper.h>
+#include <techniques.h>
 
 #include <lauxlib.h>
 #include <lua.h>
 
 #include <pthread.h>
 #include <stdatomic.h>
+
+/* How far from the origin a script can name a place, in fibers. */
+enum { SCRIPT_PLACE_MAX = 100000 };
 
 struct script_paper;
 
@@ -36,6 +40,7 @@ struct script {
     int papers_made;
     uint64_t seeds;                                /* taken by what happens by chance */
     struct script_paper *first_paper, *last_paper; /* that are open, by number */
+    int papers_open;
     long steps_done, steps_expected; /* by the script; expected 0: it did not say */
     struct script_watchdog watchdog;
 };
@@ -100,10 +105,10 @@ bool script_arg_color(lua_State *L, int index, const char *what, const char *nam
 /* The row of a NULL-ended list that the text is, or an error that lists them. */
 int script_arg_choice(lua_State *L, const char *what, const char *text,
                       const char *const *names);
-/* The last argument, a table; an empty one in its place where it is not there. */
-void script_arg_table(lua_State *L, int index);
-/* Every key must be among the names (NULL-terminated). */
-void script_arg_keys(lua_State *L, int index, const char *what, const char *const *names);
+/* Puts a copy that nobody else holds in the place of the table at an argument's index, made without metamethods; an empty table
+ * where there is none. Every key must be among the names (NULL-terminated). The functions above are for such copies: what they
+ * hold stays as it is, and a text lasts as long as the copy is on the stack. */
+void script_arg_options(lua_State *L, int index, const char *what, const char *const *names);
 /* The whole number at an argument's index within bounds; missing is fallback. */
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
                       long high);
@@ -116,46 +121,60 @@ struct script_mask;
 /* The mask at an argument, as a screen within width x height; empty: false. The screen is the state's: it is kept on the stack. */
 bool script_mask_screen(lua_State *L, int index, int width, int height,
                         struct paper_screen *screen, int *x, int *y);
+/* The mask in the field "mask" of options at index, kept on the stack; missing: everywhere. False: it covers nothing. */
+bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,
+                       struct paper_screen *screen, struct paper_place *place);
 /* Pushes what Lua's text() makes of the text at an argument and the table behind it: a mask, a length and a height. */
 int script_mask_text_push(lua_State *L, int index);
 /* Pushes a mask of gray values; takes them over by copying. */
 void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
 
+/* ---- calls ---- */
+
+/* Sets the functions of a list in the table on the top. */
+void script_functions_set(lua_State *L, const luaL_Reg *rows);
+/* Calls a function that the script gave, as lua_call() and lua_pcall(). */
+void script_callback(lua_State *L, int arguments, int results);
+int script_callback_protected(lua_State *L, int arguments);
+/* Cuts off or fills up the arguments to `count`, and pins the paper that is the first: it cannot be closed until the function
+ * returns or fails. The pin is on the stack, at count + 1. Raises an error where the paper is closed. */
+struct script_paper *script_paper_begin(lua_State *L, int count);
+/* Pins the paper at an index; pushes the pin. */
+struct script_paper *script_paper_pin(lua_State *L, int index);
+/* Pushes a place for memory of C's that is freed with it. */
+void **script_box_new(lua_State *L);
+
 /* ---- papers, for what is put on them ---- */
 
-/* The sheet of the paper at index; raises an error where there is none, or it is closed. */
-struct paper_sheet *script_paper_arg(lua_State *L, int index);
 void script_paper_check(lua_State *L, enum paper_status status);
 /* {water = 0.5, ["phthalo green"] = 0.2}: amount has 1 + PAPER_PIGMENTS_MAX numbers, in the order of the sheet's substances. */
 void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
                           double *amount);
 int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
                                    const char *name);
-/* Memory that is the paper's until it is closed. */
-void script_paper_memory_take(lua_State *L, int index, double bytes, const char *what);
-/* For paper_sheet_stop_when(), with the paper at index: shows its steps, and stops when time is up. */
-void script_paper_stop_when_due(lua_State *L, int index);
-
 /* ---- the library ---- */
 
 /* Makes the metatable of a kind of userdata; gc may be NULL. */
 void script_type_open(lua_State *L, const char *name, lua_CFunction gc);
 /* The types of the library, without their methods. */
+void script_call_open(lua_State *L);
 void script_mask_open(lua_State *L);
 void script_paper_open(lua_State *L);
 void script_paper_time_open(lua_State *L);
 void script_brush_open(lua_State *L);
-void script_technique_open(lua_State *L);
+void script_stroke_open(lua_State *L);
+void script_picture_open(lua_State *L);
 
-extern const char script_mask_type[], script_paper_type[], script_brush_type[],
-    script_picture_type[];
+extern const char script_mask_type[], script_papers_type[], script_paper_type[],
+    script_brush_type[], script_picture_type[];
 
 /* The rows of each file. */
 extern const luaL_Reg script_sandbox_functions[], script_mask_makers[], script_mask_methods[],
-    script_mask_operators[], script_paper_methods[], script_paper_look_methods[],
-    script_paper_time_methods[], script_paper_time_functions[], script_brush_paper_methods[],
-    script_brush_methods[], script_brush_functions[], script_technique_methods[],
-    script_technique_functions[], script_picture_methods[];
+    script_mask_operators[], script_papers_operators[], script_papers_functions[],
+    script_paper_methods[], script_paper_look_methods[], script_paper_time_methods[],
+    script_paper_time_functions[], script_brush_paper_methods[], script_brush_methods[],
+    script_stroke_methods[], script_stroke_functions[], script_technique_methods[],
+    script_picture_paper_methods[], script_picture_functions[], script_picture_methods[];
 
 /* All of them: what a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

@@ -13,8 +13,6 @@ struct script_mask {
     double bytes;
 };
 
-enum { PLACE_MAX = 100000 };
-
 /* Push one: without a shape; with room for so many corners; with room for gray values, all 0. They raise errors where there is no
  * memory for it. */
 struct script_mask *script_mask_new(lua_State *L);

@@ -8,14 +8,14 @@ struct script_paper {
     struct script *script;
     struct paper_sheet *sheet; /* NULL: closed */
     int number;                /* which of the script's papers, from 1 */
+    int pins;                  /* calls that use it: it cannot be closed */
+    bool brushes_counted;
     double bytes;
     double history_bytes;               /* of these, what its past takes */
     double replay_began_s;              /* what is computed again; 0: nothing is */
     struct script_paper *before, *next; /* of those that are open */
 };
 
-/* The first argument; raises an error where it is closed. */
-struct script_paper *script_paper_at(lua_State *L);
 /* Pushes one without a sheet. */
 struct script_paper *script_paper_new(lua_State *L);
 /* Counts what a sheet of that size takes; raises an error, before it is tried, where there is not so much. */
@@ -33,9 +33,9 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
 /* Shows the host the paper; raises its error. */
 void script_paper_show(lua_State *L, struct script_paper *paper);
 
+/* For paper_sheet_stop_when(): shows the paper's steps, and stops when time is up. */
+void script_paper_stop_when_due(lua_State *L, struct script_paper *paper);
+
 /* paper:at(time, function) */
 int script_paper_at_time(lua_State *L);
-/* paper.load(name) */
-int script_paper_load(lua_State *L);
-
 #endif

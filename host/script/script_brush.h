@@ -1,0 +1,13 @@
+/* script_brush.h - a script's brush, for what strokes with it. */
+#ifndef LUTETIA_SCRIPT_BRUSH_H
+#define LUTETIA_SCRIPT_BRUSH_H
+
+#include "script_paper.h"
+
+/* Its user value is the paper. */
+struct script_brush {
+    int number;
+    double width;
+};
+
+#endif
