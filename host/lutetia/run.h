@@ -13,7 +13,9 @@ struct run {
     bool quiet;
     const char *save; /* --save; NULL: none */
     struct film film;
-    int report_to; /* where steps are reported to, of a run among others; 0: nowhere */
+    /* Steps, of a run among others, which has no line of its own; NULL: nobody asks. */
+    void (*report)(const struct run *run, long done, long total);
+    int report_to; /* the reporter's own */
     /* its own */
     struct progress line;
     bool line_begun, line_again;

@@ -1,6 +1,5 @@
 /* run_script.c - the command as a script's host: its lines on the terminal, its film, what it saves. */
 #include "run.h"
-#include "run_sweep.h"
 
 #include <history.h>
 
@@ -37,9 +36,9 @@ static bool stop(void *context)
 static void progress(void *context, const struct script_progress *p)
 {
     struct run *run = context;
-    if (p && !p->again)
-        run_report(run, p->done, p->total);
-    if (run->quiet || run->report_to)
+    if (p && !p->again && run->report)
+        run->report(run, p->done, p->total);
+    if (run->quiet || run->report)
         return;
     if (run->line_begun && (!p || p->again != run->line_again)) {
         progress_end(&run->line);

@@ -223,12 +223,10 @@ static void runs_in_turn(struct all *all)
 
 /* ---- several at a time ---- */
 
-void run_report(struct run *run, long done, long total)
+static void report(const struct run *run, long done, long total)
 {
-    struct report report = {done, total};
-    if (!run->report_to)
-        return;
-    ssize_t written = write(run->report_to, &report, sizeof report);
+    struct report steps = {done, total};
+    ssize_t written = write(run->report_to, &steps, sizeof steps);
     (void)written; /* a report that is lost is no loss */
 }
 
@@ -241,6 +239,7 @@ _Noreturn static void job_become(struct all *all, const struct one *one, int rep
     setenv("POCL_MAX_PTHREAD_COUNT", number, 0);
     dup2(fileno(one->output), STDOUT_FILENO);
     dup2(fileno(one->errors), STDERR_FILENO);
+    all->run->report = report;
     all->run->report_to = reports;
     int status = one_run(all, one);
     fflush(NULL);

@@ -4,9 +4,6 @@
 
 #include "run.h"
 
-/* Tells whoever runs this run among others. */
-void run_report(struct run *run, long done, long total);
-
 /* Runs for every combination of "KEY=a,b,c;OTHER=1..5;THIRD=0..1/5", each in a folder of its own. With `jobs` above 1 as many at a
  * time, in processes of their own; what they print comes in the order of the combinations. Runs that fail do not stop the
  * others. */

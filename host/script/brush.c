@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char script_brush_type[] = "lutetia brush";
-
 #define PI 3.14159265358979323846
 
 static struct script_brush *brush_at(lua_State *L, int index)

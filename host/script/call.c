@@ -31,8 +31,11 @@ static int called(lua_State *L)
 {
     const luaL_Reg *row = lua_touserdata(L, lua_upvalueindex(1));
     struct script *script = script_of(L);
+    if (script->over) /* what it makes would have no finalizer any more */
+        luaL_error(L, "the script is over");
     script_check(L);
-    luaL_checkstack(L, STACK_ROOM, "too many arguments");
+    if (!lua_checkstack(L, STACK_ROOM))
+        luaL_error(L, script->memory_short ? "not enough memory" : "stack overflow");
     script_at_work(script, true);
     int count = row->func(L);
     script_at_work(script, false);

@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char script_mask_type[] = "lutetia mask";
-
 #define PI 3.14159265358979323846
 enum { CORNERS_MAX = 20000 };
 

@@ -36,22 +36,6 @@ static void functions_open(lua_State *L, const struct script_functions *f)
     lua_settop(L, top);
 }
 
-void script_type_open(lua_State *L, const char *name, lua_CFunction gc)
-{
-    luaL_newmetatable(L, name);
-    lua_newtable(L);
-    lua_pushvalue(L, -1);
-    lua_setfield(L, -3, "methods");
-    lua_setfield(L, -2, "__index");
-    if (gc) {
-        lua_pushcfunction(L, gc);
-        lua_setfield(L, -2, "__gc");
-    }
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
-    lua_pop(L, 1);
-}
-
 int script_open(lua_State *L)
 {
     script_sandbox_open(L);

@@ -10,19 +10,9 @@
 #include <string.h>
 #include <unistd.h>
 
-const char script_paper_type[] = "lutetia paper", script_papers_type[] = "lutetia papers";
-
 /* What the past of a paper takes in checkpoints, of the memory that a run may take, and at most. */
 #define UNDO_SHARE 16
 #define UNDO_BYTES_MOST 256e6
-
-static void check(lua_State *L, enum paper_status status)
-{
-    if (status != PAPER_OK) {
-        script_check(L); /* what fails after Ctrl-C fails because of it */
-        luaL_error(L, "%s", paper_error());
-    }
-}
 
 static const struct paper_sheet_config *config_of(const struct script_paper *paper)
 {
@@ -75,7 +65,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
             white[i] = paper_light_linear(white[i]);
             black[i] = paper_light_linear(black[i]);
         }
-        check(L, paper_pigment_colors(pigment, white, black));
+        script_paper_check(L, paper_pigment_colors(pigment, white, black));
     }
     script_arg_numbers(L, t, "pigment", "K", pigment->k, 3, 0, 100);
     script_arg_numbers(L, t, "pigment", "S", pigment->s, 3, 0, 100);
@@ -160,66 +150,6 @@ static void stock_read(lua_State *L, struct paper_stock *stock)
 
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
-/* Only so many can be saved. Those that nobody holds are closed first. */
-static void papers_check(lua_State *L)
-{
-    const struct script *script = script_of(L);
-    int most = script->config->papers_max;
-    if (most > 0 && script->papers_open >= most)
-        lua_gc(L, LUA_GCCOLLECT);
-    if (most > 0 && script->papers_open >= most)
-        luaL_error(L, "a run that is saved has up to %d papers open; p:close() closes one",
-                   most);
-}
-
-struct script_paper *script_paper_new(lua_State *L)
-{
-    papers_check(L);
-    struct script_paper *paper = lua_newuserdatauv(L, sizeof *paper, 0);
-    memset(paper, 0, sizeof *paper);
-    paper->script = script_of(L);
-    paper->number = ++paper->script->papers_made;
-    luaL_setmetatable(L, script_paper_type);
-    return paper;
-}
-
-/* Each field, what replaces it, and what lies between steps: a little more than 4096x4096 fibers were seen to take, with three
- * pigments (64 arrays of floats) and with six (89). */
-static double bytes_needed(double width, double height, int pigments)
-{
-    return 4 * (42 + 8.5 * pigments) * width * height;
-}
-
-void script_paper_room_take(lua_State *L, struct script_paper *paper, double width,
-                            double height, int pigments)
-{
-    double bytes = bytes_needed(width, height, pigments);
-    double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (bytes > there) {
-        char text[128];
-        snprintf(text, sizeof text,
-                 "a paper of %.0fx%.0f takes %.1f GB, and this machine has %.1f", width, height,
-                 bytes * 1e-9, there * 1e-9);
-        luaL_error(L, "not enough memory: %s", text);
-    }
-    script_memory_take(L, bytes, "a paper");
-    paper->bytes = bytes;
-}
-
-/* Why the host wants the script to stop, or NULL. */
-static const char *shown(struct script_paper *paper)
-{
-    const struct script_host *host = paper->script->host;
-    return host->step ? host->step(host->context, paper->number, paper->sheet) : NULL;
-}
-
-void script_paper_show(lua_State *L, struct script_paper *paper)
-{
-    const char *error = shown(paper);
-    if (error)
-        luaL_error(L, "%s", error);
-}
-
 static int make_paper(lua_State *L)
 {
     static const char *const keys[] = {"width",
@@ -275,7 +205,7 @@ static int make_paper(lua_State *L)
         status = paper_sheet_create(&config, &paper->sheet);
     if (status == PAPER_OK && !found && history)
         status = paper_history_begin(paper->sheet, undo);
-    check(L, status);
+    script_paper_check(L, status);
     script_paper_keep(paper);
     script_paper_show(L, paper);
     return 1;
@@ -311,35 +241,6 @@ static int paper_close(lua_State *L)
 
 /* ---- putting and taking ---- */
 
-int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
-                                   const char *name)
-{
-    const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
-    for (int i = 0; i < config->pigments_count; i++)
-        if (strcmp(config->pigments[i].name, name) == 0)
-            return i;
-    return luaL_error(L, "this paper has no pigment '%s'", name);
-}
-
-/* {water = 0.5, ["phthalo green"] = 0.2}; its values in the order of the sheet's substances. */
-void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
-                          double *amount)
-{
-    luaL_checktype(L, index, LUA_TTABLE);
-    memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        if (lua_type(L, -2) != LUA_TSTRING)
-            luaL_error(L, "amounts are written name = number, ink[\"phthalo green\"] = 0.5");
-        const char *name = lua_tostring(L, -2);
-        int i =
-            strcmp(name, "water") == 0 ? 0 : 1 + script_paper_pigment_number_of(L, sheet, name);
-        lua_pushvalue(L, -1);
-        amount[i] = script_arg_at(L, -1, name, -4, 4);
-        lua_pop(L, 2);
-    }
-}
-
 /* The mask at index as a screen; a missing one is everywhere (*everywhere). False: it covers nothing. */
 static bool screen_read(lua_State *L, int index, const struct script_paper *paper,
                         struct paper_screen *screen, int *x, int *y)
@@ -356,7 +257,7 @@ static int paper_put(lua_State *L)
     int x, y;
     script_paper_amounts(L, 3, paper->sheet, amount);
     if (screen_read(L, 2, paper, &screen, &x, &y))
-        check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+        script_paper_check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
     script_check(L);
     return 0;
 }
@@ -371,7 +272,7 @@ static int paper_put_type(lua_State *L)
     script_paper_amounts(L, 4, paper->sheet, amount);
     int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
-        check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+        script_paper_check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
     script_check(L);
     return made - 1;
 }
@@ -384,7 +285,7 @@ static int paper_blot(lua_State *L)
     double part = lua_isnoneornil(L, 3) ? 1 : script_arg_at(L, 3, "blot's part", 0, 1);
     double lift = lua_isnoneornil(L, 4) ? 0 : script_arg_at(L, 4, "blot's lift", 0, 1);
     if (screen_read(L, 2, paper, &screen, &x, &y))
-        check(L, paper_sheet_blot(paper->sheet, &screen, x, y, part, lift));
+        script_paper_check(L, paper_sheet_blot(paper->sheet, &screen, x, y, part, lift));
     script_check(L);
     return 0;
 }
@@ -395,7 +296,7 @@ static int resist_set(lua_State *L, bool on)
     struct paper_screen screen;
     int x, y;
     if (screen_read(L, 2, paper, &screen, &x, &y))
-        check(L, paper_sheet_resist(paper->sheet, &screen, x, y, on));
+        script_paper_check(L, paper_sheet_resist(paper->sheet, &screen, x, y, on));
     script_check(L);
     return 0;
 }
@@ -412,35 +313,14 @@ static int paper_unresist(lua_State *L)
 
 static int paper_dry(lua_State *L)
 {
-    check(L, paper_sheet_dry(script_paper_begin(L, 1)->sheet));
+    script_paper_check(L, paper_sheet_dry(script_paper_begin(L, 1)->sheet));
     return 0;
 }
 
 static int paper_seal(lua_State *L)
 {
-    check(L, paper_sheet_seal(script_paper_begin(L, 1)->sheet));
+    script_paper_check(L, paper_sheet_seal(script_paper_begin(L, 1)->sheet));
     return 0;
-}
-
-/* ---- for the files beside this one ---- */
-
-/* Between the steps of a stroke. */
-static bool due(void *context)
-{
-    struct script_paper *paper = context;
-    shown(paper); /* a failure is heard afterwards */
-    return script_due(paper->script);
-}
-
-void script_paper_stop_when_due(lua_State *L, struct script_paper *paper)
-{
-    paper_sheet_stop_when(paper->sheet, due, paper);
-    script_paper_show(L, paper);
-}
-
-void script_paper_check(lua_State *L, enum paper_status status)
-{
-    check(L, status);
 }
 
 /* ---- time ---- */
@@ -478,7 +358,7 @@ static int paper_air(lua_State *L)
         script_arg_numbers(L, 2, "air", "gravity", air.gravity, 2, -1, 1);
         script_arg_numbers(L, 2, "air", "seep", air.seep, 2, -1, 1);
     }
-    check(L, paper_sheet_air(paper->sheet, &air));
+    script_paper_check(L, paper_sheet_air(paper->sheet, &air));
     return 0;
 }
 
@@ -503,7 +383,7 @@ static int paper_step(lua_State *L)
         status = paper_sheet_step(paper->sheet);
         if (status == PAPER_OK)
             status = paper_sheet_finish(paper->sheet);
-        if (status == PAPER_OK && (error = shown(paper)) != NULL)
+        if (status == PAPER_OK && (error = script_paper_shown(paper)) != NULL)
             break;
         script->steps_done++;
         progress.done++;
@@ -513,7 +393,7 @@ static int paper_step(lua_State *L)
     }
     script_progress_tell(script, NULL);
     script_check(L);
-    check(L, status);
+    script_paper_check(L, status);
     if (error)
         luaL_error(L, "%s", error);
     return 0;

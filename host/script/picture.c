@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char script_picture_type[] = "lutetia picture";
-
 struct script_picture {
     struct script *script;
     int width, height;

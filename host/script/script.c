@@ -14,33 +14,9 @@ struct script_config script_config_default(const char *path)
                                   .in_folder = ".",
                                   .out_folder = ".",
                                   .timeout_s = 600,
+                                  .grace_s = 3,
                                   .memory_bytes = (size_t)4 << 30,
                                   .seed = 1990};
-}
-
-/* ---- what the host is told ---- */
-
-bool script_interrupted(const struct script *script)
-{
-    return script->host->interrupted && script->host->interrupted(script->host->context);
-}
-
-void script_error_tell(const struct script *script, const char *text)
-{
-    if (script->host->error)
-        script->host->error(script->host->context, text);
-}
-
-void script_note_tell(const struct script *script, const char *text)
-{
-    if (script->host->note)
-        script->host->note(script->host->context, text);
-}
-
-void script_progress_tell(const struct script *script, const struct script_progress *progress)
-{
-    if (script->host->progress)
-        script->host->progress(script->host->context, progress);
 }
 
 /* ---- memory ---- */
@@ -175,6 +151,7 @@ enum script_status script_run(const struct script_config *config,
     script_watchdog_pause(self, true);
     status = finish(self, status);
     script_watchdog_pause(self, false);
+    self->over = true;
     lua_close(L); /* a trusted script's finalizers run */
     script_watchdog_end(self);
     return status == SCRIPT_OK ? words_end(self) : status;

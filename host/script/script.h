@@ -33,6 +33,7 @@ struct script_config {
     const char *out_folder; /* of those that it writes */
     bool trusted;           /* no sandbox: all of Lua's library, names of files as they come */
     double timeout_s;       /* 0: any */
+    double grace_s;         /* until overdue() is called where the script should have stopped */
     int papers_max;         /* most that are open at a time; 0: any */
     size_t memory_bytes;    /* most that papers, masks and Lua take together */
     uint64_t seed;          /* of papers and of math.random */
@@ -41,7 +42,7 @@ struct script_config {
     struct paper_state *resumed; /* papers that were saved by the same script; NULL: none */
 };
 
-/* In its own folder, 600 s, 4 GiB, seed 1990. */
+/* Files where the program is, 600 s and 3 of grace, 4 GiB, seed 1990. */
 struct script_config script_config_default(const char *path);
 
 /* Work that takes many steps. `total` is what is known of now. */

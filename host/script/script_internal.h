@@ -36,6 +36,7 @@ struct script {
     double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
     size_t memory_bytes;        /* taken */
     bool memory_short;          /* Lua was refused some */
+    bool over;                  /* only finalizers run, which can call the library no more */
     bool asked[SCRIPT_WORDS_MAX], words_checked;
     int papers_made;
     uint64_t seeds;                                /* taken by what happens by chance */

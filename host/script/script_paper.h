@@ -30,7 +30,8 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
                                        double budget_bytes, bool *found);
 
-/* Shows the host the paper; raises its error. */
+/* Shows the host the paper. Why the host wants the script to stop, or NULL; the second one raises that as an error. */
+const char *script_paper_shown(struct script_paper *paper);
 void script_paper_show(lua_State *L, struct script_paper *paper);
 
 /* For paper_sheet_stop_when(): shows the paper's steps, and stops when time is up. */

@@ -9,8 +9,8 @@
 #include <time.h>
 
 #define LOOK_S 0.25
-#define GRACE_S 3.0
-#define PATIENCE_S 90.0 /* while papers are at work */
+#define PATIENCE                                                                               \
+    30 /* times as long while papers are at work: kernels may have to be compiled */
 
 /* Whether the script should have stopped, and since when that is known. */
 static bool overdue(struct script *script, double *since_s)
@@ -25,7 +25,8 @@ static bool overdue(struct script *script, double *since_s)
         *since_s = script_interrupted(script) ? now : script->deadline_s;
     if (*since_s < w->grace_from_s)
         *since_s = w->grace_from_s;
-    return now - *since_s > (atomic_load(&w->at_work) ? PATIENCE_S : GRACE_S);
+    double grace_s = script->config->grace_s * (atomic_load(&w->at_work) ? PATIENCE : 1);
+    return now - *since_s > grace_s;
 }
 
 static void *watch(void *context)

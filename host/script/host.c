@@ -1,0 +1,42 @@
+/* host.c - whose a state is, and what its host is told and asked. */
+#include "script_internal.h"
+
+#include <string.h>
+#include <time.h>
+
+struct script *script_of(lua_State *L)
+{
+    struct script *script;
+    memcpy(&script, lua_getextraspace(L), sizeof script);
+    return script;
+}
+
+double script_clock_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+bool script_interrupted(const struct script *script)
+{
+    return script->host->interrupted && script->host->interrupted(script->host->context);
+}
+
+void script_error_tell(const struct script *script, const char *text)
+{
+    if (script->host->error)
+        script->host->error(script->host->context, text);
+}
+
+void script_note_tell(const struct script *script, const char *text)
+{
+    if (script->host->note)
+        script->host->note(script->host->context, text);
+}
+
+void script_progress_tell(const struct script *script, const struct script_progress *progress)
+{
+    if (script->host->progress)
+        script->host->progress(script->host->context, progress);
+}

@@ -1,0 +1,314 @@
+/* test_script.c - the library of scripts as a program meets it: what its host is told, asked, and handed at the end. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <history.h>
+
+#include <unistd.h>
+
+#include "scripted.h"
+
+#define SMALL "{width = 16, height = 12, pigments = {'cyan'}, model = {'infused'}}"
+
+static void prints_and_errors_go_to_the_host(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(scripted_run(&s, "print('a', 1.5, nil) print()"), SCRIPT_OK);
+    assert_string_equal(s.prints, "a\t1.5\tnil\n\n");
+    assert_string_equal(s.errors, "");
+    assert_int_equal(scripted_run(&s, "print(1)\nerror('no\\n\\27[2Jmore\\xc2\\x9b')"),
+                     SCRIPT_FAILED);
+    assert_string_equal(s.prints, "1\n");
+    assert_non_null(strstr(s.errors, "script.lua:2: no ?[2Jmore??\n"));
+    assert_int_equal(scripted_run(&s, "error({})"), SCRIPT_FAILED);
+    assert_string_equal(s.errors, "error: (a table)\n");
+}
+
+static void a_host_without_functions_is_one(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    scripted_run(&s, "local p = paper" SMALL
+                     " p:step(1) print(p:total('water')) p:film{} expect(3) "
+                     "p:wash{water = 1} p:step(2) p:undo(2) p:total('water')");
+    assert_string_equal(s.errors, "");
+    const struct script_host nobody = {.print = NULL};
+    assert_int_equal(script_run(&s.config, &nobody), SCRIPT_OK);
+    s.config.path = "/no such script.lua";
+    assert_int_equal(script_run(&s.config, &nobody), SCRIPT_FAILED);
+}
+
+static void words_are_read_and_must_be_asked_for(void **state)
+{
+    (void)state;
+    const char *const words[] = {"a=1", "b=x", "a=2"};
+    struct scripted s = {.config = scripted_config()};
+    s.config.words = words;
+    s.config.words_count = 3;
+    assert_int_equal(scripted_run(&s, "print(param('a', 0) + 1, param('b'), param('c', 7))"),
+                     SCRIPT_OK);
+    assert_string_equal(s.prints, "3\tx\t7\n");
+    assert_int_equal(scripted_run(&s, "print(param('a', 0))"), SCRIPT_FAILED);
+    assert_non_null(strstr(s.errors, "asked for no 'b'"));
+}
+
+static void what_the_state_takes_is_limited(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    s.config.memory_bytes = 100;
+    assert_int_equal(scripted_run(&s, "print(1)"), SCRIPT_FAILED);
+    assert_non_null(strstr(s.errors, "no memory for Lua"));
+    for (s.config.memory_bytes = 1000; s.config.memory_bytes < 100000;
+         s.config.memory_bytes += 977) {
+        s.errors[0] = '\0';
+        if (scripted_run(&s, "print(1)") == SCRIPT_OK)
+            break;
+        if (!strstr(s.errors, "memory"))
+            fail_msg("with %zu bytes it said: %s", s.config.memory_bytes, s.errors);
+    }
+    assert_string_equal(s.prints, "1\n");
+    s.config.memory_bytes = 1 << 20;
+    assert_int_equal(scripted_run(&s, "string.rep('x', 1 << 21)"), SCRIPT_FAILED);
+    assert_int_equal(scripted_run(&s, "mask(1025, 1025, print)"), SCRIPT_FAILED);
+    assert_non_null(strstr(s.errors, "not enough memory: 1 MB for a mask"));
+    /* what is no longer held is given back: a hundred times the memory, one after the other */
+    assert_int_equal(scripted_run(&s, "for i = 1, 200 do rect(0, 0, 300, 300):soften(1) end"),
+                     SCRIPT_OK);
+}
+
+/* ---- progress, steps, films ---- */
+
+struct seen {
+    struct scripted s;
+    struct script_progress last;
+    int begun, ended, again, papers[8], papers_count, stop_after;
+    struct script_camera camera;
+    int asked;
+};
+
+static void progress(void *context, const struct script_progress *p)
+{
+    struct seen *seen = context;
+    if (!p) {
+        seen->ended++;
+        return;
+    }
+    seen->begun += p->done == 1;
+    seen->again += p->again;
+    seen->last = *p;
+}
+
+static const char *step(void *context, int paper, struct paper_sheet *sheet)
+{
+    struct seen *seen = context;
+    if (paper_sheet_get_config(sheet)->width != 16)
+        return "another sheet";
+    if (seen->papers_count < 8)
+        seen->papers[seen->papers_count] = paper;
+    return ++seen->papers_count == seen->stop_after ? "enough of it" : NULL;
+}
+
+static void film(void *context, const struct script_camera *camera)
+{
+    ((struct seen *)context)->camera = *camera;
+}
+
+static bool stop(void *context)
+{
+    return ((struct seen *)context)->asked++ > 20;
+}
+
+static void the_host_sees_each_step(void **state)
+{
+    (void)state;
+    struct seen seen = {.s = {.config = scripted_config(),
+                              .host = {.progress = progress, .step = step, .film = film}}};
+    assert_int_equal(
+        scripted_run(&seen.s, "expect(5) local p, q = paper" SMALL ", paper" SMALL
+                              " q:step(2) p:step(3) q:film{show = 'wet', x = 2, width = 9}"),
+        SCRIPT_OK);
+    const int papers[] = {1, 2, 2, 2, 1, 1, 1};
+    assert_int_equal(seen.papers_count, 7);
+    assert_memory_equal(seen.papers, papers, sizeof papers);
+    assert_int_equal(seen.last.done, 5);
+    assert_int_equal(seen.last.total, 5);
+    assert_int_equal(seen.ended, 2);
+    assert_int_equal(seen.camera.paper, 2);
+    assert_int_equal(seen.camera.show, PAPER_SHOW_WET);
+    assert_true(seen.camera.x == 2 && seen.camera.y == 0 && seen.camera.width == 9 &&
+                seen.camera.height == 12);
+    /* what it says stops the script, in its line */
+    seen.papers_count = 0;
+    seen.stop_after = 3;
+    assert_int_equal(scripted_run(&seen.s, "local p = paper" SMALL "\np:step(9)"),
+                     SCRIPT_FAILED);
+    assert_non_null(strstr(seen.s.errors, "script.lua:2: enough of it"));
+    assert_int_equal(seen.papers_count, 3);
+}
+
+static void what_is_computed_again_is_told_apart(void **state)
+{
+    (void)state;
+    struct seen seen = {.s = {.config = scripted_config(), .host = {.progress = progress}}};
+    assert_int_equal(scripted_run(&seen.s, "local p = paper" SMALL
+                                           " p:wash{water = 0.5} p:step(4) p:to(2) "
+                                           "p:total('water')"),
+                     SCRIPT_OK);
+    assert_true(seen.again > 0);
+    assert_true(seen.last.again);
+}
+
+static void the_host_can_stop_it(void **state)
+{
+    (void)state;
+    struct seen seen = {.s = {.config = scripted_config(), .host = {.interrupted = stop}}};
+    assert_int_equal(scripted_run(&seen.s, "while true do end"), SCRIPT_INTERRUPTED);
+    assert_non_null(strstr(seen.s.errors, "script.lua:1: interrupted"));
+    seen.asked = 0;
+    assert_int_equal(scripted_run(&seen.s, "paper" SMALL ":step(100000)"), SCRIPT_INTERRUPTED);
+    seen.asked = 0;
+    assert_int_equal(scripted_run(&seen.s, "while true do pcall(error) end"),
+                     SCRIPT_INTERRUPTED);
+}
+
+/* ---- the end ---- */
+
+struct ending {
+    struct scripted s;
+    int numbers[70], count;
+    double water;
+    enum script_status status, answer;
+    bool answers;
+};
+
+static enum script_status finish(void *context, const struct paper_state_sheet *papers,
+                                 int count, enum script_status status)
+{
+    struct ending *end = context;
+    end->status = status;
+    end->count = count;
+    for (int i = 0; i < count && i < 70; i++)
+        end->numbers[i] = papers[i].number;
+    if (count > 0)
+        assert_int_equal(paper_sheet_total(papers[0].sheet, 0, &end->water), PAPER_OK);
+    if (count > 0 && paper_history_has(papers[0].sheet))
+        assert_int_equal(paper_state_save(scratch_path("end.h5"), papers, count), PAPER_OK);
+    return end->answers ? end->answer : status;
+}
+
+static void the_end_has_all_open_papers(void **state)
+{
+    (void)state;
+    struct ending end = {.s = {.config = scripted_config(), .host = {.finish = finish}}};
+    assert_int_equal(scripted_run(&end.s,
+                                  "P, Q, R = paper" SMALL ", paper" SMALL ", paper" SMALL
+                                  " P:wash{water = 0.5} Q:close() S = P:render(1)"),
+                     SCRIPT_OK);
+    const int numbers[] = {1, 3, 4};
+    assert_int_equal(end.count, 3);
+    assert_memory_equal(end.numbers, numbers, sizeof numbers);
+    assert_int_equal(end.status, SCRIPT_OK);
+    assert_true(end.water > 0);
+    /* however it ended; and what the host says is how it did */
+    assert_int_equal(scripted_run(&end.s, "P = paper" SMALL " error('x')"), SCRIPT_FAILED);
+    assert_int_equal(end.status, SCRIPT_FAILED);
+    assert_int_equal(end.count, 1);
+    end.answers = true;
+    end.answer = SCRIPT_FAILED;
+    assert_int_equal(scripted_run(&end.s, "P = paper" SMALL), SCRIPT_FAILED);
+    assert_string_equal(end.s.errors, "");
+}
+
+/* The loop is stopped by the clock, and what is open then is saved, and can be resumed. */
+static void papers_without_end_are_saved(void **state)
+{
+    (void)state;
+    struct ending end = {.s = {.config = scripted_config(), .host = {.finish = finish}}};
+    end.s.config.timeout_s = 1;
+    end.s.config.papers_max = PAPER_STATE_SHEETS_MAX;
+    assert_int_equal(scripted_run(&end.s,
+                                  "local first = paper" SMALL " first:wash{water = 0.25}\n"
+                                  "while true do paper" SMALL " end"),
+                     SCRIPT_FAILED);
+    assert_non_null(strstr(end.s.errors, "script.lua:2: stopped after 1 seconds"));
+    assert_in_range(end.count, 2, PAPER_STATE_SHEETS_MAX);
+    assert_int_equal(end.numbers[0], 1);
+    struct scripted next = {.config = scripted_config()};
+    assert_int_equal(paper_state_open(scratch_path("end.h5"), &next.config.resumed), PAPER_OK);
+    assert_int_equal(
+        scripted_run(&next, "local p = paper" SMALL
+                            " p:wash{water = 0.25} print(('%.17g'):format(p:total('water')))"),
+        SCRIPT_OK);
+    paper_state_close(next.config.resumed);
+    assert_string_equal(next.notes, "");
+    char water[40];
+    snprintf(water, sizeof water, "%.17g\n", end.water);
+    assert_string_equal(next.prints, water);
+    /* those that are held cannot be more than can be saved */
+    end.s.config.timeout_s = 60;
+    assert_int_equal(scripted_run(&end.s, "t = {} for i = 1, 65 do t[i] = paper" SMALL " end"),
+                     SCRIPT_FAILED);
+    assert_non_null(strstr(end.s.errors, "up to 64 papers"));
+    assert_int_equal(end.count, 64);
+}
+
+/* ---- a script within a script ---- */
+
+static void nested(void *context, const char *text, size_t length)
+{
+    struct scripted *outer = context, inner = {.config = scripted_config()};
+    (void)text;
+    (void)length;
+    inner.config.memory_bytes = 8 << 20;
+    assert_int_equal(scripted_run(&inner, "local p = paper" SMALL " p:wash{water = 1} "
+                                          "print(p:total('water')) error('inner')"),
+                     SCRIPT_FAILED);
+    scripted_append(outer->prints, inner.prints, strlen(inner.prints));
+    inner.config.timeout_s = 0.05;
+    assert_int_equal(scripted_run(&inner, "while true do end"), SCRIPT_FAILED);
+    assert_non_null(strstr(inner.errors, "stopped after 0.05"));
+}
+
+/* What one run does is nobody else's: its time, its memory, its papers. */
+static void nothing_is_shared_between_runs(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    char path[512];
+    snprintf(path, sizeof path, "%s", scratch_path("outer.lua"));
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs("local p = paper" SMALL " p:put(rect(0, 0, 4, 4), {water = 1}) print() p:dry() "
+          "p:put(rect(0, 0, 2, 2), {water = 1}) if p:total('water') > 4.1 then error() end",
+          file);
+    assert_int_equal(fclose(file), 0);
+    s.config.path = path;
+    s.host = (struct script_host){.context = &s, .print = nested, .error = scripted_error};
+    int status = (int)script_run(&s.config, &s.host);
+    assert_string_equal(s.errors, "");
+    assert_int_equal(status, SCRIPT_OK);
+    assert_string_equal(s.prints, "192.0\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(prints_and_errors_go_to_the_host),
+        cmocka_unit_test(a_host_without_functions_is_one),
+        cmocka_unit_test(words_are_read_and_must_be_asked_for),
+        cmocka_unit_test(what_the_state_takes_is_limited),
+        cmocka_unit_test(the_host_sees_each_step),
+        cmocka_unit_test(what_is_computed_again_is_told_apart),
+        cmocka_unit_test(the_host_can_stop_it),
+        cmocka_unit_test(the_end_has_all_open_papers),
+        cmocka_unit_test(papers_without_end_are_saved),
+        cmocka_unit_test(nothing_is_shared_between_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
