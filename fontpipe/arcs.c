@@ -12,29 +12,33 @@
 
 struct maker {
     struct font_edges *e;
-    enum font_arcs_kind kind;
     float side;
+    float per_span, per_bend; /* one over the filter's limits; four times the bend */
+    float x0, y0, x1, y1;
     enum font_status status;
 };
 
-static bool room(struct maker *m, int more)
+/* Room for one more. */
+static bool room(struct maker *m)
 {
     struct font_edges *e = m->e;
     if (m->status != FONT_OK)
         return false;
-    if (e->arcs_count > FONT_EDGES_MAX - more)
+    if (e->arcs_count < e->arcs_capacity)
+        return true;
+    if (e->arcs_count >= FONT_EDGES_MAX)
         m->status = font_fail(FONT_TOO_LARGE, "an outline has too many edges at this size");
-    else if (!array_reserve(&e->arcs, &e->arcs_capacity, e->arcs_count + more, sizeof *e->arcs))
+    else if (!array_reserve(&e->arcs, &e->arcs_capacity, e->arcs_count + 1, sizeof *e->arcs))
         m->status = font_fail(FONT_NO_MEMORY, "no memory for edges");
     return m->status == FONT_OK;
 }
 
-static void range_add(struct font_edges *e, float x, float y)
+static void range_add(struct maker *m, float x, float y)
 {
-    e->x0 = x < e->x0 ? x : e->x0;
-    e->x1 = x > e->x1 ? x : e->x1;
-    e->y0 = y < e->y0 ? y : e->y0;
-    e->y1 = y > e->y1 ? y : e->y1;
+    m->x0 = x < m->x0 ? x : m->x0;
+    m->x1 = x > m->x1 ? x : m->x1;
+    m->y0 = y < m->y0 ? y : m->y0;
+    m->y1 = y > m->y1 ? y : m->y1;
 }
 
 static struct font_arc part(const struct font_arc *a, float t0, float t1)
@@ -52,10 +56,10 @@ static void put(struct maker *m, const struct font_arc *a)
 {
     struct font_edges *e = m->e;
     float x = a->x + a->cx + a->bx, y = a->y + a->cy + a->by;
-    if (!room(m, 1))
+    if (!room(m))
         return;
-    range_add(e, a->x, a->y);
-    range_add(e, x, y);
+    range_add(m, a->x, a->y);
+    range_add(m, x, y);
     e->arcs[e->arcs_count++] =
         m->side > 0
             ? *a
@@ -72,38 +76,48 @@ static void parts_put(struct maker *m, const struct font_arc *a, int count)
     }
 }
 
-/* Neither x nor y turns around in it. */
-static void area_put(struct maker *m, const struct font_arc *a)
+/* The least whole number that is not below; of numbers from 0 on. */
+static int up(float number)
 {
-    /* A curve goes at most |c| + 2 |b| in t, however it is cut. */
+    int floor = (int)number;
+    return floor + (number > (float)floor);
+}
+
+/* Neither x nor y turns around in it. */
+static void straight_put(struct maker *m, const struct font_arc *a)
+{
+    /* A curve goes at most |c| + 2 |b| in t, however it is cut, and is b / 4 beside its chord. */
     float across = fabsf(a->cx) + 2 * fabsf(a->bx), down = fabsf(a->cy) + 2 * fabsf(a->by);
-    float far = across > down ? across : down;
-    if (far <= FONT_ARC_SPAN_PX)
+    float far = (across > down ? across : down) * m->per_span;
+    float bend = (fabsf(a->bx) + fabsf(a->by)) * m->per_bend;
+    if (far <= 1 && bend <= 1)
         put(m, a);
     else
-        parts_put(m, a, (int)ceilf(far / FONT_ARC_SPAN_PX));
+        parts_put(m, a, up(far > sqrtf(bend) ? far : sqrtf(bend)));
 }
 
 /* Where a polynomial c + 2 t b is zero, if that is well within 0..1; else 1. */
 static float turn_at(float c, float b)
 {
-    float t = b != 0 ? -c / (2 * b) : 1;
+    if (!(c * (c + 2 * b) < 0))
+        return 1;
+    float t = -c / (2 * b);
     return t > TURN_PART && t < 1 - TURN_PART ? t : 1;
 }
 
-static void area_curve(struct maker *m, const struct font_arc *a)
+static void curve_put(struct maker *m, const struct font_arc *a)
 {
     float tx = turn_at(a->cx, a->bx), ty = turn_at(a->cy, a->by);
     float first = tx < ty ? tx : ty, second = tx < ty ? ty : tx;
     float from = 0, to[3] = {first, second, 1};
     if (first == 1) {
-        area_put(m, a);
+        straight_put(m, a);
         return;
     }
     for (int k = 0; k < 3; k++)
         if (to[k] > from) {
             struct font_arc one = part(a, from, to[k]);
-            area_put(m, &one);
+            straight_put(m, &one);
             from = to[k];
         }
 }
@@ -112,38 +126,53 @@ static void arc_put(struct maker *m, const struct font_arc *a)
 {
     bool line = a->bx == 0 && a->by == 0;
     if (a->cx == 0 && a->bx == 0) {
-        range_add(m->e, a->x, a->y);
-        range_add(m->e, a->x, a->y + a->cy + a->by);
+        range_add(m, a->x, a->y);
+        range_add(m, a->x, a->y + a->cy + a->by);
     } else if (line) {
-        area_put(m, a);
+        straight_put(m, a);
     } else {
-        area_curve(m, a);
+        curve_put(m, a);
     }
 }
 
 /* ---- affine maps ---- */
 
-/* How far the vector a reaches to the side of a direction. */
+/* The square of how far the vector a reaches to the side of a direction. */
 static float beside_of(const float a[2], float dx, float dy)
 {
-    return fabsf(a[0] * dy - a[1] * dx) / sqrtf(dx * dx + dy * dy + 1e-20f);
+    float cross = a[0] * dy - a[1] * dx;
+    return cross * cross / (dx * dx + dy * dy + 1e-20f);
 }
 
-/* Into how many quadratic curves a cubic is cut. t^3 is 3/2 t^2 - 1/2 t and what is left: at most 0.0481 a, of which what is
- * along the curve does not matter. */
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Into how many quadratic curves a cubic is cut. t^3 is 3/2 t^2 - 1/2 t and what is left: at most 0.0481 a, half of it to
+ * either side, of which what is along the curve does not matter. What a pixel is wrong by is that over a half of what is in
+ * it: of parts shorter than two pixels it may be more. */
 static int cubic_parts(const float c[2], const float b[2], const float a[2])
 {
-    float from = beside_of(a, c[0], c[1]);
-    float middle = beside_of(a, c[0] + b[0] + 0.75f * a[0], c[1] + b[1] + 0.75f * a[1]);
-    float to = beside_of(a, c[0] + 2 * b[0] + 3 * a[0], c[1] + 2 * b[1] + 3 * a[1]);
-    float most = from > middle ? from : middle;
-    float some = 0.1f * (fabsf(a[0]) + fabsf(a[1])); /* where it turns in between */
-    most = to > most ? to : most;
-    float off = 0.0481f * (some > most ? some : most);
-    int n = 1;
-    while (off > FONT_ARC_TOLERANCE_PX * (float)(n * n * n) && n < 64)
-        n++;
-    return n;
+    float size = fabsf(a[0]) + fabsf(a[1]);
+    if (0.0481f * size <= FONT_ARC_TOLERANCE_PX)
+        return 1;
+    float most = 0, fastest = 0;
+    for (int k = 0; k < 3; k++) {
+        float t = 0.5f * (float)k;
+        float dx = c[0] + t * (2 * b[0] + 3 * t * a[0]),
+              dy = c[1] + t * (2 * b[1] + 3 * t * a[1]);
+        most = larger(most, beside_of(a, dx, dy));
+        fastest = larger(fastest, fabsf(dx) + fabsf(dy));
+    }
+    /* Where it turns in between there may be more. */
+    float off = 0.0481f * larger(sqrtf(most), 0.1f * size);
+    for (int n = 1;; n++) {
+        float cube = (float)(n * n * n), shorter = 2 * (float)n / (fastest + 1e-6f);
+        shorter = shorter < 1 ? 1 : shorter > 4 ? 4 : shorter;
+        if (off <= FONT_ARC_TOLERANCE_PX * cube * shorter || n == 64)
+            return n;
+    }
 }
 
 static void affine_build(struct maker *m, const struct font_outline *o, const double *map)
@@ -247,15 +276,25 @@ static void warped_build(struct maker *m, const struct font_outline *o, struct w
 }
 
 enum font_status font_arcs_build(struct font_edges *e, const struct font_outline *outline,
-                                 const struct font_map *map, enum font_arcs_kind kind,
+                                 const struct font_map *map, const struct font_filter *filter,
                                  int orientation, float side)
 {
-    struct maker m = {.e = e, .kind = kind, .side = side, .status = FONT_OK};
-    e->x0 = e->y0 = INFINITY;
-    e->x1 = e->y1 = -INFINITY;
+    struct maker m = {.e = e,
+                      .side = side,
+                      .per_span = 1 / filter->arc_span_px,
+                      .per_bend = 1 / (4 * filter->arc_bend_px),
+                      .x0 = INFINITY,
+                      .y0 = INFINITY,
+                      .x1 = -INFINITY,
+                      .y1 = -INFINITY,
+                      .status = FONT_OK};
     if (map->kind == FONT_AFFINE)
         affine_build(&m, outline, map->m);
     else
         warped_build(&m, outline, &(struct warp){.map = map, .orientation = orientation});
+    e->x0 = m.x0;
+    e->y0 = m.y0;
+    e->x1 = m.x1;
+    e->y1 = m.y1;
     return m.status;
 }

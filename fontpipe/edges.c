@@ -280,8 +280,8 @@ static enum font_status segments_build(struct font_edges *e, const struct font_o
     const double *m = map->m;
     double side = outline->turn * -orientation;
     enum font_status status = FONT_OK;
-    if (f->use_arcs && !tabled)
-        return font_arcs_build(e, outline, map, FONT_ARCS_AREA, orientation, (float)side);
+    if (f->way != FONT_BY_TABLES && !tabled)
+        return font_arcs_build(e, outline, map, f, orientation, (float)side);
     if (map->kind == FONT_AFFINE && f->use_nodes) {
         struct font_edges_job job = {e, outline, f, {0}, (float)side};
         for (int i = 0; i < 6; i++)

@@ -1,4 +1,5 @@
 /* filter.c - makes filters: profiles, their integrals, the tables. */
+#include "arcs.h"
 #include "filter_internal.h"
 #include "internal.h"
 
@@ -333,7 +334,15 @@ enum font_status font_filter_create(const struct font_filter_def *def, struct fo
     f->taps = (int)ceil(2 * f->radius - 1e-9);
     f->round = f->def.kind == FONT_PILLBOX || f->def.kind == FONT_CONE ||
                f->def.kind == FONT_ROUND_SAMPLES;
-    f->use_arcs = f->def.kind == FONT_BOX && f->radius == 0.5;
+    if (f->def.kind == FONT_BOX && f->radius == 0.5) {
+        f->way = FONT_BY_AREAS;
+        f->arc_span_px = FONT_ARC_SPAN_PX;
+        f->arc_bend_px = INFINITY;
+    } else if (f->def.kind == FONT_PILLBOX) {
+        f->way = FONT_BY_DISCS;
+        f->arc_span_px = (float)fmax(3.98 - 2 * f->radius, 1.5); /* a block of gray_disc.h */
+        f->arc_bend_px = FONT_DISC_BEND * (float)f->radius;
+    }
     f->scale = 1;
     if (status == FONT_OK)
         status = f->round ? font_filter_decompose(f) : product_make(f);

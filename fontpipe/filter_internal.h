@@ -35,6 +35,9 @@ struct font_filter_term {
     double *integral, *density;
 };
 
+/* How pictures are made: by the tables from nodes and lines, or from arcs. */
+enum font_filter_way { FONT_BY_TABLES, FONT_BY_AREAS, FONT_BY_DISCS };
+
 struct font_filter {
     char name[64];
     struct font_filter_def def;
@@ -48,7 +51,10 @@ struct font_filter {
     /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
      * font_slants[s] of |dx|. */
     float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
-    bool use_nodes, use_arcs; /* areas are drawn as arcs, else at nodes or in steps */
+    bool use_nodes; /* else steps, where it is drawn by tables */
+    enum font_filter_way way;
+    float arc_span_px,
+        arc_bend_px; /* how far an arc may go along x and y, and beside its chord */
     double step_px;
     struct font_filter_info info;
 };

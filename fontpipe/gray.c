@@ -165,7 +165,7 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     enum font_status status = place(gray, e, f, x_px, y_px, &job);
     if (status != FONT_OK || !gray->width_px)
         return status;
-    if (e->arcs_count && !f->use_arcs) {
+    if (e->arcs_count && f->way == FONT_BY_TABLES) {
         empty(gray);
         return font_fail(FONT_BAD_ARGUMENT,
                          "edges are drawn with the filter they were made for");
@@ -176,7 +176,7 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     job.pitch = pitch;
     /* Odd blocks end up to 8 floats past the width; with more taps a block of 16 does. */
     if (e->arcs_count) {
-        job.stride = pitch;
+        job.stride = f->way == FONT_BY_AREAS ? pitch : pitch + 16;
     } else if (f->taps <= 5) {
         job.odd = pitch == 16 ? FONT_NARROW_ODD : pitch + 16;
         job.stride = pitch == 16 ? FONT_NARROW_STRIDE : 2 * pitch + 48;

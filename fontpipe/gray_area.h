@@ -19,33 +19,6 @@ struct crossings {
     float t[CROSSINGS + 1], other[CROSSINGS + 1]; /* the other coordinate there */
 };
 
-INLINE vector vector_root(vector v)
-{
-#if LANES == 16
-    return (vector)_mm512_sqrt_ps((__m512)v);
-#elif LANES == 8
-    return (vector)_mm256_sqrt_ps((__m256)v);
-#elif defined(__SSE2__)
-    return (vector)_mm_sqrt_ps((__m128)v);
-#else
-    for (int k = 0; k < LANES; k++)
-        v[k] = __builtin_sqrtf(v[k]);
-    return v;
-#endif
-}
-
-INLINE vector vector_min(vector a, vector b)
-{
-    ints mask = a < b;
-    return (vector)(((ints)a & mask) | ((ints)b & ~mask));
-}
-
-INLINE vector vector_max(vector a, vector b)
-{
-    ints mask = a > b;
-    return (vector)(((ints)a & mask) | ((ints)b & ~mask));
-}
-
 /* Whole numbers from `first` up that x + t (c + t b) passes. */
 INLINE void crossings_find(struct crossings *out, int count, float first, float x, float c,
                            float b, float other, float other_c, float other_b)

@@ -307,7 +307,10 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
     }
 }
 
+#include "gray_lanes.h"
+
 #include "gray_area.h"
+#include "gray_disc.h"
 
 /* ---- by the number of taps: loops of a known length ---- */
 
@@ -331,7 +334,10 @@ INLINE void edges_add_taps(const struct font_gray_job *job, int taps)
 void KERNEL(const struct font_gray_job *job)
 {
     if (job->arcs_count) {
-        areas_add(job);
+        if (job->filter->way == FONT_BY_AREAS)
+            areas_add(job);
+        else
+            discs_add(job);
         if (job->exact)
             rows_add_up(job, job->stride, 0, true);
         else
