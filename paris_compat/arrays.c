@@ -250,8 +250,8 @@ static bool transfer_begin(struct transfer *t, const struct paris_instruction *s
     t->processors_count = g->count;
     t->processors = malloc(g->count * t->processor.bytes);
     if (!t->processors)
-        paris_fail("not enough memory for an array of %llu elements",
-                   (unsigned long long)g->count);
+        paris_fail_memory("not enough memory for an array of %llu elements",
+                          (unsigned long long)g->count);
     return t->processors != NULL;
 }
 

@@ -67,7 +67,7 @@ static void store_pieces(struct machine *m, const struct paris_instruction *self
     struct machine_value **values =
         before ? malloc(count * sizeof(struct machine_value *)) : NULL;
     if (before && !values) {
-        paris_fail("not enough memory for a move of %u bits", dest.len);
+        paris_fail_memory("not enough memory for a move of %u bits", dest.len);
         return;
     }
     for (int pass = before ? 0 : 1; pass < 2; pass++)

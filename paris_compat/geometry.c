@@ -55,7 +55,7 @@ static CM_geometry_id_t geometry_add(const struct paris_geometry *g)
         struct paris_geometry *grown =
             realloc(paris_the.geometries, (size_t)count * sizeof *paris_the.geometries);
         if (!grown) {
-            paris_fail("not enough memory for another geometry");
+            paris_fail_memory("not enough memory for another geometry");
             return 0;
         }
         memset(grown + i, 0, (size_t)(count - i) * sizeof *grown);

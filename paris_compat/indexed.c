@@ -225,8 +225,8 @@ static bool shared_read(struct machine *m, struct shared *s, const struct indexe
     s->context = malloc(s->count);
     s->array = malloc(s->count * s->rows * s->bytes);
     if (!s->numbers || !s->indices || !s->context || !s->array) {
-        paris_fail("not enough memory for the arrays of %llu processors",
-                   (unsigned long long)s->count);
+        paris_fail_memory("not enough memory for the arrays of %llu processors",
+                          (unsigned long long)s->count);
         return false;
     }
     bool good = context_read(m, s->context) &&

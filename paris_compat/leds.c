@@ -136,7 +136,7 @@ bool paris_lights_read(uint8_t lights[PARIS_LIGHTS_BYTES])
         (uint64_t)machine_vpset_length(m, info.vpset, machine_vpset_rank(m, info.vpset) - 1);
     uint8_t *bits = malloc(count);
     if (!bits) {
-        paris_fail("not enough memory to read the lights");
+        paris_fail_memory("not enough memory to read the lights");
         return false;
     }
     bool good = paris_leds_read(bits, count) == count;

@@ -124,6 +124,8 @@ extern struct paris_state paris_the;
 
 /* Tells the error handler "<call>: <message>". */
 void paris_fail(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
+/* The same where memory was short (CM_error_memory). */
+void paris_fail_memory(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 /* The same with what the machine says. */
 void paris_fail_machine(void) PARIS_COLD;
 

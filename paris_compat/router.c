@@ -87,7 +87,7 @@ static bool pieces_begin(struct pieces *p, unsigned int bits)
     p->count = (bits + p->step - 1) / p->step;
     p->values = calloc(p->count, sizeof *p->values);
     if (!p->values)
-        paris_fail("not enough memory for a message of %u bits", bits);
+        paris_fail_memory("not enough memory for a message of %u bits", bits);
     return p->values != NULL;
 }
 

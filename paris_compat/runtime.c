@@ -16,18 +16,17 @@ struct paris_state paris_the = {.call = "Paris"};
 static struct machine_config config_now;
 static bool config_given;
 static char error_text[1024];
+static unsigned int error_status; /* CM_error_...: of what error_text says */
 static void (*error_handler)(const char *message);
 
 /* ---- errors ---- */
 
-void paris_fail(const char *format, ...)
+PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_list args)
 {
     char text[sizeof error_text - 128];
-    va_list args;
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
     snprintf(error_text, sizeof error_text, "%.100s: %s", paris_the.call, text);
+    error_status = status;
     if (paris_the.machine)
         machine_call_failed(paris_the.machine);
     if (error_handler) {
@@ -39,13 +38,53 @@ void paris_fail(const char *format, ...)
     exit(1);
 }
 
+void paris_fail(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fail(CM_error_call, format, args);
+    va_end(args);
+}
+
+void paris_fail_memory(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fail(CM_error_memory, format, args);
+    va_end(args);
+}
+
+PARIS_PRINTF(2, 3) static void fail_as(unsigned int status, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fail(status, format, args);
+    va_end(args);
+}
+
+/* NULL: there is no machine, for want of memory. */
+static unsigned int status_of(const struct machine *m)
+{
+    enum machine_status status = m ? machine_status_last(m) : MACHINE_NO_MEMORY;
+    if (status == MACHINE_NO_MEMORY)
+        return CM_error_memory;
+    return status == MACHINE_BAD_ARGUMENT ? CM_error_call : CM_error_device;
+}
+
 void paris_fail_machine(void)
 {
-    const char *said =
-        paris_the.machine ? machine_error(paris_the.machine) : "there is no machine";
-    paris_fail("%s", *said ? said : "the machine could not do it");
-    if (paris_the.machine)
-        machine_error_clear(paris_the.machine);
+    if (!paris_the.machine) {
+        fail_as(CM_error_device, "there is no machine");
+        return;
+    }
+    const char *said = machine_error(paris_the.machine);
+    fail_as(status_of(paris_the.machine), "%s", *said ? said : "the machine could not do it");
+    machine_error_clear(paris_the.machine);
+}
+
+unsigned int CM_error_status(void)
+{
+    return error_status;
 }
 
 const char *paris_error(void)
@@ -102,6 +141,7 @@ static bool machine_make(void)
         const char *said = m ? machine_error(m) : "";
         snprintf(error_text, sizeof error_text, "no Connection Machine: %s",
                  *said ? said : "not enough memory");
+        error_status = status_of(m);
         machine_destroy(m);
         return false;
     }

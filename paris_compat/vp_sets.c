@@ -55,7 +55,7 @@ CM_vp_set_id_t CM_allocate_vp_set(CM_geometry_id_t geometry)
         int *grown = realloc(paris_the.set_geometry, (size_t)count * sizeof *grown);
         if (!grown) {
             machine_vpset_destroy(m, set);
-            paris_fail("not enough memory for another VP set");
+            paris_fail_memory("not enough memory for another VP set");
             return 0;
         }
         memset(grown + paris_the.sets_count, 0,

@@ -166,7 +166,8 @@ class File:
         for open_line in opening:
             first = self.signature(lines, open_line)
             head = ATTRIBUTE.sub(" ", "\n".join(lines[first:open_line]))
-            name = next((match for match in CALLED.finditer(head) if match.group(1) not in KEYWORDS), None)
+            name = next((match for match in CALLED.finditer(head)
+                         if match.group(1) not in KEYWORDS and not match.group(1).isupper()), None)  # no macro
             after = bisect.bisect(closing, open_line)
             if name and after < len(closing):
                 static = bool(self.static.search(head, 0, name.start()))

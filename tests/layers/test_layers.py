@@ -99,6 +99,9 @@ class Layers(unittest.TestCase):
                     "low/tag.c": "struct high_do {\n    int n;\n};\n",
                     "low/array.c": "int s(int n[static 3])\n{\n    return n[0];\n}\n"})
 
+    def test_macros_before_a_function_are_not_its_name(self):
+        self.clean({"low/l.c": function("same", head="PRINTF(1, 2) static void"), "high/h.c": function("same")})
+
     def test_static_behind_a_macro_is_static(self):
         files = {"high/h.h": "#define INLINE static inline\n",
                  "high/h.c": '#include "h.h"\n' + function("step", head="INLINE void"),

@@ -88,6 +88,11 @@ void CM_set_error_handler(void (*handler)(const char *message))
     (void)handler;
 }
 
+unsigned int CM_error_status(void)
+{
+    return CM_error_none;
+}
+
 void CM_warm_boot(void)
 {
 }

@@ -20,24 +20,19 @@
 
 #include "base/base.h"
 
-#include <cm/paris.h>
+#include <kit_float.h>
+#include <kit_grid.h>
 
-enum { PAPER_AXIS_Y = 0, PAPER_AXIS_X = 1, PAPER_CHANNEL_BITS = 8, PAPER_IMAGE_BITS = 24 };
-enum { PAPER_S = 23, PAPER_E = 8, PAPER_FLOAT_BITS = PAPER_S + PAPER_E + 1 };
+enum { PAPER_CHANNEL_BITS = 8, PAPER_IMAGE_BITS = 24 };
 
 struct paper {
-    int width, height;
-    int x_bits, y_bits;
-    CM_vp_set_id_t vp_set;
-    CM_geometry_id_t geometry;
+    struct kit_grid grid;
     CM_field_id_t image;
     CM_field_id_t absorbency;
     CM_field_id_t water;
     CM_field_id_t pigment[3]; /* cyan, magenta, yellow */
     CM_field_id_t fiber_color;
-    CM_field_id_t x_coord, y_coord;
-    CM_field_id_t context,
-        inner_context; /* contexts put aside: by a rectangle, and within it */
+    CM_field_id_t inner_context; /* put aside within a rectangle of the grid */
     CM_field_id_t inflow, inward, outward, scratch;
 };
 
@@ -48,10 +43,6 @@ enum paper_status paper_attach(void);
 void paper_enter(struct paper *p);
 /* What the machine failed at since paper_enter(), as a status with its words in paper_error(). */
 enum paper_status paper_leave(struct paper *p);
-
-/* Puts the context aside and narrows it to x1 <= x < x2, y1 <= y < y2, cut off at the sheet's edges. */
-void paper_context_rectangle(struct paper *p, int x1, int y1, int x2, int y2);
-void paper_context_restore(struct paper *p);
 
 enum paper_status paper_weather_check(const struct paper_weather *weather);
 /* One cycle on any number of pigments, with a molecular weight for each; every processor is active before and after. */

@@ -81,7 +81,8 @@ enum paper_status paper_sheet_splatter(struct paper_sheet *p, const struct paper
                             s->size[0], s->size[1]);
     if (status != PAPER_OK)
         return status;
-    struct paper_screen screen = {.width_px = p->page.width, .height_px = p->page.height};
+    struct paper_screen screen = {.width_px = p->page.grid.width,
+                                  .height_px = p->page.grid.height};
     screen.gray = calloc((size_t)screen.width_px, (size_t)screen.height_px);
     if (!screen.gray)
         return paper_fail(PAPER_NO_MEMORY, "no memory for splatter");

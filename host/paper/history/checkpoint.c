@@ -11,7 +11,7 @@
 
 static size_t plane_words(const struct paper_sheet *p)
 {
-    return (size_t)p->page.width * (size_t)p->page.height;
+    return (size_t)p->page.grid.width * (size_t)p->page.grid.height;
 }
 
 static double plane_bytes(const struct paper_sheet *p)
@@ -197,7 +197,7 @@ enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, 
     enum paper_status status = PAPER_OK;
     if (!words)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
-                          p->page.width, p->page.height);
+                          p->page.grid.width, p->page.grid.height);
     for (int i = 0; i < count && status == PAPER_OK; i++) {
         status = source(context, i, words);
         if (status == PAPER_OK)
@@ -232,7 +232,7 @@ enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source sourc
         point.planes[i] = plane_new(p);
         if (!point.planes[i]) {
             status = paper_fail(PAPER_NO_MEMORY, "no memory for a saved sheet of %dx%d",
-                                p->page.width, p->page.height);
+                                p->page.grid.width, p->page.grid.height);
             break;
         }
         point.planes_count++;

@@ -146,7 +146,8 @@ static enum paper_status operation_read(struct event_reader *r, const struct pap
 {
     uint64_t kind = event_get_number(r, 1), steps = event_get_number(r, 4),
              raw = event_get_number(r, 8), stored = event_get_number(r, 8);
-    uint64_t most = 4 * (uint64_t)p->page.width * (uint64_t)p->page.height + ARGUMENTS_BESIDES;
+    uint64_t most =
+        4 * (uint64_t)p->page.grid.width * (uint64_t)p->page.grid.height + ARGUMENTS_BESIDES;
     if (r->bad)
         return damaged("an operation");
     if (kinds[kind] < 0)

@@ -31,15 +31,15 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
     for (int i = 0; i <= p->config.pigments_count; i++) {
         if (amount[i] == 0)
             continue;
-        f_times(part, share, amount[i] * p->unit);
+        kit_f_times(part, share, amount[i] * p->unit);
         if (amount[i] > 0) {
             sheet_amount_put(p, i, part);
         } else {
             CM_field_id_t q = sheet_amount_field(p, i);
             if (p->unit != 1)
-                f_whole(part);
-            f_add(q, q, part);
-            f_least(q, q, 0.0);
+                kit_f_whole(part);
+            kit_f_add(q, q, part);
+            kit_f_least(q, q, 0.0);
         }
     }
     sheet_wet_around_make(p);
@@ -98,10 +98,10 @@ enum paper_status sheet_resist(struct paper_sheet *p, const void *arguments)
     if (status != PAPER_OK)
         return status;
     if (resist->on) {
-        f_max(p->resist, p->resist, share);
+        kit_f_max(p->resist, p->resist, share);
     } else {
-        f_from(share, 1.0, share);
-        f_min(p->resist, p->resist, share);
+        kit_f_from(share, 1.0, share);
+        kit_f_min(p->resist, p->resist, share);
     }
     sheet_faces_make(p);
     return paper_leave(&p->page);
@@ -115,27 +115,27 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
     CM_field_id_t water[2] = {p->page.water, p->surface_water}, count = p->t[0];
     for (int i = 0; i < (sheet_has(p, PAPER_PART_SURFACE) ? 2 : 1); i++) {
         if (p->unit != 1) {
-            CM_u_f_truncate_2_2L(count, water[i], SHEET_DRIED_BITS, SHEET_F);
+            CM_u_f_truncate_2_2L(count, water[i], SHEET_DRIED_BITS, KIT_F);
             CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
         }
-        f_set(water[i], 0.0);
+        kit_f_set(water[i], 0.0);
     }
     for (int i = 0; i < p->config.pigments_count; i++) {
         CM_field_id_t at = sheet_has(p, PAPER_PART_FIXING) ? p->fixed[i] : p->infused[i];
         if (sheet_has(p, PAPER_PART_SURFACE)) {
-            f_add(at, at, p->surface[i]);
-            f_set(p->surface[i], 0.0);
+            kit_f_add(at, at, p->surface[i]);
+            kit_f_set(p->surface[i], 0.0);
         }
         if (sheet_has(p, PAPER_PART_FIXING)) {
-            f_add(at, at, p->infused[i]);
-            f_set(p->infused[i], 0.0);
+            kit_f_add(at, at, p->infused[i]);
+            kit_f_set(p->infused[i], 0.0);
         }
     }
     if (sheet_has(p, PAPER_PART_EDGE))
-        f_set(p->wet_around, 0.0);
+        kit_f_set(p->wet_around, 0.0);
     if (p->salted) { /* brushed off */
-        f_set(p->salt, 0.0);
-        f_set(p->brine, 0.0);
+        kit_f_set(p->salt, 0.0);
+        kit_f_set(p->brine, 0.0);
         p->salted = false;
     }
     return paper_leave(&p->page);
@@ -150,9 +150,9 @@ enum paper_status sheet_seal(struct paper_sheet *p, const void *arguments)
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]}, fields[3];
     sheet_color_make(p, color);
     for (int i = 0; i < 3; i++)
-        f_copy(p->substrate[i], color[i]);
+        kit_f_copy(p->substrate[i], color[i]);
     for (int i = 0; i < p->config.pigments_count; i++)
         for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
-            f_set(fields[j], 0.0);
+            kit_f_set(fields[j], 0.0);
     return paper_leave(&p->page);
 }

@@ -35,7 +35,8 @@ static enum paper_status brushes_make(struct paper_sheet *p)
     struct sheet_brushes *b = calloc(1, sizeof *b);
     if (!b)
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
-    b->touched = calloc((size_t)p->page.width * (size_t)p->page.height, sizeof *b->touched);
+    b->touched =
+        calloc((size_t)p->page.grid.width * (size_t)p->page.grid.height, sizeof *b->touched);
     if (!b->touched) {
         free(b);
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
@@ -50,12 +51,12 @@ static enum paper_status brushes_make(struct paper_sheet *p)
     CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers,
                                      &b->places,  &b->gotten, &b->sent};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
-        *floats[i] = CM_allocate_heap_field(PAPER_FLOAT_BITS);
+        *floats[i] = CM_allocate_heap_field(KIT_FLOAT_BITS);
     for (int i = 0; i < BRUSH_TEMPORARIES; i++)
         b->t[i] = CM_allocate_heap_field(D_BITS);
     for (int i = 0; i <= p->config.pigments_count; i++)
         b->give[i] = CM_allocate_heap_field(D_BITS);
-    CM_set_vp_set(p->page.vp_set);
+    CM_set_vp_set(p->page.grid.vp_set);
     p->brushes = b;
     return PAPER_OK;
 }
@@ -143,7 +144,7 @@ enum paper_status sheet_brush(struct paper_sheet *p, const void *arguments)
     if (status == PAPER_OK)
         status = held_write(b, own->gives, numbers, brush->bristles);
     own->there = status == PAPER_OK;
-    CM_set_vp_set(p->page.vp_set);
+    CM_set_vp_set(p->page.grid.vp_set);
     enum paper_status left = paper_leave(&p->page);
     return status == PAPER_OK ? left : status;
 }
@@ -177,7 +178,7 @@ enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substa
     paper_enter(&p->page);
     const struct sheet_brush *own = &p->brushes->brush[number];
     held_read(p->brushes, own->held[substance], grains, own->brush.bristles);
-    CM_set_vp_set(p->page.vp_set);
+    CM_set_vp_set(p->page.grid.vp_set);
     return paper_leave(&p->page);
 }
 
@@ -199,7 +200,7 @@ enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int subst
                               "a bristle holds whole grains, 0 to 2^45 (got %g)", grains[i]);
     paper_enter(&p->page);
     status = held_write(p->brushes, own->held[substance], grains, own->brush.bristles);
-    CM_set_vp_set(p->page.vp_set);
+    CM_set_vp_set(p->page.grid.vp_set);
     return status == PAPER_OK ? paper_leave(&p->page) : status;
 }
 

@@ -33,8 +33,8 @@ static void d_whole(struct sheet_brushes *b, CM_field_id_t d)
 /* dest = the float of the fiber at each place. */
 static void get(struct sheet_brushes *b, CM_field_id_t dest, CM_field_id_t source)
 {
-    CM_get_1L(b->gotten, b->address, source, PAPER_FLOAT_BITS);
-    CM_f_move_2L(dest, b->gotten, D, SHEET_F);
+    CM_get_1L(b->gotten, b->address, source, KIT_FLOAT_BITS);
+    CM_f_move_2L(dest, b->gotten, D, KIT_F);
 }
 
 static void contacts_write(struct sheet_brushes *b)
@@ -50,7 +50,7 @@ static void contacts_write(struct sheet_brushes *b)
     int size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         CM_f_write_to_news_array_1L(rows[i].values, offset, start, size, axes, rows[i].field,
-                                    SHEET_F, 2, size, CM_float_single);
+                                    KIT_F, 2, size, CM_float_single);
     CM_u_write_to_news_array_1L(b->contacts.address, offset, start, size, axes, b->address, 32,
                                 2, size, CM_32_bit);
 }
@@ -75,7 +75,7 @@ static void part_make(struct paper_sheet *p, struct sheet_brushes *b, CM_field_i
     get(b, part, p->height);
     CM_f_multiply_constant_3_1L(other, fullness, WET_REACH, D);
     CM_f_add_2_1L(part, other, D);
-    CM_f_move_2L(other, b->force, D, SHEET_F);
+    CM_f_move_2L(other, b->force, D, KIT_F);
     CM_f_multiply_constant_2_1L(other, DRY_REACH, D);
     CM_f_add_2_1L(part, other, D);
     CM_f_add_constant_2_1L(part, -1.0, D);
@@ -86,9 +86,9 @@ static void part_make(struct paper_sheet *p, struct sheet_brushes *b, CM_field_i
     CM_f_subfrom_constant_2_1L(other, 1.0, D);
     CM_f_max_constant_2_1L(other, 0.0, D);
     CM_f_multiply_2_1L(part, other, D);
-    CM_f_move_2L(other, b->contact, D, SHEET_F);
+    CM_f_move_2L(other, b->contact, D, KIT_F);
     CM_f_multiply_2_1L(part, other, D);
-    CM_f_move_2L(other, b->sharers, D, SHEET_F);
+    CM_f_move_2L(other, b->sharers, D, KIT_F);
     CM_f_divide_2_1L(part, other, D);
 }
 
@@ -103,7 +103,7 @@ static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t he
     CM_f_multiply_2_1L(share, part, D);
     CM_f_max_constant_3_1L(other, held, 1.0, D);
     CM_f_divide_2_1L(share, other, D);
-    CM_f_move_2L(other, among, D, SHEET_F);
+    CM_f_move_2L(other, among, D, KIT_F);
     CM_f_divinto_constant_2_1L(other, 1.0, D);
     CM_f_min_2_1L(share, other, D);
 }
@@ -147,7 +147,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
             get(b, there, surface ? p->surface[i - 1] : p->infused[i - 1]);
         CM_f_subfrom_constant_3_1L(room, there, GIVE_MOST * p->unit, D);
         CM_f_max_constant_2_1L(room, 0.0, D);
-        CM_f_move_2L(other, b->sharers, D, SHEET_F);
+        CM_f_move_2L(other, b->sharers, D, KIT_F);
         CM_f_divide_2_1L(room, other, D);
         CM_f_multiply_3_1L(change, give, brush->held[i], D);
         CM_f_min_2_1L(change, room, D);
@@ -162,13 +162,13 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
         CM_field_id_t dest = i == 0    ? surface ? p->surface_water : p->page.water
                              : surface ? p->surface[i - 1]
                                        : p->infused[i - 1];
-        CM_f_move_2L(b->sent, b->give[i], SHEET_F, D);
-        CM_f_gt_constant_1L(b->contact, 0.0, SHEET_F);
+        CM_f_move_2L(b->sent, b->give[i], KIT_F, D);
+        CM_f_gt_constant_1L(b->contact, 0.0, KIT_F);
         CM_logand_context_with_test();
-        CM_send_with_f_add_1L(dest, b->address, b->sent, SHEET_F, CM_no_field);
+        CM_send_with_f_add_1L(dest, b->address, b->sent, KIT_F, CM_no_field);
         CM_set_context();
     }
-    CM_set_vp_set(p->page.vp_set);
+    CM_set_vp_set(p->page.grid.vp_set);
     CM_set_context();
     sheet_wet_around_make(p);
     CM_warm_boot(); /* so that what comes next begins like any other: a step needs no kernels of its own */

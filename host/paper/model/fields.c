@@ -28,25 +28,19 @@ void sheet_fields_make(struct paper_sheet *p)
         &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around,
         &p->varnish,         &p->salt,         &p->brine};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
-        *floats[i] = field_make(PAPER_FLOAT_BITS);
+        *floats[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < p->config.pigments_count; i++) {
-        p->surface[i] = field_make(PAPER_FLOAT_BITS);
-        p->infused[i] = field_make(PAPER_FLOAT_BITS);
-        p->fixed[i] = field_make(PAPER_FLOAT_BITS);
+        p->surface[i] = field_make(KIT_FLOAT_BITS);
+        p->infused[i] = field_make(KIT_FLOAT_BITS);
+        p->fixed[i] = field_make(KIT_FLOAT_BITS);
     }
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
-        p->t[i] = field_make(PAPER_FLOAT_BITS);
+        p->t[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < 3; i++)
         p->shown[i] = field_make(16);
     p->dried = field_make(SHEET_DRIED_BITS);
     p->mask = field_make(8);
-    p->page.context = field_make(1);
     p->page.inner_context = field_make(1);
-    p->page.x_coord = field_make((unsigned)p->page.x_bits);
-    p->page.y_coord = field_make((unsigned)p->page.y_bits);
-    CM_set_context();
-    CM_my_news_coordinate_1L(p->page.x_coord, PAPER_AXIS_X, (unsigned)p->page.x_bits);
-    CM_my_news_coordinate_1L(p->page.y_coord, PAPER_AXIS_Y, (unsigned)p->page.y_bits);
 }
 
 /* Fills with zeros what changes from step to step. The machine knows that a field is 0 until it is written, and makes
@@ -64,14 +58,15 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
         fields[count++] = p->wet_around;
     for (int i = 0; i < p->config.pigments_count; i++)
         count += sheet_pigment_fields(p, i, fields + count);
-    float *zeros = calloc((size_t)p->page.width * (size_t)p->page.height, sizeof *zeros);
+    float *zeros =
+        calloc((size_t)p->page.grid.width * (size_t)p->page.grid.height, sizeof *zeros);
     if (!zeros)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", p->page.width,
-                          p->page.height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", p->page.grid.width,
+                          p->page.grid.height);
     for (int i = 0; i < count; i++)
-        f_array_write(p, fields[i], zeros);
+        kit_grid_f_write(&p->page.grid, fields[i], zeros);
     if (p->config.parts)
-        u_array_write(p, p->dried, SHEET_DRIED_BITS, zeros, CM_32_bit);
+        kit_grid_u_write(&p->page.grid, p->dried, SHEET_DRIED_BITS, zeros, CM_32_bit);
     free(zeros);
     return PAPER_OK;
 }

@@ -70,7 +70,7 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
     if (status == PAPER_OK && part && !sheet_has(p, part))
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "pigments have no such layer in this model of the paper");
-    size_t width = (size_t)p->page.width, count = width * (size_t)p->page.height;
+    size_t width = (size_t)p->page.grid.width, count = width * (size_t)p->page.grid.height;
     for (size_t i = 0; i < count && status == PAPER_OK; i++)
         if (isnan(event->values[i]))
             return paper_fail(PAPER_BAD_ARGUMENT, "the value at %zu, %zu is not a number",
@@ -85,20 +85,20 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     const float *values = event->values;
     CM_field_id_t field = sheet_layer_field(p, layer, event->pigment);
     enum paper_status status = PAPER_OK;
-    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     double unit = layers[layer].amount ? p->unit : 1;
     double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
     float *cut = malloc(count * sizeof *cut);
     if (!cut)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.width,
-                          p->page.height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.grid.width,
+                          p->page.grid.height);
     for (size_t i = 0; i < count; i++) {
         double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
     paper_enter(&p->page);
     CM_set_context();
-    f_array_write(p, field, cut);
+    kit_grid_f_write(&p->page.grid, field, cut);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
     if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
@@ -120,12 +120,12 @@ enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer
     paper_enter(&p->page);
     CM_set_context();
     if (layer == PAPER_LAYER_DRIED_WATER) {
-        CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, SHEET_F);
+        CM_f_u_float_2_2L(p->t[0], field, SHEET_DRIED_BITS, KIT_F);
         field = p->t[0];
     }
-    f_array_read(p, values, field);
+    kit_grid_f_read(&p->page.grid, values, field);
     status = paper_leave(&p->page);
-    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     if (layers[layer].amount && p->unit != 1)
         for (size_t i = 0; i < count; i++)
             values[i] *= (float)(1 / p->unit);
@@ -135,7 +135,7 @@ enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer
 /* Sum of whole numbers, in doubles: exact up to 2^53 grains. */
 static double field_total(CM_field_id_t field, CM_field_id_t wide)
 {
-    CM_f_move_2L(wide, field, 52, 11, SHEET_F);
+    CM_f_move_2L(wide, field, 52, 11, KIT_F);
     return CM_global_f_add_1L(wide, 52, 11);
 }
 

@@ -1,4 +1,4 @@
-/* model.h - the fields of a sheet with pigments, and short names of the Paris calls on its floats. */
+/* model.h - the fields of a sheet with pigments, and what the files of this folder do with them. */
 #ifndef LUTETIA_PAPER_SHEET_INTERNAL_H
 #define LUTETIA_PAPER_SHEET_INTERNAL_H
 
@@ -161,135 +161,11 @@ void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
 /* Varnish over the colours. Uses t[0..3]. */
 void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3]);
 
-/* ---- Paris, for single floats ---- */
-
-#define SHEET_F PAPER_S, PAPER_E
-
-static inline void f_add(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_add_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_sub(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_subtract_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_mul(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_multiply_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_div(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_divide_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_min(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_min_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_max(CM_field_id_t d, CM_field_id_t a, CM_field_id_t b)
-{
-    CM_f_max_3_1L(d, a, b, SHEET_F);
-}
-
-static inline void f_plus(CM_field_id_t d, CM_field_id_t a, double n)
-{
-    CM_f_add_constant_3_1L(d, a, n, SHEET_F);
-}
-
-static inline void f_times(CM_field_id_t d, CM_field_id_t a, double n)
-{
-    CM_f_multiply_constant_3_1L(d, a, n, SHEET_F);
-}
-
-/* d = n - a */
-static inline void f_from(CM_field_id_t d, double n, CM_field_id_t a)
-{
-    CM_f_subfrom_constant_3_1L(d, a, n, SHEET_F);
-}
-
-static inline void f_most(CM_field_id_t d, CM_field_id_t a, double n)
-{
-    CM_f_min_constant_3_1L(d, a, n, SHEET_F);
-}
-
-static inline void f_least(CM_field_id_t d, CM_field_id_t a, double n)
-{
-    CM_f_max_constant_3_1L(d, a, n, SHEET_F);
-}
-
-/* Rounds to a whole number: adding 3 * 2^22 leaves no place for a fraction. To the nearest up to 2^22, to an even one near
- * it up to 2^24; nothing is rounded away from that. */
-#define SHEET_WHOLE 12582912.0
-static inline void f_whole(CM_field_id_t d)
-{
-    CM_f_add_constant_2_1L(d, SHEET_WHOLE, SHEET_F);
-    CM_f_subtract_constant_2_1L(d, SHEET_WHOLE, SHEET_F);
-}
-
 /* d becomes whole and is at most q, which is whole. */
-static inline void f_whole_of(CM_field_id_t d, CM_field_id_t q)
+static inline void sheet_whole_of(CM_field_id_t d, CM_field_id_t q)
 {
-    f_whole(d);
-    f_min(d, d, q);
-}
-
-static inline void f_copy(CM_field_id_t d, CM_field_id_t a)
-{
-    CM_f_move_1L(d, a, SHEET_F);
-}
-
-static inline void f_set(CM_field_id_t d, double n)
-{
-    CM_f_move_constant_1L(d, n, SHEET_F);
-}
-
-/* Whole sheets in and out: rows from the top; unsigned numbers of `bits`, of `type` in the array. */
-static inline void f_array_write(const struct paper_sheet *p, CM_field_id_t d,
-                                 const void *floats)
-{
-    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-        size[2] = {p->page.height, p->page.width};
-    CM_f_write_to_news_array_1L(floats, zeros, zeros, size, axes, d, SHEET_F, 2, size,
-                                CM_float_single);
-}
-
-static inline void f_array_read(const struct paper_sheet *p, void *floats, CM_field_id_t a)
-{
-    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-        size[2] = {p->page.height, p->page.width};
-    CM_f_read_from_news_array_1L(floats, zeros, zeros, size, axes, a, SHEET_F, 2, size,
-                                 CM_float_single);
-}
-
-static inline void u_array_write(const struct paper_sheet *p, CM_field_id_t d, unsigned bits,
-                                 const void *numbers, unsigned type)
-{
-    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-        size[2] = {p->page.height, p->page.width};
-    CM_u_write_to_news_array_1L(numbers, zeros, zeros, size, axes, d, bits, 2, size, type);
-}
-
-static inline void u_array_read(const struct paper_sheet *p, void *numbers, CM_field_id_t a,
-                                unsigned bits, unsigned type)
-{
-    int zeros[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X},
-        size[2] = {p->page.height, p->page.width};
-    CM_u_read_from_news_array_1L(numbers, zeros, zeros, size, axes, a, bits, 2, size, type);
-}
-
-/* d = the neighbour's whose coordinate is one greater (less) */
-static inline void f_next(CM_field_id_t d, CM_field_id_t a, unsigned axis)
-{
-    CM_get_from_news_1L(d, a, axis, CM_upward, PAPER_FLOAT_BITS);
-}
-
-static inline void f_previous(CM_field_id_t d, CM_field_id_t a, unsigned axis)
-{
-    CM_get_from_news_1L(d, a, axis, CM_downward, PAPER_FLOAT_BITS);
+    kit_f_whole(d);
+    kit_f_min(d, d, q);
 }
 
 #endif

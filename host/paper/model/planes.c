@@ -101,7 +101,7 @@ enum paper_status sheet_plane_check(const struct paper_sheet *p, int number, con
     struct place places[PAPER_PLANES_MAX];
     planes_make(&p->config, planes, places);
     const struct place *place = &places[number];
-    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     const uint32_t *whole = words;
     const float *values = words;
     bool good = true, grains = place->amount && p->unit != 1;
@@ -121,9 +121,9 @@ enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *wor
     paper_enter(&p->page);
     CM_set_context();
     if (whole)
-        u_array_read(p, words, field, SHEET_DRIED_BITS, CM_32_bit);
+        kit_grid_u_read(&p->page.grid, words, field, SHEET_DRIED_BITS, CM_32_bit);
     else
-        f_array_read(p, words, field);
+        kit_grid_f_read(&p->page.grid, words, field);
     return paper_leave(&p->page);
 }
 
@@ -133,9 +133,9 @@ void sheet_plane_write(struct paper_sheet *p, int number, const void *words)
     CM_field_id_t field = plane_field(p, number, &whole);
     CM_set_context();
     if (whole)
-        u_array_write(p, field, SHEET_DRIED_BITS, words, CM_32_bit);
+        kit_grid_u_write(&p->page.grid, field, SHEET_DRIED_BITS, words, CM_32_bit);
     else
-        f_array_write(p, field, words);
+        kit_grid_f_write(&p->page.grid, field, words);
 }
 
 void sheet_planes_written(struct paper_sheet *p)

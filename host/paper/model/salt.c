@@ -66,7 +66,7 @@ enum paper_status sheet_salt_check(const struct paper_sheet *p, const void *argu
 enum paper_status sheet_salt(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_salt *s = arguments;
-    int width = p->page.width, height = p->page.height;
+    int width = p->page.grid.width, height = p->page.grid.height;
     size_t count = (size_t)width * (size_t)height;
     float *salt = malloc(count * sizeof *salt);
     if (!salt)
@@ -99,34 +99,34 @@ static void brine_spread(struct paper_sheet *p, CM_field_id_t wet)
 {
     CM_field_id_t open = p->t[1], other = p->t[2], flow[2] = {p->t[3], p->t[4]},
                   source = p->t[5];
-    f_times(source, wet, -DISSOLVING);
-    f_plus(source, source, 1.0);
-    f_mul(p->salt, p->salt, source);
-    f_mul(source, p->salt, wet);
-    f_times(source, source, 2.0); /* half a grain still saturates */
-    f_most(source, source, 1.0);
-    f_max(p->brine, p->brine, source);
+    kit_f_times(source, wet, -DISSOLVING);
+    kit_f_plus(source, source, 1.0);
+    kit_f_mul(p->salt, p->salt, source);
+    kit_f_mul(source, p->salt, wet);
+    kit_f_times(source, source, 2.0); /* half a grain still saturates */
+    kit_f_most(source, source, 1.0);
+    kit_f_max(p->brine, p->brine, source);
     for (unsigned axis = 0; axis < 2; axis++) {
-        f_next(open, wet, axis);
-        f_min(open, open, wet);
+        kit_f_next(open, wet, axis);
+        kit_f_min(open, open, wet);
         /* along fibers that absorb well it goes further: its rim is ragged */
-        f_times(other, p->face[axis], SPREADING / fmax(p->config.stock.absorbency, 1e-3));
-        f_most(other, other, SPREADING);
-        f_mul(open, open, other);
-        f_next(other, p->brine, axis);
-        f_sub(flow[axis], p->brine, other);
-        f_mul(flow[axis], flow[axis], open);
+        kit_f_times(other, p->face[axis], SPREADING / fmax(p->config.stock.absorbency, 1e-3));
+        kit_f_most(other, other, SPREADING);
+        kit_f_mul(open, open, other);
+        kit_f_next(other, p->brine, axis);
+        kit_f_sub(flow[axis], p->brine, other);
+        kit_f_mul(flow[axis], flow[axis], open);
     }
     for (unsigned axis = 0; axis < 2;
          axis++) { /* no whole numbers: the order of sums must be alike too */
-        f_previous(other, flow[axis], axis);
-        f_sub(flow[axis], other, flow[axis]);
+        kit_f_previous(other, flow[axis], axis);
+        kit_f_sub(flow[axis], other, flow[axis]);
     }
-    f_add(flow[0], flow[0], flow[1]);
-    f_add(p->brine, p->brine, flow[0]);
-    f_times(p->brine, p->brine, 1 - SPREADING / (p->salt_reach * p->salt_reach + 1));
-    f_plus(p->brine, p->brine, -BRINE_LEAST);
-    f_least(p->brine, p->brine, 0.0);
+    kit_f_add(flow[0], flow[0], flow[1]);
+    kit_f_add(p->brine, p->brine, flow[0]);
+    kit_f_times(p->brine, p->brine, 1 - SPREADING / (p->salt_reach * p->salt_reach + 1));
+    kit_f_plus(p->brine, p->brine, -BRINE_LEAST);
+    kit_f_least(p->brine, p->brine, 0.0);
 }
 
 void sheet_salt_step(struct paper_sheet *p)
@@ -135,30 +135,30 @@ void sheet_salt_step(struct paper_sheet *p)
     CM_field_id_t up[2] = {p->t[7], p->t[8]}, down[2] = {p->t[9], p->t[10]};
     bool surface = sheet_has(p, PAPER_PART_SURFACE);
     if (surface)
-        f_add(wet, p->page.water, p->surface_water);
+        kit_f_add(wet, p->page.water, p->surface_water);
     else
-        f_copy(wet, p->page.water);
-    f_times(wet, wet, 1 / (WET_FULL * p->unit));
-    f_most(wet, wet, 1.0);
+        kit_f_copy(wet, p->page.water);
+    kit_f_times(wet, wet, 1 / (WET_FULL * p->unit));
+    kit_f_most(wet, wet, 1.0);
     brine_spread(p, wet);
     sheet_room_make(p, room);
     for (unsigned axis = 0; axis < 2; axis++) {
-        f_next(other, p->brine, axis);
-        f_sub(up[axis], p->brine, other);
-        f_times(up[axis], up[axis], p->salt_strength);
-        f_next(other, wet, axis);
-        f_min(other, other, wet);
-        f_mul(up[axis], up[axis], other);
-        f_times(down[axis], up[axis], -1.0);
-        f_times(other, p->face[axis], 1e6); /* 0 where it is closed */
-        f_most(other, other, PUSH_MOST);
-        f_min(up[axis], up[axis], other);
-        f_min(down[axis], down[axis], other);
-        f_least(up[axis], up[axis], 0.0);
-        f_least(down[axis], down[axis], 0.0);
-        f_next(other, room, axis);
-        f_mul(up[axis], up[axis], other);
-        f_mul(down[axis], down[axis], room);
+        kit_f_next(other, p->brine, axis);
+        kit_f_sub(up[axis], p->brine, other);
+        kit_f_times(up[axis], up[axis], p->salt_strength);
+        kit_f_next(other, wet, axis);
+        kit_f_min(other, other, wet);
+        kit_f_mul(up[axis], up[axis], other);
+        kit_f_times(down[axis], up[axis], -1.0);
+        kit_f_times(other, p->face[axis], 1e6); /* 0 where it is closed */
+        kit_f_most(other, other, PUSH_MOST);
+        kit_f_min(up[axis], up[axis], other);
+        kit_f_min(down[axis], down[axis], other);
+        kit_f_least(up[axis], up[axis], 0.0);
+        kit_f_least(down[axis], down[axis], 0.0);
+        kit_f_next(other, room, axis);
+        kit_f_mul(up[axis], up[axis], other);
+        kit_f_mul(down[axis], down[axis], room);
     }
     for (int i = 0; i < p->config.pigments_count; i++)
         for (int layer = surface ? 0 : 1; layer < 2; layer++) {
@@ -171,8 +171,8 @@ void sheet_salt_step(struct paper_sheet *p)
     if (!surface)
         return;
     for (unsigned axis = 0; axis < 2; axis++) { /* water comes from where pigment goes */
-        f_times(up[axis], up[axis], DRAW);
-        f_times(down[axis], down[axis], DRAW);
+        kit_f_times(up[axis], up[axis], DRAW);
+        kit_f_times(down[axis], down[axis], DRAW);
         sheet_flow_make(p, flow[axis], down[axis], up[axis], p->surface_water, axis);
     }
     for (unsigned axis = 0; axis < 2; axis++)

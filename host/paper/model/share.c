@@ -23,10 +23,10 @@ enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_pla
     const struct paper_screen *screen = place->screen;
     int x = place->x, y = place->y;
     if (!screen) {
-        f_set(share, 1.0);
+        kit_f_set(share, 1.0);
         return PAPER_OK;
     }
-    int width = p->page.width, height = p->page.height;
+    int width = p->page.grid.width, height = p->page.grid.height;
     uint8_t *gray = calloc((size_t)height, (size_t)width);
     if (!gray)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", width, height);
@@ -36,26 +36,26 @@ enum paper_status sheet_share_make(struct paper_sheet *p, const struct paper_pla
         memcpy(gray + (size_t)row * (size_t)width + x1,
                screen->gray + (size_t)(row - y) * (size_t)screen->width_px + (x1 - x),
                (size_t)(x2 - x1));
-    u_array_write(p, p->mask, 8, gray, CM_8_bit);
-    CM_f_u_float_2_2L(share, p->mask, 8, SHEET_F);
-    f_times(share, share, 1 / 255.0);
+    kit_grid_u_write(&p->page.grid, p->mask, 8, gray, CM_8_bit);
+    CM_f_u_float_2_2L(share, p->mask, 8, KIT_F);
+    kit_f_times(share, share, 1 / 255.0);
     free(gray);
     return PAPER_OK;
 }
 
 void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t open)
 {
-    f_from(open, 1.0, p->resist);
-    f_least(open, open, 0.0);
-    f_mul(share, share, open);
+    kit_f_from(open, 1.0, p->resist);
+    kit_f_least(open, open, 0.0);
+    kit_f_mul(share, share, open);
 }
 
 void sheet_wet_around_make(struct paper_sheet *p)
 {
     if (!sheet_has(p, PAPER_PART_EDGE))
         return;
-    f_most(p->t[0], p->surface_water, 1.0);
-    f_max(p->wet_around, p->wet_around, p->t[0]);
+    kit_f_most(p->t[0], p->surface_water, 1.0);
+    kit_f_max(p->wet_around, p->wet_around, p->t[0]);
 }
 
 CM_field_id_t sheet_amount_field(const struct paper_sheet *p, int substance)
@@ -71,21 +71,21 @@ void sheet_amount_put(struct paper_sheet *p, int substance, CM_field_id_t part)
     CM_field_id_t q = sheet_amount_field(p, substance), left = p->t[3], fields[3] = {q};
     int count = substance == 0 ? 1 : sheet_pigment_fields(p, substance - 1, fields);
     if (p->unit != 1)
-        f_whole(part);
-    f_from(left, (p->unit == 1 ? 1 : SHEET_PUT_MOST) * p->unit, fields[0]);
+        kit_f_whole(part);
+    kit_f_from(left, (p->unit == 1 ? 1 : SHEET_PUT_MOST) * p->unit, fields[0]);
     for (int i = 1; i < count; i++)
-        f_sub(left, left, fields[i]);
-    f_least(left, left, 0.0);
-    f_min(part, part, left);
-    f_add(q, q, part);
+        kit_f_sub(left, left, fields[i]);
+    kit_f_least(left, left, 0.0);
+    kit_f_min(part, part, left);
+    kit_f_add(q, q, part);
 }
 
 void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t share, double part,
                        CM_field_id_t lost)
 {
-    f_times(lost, share, part);
-    f_mul(lost, lost, q);
+    kit_f_times(lost, share, part);
+    kit_f_mul(lost, lost, q);
     if (p->unit != 1)
-        f_whole_of(lost, q);
-    f_sub(q, q, lost);
+        sheet_whole_of(lost, q);
+    kit_f_sub(q, q, lost);
 }

@@ -52,14 +52,6 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
 
 /* ---- life ---- */
 
-static int coordinate_bits(int length)
-{
-    int bits = 1;
-    while (bits < 31 && (1 << bits) < length)
-        bits++;
-    return bits;
-}
-
 /* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
 static enum paper_status fresh_make(struct paper_sheet *p)
 {
@@ -83,19 +75,12 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
     p->air = paper_air_default();
     p->salt_reach = 10;
     p->salt_strength = 1;
-    p->page.width = config->width;
-    p->page.height = config->height;
-    p->page.x_bits = coordinate_bits(config->width);
-    p->page.y_bits = coordinate_bits(config->height);
     status = paper_attach();
     if (status != PAPER_OK) {
         free(p);
         return status;
     }
-    int dimensions[2] = {config->height, config->width};
-    p->page.geometry = CM_create_geometry(dimensions, 2);
-    p->page.vp_set = CM_allocate_vp_set(p->page.geometry);
-    paper_enter(&p->page);
+    kit_grid_make(&p->page.grid, config->width, config->height);
     sheet_fields_make(p);
     status = fresh_make(p);
     if (status == PAPER_OK)
@@ -113,8 +98,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
 void sheet_destroy(struct paper_sheet *p)
 {
     sheet_brushes_destroy(p);
-    CM_deallocate_vp_set(p->page.vp_set); /* its fields go too */
-    CM_deallocate_geometry(p->page.geometry);
+    kit_grid_free(&p->page.grid);
     free(p);
 }
 
@@ -135,12 +119,12 @@ enum paper_status sheet_reset(struct paper_sheet *p)
 {
     paper_enter(&p->page);
     CM_set_context();
-    f_set(p->resist, 0.0);
-    f_set(p->wet_around, 0.0);
-    f_set(p->surface_water, 0.0);
-    f_set(p->varnish, 0.0);
-    f_set(p->salt, 0.0);
-    f_set(p->brine, 0.0);
+    kit_f_set(p->resist, 0.0);
+    kit_f_set(p->wet_around, 0.0);
+    kit_f_set(p->surface_water, 0.0);
+    kit_f_set(p->varnish, 0.0);
+    kit_f_set(p->salt, 0.0);
+    kit_f_set(p->brine, 0.0);
     sheet_extras_reset(p);
     CM_u_move_constant_1L(p->dried, 0, SHEET_DRIED_BITS);
     p->air = paper_air_default();

@@ -60,7 +60,7 @@ struct paper_air paper_air_default(void)
 /* d = 0 where q is, 1 where there is a grain of it */
 static void present(CM_field_id_t d, CM_field_id_t q)
 {
-    f_most(d, q, 1.0);
+    kit_f_most(d, q, 1.0);
 }
 
 /* ---- in each fiber ---- */
@@ -69,30 +69,30 @@ static void present(CM_field_id_t d, CM_field_id_t q)
 static void absorb(struct paper_sheet *p)
 {
     CM_field_id_t taken = p->t[0], part = p->t[1], moved = p->t[2], dry = p->t[3];
-    f_times(taken, p->page.absorbency, p->air.absorption);
-    f_mul(taken, taken, p->surface_water);
-    f_times(part, p->capacity, p->unit);
-    f_sub(part, part, p->page.water);
-    f_min(taken, taken, part);
-    f_least(taken, taken, 0.0);
-    f_whole_of(taken, p->surface_water);
-    f_least(part, p->surface_water, 1.0);
-    f_div(part, taken, part);
-    f_sub(p->surface_water, p->surface_water, taken);
-    f_add(p->page.water, p->page.water, taken);
+    kit_f_times(taken, p->page.absorbency, p->air.absorption);
+    kit_f_mul(taken, taken, p->surface_water);
+    kit_f_times(part, p->capacity, p->unit);
+    kit_f_sub(part, part, p->page.water);
+    kit_f_min(taken, taken, part);
+    kit_f_least(taken, taken, 0.0);
+    sheet_whole_of(taken, p->surface_water);
+    kit_f_least(part, p->surface_water, 1.0);
+    kit_f_div(part, taken, part);
+    kit_f_sub(p->surface_water, p->surface_water, taken);
+    kit_f_add(p->page.water, p->page.water, taken);
     if (!sheet_has(p, PAPER_PART_FIXING)) { /* what has fallen dry is in the fibers */
         present(dry, p->surface_water);
-        f_from(dry, 1.0, dry);
+        kit_f_from(dry, 1.0, dry);
     }
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *weight = p->config.pigments[i].weight;
-        f_times(moved, part, fmax(weight[0], weight[1]));
+        kit_f_times(moved, part, fmax(weight[0], weight[1]));
         if (!sheet_has(p, PAPER_PART_FIXING))
-            f_max(moved, moved, dry);
-        f_mul(moved, moved, p->surface[i]);
-        f_whole_of(moved, p->surface[i]);
-        f_sub(p->surface[i], p->surface[i], moved);
-        f_add(p->infused[i], p->infused[i], moved);
+            kit_f_max(moved, moved, dry);
+        kit_f_mul(moved, moved, p->surface[i]);
+        sheet_whole_of(moved, p->surface[i]);
+        kit_f_sub(p->surface[i], p->surface[i], moved);
+        kit_f_add(p->infused[i], p->infused[i], moved);
     }
 }
 
@@ -106,61 +106,61 @@ static void settle(struct paper_sheet *p)
     present(damp, p->page.water);
     if (surface) {
         present(wet, p->surface_water);
-        f_from(dry, 1.0, wet);
-        f_mul(damp, damp, dry); /* lifted into the fibers */
+        kit_f_from(dry, 1.0, wet);
+        kit_f_mul(damp, damp, dry); /* lifted into the fibers */
     }
     for (int i = 0; i < p->config.pigments_count; i++) {
         const struct paper_pigment *pigment = &p->config.pigments[i];
         double pace = p->air.settling * pigment->density;
-        f_times(rate, p->height, -pace * pigment->granulation);
-        f_plus(rate, rate, pace);
-        f_times(up, p->height, pace / pigment->staining * pigment->granulation);
-        f_plus(up, up, pace / pigment->staining * (1 - pigment->granulation));
+        kit_f_times(rate, p->height, -pace * pigment->granulation);
+        kit_f_plus(rate, rate, pace);
+        kit_f_times(up, p->height, pace / pigment->staining * pigment->granulation);
+        kit_f_plus(up, up, pace / pigment->staining * (1 - pigment->granulation));
         if (pace > 0.5 || pace / pigment->staining > 0.5) { /* else they are within 0..1 */
-            f_most(rate, rate, 1.0);
-            f_least(rate, rate, 0.0);
-            f_most(up, up, 1.0);
-            f_least(up, up, 0.0);
+            kit_f_most(rate, rate, 1.0);
+            kit_f_least(rate, rate, 0.0);
+            kit_f_most(up, up, 1.0);
+            kit_f_least(up, up, 0.0);
         }
-        f_mul(up, up, p->fixed[i]);
-        f_whole_of(up, p->fixed[i]);
+        kit_f_mul(up, up, p->fixed[i]);
+        sheet_whole_of(up, p->fixed[i]);
 
-        f_mul(seeped, rate, p->infused[i]);
+        kit_f_mul(seeped, rate, p->infused[i]);
         if (surface) { /* with water above, settling from the fibers waits */
-            f_max(part, rate, dry);
-            f_mul(down, part, p->surface[i]);
-            f_whole_of(down, p->surface[i]);
-            f_mul(part, up, wet);
-            f_sub(down, down, part);
-            f_sub(p->surface[i], p->surface[i], down);
-            f_add(p->fixed[i], p->fixed[i], down);
+            kit_f_max(part, rate, dry);
+            kit_f_mul(down, part, p->surface[i]);
+            sheet_whole_of(down, p->surface[i]);
+            kit_f_mul(part, up, wet);
+            kit_f_sub(down, down, part);
+            kit_f_sub(p->surface[i], p->surface[i], down);
+            kit_f_add(p->fixed[i], p->fixed[i], down);
         }
-        f_mul(seeped, seeped, damp);
-        f_whole_of(seeped, p->infused[i]);
-        f_mul(up, up, damp);
-        f_sub(up, up, seeped);
-        f_add(p->infused[i], p->infused[i], up);
-        f_sub(p->fixed[i], p->fixed[i], up);
+        kit_f_mul(seeped, seeped, damp);
+        sheet_whole_of(seeped, p->infused[i]);
+        kit_f_mul(up, up, damp);
+        kit_f_sub(up, up, seeped);
+        kit_f_add(p->infused[i], p->infused[i], up);
+        kit_f_sub(p->fixed[i], p->fixed[i], up);
     }
 }
 
 /* d = how wet a fiber counts: surface water, or fibers more than damp; 0..1. */
 static void wetness(const struct paper_sheet *p, CM_field_id_t d)
 {
-    f_plus(d, p->page.water, -floor(p->air.damp * p->unit));
-    f_least(d, d, 0.0);
-    f_add(d, d, p->surface_water);
-    f_most(d, d, 1.0);
+    kit_f_plus(d, p->page.water, -floor(p->air.damp * p->unit));
+    kit_f_least(d, d, 0.0);
+    kit_f_add(d, d, p->surface_water);
+    kit_f_most(d, d, 1.0);
 }
 
 /* q loses at most `loss`, which is kept count of. Uses t[8]. */
 static void dry_up(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t loss)
 {
     CM_field_id_t count = p->t[8];
-    f_min(loss, loss, q);
-    f_whole_of(loss, q);
-    f_sub(q, q, loss);
-    CM_u_f_truncate_2_2L(count, loss, SHEET_DRIED_BITS, SHEET_F);
+    kit_f_min(loss, loss, q);
+    sheet_whole_of(loss, q);
+    kit_f_sub(q, q, loss);
+    CM_u_f_truncate_2_2L(count, loss, SHEET_DRIED_BITS, KIT_F);
     CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
 }
 
@@ -174,35 +174,35 @@ static void evaporate(struct paper_sheet *p)
     double grains = p->air.humidity * p->unit;
     if (sheet_has(p, PAPER_PART_EDGE) && p->air.edge > 0) {
         wetness(p, wet);
-        f_next(sum, p->wet_around, PAPER_AXIS_X);
-        f_previous(other, p->wet_around, PAPER_AXIS_X);
-        f_add(sum, sum, other);
-        f_next(around, p->wet_around, PAPER_AXIS_Y);
-        f_previous(other, p->wet_around, PAPER_AXIS_Y);
-        f_add(around, around, other);
-        f_add(around, around, sum);
-        f_times(around, around, 0.25);
+        kit_f_next(sum, p->wet_around, KIT_AXIS_X);
+        kit_f_previous(other, p->wet_around, KIT_AXIS_X);
+        kit_f_add(sum, sum, other);
+        kit_f_next(around, p->wet_around, KIT_AXIS_Y);
+        kit_f_previous(other, p->wet_around, KIT_AXIS_Y);
+        kit_f_add(around, around, other);
+        kit_f_add(around, around, sum);
+        kit_f_times(around, around, 0.25);
         double relax = 1 / (1 + 4 * p->air.edge_width * p->air.edge_width);
-        f_times(around, around, 1 - relax);
-        f_times(other, wet, relax);
-        f_add(p->wet_around, around, other);
-        f_plus(p->wet_around, p->wet_around,
-               -AROUND_LEAST); /* no endless tail of tiny numbers */
-        f_least(p->wet_around, p->wet_around, 0.0);
-        f_from(loss, 1.0, p->wet_around);
-        f_least(loss, loss, 0.0);
-        f_mul(loss, loss, wet);
-        f_times(loss, loss, grains * p->air.edge);
-        f_plus(loss, loss, grains);
+        kit_f_times(around, around, 1 - relax);
+        kit_f_times(other, wet, relax);
+        kit_f_add(p->wet_around, around, other);
+        kit_f_plus(p->wet_around, p->wet_around,
+                   -AROUND_LEAST); /* no endless tail of tiny numbers */
+        kit_f_least(p->wet_around, p->wet_around, 0.0);
+        kit_f_from(loss, 1.0, p->wet_around);
+        kit_f_least(loss, loss, 0.0);
+        kit_f_mul(loss, loss, wet);
+        kit_f_times(loss, loss, grains * p->air.edge);
+        kit_f_plus(loss, loss, grains);
     } else {
-        f_set(loss, grains);
+        kit_f_set(loss, grains);
     }
-    f_copy(around, loss);
+    kit_f_copy(around, loss);
     if (sheet_has(p, PAPER_PART_SURFACE)) {
         present(wet, p->surface_water); /* before it dries */
         dry_up(p, p->surface_water, loss);
-        f_from(wet, 1.0, wet);
-        f_mul(around, around, wet);
+        kit_f_from(wet, 1.0, wet);
+        kit_f_mul(around, around, wet);
     }
     dry_up(p, p->page.water, around);
 }
@@ -225,8 +225,8 @@ static void faces_init(const struct paper_sheet *p, struct faces faces[2])
 
 static void faces_below(const struct faces *faces, unsigned axis)
 {
-    f_previous(faces->out_below, faces->out, axis);
-    f_previous(faces->in_below, faces->in, axis);
+    kit_f_previous(faces->out_below, faces->out, axis);
+    kit_f_previous(faces->in_below, faces->in, axis);
 }
 
 /* All parts times weight. Uses t[7..10], t[16 + ...]. */
@@ -238,39 +238,39 @@ static void faces_weigh(const struct paper_sheet *p, struct faces *d, const stru
         return;
     *d = (struct faces){p->t[4 + 4 * axis], p->t[5 + 4 * axis], p->t[6 + 4 * axis],
                         p->t[7 + 4 * axis]};
-    f_times(d->out, faces->out, weight);
-    f_times(d->in, faces->in, weight);
-    f_times(d->out_below, faces->out_below, weight);
-    f_times(d->in_below, faces->in_below, weight);
+    kit_f_times(d->out, faces->out, weight);
+    kit_f_times(d->in, faces->in, weight);
+    kit_f_times(d->out_below, faces->out_below, weight);
+    kit_f_times(d->in_below, faces->in_below, weight);
 }
 
-/* d = out * lower + in * upper, rounded to whole grains, and SHEET_WHOLE more. Uses t[14]. */
+/* d = out * lower + in * upper, rounded to whole grains, and KIT_WHOLE more. Uses t[14]. */
 static void grains_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
                         CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
 {
     CM_field_id_t part = p->t[14];
-    f_mul(part, upper, in);
-    f_mul(d, lower, out);
-    f_add(d, d, part);
-    f_plus(d, d, SHEET_WHOLE);
+    kit_f_mul(part, upper, in);
+    kit_f_mul(d, lower, out);
+    kit_f_add(d, d, part);
+    kit_f_plus(d, d, KIT_WHOLE);
 }
 
 /* q gets what flows through its four faces. What comes in from below is computed again from both sides' amounts: the
  * machine would have to store a flow for the neighbour, and that takes longer. The difference of two flows is exact while
- * both have SHEET_WHOLE in them. Uses t[12..15]. */
+ * both have KIT_WHOLE in them. Uses t[12..15]. */
 static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces faces[2])
 {
     CM_field_id_t other = p->t[15], flow = p->t[13], sum[2] = {p->t[12], p->t[15]};
     for (unsigned axis = 0; axis < 2; axis++) {
         const struct faces *f = &faces[axis];
-        f_previous(other, q, axis);
+        kit_f_previous(other, q, axis);
         grains_make(p, flow, f->out_below, other, f->in_below, q);
-        f_next(other, q, axis);
+        kit_f_next(other, q, axis);
         grains_make(p, other, f->out, q, f->in, other);
-        f_sub(sum[axis], flow, other);
+        kit_f_sub(sum[axis], flow, other);
     }
-    f_add(q, q, sum[0]);
-    f_add(q, q, sum[1]);
+    kit_f_add(q, q, sum[0]);
+    kit_f_add(q, q, sum[1]);
 }
 
 /* d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10 upwards, or downwards from x on: w(x) + w(x-1)/2 + ...; on a sheet that is no
@@ -279,29 +279,29 @@ static void pull_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t wate
                       unsigned axis, bool upwards)
 {
     CM_field_id_t far = p->t[14], part = p->t[13];
-    f_copy(far, water);
+    kit_f_copy(far, water);
     for (int n = 1; n <= TENSION_REACH; n++) {
         if (upwards || n > 1) {
             if (upwards)
-                f_next(far, far, axis);
+                kit_f_next(far, far, axis);
             else
-                f_previous(far, far, axis);
+                kit_f_previous(far, far, axis);
             if (!p->config.torus) {
-                bool x = axis == PAPER_AXIS_X;
-                unsigned bits = (unsigned)(x ? p->page.x_bits : p->page.y_bits);
-                int last = (x ? p->page.width : p->page.height) - 1;
-                CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord,
+                bool x = axis == KIT_AXIS_X;
+                unsigned bits = (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits);
+                int last = (x ? p->page.grid.width : p->page.grid.height) - 1;
+                CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
                                     upwards ? (unsigned)last : 0, bits);
                 CM_logand_context_with_test();
-                f_set(far, 0.0);
+                kit_f_set(far, 0.0);
                 CM_set_context();
             }
         }
         if (n == 1) {
-            f_copy(d, far);
+            kit_f_copy(d, far);
         } else {
-            f_times(part, far, 1.0 / n);
-            f_add(d, d, part);
+            kit_f_times(part, far, 1.0 / n);
+            kit_f_add(d, d, part);
         }
     }
 }
@@ -315,60 +315,60 @@ static void displacement_make(struct paper_sheet *p, const struct surface_terms 
                               unsigned axis, CM_field_id_t out, CM_field_id_t in)
 {
     CM_field_id_t other = p->t[13], gate = p->t[12], d = p->t[11];
-    double gravity = p->air.gravity[axis == PAPER_AXIS_X ? 0 : 1];
-    f_next(other, terms->level, axis);
-    f_sub(d, terms->level, other);
-    f_times(d, d, p->air.spread);
+    double gravity = p->air.gravity[axis == KIT_AXIS_X ? 0 : 1];
+    kit_f_next(other, terms->level, axis);
+    kit_f_sub(d, terms->level, other);
+    kit_f_times(d, d, p->air.spread);
     /* Levels even out as by diffusion with a coefficient of spread * water: kept below 1/8, or they would swing. */
-    f_next(other, terms->water, axis);
-    f_add(other, other, terms->water);
-    f_times(other, other, 4 * p->air.spread);
-    f_plus(other, other, 1.0);
-    f_div(d, d, other);
+    kit_f_next(other, terms->water, axis);
+    kit_f_add(other, other, terms->water);
+    kit_f_times(other, other, 4 * p->air.spread);
+    kit_f_plus(other, other, 1.0);
+    kit_f_div(d, d, other);
     if (p->air.tension > 0) {
         pull_make(p, out, terms->water, axis, true);
         pull_make(p, in, terms->water, axis, false);
-        f_sub(out, out, in);
-        f_times(out, out, p->air.tension);
-        f_add(d, d, out);
+        kit_f_sub(out, out, in);
+        kit_f_times(out, out, p->air.tension);
+        kit_f_add(d, d, out);
     }
     if (gravity != 0) {
-        f_next(other, terms->water, axis);
-        f_add(other, other, terms->water);
-        f_times(other, other, gravity / 2);
-        f_add(d, d, other);
+        kit_f_next(other, terms->water, axis);
+        kit_f_add(other, other, terms->water);
+        kit_f_times(other, other, gravity / 2);
+        kit_f_add(d, d, other);
     }
-    f_times(gate, p->face[axis], OPEN_SCALE); /* 0 or 1: open */
-    f_most(gate, gate, 1.0);
-    f_mul(d, d, gate);
-    f_least(out, d, 0.0);
-    f_most(out, out, SURFACE_SHARE);
-    f_most(in, d, 0.0);
-    f_least(in, in, -SURFACE_SHARE);
+    kit_f_times(gate, p->face[axis], OPEN_SCALE); /* 0 or 1: open */
+    kit_f_most(gate, gate, 1.0);
+    kit_f_mul(d, d, gate);
+    kit_f_least(out, d, 0.0);
+    kit_f_most(out, out, SURFACE_SHARE);
+    kit_f_most(in, d, 0.0);
+    kit_f_least(in, in, -SURFACE_SHARE);
 
-    f_mul(out, out, terms->film);
-    f_next(other, terms->film, axis);
-    f_mul(in, in, other);
-    f_next(other, terms->room, axis);
-    f_mul(out, out, other);
-    f_mul(in, in, terms->room);
+    kit_f_mul(out, out, terms->film);
+    kit_f_next(other, terms->film, axis);
+    kit_f_mul(in, in, other);
+    kit_f_next(other, terms->room, axis);
+    kit_f_mul(out, out, other);
+    kit_f_mul(in, in, terms->room);
     if (p->air.pinning > 0) {
-        f_next(other, terms->entry, axis);
-        f_sub(gate, terms->water, other);
-        f_times(gate, gate, 4.0);
-        f_least(gate, gate, 0.0);
-        f_next(other, terms->wet, axis);
-        f_add(gate, gate, other);
-        f_most(gate, gate, 1.0);
-        f_mul(out, out, gate);
+        kit_f_next(other, terms->entry, axis);
+        kit_f_sub(gate, terms->water, other);
+        kit_f_times(gate, gate, 4.0);
+        kit_f_least(gate, gate, 0.0);
+        kit_f_next(other, terms->wet, axis);
+        kit_f_add(gate, gate, other);
+        kit_f_most(gate, gate, 1.0);
+        kit_f_mul(out, out, gate);
 
-        f_next(other, terms->water, axis);
-        f_sub(gate, other, terms->entry);
-        f_times(gate, gate, 4.0);
-        f_least(gate, gate, 0.0);
-        f_add(gate, gate, terms->wet);
-        f_most(gate, gate, 1.0);
-        f_mul(in, in, gate);
+        kit_f_next(other, terms->water, axis);
+        kit_f_sub(gate, other, terms->entry);
+        kit_f_times(gate, gate, 4.0);
+        kit_f_least(gate, gate, 0.0);
+        kit_f_add(gate, gate, terms->wet);
+        kit_f_most(gate, gate, 1.0);
+        kit_f_mul(in, in, gate);
     }
 }
 
@@ -385,15 +385,15 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
                                   .room = room};
     struct faces faces[2];
     faces_init(p, faces);
-    f_times(terms.water, p->surface_water, 1 / p->unit);
-    f_times(terms.film, terms.water, 1 / p->air.film);
-    f_most(terms.film, terms.film, 1.0);
-    f_times(terms.level, p->height, p->air.relief);
-    f_add(terms.level, terms.level, terms.water);
+    kit_f_times(terms.water, p->surface_water, 1 / p->unit);
+    kit_f_times(terms.film, terms.water, 1 / p->air.film);
+    kit_f_most(terms.film, terms.film, 1.0);
+    kit_f_times(terms.level, p->height, p->air.relief);
+    kit_f_add(terms.level, terms.level, terms.water);
     if (p->air.pinning > 0) {
         wetness(p, terms.wet);
-        f_plus(terms.entry, p->height, 0.5);
-        f_times(terms.entry, terms.entry, p->air.pinning);
+        kit_f_plus(terms.entry, p->height, 0.5);
+        kit_f_times(terms.entry, terms.entry, p->air.pinning);
     }
     for (unsigned axis = 0; axis < 2; axis++) {
         displacement_make(p, &terms, axis, faces[axis].out, faces[axis].in);
@@ -413,62 +413,62 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
     CM_field_id_t water = p->page.water;
     struct faces faces[2], weighed[2];
     faces_init(p, faces);
-    f_times(left, p->capacity, p->unit);
-    f_sub(left, left, water);
-    f_times(left, left, CAPACITY_SHARE);
-    f_least(left, left, 0.0);
+    kit_f_times(left, p->capacity, p->unit);
+    kit_f_sub(left, left, water);
+    kit_f_times(left, left, CAPACITY_SHARE);
+    kit_f_least(left, left, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
         CM_field_id_t out = faces[axis].out, in = faces[axis].in;
-        double seep = p->air.seep[axis == PAPER_AXIS_X ? 0 : 1];
-        f_next(other, water, axis);
-        f_sub(flow[axis], water, other);
+        double seep = p->air.seep[axis == KIT_AXIS_X ? 0 : 1];
+        kit_f_next(other, water, axis);
+        kit_f_sub(flow[axis], water, other);
         if (seep != 0) {
-            f_add(moved, water, other);
-            f_times(moved, moved, seep / 2);
-            f_add(flow[axis], flow[axis], moved);
+            kit_f_add(moved, water, other);
+            kit_f_times(moved, moved, seep / 2);
+            kit_f_add(flow[axis], flow[axis], moved);
         }
-        f_mul(flow[axis], flow[axis], p->face[axis]);
-        f_next(moved, left, axis);
-        f_min(flow[axis], flow[axis], moved);
-        f_times(moved, water, INFUSED_SHARE);
-        f_min(flow[axis], flow[axis], moved);
-        f_times(moved, left, -1.0);
-        f_max(flow[axis], flow[axis], moved);
-        f_times(moved, other, -INFUSED_SHARE);
-        f_max(flow[axis], flow[axis], moved);
-        f_whole(flow[axis]);
+        kit_f_mul(flow[axis], flow[axis], p->face[axis]);
+        kit_f_next(moved, left, axis);
+        kit_f_min(flow[axis], flow[axis], moved);
+        kit_f_times(moved, water, INFUSED_SHARE);
+        kit_f_min(flow[axis], flow[axis], moved);
+        kit_f_times(moved, left, -1.0);
+        kit_f_max(flow[axis], flow[axis], moved);
+        kit_f_times(moved, other, -INFUSED_SHARE);
+        kit_f_max(flow[axis], flow[axis], moved);
+        kit_f_whole(flow[axis]);
 
         /* pigments: along their gradient, then with the water */
-        f_min(moved, water, other);
-        f_times(moved, moved, (1 - p->air.carry) / p->unit);
-        f_mul(moved, moved, p->face[axis]);
-        f_least(out, flow[axis], 0.0);
-        f_least(fromward, water, 1.0);
-        f_div(out, out, fromward);
-        f_times(out, out, p->air.carry);
-        f_add(out, out, moved);
-        f_most(in, flow[axis], 0.0);
-        f_least(fromward, other, 1.0);
-        f_div(in, in, fromward);
-        f_times(in, in, p->air.carry);
-        f_sub(in, in, moved);
-        f_most(out, out, INFUSED_SHARE);
-        f_least(in, in, -INFUSED_SHARE);
-        f_next(other, room, axis);
-        f_mul(out, out, other);
-        f_mul(in, in, room);
+        kit_f_min(moved, water, other);
+        kit_f_times(moved, moved, (1 - p->air.carry) / p->unit);
+        kit_f_mul(moved, moved, p->face[axis]);
+        kit_f_least(out, flow[axis], 0.0);
+        kit_f_least(fromward, water, 1.0);
+        kit_f_div(out, out, fromward);
+        kit_f_times(out, out, p->air.carry);
+        kit_f_add(out, out, moved);
+        kit_f_most(in, flow[axis], 0.0);
+        kit_f_least(fromward, other, 1.0);
+        kit_f_div(in, in, fromward);
+        kit_f_times(in, in, p->air.carry);
+        kit_f_sub(in, in, moved);
+        kit_f_most(out, out, INFUSED_SHARE);
+        kit_f_least(in, in, -INFUSED_SHARE);
+        kit_f_next(other, room, axis);
+        kit_f_mul(out, out, other);
+        kit_f_mul(in, in, room);
         faces_below(&faces[axis], axis);
     }
     for (unsigned axis = 0; axis < 2; axis++) {
-        f_previous(other, flow[axis], axis);
-        f_add(water, water, other);
-        f_sub(water, water, flow[axis]);
+        kit_f_previous(other, flow[axis], axis);
+        kit_f_add(water, water, other);
+        kit_f_sub(water, water, flow[axis]);
     }
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *weight = p->config.pigments[i].weight;
         for (unsigned axis = 0; axis < 2; axis++)
             faces_weigh(p, &weighed[axis], &faces[axis], axis,
-                        weight[axis == PAPER_AXIS_X ? 0 : 1]);
+                        weight[axis == KIT_AXIS_X ? 0 : 1]);
         flow_take(p, p->infused[i], weighed);
     }
 }
@@ -478,7 +478,7 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
 static void temporaries_clear(struct paper_sheet *p)
 {
     for (int i = 0; i < SHEET_TEMPORARIES; i++)
-        f_set(p->t[i], 0.0);
+        kit_f_set(p->t[i], 0.0);
 }
 
 enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)

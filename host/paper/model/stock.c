@@ -40,18 +40,18 @@ const struct paper_stock *paper_stock_find(const char *name)
 static void white(CM_field_id_t d, CM_field_id_t bits)
 {
     CM_u_random_1L(bits, RANDOM_BITS, 1ul << RANDOM_BITS);
-    CM_f_u_float_2_2L(d, bits, RANDOM_BITS, SHEET_F);
-    f_times(d, d, sqrt(12.0) / (1 << RANDOM_BITS));
-    f_plus(d, d, -0.5 * sqrt(12.0));
+    CM_f_u_float_2_2L(d, bits, RANDOM_BITS, KIT_F);
+    kit_f_times(d, d, sqrt(12.0) / (1 << RANDOM_BITS));
+    kit_f_plus(d, d, -0.5 * sqrt(12.0));
 }
 
 /* d += what is `distance` up the axis. */
 static void join(CM_field_id_t d, CM_field_id_t far, unsigned axis, int distance)
 {
-    f_next(far, d, axis);
+    kit_f_next(far, d, axis);
     for (int step = 1; step < distance; step++)
-        f_next(far, far, axis);
-    f_add(d, d, far);
+        kit_f_next(far, far, axis);
+    kit_f_add(d, d, far);
 }
 
 /* Averages of `length` (to the next power of two) neighbours, deviation kept. */
@@ -59,7 +59,7 @@ static void smear(CM_field_id_t d, CM_field_id_t far, unsigned axis, int length)
 {
     for (int distance = 1; distance < length; distance *= 2) {
         join(d, far, axis, distance);
-        f_times(d, d, sqrt(0.5));
+        kit_f_times(d, d, sqrt(0.5));
     }
 }
 
@@ -93,43 +93,43 @@ static void bell(struct paper_sheet *p, CM_field_id_t d, double length)
             for (unsigned axis = 0; axis < 2; axis++)
                 join(d, p->t[6], axis, distance);
     double gain = bell_gain(box, BELL_BOXES);
-    f_times(d, d, 1 / (gain * gain));
+    kit_f_times(d, d, 1 / (gain * gain));
 }
 
 static void hills_make(struct paper_sheet *p, CM_field_id_t hills)
 {
     double length = p->config.stock.grain_px, part = 1, squares = 0;
-    f_set(hills, 0.0);
+    kit_f_set(hills, 0.0);
     for (int octave = 0; octave < 3; octave++) {
         bell(p, p->t[5], length);
-        f_times(p->t[5], p->t[5], part);
-        f_add(hills, hills, p->t[5]);
+        kit_f_times(p->t[5], p->t[5], part);
+        kit_f_add(hills, hills, p->t[5]);
         squares += part * part;
         length /= 2;
         part /= 2;
     }
-    f_times(hills, hills, 1 / sqrt(squares));
+    kit_f_times(hills, hills, 1 / sqrt(squares));
 }
 
 static void fibers_make(struct paper_sheet *p, CM_field_id_t fibers)
 {
     const int *length = p->config.stock.fiber_length;
     white(fibers, p->t[7]);
-    smear(fibers, p->t[6], PAPER_AXIS_X, length[0]);
+    smear(fibers, p->t[6], KIT_AXIS_X, length[0]);
     white(p->t[5], p->t[7]);
-    smear(p->t[5], p->t[6], PAPER_AXIS_Y, length[1]);
-    f_add(fibers, fibers, p->t[5]);
+    smear(p->t[5], p->t[6], KIT_AXIS_Y, length[1]);
+    kit_f_add(fibers, fibers, p->t[5]);
     white(p->t[5], p->t[7]);
-    f_times(p->t[5], p->t[5], 0.5);
-    f_add(fibers, fibers, p->t[5]);
-    f_times(fibers, fibers, 1 / 1.5);
+    kit_f_times(p->t[5], p->t[5], 0.5);
+    kit_f_add(fibers, fibers, p->t[5]);
+    kit_f_times(fibers, fibers, 1 / 1.5);
 }
 
 /* A field within low..high. */
 static void keep(CM_field_id_t d, double low, double high)
 {
-    f_least(d, d, low);
-    f_most(d, d, high);
+    kit_f_least(d, d, low);
+    kit_f_most(d, d, high);
 }
 
 /* What pigments lie on, from display values: in linear light for Kubelka-Munk. The square of display values is near
@@ -140,8 +140,8 @@ static void color_make(struct paper_sheet *p, CM_field_id_t shade)
     bool linear = p->config.rule == PAPER_RULE_KUBELKA_MUNK;
     for (int i = 0; i < 3; i++) {
         double color = linear ? paper_light_linear(stock->color[i]) : stock->color[i];
-        f_times(p->substrate[i], shade, color * (linear ? 2 : 1));
-        f_plus(p->substrate[i], p->substrate[i], color);
+        kit_f_times(p->substrate[i], shade, color * (linear ? 2 : 1));
+        kit_f_plus(p->substrate[i], p->substrate[i], color);
         keep(p->substrate[i], 0, 1);
     }
 }
@@ -149,23 +149,23 @@ static void color_make(struct paper_sheet *p, CM_field_id_t shade)
 void sheet_faces_make(struct paper_sheet *p)
 {
     CM_field_id_t open = p->t[0], other = p->t[1];
-    f_from(open, 1.0, p->resist);
-    f_least(open, open, 0.0);
+    kit_f_from(open, 1.0, p->resist);
+    kit_f_least(open, open, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
-        bool x = axis == PAPER_AXIS_X;
-        f_next(other, p->page.absorbency, axis);
-        f_add(other, other, p->page.absorbency);
-        f_times(other, other, p->config.stock.absorbency_along[x ? 0 : 1] / 2);
-        f_least(other, other, FACE_LEAST);
-        f_mul(p->face[axis], other, open);
-        f_next(other, open, axis);
-        f_mul(p->face[axis], p->face[axis], other);
+        bool x = axis == KIT_AXIS_X;
+        kit_f_next(other, p->page.absorbency, axis);
+        kit_f_add(other, other, p->page.absorbency);
+        kit_f_times(other, other, p->config.stock.absorbency_along[x ? 0 : 1] / 2);
+        kit_f_least(other, other, FACE_LEAST);
+        kit_f_mul(p->face[axis], other, open);
+        kit_f_next(other, open, axis);
+        kit_f_mul(p->face[axis], p->face[axis], other);
         if (!p->config.torus) {
-            CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord,
-                                (unsigned)(x ? p->page.width : p->page.height) - 1,
-                                (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+            CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
+                                (unsigned)(x ? p->page.grid.width : p->page.grid.height) - 1,
+                                (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits));
             CM_logand_context_with_test();
-            f_set(p->face[axis], 0.0);
+            kit_f_set(p->face[axis], 0.0);
             CM_set_context();
         }
     }
@@ -179,20 +179,20 @@ void sheet_stock_make(struct paper_sheet *p)
     hills_make(p, hills);
     fibers_make(p, fibers);
 
-    f_times(p->height, hills, stock->roughness);
-    f_plus(p->height, p->height, 0.5);
+    kit_f_times(p->height, hills, stock->roughness);
+    kit_f_plus(p->height, p->height, 0.5);
     keep(p->height, 0, 1);
-    f_times(p->capacity, p->height, stock->capacity[1] - stock->capacity[0]);
-    f_plus(p->capacity, p->capacity, stock->capacity[0]);
+    kit_f_times(p->capacity, p->height, stock->capacity[1] - stock->capacity[0]);
+    kit_f_plus(p->capacity, p->capacity, stock->capacity[0]);
     keep(p->capacity, 0.01, 1);
 
-    f_times(p->page.absorbency, fibers, stock->absorbency * stock->absorbency_variation);
-    f_plus(p->page.absorbency, p->page.absorbency, stock->absorbency);
+    kit_f_times(p->page.absorbency, fibers, stock->absorbency * stock->absorbency_variation);
+    kit_f_plus(p->page.absorbency, p->page.absorbency, stock->absorbency);
     keep(p->page.absorbency, 0.15 * stock->absorbency, PAPER_ABSORBENCY_MAX);
 
-    f_times(shade, fibers, -0.03 * stock->color_variation);
-    f_times(p->t[3], hills, 0.08 * stock->color_variation * sqrt(stock->roughness));
-    f_add(shade, shade, p->t[3]);
+    kit_f_times(shade, fibers, -0.03 * stock->color_variation);
+    kit_f_times(p->t[3], hills, 0.08 * stock->color_variation * sqrt(stock->roughness));
+    kit_f_add(shade, shade, p->t[3]);
     color_make(p, shade);
     sheet_faces_make(p);
 }

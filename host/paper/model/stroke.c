@@ -83,8 +83,8 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
         tuft->x + tuft->across[0] * (across + side / a) + tuft->along[0] * (along + ahead / b);
     double y =
         tuft->y + tuft->across[1] * (across + side / a) + tuft->along[1] * (along + ahead / b);
-    fiber[0] = wrapped(x, p->page.width, p->config.torus);
-    fiber[1] = wrapped(y, p->page.height, p->config.torus);
+    fiber[0] = wrapped(x, p->page.grid.width, p->config.torus);
+    fiber[1] = wrapped(y, p->page.grid.height, p->config.torus);
     return fiber[0] >= 0 && fiber[1] >= 0;
 }
 
@@ -127,7 +127,7 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
             float contact = (float)(rint(part * force * CONTACT_STEPS) / CONTACT_STEPS);
             if (!(contact > 0))
                 continue;
-            fibers[place] = fiber[1] * p->page.width + fiber[0];
+            fibers[place] = fiber[1] * p->page.grid.width + fiber[0];
             c->contact[place] = contact;
             c->force[place] = (float)(rint(force * CONTACT_STEPS) / CONTACT_STEPS);
             touched[fibers[place]]++;
@@ -149,11 +149,11 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
         if (fibers[i] < 0)
             continue;
         touched[fibers[i]] = 0;
-        int x = fibers[i] % p->page.width, y = fibers[i] / p->page.width;
+        int x = fibers[i] % p->page.grid.width, y = fibers[i] / p->page.grid.width;
         c->address[i] = CM_fe_deposit_news_coordinate(
-            p->page.geometry,
-            CM_fe_make_news_coordinate(p->page.geometry, PAPER_AXIS_Y, (unsigned)y),
-            PAPER_AXIS_X, (unsigned)x);
+            p->page.grid.geometry,
+            CM_fe_make_news_coordinate(p->page.grid.geometry, KIT_AXIS_Y, (unsigned)y),
+            KIT_AXIS_X, (unsigned)x);
     }
     return touching > 0;
 }

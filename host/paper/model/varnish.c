@@ -23,8 +23,8 @@ enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
     enum paper_status status = sheet_share_make(p, &v->place, share);
     if (status != PAPER_OK)
         return status;
-    f_times(share, share, v->amount);
-    f_max(p->varnish, p->varnish, share);
+    kit_f_times(share, share, v->amount);
+    kit_f_max(p->varnish, p->varnish, share);
     p->varnished = true;
     return paper_leave(&p->page);
 }
@@ -33,52 +33,53 @@ enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
 static void beside(struct paper_sheet *p, CM_field_id_t slope, CM_field_id_t other,
                    unsigned axis, bool next)
 {
-    bool x = axis == PAPER_AXIS_X;
+    bool x = axis == KIT_AXIS_X;
     if (next)
-        f_next(other, p->varnish, axis);
+        kit_f_next(other, p->varnish, axis);
     else
-        f_previous(other, p->varnish, axis);
+        kit_f_previous(other, p->varnish, axis);
     if (!p->config.torus) {
-        int last = (x ? p->page.width : p->page.height) - 1;
-        CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord, next ? (unsigned)last : 0,
-                            (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+        int last = (x ? p->page.grid.width : p->page.grid.height) - 1;
+        CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
+                            next ? (unsigned)last : 0,
+                            (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits));
         CM_logand_context_with_test();
-        f_copy(other, p->varnish);
+        kit_f_copy(other, p->varnish);
         CM_set_context();
     }
     if (next)
-        f_add(slope, slope, other);
+        kit_f_add(slope, slope, other);
     else
-        f_sub(slope, slope, other);
+        kit_f_sub(slope, slope, other);
 }
 
 void sheet_varnish_shine(struct paper_sheet *p, const CM_field_id_t color[3])
 {
     CM_field_id_t slope = p->t[0], other = p->t[1], part = p->t[2];
-    f_set(slope, 0.0);
+    kit_f_set(slope, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
         beside(p, slope, other, axis, true);
         beside(p, slope, other, axis, false);
     }
-    f_most(slope, slope, 1.0);
-    f_least(slope, slope, -1.0);
+    kit_f_most(slope, slope, 1.0);
+    kit_f_least(slope, slope, -1.0);
     for (int i = 0; i < 3; i++) {
         /* c (1 - v (dulling + deepening (1 - c))) */
-        f_from(part, 1.0, color[i]);
-        f_times(part, part, -DEEPENING);
-        f_plus(part, part, -DULLING);
-        f_mul(part, part, p->varnish);
-        f_plus(part, part, 1.0);
-        f_mul(color[i], color[i], part);
+        kit_f_from(part, 1.0, color[i]);
+        kit_f_times(part, part, -DEEPENING);
+        kit_f_plus(part, part, -DULLING);
+        kit_f_mul(part, part, p->varnish);
+        kit_f_plus(part, part, 1.0);
+        kit_f_mul(color[i], color[i], part);
         /* rising away from the light's side it shines, falling it is in shade */
-        f_least(part, slope, 0.0);
-        f_times(part, part, SHINE);
-        f_from(other, 1.0, color[i]);
-        f_mul(part, part, other);
-        f_add(color[i], color[i], part);
-        f_most(part, slope, 0.0);
-        f_times(part, part, SHADE);
-        f_mul(part, part, color[i]);
-        f_add(color[i], color[i], part);
+        kit_f_least(part, slope, 0.0);
+        kit_f_times(part, part, SHINE);
+        kit_f_from(other, 1.0, color[i]);
+        kit_f_mul(part, part, other);
+        kit_f_add(color[i], color[i], part);
+        kit_f_most(part, slope, 0.0);
+        kit_f_times(part, part, SHADE);
+        kit_f_mul(part, part, color[i]);
+        kit_f_add(color[i], color[i], part);
     }
 }

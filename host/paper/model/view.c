@@ -25,7 +25,7 @@ static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int c
                     bool inverted)
 {
     CM_field_id_t amount = p->t[6], fields[3];
-    f_set(d, 0.0);
+    kit_f_set(d, 0.0);
     for (int i = 0; i < p->config.pigments_count; i++) {
         const double *row =
             (const double *)(const void *)((const char *)&p->config.pigments[i] + member);
@@ -33,11 +33,11 @@ static void mixture(struct paper_sheet *p, CM_field_id_t d, size_t member, int c
         if (share == 0)
             continue;
         int count = sheet_pigment_fields(p, i, fields);
-        f_copy(amount, fields[0]);
+        kit_f_copy(amount, fields[0]);
         for (int j = 1; j < count; j++)
-            f_add(amount, amount, fields[j]);
-        f_times(amount, amount, share / p->unit);
-        f_add(d, d, amount);
+            kit_f_add(amount, amount, fields[j]);
+        kit_f_times(amount, amount, share / p->unit);
+        kit_f_add(d, d, amount);
     }
 }
 
@@ -48,33 +48,33 @@ static void kubelka_munk(struct paper_sheet *p, CM_field_id_t d, int channel)
     CM_field_id_t bottom = p->t[6], part = p->t[7], below = p->substrate[channel];
     mixture(p, k, offsetof(struct paper_pigment, k), channel, false);
     mixture(p, s, offsetof(struct paper_pigment, s), channel, false);
-    f_add(q, s, s);
-    f_add(q, q, k);
-    f_mul(q, q, k);
-    CM_f_sqrt_1_1L(q, SHEET_F);
-    f_least(q, q, Q_LEAST);
-    f_times(e, q, -1.0);
-    f_least(e, e, EXPONENT_LEAST);
-    CM_f_exp_1_1L(e, SHEET_F);
-    f_mul(t, e, q);
-    f_add(t, t, t);
-    f_mul(e, e, e);
-    f_from(part, 1.0, e);
-    f_mul(r, s, part);
-    f_add(bottom, k, s);
-    f_mul(bottom, bottom, part);
-    f_plus(part, e, 1.0);
-    f_mul(part, part, q);
-    f_add(bottom, bottom, part);
-    f_div(r, r, bottom);
-    f_div(t, t, bottom);
-    f_mul(t, t, t);
-    f_mul(t, t, below);
-    f_mul(part, r, below);
-    f_from(part, 1.0, part);
-    f_least(part, part, 1e-6);
-    f_div(t, t, part);
-    f_add(d, r, t);
+    kit_f_add(q, s, s);
+    kit_f_add(q, q, k);
+    kit_f_mul(q, q, k);
+    CM_f_sqrt_1_1L(q, KIT_F);
+    kit_f_least(q, q, Q_LEAST);
+    kit_f_times(e, q, -1.0);
+    kit_f_least(e, e, EXPONENT_LEAST);
+    CM_f_exp_1_1L(e, KIT_F);
+    kit_f_mul(t, e, q);
+    kit_f_add(t, t, t);
+    kit_f_mul(e, e, e);
+    kit_f_from(part, 1.0, e);
+    kit_f_mul(r, s, part);
+    kit_f_add(bottom, k, s);
+    kit_f_mul(bottom, bottom, part);
+    kit_f_plus(part, e, 1.0);
+    kit_f_mul(part, part, q);
+    kit_f_add(bottom, bottom, part);
+    kit_f_div(r, r, bottom);
+    kit_f_div(t, t, bottom);
+    kit_f_mul(t, t, t);
+    kit_f_mul(t, t, below);
+    kit_f_mul(part, r, below);
+    kit_f_from(part, 1.0, part);
+    kit_f_least(part, part, 1e-6);
+    kit_f_div(t, t, part);
+    kit_f_add(d, r, t);
 }
 
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3])
@@ -86,22 +86,22 @@ void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3])
             mixture(p, p->t[0], offsetof(struct paper_pigment, takes), i,
                     p->config.rule == PAPER_RULE_LUMINOUS);
             if (p->config.rule == PAPER_RULE_SUBTRACT)
-                f_sub(dest[i], p->substrate[i], p->t[0]);
+                kit_f_sub(dest[i], p->substrate[i], p->t[0]);
             else
-                f_add(dest[i], p->substrate[i], p->t[0]);
+                kit_f_add(dest[i], p->substrate[i], p->t[0]);
         }
-        f_least(dest[i], dest[i], 0.0);
-        f_most(dest[i], dest[i], 1.0);
+        kit_f_least(dest[i], dest[i], 0.0);
+        kit_f_most(dest[i], dest[i], 1.0);
     }
 }
 
 static void water_make(struct paper_sheet *p, CM_field_id_t d)
 {
     if (sheet_has(p, PAPER_PART_SURFACE))
-        f_add(d, p->page.water, p->surface_water);
+        kit_f_add(d, p->page.water, p->surface_water);
     else
-        f_copy(d, p->page.water);
-    f_times(d, d, 1 / p->unit);
+        kit_f_copy(d, p->page.water);
+    kit_f_times(d, d, 1 / p->unit);
 }
 
 /* d = the neighbour's level; at the edge of a sheet that is no torus one's own. */
@@ -109,17 +109,18 @@ static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t l
                          unsigned axis, bool next)
 {
     if (next)
-        f_next(d, level, axis);
+        kit_f_next(d, level, axis);
     else
-        f_previous(d, level, axis);
+        kit_f_previous(d, level, axis);
     if (p->config.torus)
         return;
-    bool x = axis == PAPER_AXIS_X;
-    int last = (x ? p->page.width : p->page.height) - 1;
-    CM_u_eq_constant_1L(x ? p->page.x_coord : p->page.y_coord, next ? (unsigned)last : 0,
-                        (unsigned)(x ? p->page.x_bits : p->page.y_bits));
+    bool x = axis == KIT_AXIS_X;
+    int last = (x ? p->page.grid.width : p->page.grid.height) - 1;
+    CM_u_eq_constant_1L(x ? p->page.grid.x_coord : p->page.grid.y_coord,
+                        next ? (unsigned)last : 0,
+                        (unsigned)(x ? p->page.grid.x_bits : p->page.grid.y_bits));
     CM_logand_context_with_test();
-    f_copy(d, level);
+    kit_f_copy(d, level);
     CM_set_context();
 }
 
@@ -128,24 +129,24 @@ static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t l
 static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
 {
     CM_field_id_t slope = p->t[0], level = p->t[1], other = p->t[2];
-    f_times(level, p->surface_water, 1 / p->unit);
-    f_most(level, level, 2.0);
-    f_set(slope, 0.0);
+    kit_f_times(level, p->surface_water, 1 / p->unit);
+    kit_f_most(level, level, 2.0);
+    kit_f_set(slope, 0.0);
     for (unsigned axis = 0; axis < 2; axis++) {
         level_beside(p, other, level, axis, true);
-        f_add(slope, slope, other);
+        kit_f_add(slope, slope, other);
         level_beside(p, other, level, axis, false);
-        f_sub(slope, slope, other);
+        kit_f_sub(slope, slope, other);
     }
-    f_times(slope, slope, 0.8);
-    f_least(slope, slope, -0.25);
-    f_most(slope, slope, 0.6);
-    f_most(other, level, 0.5);
-    f_times(other, other, -0.25);
-    f_plus(other, other, 1.0);
+    kit_f_times(slope, slope, 0.8);
+    kit_f_least(slope, slope, -0.25);
+    kit_f_most(slope, slope, 0.6);
+    kit_f_most(other, level, 0.5);
+    kit_f_times(other, other, -0.25);
+    kit_f_plus(other, other, 1.0);
     for (int i = 0; i < 3; i++) {
-        f_mul(color[i], color[i], other);
-        f_add(color[i], color[i], slope);
+        kit_f_mul(color[i], color[i], other);
+        kit_f_add(color[i], color[i], slope);
     }
 }
 
@@ -162,21 +163,21 @@ static void table_make(uint16_t *table, bool linear)
 /* The field's 0..1 as 16 bits of the picture. */
 static void shade_store(struct paper_sheet *p, int channel, CM_field_id_t value, bool linear)
 {
-    f_least(value, value, 0.0);
-    f_most(value, value, 1.0);
+    kit_f_least(value, value, 0.0);
+    kit_f_most(value, value, 1.0);
     if (linear)
-        CM_f_sqrt_1_1L(value, SHEET_F);
-    f_times(value, value, SHADES - 1);
-    CM_u_f_round_2_2L(p->shown[channel], value, 16, SHEET_F);
+        CM_f_sqrt_1_1L(value, KIT_F);
+    kit_f_times(value, value, SHADES - 1);
+    CM_u_f_round_2_2L(p->shown[channel], value, 16, KIT_F);
 }
 
 static enum paper_status shades_read(struct paper_sheet *p, int channels, const uint16_t *table,
                                      uint16_t *one, uint16_t *rgb)
 {
-    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     for (int channel = 0; channel < 3; channel++) {
         if (channel < channels)
-            u_array_read(p, one, p->shown[channel], 16, CM_16_bit);
+            kit_grid_u_read(&p->page.grid, one, p->shown[channel], 16, CM_16_bit);
         for (size_t i = 0; i < count; i++)
             rgb[3 * i + (size_t)channel] = table[one[i]];
     }
@@ -196,13 +197,13 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
                               "black and white must be two numbers (got %g and %g)", view->low,
                               view->high);
     }
-    size_t count = (size_t)p->page.width * (size_t)p->page.height;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     uint16_t *one = calloc(count, sizeof *one), *table = malloc(SHADES * sizeof *table);
     if (!one || !table) {
         free(one);
         free(table);
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", p->page.width,
-                          p->page.height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d",
+                          p->page.grid.width, p->page.grid.height);
     }
     bool colored = view->show == PAPER_SHOW_COLOR || view->show == PAPER_SHOW_WET;
     bool linear = colored && p->config.rule == PAPER_RULE_KUBELKA_MUNK;
@@ -220,12 +221,12 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
         water_make(p, color[0]);
     } else {
         if (view->layer == PAPER_LAYER_DRIED_WATER)
-            CM_f_u_float_2_2L(color[0], layer, SHEET_DRIED_BITS, SHEET_F);
+            CM_f_u_float_2_2L(color[0], layer, SHEET_DRIED_BITS, KIT_F);
         else
-            f_copy(color[0], layer);
+            kit_f_copy(color[0], layer);
         double unit = view->layer >= PAPER_LAYER_SURFACE_WATER ? p->unit : 1;
-        f_times(color[0], color[0], 1 / (unit * (view->high - view->low)));
-        f_plus(color[0], color[0], -view->low / (view->high - view->low));
+        kit_f_times(color[0], color[0], 1 / (unit * (view->high - view->low)));
+        kit_f_plus(color[0], color[0], -view->low / (view->high - view->low));
     }
     for (int i = 0; i < (colored ? 3 : 1); i++)
         shade_store(p, i, color[i], linear);

@@ -21,18 +21,18 @@ static void grade_make(struct paper_sheet *p, const struct paper_wash *w, CM_fie
 {
     double dx = w->to[0] - w->from[0], dy = w->to[1] - w->from[1], squared = dx * dx + dy * dy;
     if (!(squared > 0)) {
-        f_set(d, 0.0);
+        kit_f_set(d, 0.0);
         return;
     }
-    CM_f_u_float_2_2L(d, p->page.x_coord, (unsigned)p->page.x_bits, SHEET_F);
-    f_plus(d, d, 0.5 - w->from[0]);
-    f_times(d, d, dx / squared);
-    CM_f_u_float_2_2L(p->t[5], p->page.y_coord, (unsigned)p->page.y_bits, SHEET_F);
-    f_plus(p->t[5], p->t[5], 0.5 - w->from[1]);
-    f_times(p->t[5], p->t[5], dy / squared);
-    f_add(d, d, p->t[5]);
-    f_least(d, d, 0.0);
-    f_most(d, d, 1.0);
+    CM_f_u_float_2_2L(d, p->page.grid.x_coord, (unsigned)p->page.grid.x_bits, KIT_F);
+    kit_f_plus(d, d, 0.5 - w->from[0]);
+    kit_f_times(d, d, dx / squared);
+    CM_f_u_float_2_2L(p->t[5], p->page.grid.y_coord, (unsigned)p->page.grid.y_bits, KIT_F);
+    kit_f_plus(p->t[5], p->t[5], 0.5 - w->from[1]);
+    kit_f_times(p->t[5], p->t[5], dy / squared);
+    kit_f_add(d, d, p->t[5]);
+    kit_f_least(d, d, 0.0);
+    kit_f_most(d, d, 1.0);
 }
 
 enum paper_status sheet_wash_check(const struct paper_sheet *p, const void *arguments)
@@ -61,9 +61,9 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
     for (int i = 0; i <= p->config.pigments_count; i++) {
         if (w->amount[i] == 0 && w->end[i] == 0)
             continue;
-        f_times(part, grade, (w->end[i] - w->amount[i]) * p->unit);
-        f_plus(part, part, w->amount[i] * p->unit);
-        f_mul(part, part, share);
+        kit_f_times(part, grade, (w->end[i] - w->amount[i]) * p->unit);
+        kit_f_plus(part, part, w->amount[i] * p->unit);
+        kit_f_mul(part, part, share);
         sheet_amount_put(p, i, part);
     }
     sheet_wet_around_make(p);
@@ -89,12 +89,12 @@ enum paper_status sheet_print_check(const struct paper_sheet *p, const void *arg
 static void print_lay(const struct paper_sheet *p, const struct paper_print *print,
                       int substance, float *whole)
 {
-    size_t width = (size_t)p->page.width;
-    memset(whole, 0, width * (size_t)p->page.height * sizeof *whole);
+    size_t width = (size_t)p->page.grid.width;
+    memset(whole, 0, width * (size_t)p->page.grid.height * sizeof *whole);
     for (int row = 0; row < print->height; row++)
         for (int column = 0; column < print->width; column++) {
             int64_t x = (int64_t)print->x + column, y = (int64_t)print->y + row;
-            if (x >= 0 && y >= 0 && x < p->page.width && y < p->page.height)
+            if (x >= 0 && y >= 0 && x < p->page.grid.width && y < p->page.grid.height)
                 whole[(size_t)y * width + (size_t)x] =
                     print->amount[substance]
                                  [(size_t)row * (size_t)print->width + (size_t)column];
@@ -105,7 +105,8 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
 {
     const struct paper_print *print = arguments;
     enum paper_status status = PAPER_OK;
-    float *whole = malloc((size_t)p->page.width * (size_t)p->page.height * sizeof *whole);
+    float *whole =
+        malloc((size_t)p->page.grid.width * (size_t)p->page.grid.height * sizeof *whole);
     if (!whole)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a print of %dx%d", print->width,
                           print->height);
@@ -116,9 +117,9 @@ enum paper_status sheet_print(struct paper_sheet *p, const void *arguments)
         print_lay(p, print, i, whole);
         paper_enter(&p->page);
         CM_set_context();
-        f_array_write(p, part, whole);
+        kit_grid_f_write(&p->page.grid, part, whole);
         sheet_resist_heed(p, part, open);
-        f_times(part, part, p->unit);
+        kit_f_times(part, part, p->unit);
         sheet_amount_put(p, i, part);
         sheet_wet_around_make(p);
         status = paper_leave(&p->page);

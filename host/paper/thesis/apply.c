@@ -31,8 +31,8 @@ static double substance_amount(const struct paper_ink *ink, int i)
 
 static void substance_limit(CM_field_id_t field)
 {
-    CM_f_min_constant_2_1L(field, 1.0, PAPER_S, PAPER_E);
-    CM_f_max_constant_2_1L(field, 0.0, PAPER_S, PAPER_E);
+    CM_f_min_constant_2_1L(field, 1.0, KIT_F);
+    CM_f_max_constant_2_1L(field, 0.0, KIT_F);
 }
 
 /* Where x begins and ends on the sheet; places far off would overflow an int. */
@@ -49,17 +49,16 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
         return status;
     paper_enter(p);
     CM_set_context();
-    paper_context_rectangle(p, clip(x, p->width), clip(y, p->height),
-                            clip((int64_t)x + width, p->width),
-                            clip((int64_t)y + height, p->height));
+    kit_grid_narrow(&p->grid, clip(x, p->grid.width), clip(y, p->grid.height),
+                    clip((int64_t)x + width, p->grid.width),
+                    clip((int64_t)y + height, p->grid.height));
     for (int i = 0; i < 4; i++) {
         if (substance_amount(ink, i) == 0)
             continue;
-        CM_f_add_constant_2_1L(substance_field(p, i), substance_amount(ink, i), PAPER_S,
-                               PAPER_E);
+        CM_f_add_constant_2_1L(substance_field(p, i), substance_amount(ink, i), KIT_F);
         substance_limit(substance_field(p, i));
     }
-    paper_context_restore(p);
+    kit_grid_widen(&p->grid);
     return paper_leave(p);
 }
 
@@ -67,13 +66,13 @@ enum paper_status paper_rectangle(struct paper *p, int x, int y, int width, int 
 static uint8_t *screen_on_sheet(const struct paper *p, const struct paper_screen *screen, int x,
                                 int y)
 {
-    uint8_t *sheet = calloc((size_t)p->height, (size_t)p->width);
+    uint8_t *sheet = calloc((size_t)p->grid.height, (size_t)p->grid.width);
     if (!sheet)
         return NULL;
-    int x1 = clip(x, p->width), x2 = clip((int64_t)x + screen->width_px, p->width);
-    int y1 = clip(y, p->height), y2 = clip((int64_t)y + screen->height_px, p->height);
+    int x1 = clip(x, p->grid.width), x2 = clip((int64_t)x + screen->width_px, p->grid.width);
+    int y1 = clip(y, p->grid.height), y2 = clip((int64_t)y + screen->height_px, p->grid.height);
     for (int row = y1; row < y2 && x1 < x2; row++)
-        memcpy(sheet + (size_t)row * (size_t)p->width + x1,
+        memcpy(sheet + (size_t)row * (size_t)p->grid.width + x1,
                screen->gray + (size_t)(row - y) * (size_t)screen->width_px + (x1 - x),
                (size_t)(x2 - x1));
     return sheet;
@@ -89,34 +88,34 @@ enum paper_status paper_screen_ink(struct paper *p, const struct paper_screen *s
         return paper_fail(PAPER_BAD_ARGUMENT, "the screen is empty");
     uint8_t *gray = screen_on_sheet(p, screen, x, y);
     if (!gray)
-        return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", p->width,
-                          p->height);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a screen of %dx%d", p->grid.width,
+                          p->grid.height);
 
     paper_enter(p);
-    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {PAPER_AXIS_Y, PAPER_AXIS_X};
-    int size[2] = {p->height, p->width};
+    int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {KIT_AXIS_Y, KIT_AXIS_X};
+    int size[2] = {p->grid.height, p->grid.width};
     CM_field_id_t shade =
         p->image; /* its red channel: the picture is made anew when it is looked at */
     CM_field_id_t part = p->inflow, amount = p->inward;
     CM_set_context();
     CM_u_write_to_news_array_1L(gray, offset, start, size, axes, shade, PAPER_CHANNEL_BITS, 2,
                                 size, CM_8_bit);
-    paper_context_rectangle(p, clip(x, p->width), clip(y, p->height),
-                            clip((int64_t)x + screen->width_px, p->width),
-                            clip((int64_t)y + screen->height_px, p->height));
-    CM_f_u_float_2_2L(part, shade, PAPER_CHANNEL_BITS, PAPER_S, PAPER_E);
-    CM_f_divide_constant_2_1L(part, 255.0, PAPER_S, PAPER_E);
+    kit_grid_narrow(&p->grid, clip(x, p->grid.width), clip(y, p->grid.height),
+                    clip((int64_t)x + screen->width_px, p->grid.width),
+                    clip((int64_t)y + screen->height_px, p->grid.height));
+    CM_f_u_float_2_2L(part, shade, PAPER_CHANNEL_BITS, KIT_F);
+    CM_f_divide_constant_2_1L(part, 255.0, KIT_F);
     for (int i = 0; i < 4; i++) {
         if (substance_amount(ink, i) == 0)
             continue;
-        CM_f_multiply_constant_3_1L(amount, part, substance_amount(ink, i), PAPER_S, PAPER_E);
-        CM_f_add_2_1L(substance_field(p, i), amount, PAPER_S, PAPER_E);
+        CM_f_multiply_constant_3_1L(amount, part, substance_amount(ink, i), KIT_F);
+        CM_f_add_2_1L(substance_field(p, i), amount, KIT_F);
         substance_limit(substance_field(p, i));
     }
     /* On the rim temporaries stay zero: the flow reads them there. */
-    CM_f_move_zero_1L(part, PAPER_S, PAPER_E);
-    CM_f_move_zero_1L(amount, PAPER_S, PAPER_E);
-    paper_context_restore(p);
+    CM_f_move_zero_1L(part, KIT_F);
+    CM_f_move_zero_1L(amount, KIT_F);
+    kit_grid_widen(&p->grid);
     free(gray);
     return paper_leave(p);
 }

@@ -56,61 +56,61 @@ static void gravity_pull(struct paper *p, double gravity)
     if (gravity == 1)
         return; /* changes no bit */
     CM_store_context(p->inner_context);
-    CM_f_gt_zero_1L(p->inward, PAPER_S, PAPER_E);
+    CM_f_gt_zero_1L(p->inward, KIT_F);
     CM_logand_context_with_test();
-    CM_f_multiply_constant_2_1L(p->inward, gravity, PAPER_S, PAPER_E);
+    CM_f_multiply_constant_2_1L(p->inward, gravity, KIT_F);
     CM_load_context(p->inner_context);
 
     CM_store_context(p->inner_context);
-    CM_f_lt_zero_1L(p->inward, PAPER_S, PAPER_E);
+    CM_f_lt_zero_1L(p->inward, KIT_F);
     CM_logand_context_with_test();
-    CM_f_divide_constant_2_1L(p->inward, gravity, PAPER_S, PAPER_E);
+    CM_f_divide_constant_2_1L(p->inward, gravity, KIT_F);
     CM_load_context(p->inner_context);
 }
 
 /* inward = absorbency * (the lower neighbour's substance - ours). */
 static void gradient_take(struct paper *p, CM_field_id_t substance, unsigned axis)
 {
-    CM_get_from_news_1L(p->inflow, substance, axis, CM_downward, PAPER_FLOAT_BITS);
-    CM_f_subtract_3_1L(p->inward, p->inflow, substance, PAPER_S, PAPER_E);
-    CM_f_multiply_2_1L(p->inward, p->absorbency, PAPER_S, PAPER_E);
+    CM_get_from_news_1L(p->inflow, substance, axis, CM_downward, KIT_FLOAT_BITS);
+    CM_f_subtract_3_1L(p->inward, p->inflow, substance, KIT_F);
+    CM_f_multiply_2_1L(p->inward, p->absorbency, KIT_F);
 }
 
 /* substance += inward - outward, kept within 0..1. */
 static void gradient_flow(struct paper *p, CM_field_id_t substance, unsigned axis)
 {
-    CM_get_from_news_1L(p->outward, p->inward, axis, CM_upward, PAPER_FLOAT_BITS);
-    CM_f_add_2_1L(substance, p->inward, PAPER_S, PAPER_E);
-    CM_f_subtract_2_1L(substance, p->outward, PAPER_S, PAPER_E);
-    CM_f_min_constant_2_1L(substance, 1.0, PAPER_S, PAPER_E);
-    CM_f_max_constant_2_1L(substance, 0.0, PAPER_S, PAPER_E);
+    CM_get_from_news_1L(p->outward, p->inward, axis, CM_upward, KIT_FLOAT_BITS);
+    CM_f_add_2_1L(substance, p->inward, KIT_F);
+    CM_f_subtract_2_1L(substance, p->outward, KIT_F);
+    CM_f_min_constant_2_1L(substance, 1.0, KIT_F);
+    CM_f_max_constant_2_1L(substance, 0.0, KIT_F);
 }
 
 static void disperse_along(struct paper *p, unsigned axis, double gravity,
                            const CM_field_id_t *pigments, const double *weights, int count)
 {
-    paper_context_rectangle(p, RIM, RIM, p->width - RIM, p->height - RIM);
+    kit_grid_narrow(&p->grid, RIM, RIM, p->grid.width - RIM, p->grid.height - RIM);
     gradient_take(p, p->water, axis);
     gravity_pull(p, gravity);
     gradient_flow(p, p->water, axis);
     for (int i = 0; i < count; i++) {
         gradient_take(p, pigments[i], axis);
-        CM_f_multiply_2_1L(p->inward, p->water, PAPER_S, PAPER_E);
-        CM_f_multiply_constant_2_1L(p->inward, weights[i], PAPER_S, PAPER_E);
+        CM_f_multiply_2_1L(p->inward, p->water, KIT_F);
+        CM_f_multiply_constant_2_1L(p->inward, weights[i], KIT_F);
         gravity_pull(p, gravity);
         gradient_flow(p, pigments[i], axis);
     }
-    paper_context_restore(p);
+    kit_grid_widen(&p->grid);
 }
 
 void paper_cycle(struct paper *p, const struct paper_weather *weather,
                  const CM_field_id_t *pigments, const double *weights, int count)
 {
-    disperse_along(p, PAPER_AXIS_X, weather->gravity_x, pigments, weights, count);
-    disperse_along(p, PAPER_AXIS_Y, weather->gravity_y, pigments, weights, count);
+    disperse_along(p, KIT_AXIS_X, weather->gravity_x, pigments, weights, count);
+    disperse_along(p, KIT_AXIS_Y, weather->gravity_y, pigments, weights, count);
     if (weather->humidity > 0) {
-        CM_f_subtract_constant_2_1L(p->water, weather->humidity, PAPER_S, PAPER_E);
-        CM_f_max_constant_2_1L(p->water, 0.0, PAPER_S, PAPER_E);
+        CM_f_subtract_constant_2_1L(p->water, weather->humidity, KIT_F);
+        CM_f_max_constant_2_1L(p->water, 0.0, KIT_F);
     }
 }
 

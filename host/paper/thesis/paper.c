@@ -6,24 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The fields in the order of allocation; bits: as they are, or one of the two that the size decides. */
+/* The fields; bits: as they are, or one of the two that the size decides. */
 enum { BITS_X = -1, BITS_Y = -2 };
 #define PAPER_FIELDS(F)                                                                        \
     F("image", image, PAPER_IMAGE_BITS)                                                        \
-    F("absorbency", absorbency, PAPER_FLOAT_BITS)                                              \
-    F("water", water, PAPER_FLOAT_BITS)                                                        \
-    F("cyan", pigment[0], PAPER_FLOAT_BITS)                                                    \
-    F("magenta", pigment[1], PAPER_FLOAT_BITS)                                                 \
-    F("yellow", pigment[2], PAPER_FLOAT_BITS)                                                  \
+    F("absorbency", absorbency, KIT_FLOAT_BITS)                                                \
+    F("water", water, KIT_FLOAT_BITS)                                                          \
+    F("cyan", pigment[0], KIT_FLOAT_BITS)                                                      \
+    F("magenta", pigment[1], KIT_FLOAT_BITS)                                                   \
+    F("yellow", pigment[2], KIT_FLOAT_BITS)                                                    \
     F("fiber colour", fiber_color, PAPER_IMAGE_BITS)                                           \
-    F("x coordinate", x_coord, BITS_X)                                                         \
-    F("y coordinate", y_coord, BITS_Y)                                                         \
-    F("context", context, 1)                                                                   \
+    F("x coordinate", grid.x_coord, BITS_X)                                                    \
+    F("y coordinate", grid.y_coord, BITS_Y)                                                    \
+    F("context", grid.context, 1)                                                              \
     F("inner context", inner_context, 1)                                                       \
-    F("inflow", inflow, PAPER_FLOAT_BITS)                                                      \
-    F("inward gradient", inward, PAPER_FLOAT_BITS)                                             \
-    F("outward gradient", outward, PAPER_FLOAT_BITS)                                           \
-    F("scratch", scratch, PAPER_FLOAT_BITS)
+    F("inflow", inflow, KIT_FLOAT_BITS)                                                        \
+    F("inward gradient", inward, KIT_FLOAT_BITS)                                               \
+    F("outward gradient", outward, KIT_FLOAT_BITS)                                             \
+    F("scratch", scratch, KIT_FLOAT_BITS)
 
 static const struct {
     const char *name;
@@ -35,22 +35,13 @@ static const struct {
 
 enum { FIELDS_COUNT = sizeof fields / sizeof *fields };
 
-/* Bits that hold the coordinates 0..length-1. */
-static int coordinate_bits(int length)
-{
-    int bits = 1;
-    while (bits < 31 && (1 << bits) < length)
-        bits++;
-    return bits;
-}
-
 bool paper_field_describe(int width, int height, int number, const char **name, int *bits)
 {
     if (number < 0 || number >= FIELDS_COUNT)
         return false;
     *name = fields[number].name;
-    *bits = fields[number].bits == BITS_X   ? coordinate_bits(width)
-            : fields[number].bits == BITS_Y ? coordinate_bits(height)
+    *bits = fields[number].bits == BITS_X   ? kit_coordinate_bits(width)
+            : fields[number].bits == BITS_Y ? kit_coordinate_bits(height)
                                             : fields[number].bits;
     return true;
 }
@@ -112,30 +103,23 @@ enum paper_status paper_create(const struct paper_config *config, struct paper *
     struct paper *p = calloc(1, sizeof *p);
     if (!p)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
-    p->width = config->width;
-    p->height = config->height;
-    p->x_bits = coordinate_bits(p->width);
-    p->y_bits = coordinate_bits(p->height);
-
     status = paper_attach();
     if (status != PAPER_OK) {
         free(p);
         return status;
     }
-    int dimensions[2] = {p->height, p->width};
-    p->geometry = CM_create_geometry(dimensions, 2);
-    p->vp_set = CM_allocate_vp_set(p->geometry);
-    paper_enter(p);
+    kit_grid_make(&p->grid, config->width, config->height);
     for (int i = 0; i < FIELDS_COUNT; i++) {
         const char *name;
         int bits;
-        paper_field_describe(p->width, p->height, i, &name, &bits);
-        CM_field_id_t field = CM_allocate_heap_field((unsigned)bits);
+        CM_field_id_t field;
+        memcpy(&field, (char *)p + fields[i].member, sizeof field);
+        if (field != CM_no_field)
+            continue; /* the grid's own */
+        paper_field_describe(p->grid.width, p->grid.height, i, &name, &bits);
+        field = CM_allocate_heap_field((unsigned)bits);
         memcpy((char *)p + fields[i].member, &field, sizeof field);
     }
-    CM_set_context();
-    CM_my_news_coordinate_1L(p->x_coord, PAPER_AXIS_X, (unsigned)p->x_bits);
-    CM_my_news_coordinate_1L(p->y_coord, PAPER_AXIS_Y, (unsigned)p->y_bits);
     paper_fibers_make(p, config);
     status = paper_finish(p); /* sheets begin alike, so the machine meets the same work again */
     if (status != PAPER_OK) {
@@ -150,17 +134,16 @@ void paper_destroy(struct paper *p)
 {
     if (!p)
         return;
-    CM_deallocate_vp_set(p->vp_set); /* its fields go too */
-    CM_deallocate_geometry(p->geometry);
+    kit_grid_free(&p->grid);
     free(p);
 }
 
 int paper_width(const struct paper *p)
 {
-    return p->width;
+    return p->grid.width;
 }
 
 int paper_height(const struct paper *p)
 {
-    return p->height;
+    return p->grid.height;
 }

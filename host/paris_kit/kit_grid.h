@@ -1,0 +1,48 @@
+/* kit_grid.h - a VP set of two axes whose front-end arrays are rows from the top.
+ *
+ *     struct kit_grid g;
+ *     kit_grid_make(&g, 640, 480);                     in place of kit_enter(): kit_leave() tells what failed
+ *     kit_grid_f_write(&g, field, floats);             floats: 480 rows of 640
+ *     kit_grid_narrow(&g, 1, 1, 639, 479);             not on the rim
+ *     ...
+ *     kit_grid_widen(&g);
+ *     kit_grid_free(&g);
+ *
+ * NEWS axis 0 is y and axis 1 is x. Between kit_enter() and kit_leave(), but for kit_grid_free(). */
+#ifndef LUTETIA_PARIS_KIT_GRID_H
+#define LUTETIA_PARIS_KIT_GRID_H
+
+#include <cm/paris.h>
+
+enum { KIT_AXIS_Y = 0, KIT_AXIS_X = 1 };
+
+struct kit_grid {
+    int width, height;
+    int x_bits, y_bits; /* of coordinates */
+    CM_vp_set_id_t vp_set;
+    CM_geometry_id_t geometry;
+    CM_field_id_t x_coord, y_coord; /* of x_bits, y_bits: unsigned */
+    CM_field_id_t context;          /* put aside by kit_grid_narrow(); 1 bit */
+};
+
+/* The bits that hold the coordinates 0..length-1. */
+int kit_coordinate_bits(int length);
+
+/* Makes the VP set and its fields, and kit_enter()s it; every processor is active. */
+void kit_grid_make(struct kit_grid *g, int width, int height);
+/* Gives the VP set back with all fields in it. A grid of zeros is fine. */
+void kit_grid_free(struct kit_grid *g);
+
+/* Puts the context aside and narrows it to x1 <= x < x2, y1 <= y < y2, cut off at the grid's edges. */
+void kit_grid_narrow(const struct kit_grid *g, int x1, int y1, int x2, int y2);
+void kit_grid_widen(const struct kit_grid *g);
+
+/* Whole fields, whatever the context: single floats, or unsigned numbers of `bits` that are of `type` (CM_32_bit...) in the array. */
+void kit_grid_f_write(const struct kit_grid *g, CM_field_id_t d, const void *floats);
+void kit_grid_f_read(const struct kit_grid *g, void *floats, CM_field_id_t a);
+void kit_grid_u_write(const struct kit_grid *g, CM_field_id_t d, unsigned bits,
+                      const void *numbers, unsigned type);
+void kit_grid_u_read(const struct kit_grid *g, void *numbers, CM_field_id_t a, unsigned bits,
+                     unsigned type);
+
+#endif
