@@ -1,34 +1,6 @@
 /* Send addresses and NEWS coordinates on the front end. */
 #include "paris_state.h"
 
-enum machine_order paris_geometry_order(const struct paris_geometry *g)
-{
-    for (int axis = 0; axis < g->rank; axis++)
-        if (g->ordering[axis] != CM_send_order)
-            return MACHINE_NEWS_ORDER;
-    return MACHINE_SEND_ORDER;
-}
-
-static bool in_send_order(const struct paris_geometry *g)
-{
-    return paris_geometry_order(g) == MACHINE_SEND_ORDER;
-}
-
-uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index)
-{
-    uint64_t physical = CM_physical_processors_limit;
-    return in_send_order(g) ? index : index % physical * g->ratio + index / physical;
-}
-
-uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address)
-{
-    uint64_t physical = CM_physical_processors_limit;
-    uint64_t index = in_send_order(g)
-                         ? send_address
-                         : send_address % g->ratio * physical + send_address / g->ratio;
-    return send_address < physical * g->ratio && index < g->count ? index : UINT64_MAX;
-}
-
 static uint64_t axis_stride(const struct paris_geometry *g, unsigned int axis)
 {
     uint64_t stride = 1;

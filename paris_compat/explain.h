@@ -18,7 +18,7 @@ void paris_explain_write(void);
 void explain_text(FILE *out, const struct machine_explained *x);
 void explain_json(FILE *out, const struct machine_explained *x);
 
-/* The kernel's bound, by what it is: as many bytes copied, or the cost model's operations; 0: not known. */
+/* explain_words.c: the kernel's bound, by what it is: as many bytes copied, or the cost model's operations; 0: not known. */
 double explain_bound_s(const struct machine_explained_kernel *k, const char **by);
 const char *explain_why(enum machine_cut why);
 

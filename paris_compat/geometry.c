@@ -1,4 +1,4 @@
-/* Geometries, VP sets, and where processors are: Paris's send addresses are not the machine's
+/* geometry.c - geometries as data, and where processors are: Paris's send addresses are not the machine's
  * row-major indices.
  *
  * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of
@@ -10,23 +10,11 @@
 
 #include "paris_state.h"
 
-/* ---- geometries ---- */
-
-static struct paris_geometry *geometry_find(CM_geometry_id_t id)
+struct paris_geometry *paris_geometry_find(CM_geometry_id_t id)
 {
     if (id < 1 || id > paris_the.geometries_count || !paris_the.geometries[id - 1].rank)
         return NULL;
     return &paris_the.geometries[id - 1];
-}
-
-const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id)
-{
-    paris_machine();
-    const struct paris_geometry *g = geometry_find(id);
-    if (!g)
-        paris_fail("geometry: %d is not a geometry (any more): make it with CM_create_geometry",
-                   id);
-    return g;
 }
 
 const struct paris_geometry *paris_geometry_current(void)
@@ -34,18 +22,7 @@ const struct paris_geometry *paris_geometry_current(void)
     return &paris_the.geometries[CM_current_geometry - 1];
 }
 
-static const struct paris_geometry *geometry_axis(CM_geometry_id_t id, unsigned int axis)
-{
-    const struct paris_geometry *g = paris_geometry_of(id);
-    if (g && axis >= (unsigned int)g->rank) {
-        paris_fail("axis: must be 0..%d in this geometry (got %d)", g->rank - 1, (int)axis);
-        return NULL;
-    }
-    return g;
-}
-
-/* An id for g, or 0. */
-static CM_geometry_id_t geometry_add(const struct paris_geometry *g)
+CM_geometry_id_t paris_geometry_add(const struct paris_geometry *g)
 {
     int i = 0;
     while (i < paris_the.geometries_count && paris_the.geometries[i].rank)
@@ -69,8 +46,7 @@ static CM_geometry_id_t geometry_add(const struct paris_geometry *g)
     return i + 1;
 }
 
-/* The count and the VP ratio of g's dimensions. */
-static bool geometry_complete(struct paris_geometry *g)
+bool paris_geometry_complete(struct paris_geometry *g)
 {
     g->count = 1;
     for (int axis = 0; axis < g->rank; axis++) {
@@ -90,118 +66,9 @@ static bool geometry_complete(struct paris_geometry *g)
     return true;
 }
 
-static bool rank_good(unsigned int rank)
-{
-    if (rank >= 1 && rank <= MACHINE_AXES_MAX)
-        return true;
-    paris_fail("rank: must be 1..%d (got %d)", MACHINE_AXES_MAX, (int)rank);
-    return false;
-}
+/* ---- addresses ---- */
 
-static bool geometry_from_dimensions(struct paris_geometry *g, CM_vector_t dimensions,
-                                     unsigned int rank)
-{
-    paris_machine();
-    memset(g, 0, sizeof *g);
-    if (!rank_good(rank))
-        return false;
-    if (!dimensions.ints) {
-        paris_fail("dimensions: is NULL");
-        return false;
-    }
-    g->rank = (int)rank;
-    for (int axis = 0; axis < g->rank; axis++) {
-        g->dimensions[axis] = dimensions.ints[axis];
-        g->weight[axis] = 1;
-        g->ordering[axis] = CM_news_order;
-    }
-    return geometry_complete(g);
-}
-
-static bool geometry_from_axes(struct paris_geometry *g, CM_axis_descriptor_t *axes,
-                               unsigned int rank)
-{
-    paris_machine();
-    memset(g, 0, sizeof *g);
-    if (!rank_good(rank))
-        return false;
-    g->rank = (int)rank;
-    for (int axis = 0; axis < g->rank; axis++) {
-        if (!axes || !axes[axis]) {
-            paris_fail("axis_descriptors: the descriptor of axis %d is NULL", axis);
-            return false;
-        }
-        if (axes[axis]->ordering != CM_news_order && axes[axis]->ordering != CM_send_order) {
-            paris_fail("axis_descriptors: ordering of axis %d must be CM_news_order or "
-                       "CM_send_order (got %d)",
-                       axis, axes[axis]->ordering);
-            return false;
-        }
-        g->dimensions[axis] = axes[axis]->length > INT32_MAX ? -1 : (int)axes[axis]->length;
-        g->weight[axis] = (int)axes[axis]->weight;
-        g->ordering[axis] = (uint8_t)axes[axis]->ordering;
-    }
-    return geometry_complete(g);
-}
-
-static CM_geometry_id_t geometry_intern(const struct paris_geometry *g)
-{
-    for (int i = 0; i < paris_the.geometries_count; i++) {
-        const struct paris_geometry *h = &paris_the.geometries[i];
-        if (h->rank == g->rank && !memcmp(h->dimensions, g->dimensions, sizeof g->dimensions) &&
-            !memcmp(h->weight, g->weight, sizeof g->weight) &&
-            !memcmp(h->ordering, g->ordering, sizeof g->ordering))
-            return i + 1;
-    }
-    return geometry_add(g);
-}
-
-CM_geometry_id_t CM_create_geometry(CM_vector_t dimensions, unsigned int rank)
-{
-    struct paris_geometry g;
-    paris_the.call = "CM_create_geometry";
-    return geometry_from_dimensions(&g, dimensions, rank) ? geometry_add(&g) : 0;
-}
-
-CM_geometry_id_t CM_intern_geometry(CM_vector_t dimensions, unsigned int rank)
-{
-    struct paris_geometry g;
-    paris_the.call = "CM_intern_geometry";
-    return geometry_from_dimensions(&g, dimensions, rank) ? geometry_intern(&g) : 0;
-}
-
-CM_geometry_id_t CM_create_detailed_geometry(CM_axis_descriptor_t *axis_descriptors,
-                                             unsigned int rank)
-{
-    struct paris_geometry g;
-    paris_the.call = "CM_create_detailed_geometry";
-    return geometry_from_axes(&g, axis_descriptors, rank) ? geometry_add(&g) : 0;
-}
-
-CM_geometry_id_t CM_intern_detailed_geometry(CM_axis_descriptor_t *axis_descriptors,
-                                             unsigned int rank)
-{
-    struct paris_geometry g;
-    paris_the.call = "CM_intern_detailed_geometry";
-    return geometry_from_axes(&g, axis_descriptors, rank) ? geometry_intern(&g) : 0;
-}
-
-void CM_deallocate_geometry(CM_geometry_id_t geometry)
-{
-    paris_the.call = "CM_deallocate_geometry";
-    if (!paris_geometry_of(geometry))
-        return;
-    struct paris_geometry *g = geometry_find(geometry);
-    if (g->sets)
-        paris_fail("geometry: %d VP sets still have it: call CM_deallocate_vp_set first",
-                   g->sets);
-    else
-        memset(g, 0, sizeof *g);
-}
-
-/* ---- inquiries ---- */
-
-static unsigned int bits_for(uint64_t count)
+unsigned int paris_count_bits(uint64_t count)
 {
     unsigned int bits = 1;
     while (bits < 63 && (1ull << bits) < count)
@@ -211,124 +78,33 @@ static unsigned int bits_for(uint64_t count)
 
 unsigned int paris_address_bits(const struct paris_geometry *g)
 {
-    return bits_for(CM_physical_processors_limit * g->ratio);
+    return paris_count_bits(CM_physical_processors_limit * g->ratio);
 }
 
-int CM_geometry_rank(CM_geometry_id_t geometry)
+enum machine_order paris_geometry_order(const struct paris_geometry *g)
 {
-    paris_the.call = "CM_geometry_rank";
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    return g ? g->rank : 0;
+    for (int axis = 0; axis < g->rank; axis++)
+        if (g->ordering[axis] != CM_send_order)
+            return MACHINE_NEWS_ORDER;
+    return MACHINE_SEND_ORDER;
 }
 
-unsigned int CM_geometry_axis_length(CM_geometry_id_t geometry, unsigned int axis)
+static bool in_send_order(const struct paris_geometry *g)
 {
-    paris_the.call = "CM_geometry_axis_length";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? (unsigned int)g->dimensions[axis] : 0;
+    return paris_geometry_order(g) == MACHINE_SEND_ORDER;
 }
 
-unsigned int CM_geometry_coordinate_length(CM_geometry_id_t geometry, unsigned int axis)
+uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index)
 {
-    paris_the.call = "CM_geometry_coordinate_length";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? bits_for((uint64_t)g->dimensions[axis]) : 0;
+    uint64_t physical = CM_physical_processors_limit;
+    return in_send_order(g) ? index : index % physical * g->ratio + index / physical;
 }
 
-int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
+uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address)
 {
-    paris_the.call = "CM_geometry_axis_ordering";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? g->ordering[axis] : CM_news_order;
-}
-
-/* A row-major array gives a processor's virtual ones to the first axis, and what that cannot
- * hold to the next. */
-unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_vp_ratio";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    if (!g)
-        return 0;
-    uint64_t left = g->ratio;
-    for (unsigned int i = 0; i < axis; i++) {
-        uint64_t taken = left < (uint64_t)g->dimensions[i] ? left : (uint64_t)g->dimensions[i];
-        left = (left + taken - 1) / taken;
-    }
-    return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left
-                                                               : (uint64_t)g->dimensions[axis]);
-}
-
-unsigned int CM_geometry_axis_weight(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_weight";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? (unsigned int)g->weight[axis] : 0;
-}
-
-unsigned int CM_geometry_axis_on_chip_bits(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_on_chip_bits";
-    geometry_axis(geometry, axis);
-    return 0;
-}
-
-unsigned int CM_geometry_axis_on_chip_pos(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_on_chip_pos";
-    geometry_axis(geometry, axis);
-    return 0;
-}
-
-static unsigned int off_chip_bits(CM_geometry_id_t geometry, const struct paris_geometry *g,
-                                  unsigned int axis)
-{
-    unsigned int vps = CM_geometry_axis_vp_ratio(geometry, axis);
-    uint64_t left = ((uint64_t)g->dimensions[axis] + vps - 1) / vps;
-    return left > 1 ? bits_for(left) : 0;
-}
-
-unsigned int CM_geometry_axis_off_chip_bits(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_off_chip_bits";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    return g ? off_chip_bits(geometry, g, axis) : 0;
-}
-
-unsigned int CM_geometry_axis_off_chip_pos(CM_geometry_id_t geometry, unsigned int axis)
-{
-    paris_the.call = "CM_geometry_axis_off_chip_pos";
-    const struct paris_geometry *g = geometry_axis(geometry, axis);
-    unsigned int position = 0;
-    for (unsigned int i = axis + 1; g && i < (unsigned int)g->rank; i++)
-        position += off_chip_bits(geometry, g, i);
-    return position;
-}
-
-unsigned int CM_geometry_serial_number(CM_geometry_id_t geometry)
-{
-    paris_the.call = "CM_geometry_serial_number";
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    return g ? g->serial : 0;
-}
-
-unsigned int CM_geometry_send_address_length(CM_geometry_id_t geometry)
-{
-    paris_the.call = "CM_geometry_send_address_length";
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    return g ? paris_address_bits(g) : 0;
-}
-
-unsigned int CM_geometry_total_processors(CM_geometry_id_t geometry)
-{
-    paris_the.call = "CM_geometry_total_processors";
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    return g ? (unsigned int)g->count : 0;
-}
-
-unsigned int CM_geometry_total_vp_ratio(CM_geometry_id_t geometry)
-{
-    paris_the.call = "CM_geometry_total_vp_ratio";
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    return g ? (unsigned int)g->ratio : 0;
+    uint64_t physical = CM_physical_processors_limit;
+    uint64_t index = in_send_order(g)
+                         ? send_address
+                         : send_address % g->ratio * physical + send_address / g->ratio;
+    return send_address < physical * g->ratio && index < g->count ? index : UINT64_MAX;
 }

@@ -9,6 +9,6 @@ bool leds_recording(void);
 /* Adds a frame; says what is wrong, once. */
 void leds_record(const uint8_t lights[PARIS_LIGHTS_BYTES]);
 /* LUTETIA_LEDS=window: where frames are written to, or -1; it has said why. */
-int leds_window_open(void);
+int paris_lights_window_open(void);
 
 #endif

@@ -60,7 +60,7 @@ static bool file_open(void)
         return true;
     if (strcmp(getenv("LUTETIA_LEDS"), "window") == 0) {
         failed = true; /* while it is opened: an error handler need not come back */
-        file = leds_window_open();
+        file = paris_lights_window_open();
         failed = file < 0;
     } else {
         file = open(getenv("LUTETIA_LEDS"), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -76,7 +76,7 @@ static bool is_set(const char *name)
     return value && *value;
 }
 
-int leds_window_open(void)
+int paris_lights_window_open(void)
 {
     int lights[2] = {-1, -1}, answer[2] = {-1, -1}, error = 0, result = -1;
     char byte;

@@ -128,6 +128,8 @@ void paris_fail(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 void paris_fail_memory(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 /* The same with what the machine says. */
 void paris_fail_machine(void) PARIS_COLD;
+/* Keeps why there is no machine, for paris_error(), and tells nobody. m: what machine_create() left; NULL is fine. */
+void paris_fail_without(const struct machine *m) PARIS_COLD;
 
 /* Starts the instruction of this name. */
 static inline struct machine *paris_begin(const char *name)
@@ -233,7 +235,6 @@ bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct 
 /* These say no in either mode. */
 bool paris_check_axis(unsigned int axis);
 const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
-const struct paris_geometry *paris_geometry_current(void);
 
 /* ---- integers of several lengths: values.c; NULL goes through ---- */
 
@@ -256,8 +257,25 @@ struct machine_value *paris_absolute(struct machine *m, struct machine_value *x)
 struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
                                     struct machine_value *a, struct machine_value *b);
 
-/* ---- geometry: the machine's row-major index and Paris's send address ---- */
+/* ---- geometries and VP sets as data: geometry.c, vp_sets.c ---- */
 
+struct paris_geometry *paris_geometry_find(CM_geometry_id_t id); /* NULL: there is none */
+const struct paris_geometry *paris_geometry_current(void);
+/* An id for g; 0: no memory, and that has been said. */
+CM_geometry_id_t paris_geometry_add(const struct paris_geometry *g);
+/* Fills in the count and the VP ratio of g's dimensions. False: they are wrong, and that has been said. */
+bool paris_geometry_complete(struct paris_geometry *g);
+/* The bits that tell so many things apart; 1 at least. */
+unsigned int paris_count_bits(uint64_t count);
+
+bool paris_set_valid(CM_vp_set_id_t set);
+CM_vp_set_id_t paris_set_default(void);
+/* Of a geometry that there is; 0: it cannot be, and that has been said. */
+CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry);
+/* Makes a set that there is current. */
+bool paris_set_select(CM_vp_set_id_t set);
+
+/* The machine's row-major index and Paris's send address. */
 /* In send order: all axes are. Else the row-major index n is VP n div P of processor n mod P. */
 enum machine_order paris_geometry_order(const struct paris_geometry *g);
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);

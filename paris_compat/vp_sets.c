@@ -1,4 +1,4 @@
-/* VP sets, and the one that is current. */
+/* vp_sets.c - VP sets as data: which there are, the default one, and the one that is current. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,21 +11,17 @@ unsigned int CM_virtual_to_physical_processor_ratio = 0;
 
 static int default_set;
 
-static bool set_valid(CM_vp_set_id_t set)
+bool paris_set_valid(CM_vp_set_id_t set)
 {
     return set >= 1 && set < paris_the.sets_count && paris_the.set_geometry[set];
 }
 
-static bool set_check(CM_vp_set_id_t set)
+CM_vp_set_id_t paris_set_default(void)
 {
-    paris_machine();
-    if (set_valid(set))
-        return true;
-    paris_fail("vp_set: %d is not a VP set (any more): make it with CM_allocate_vp_set", set);
-    return false;
+    return default_set;
 }
 
-static bool set_select(CM_vp_set_id_t set)
+bool paris_set_select(CM_vp_set_id_t set)
 {
     if (machine_vpset_select(paris_the.machine, set) != MACHINE_OK) {
         paris_fail_machine();
@@ -39,12 +35,10 @@ static bool set_select(CM_vp_set_id_t set)
     return true;
 }
 
-CM_vp_set_id_t CM_allocate_vp_set(CM_geometry_id_t geometry)
+CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry)
 {
-    struct machine *m = paris_begin("CM_allocate_vp_set");
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    if (!g)
-        return 0;
+    struct machine *m = paris_the.machine;
+    const struct paris_geometry *g = paris_geometry_find(geometry);
     int set = machine_vpset_create_ordered(m, g->dimensions, g->rank, paris_geometry_order(g));
     if (!set) {
         paris_fail_machine();
@@ -67,74 +61,6 @@ CM_vp_set_id_t CM_allocate_vp_set(CM_geometry_id_t geometry)
     paris_the.geometries[geometry - 1].sets++;
     paris_the.pristine = false;
     return set;
-}
-
-void CM_deallocate_vp_set(CM_vp_set_id_t vp_set)
-{
-    struct machine *m = paris_begin("CM_deallocate_vp_set");
-    if (!set_check(vp_set))
-        return;
-    if (vp_set == default_set) {
-        paris_fail("vp_set: the default VP set stays as long as the machine");
-        return;
-    }
-    if (vp_set == CM_current_vp_set) {
-        if (paris_the.safety) {
-            paris_fail("vp_set: it is the current one: call CM_set_vp_set with another first");
-            return;
-        }
-        if (!set_select(default_set))
-            return;
-    }
-    if (machine_vpset_destroy(m, vp_set) != MACHINE_OK) {
-        paris_fail_machine();
-        return;
-    }
-    paris_the.geometries[paris_the.set_geometry[vp_set] - 1].sets--;
-    paris_the.set_geometry[vp_set] = 0;
-}
-
-void CM_set_vp_set(CM_vp_set_id_t vp_set)
-{
-    paris_inquire("CM_set_vp_set");
-    if (set_check(vp_set))
-        set_select(vp_set);
-}
-
-void CM_set_vp_set_geometry(CM_vp_set_id_t vp_set, CM_geometry_id_t geometry)
-{
-    struct machine *m = paris_begin("CM_set_vp_set_geometry");
-    const struct paris_geometry *g = paris_geometry_of(geometry);
-    if (!g || !set_check(vp_set))
-        return;
-    struct paris_geometry *old = &paris_the.geometries[paris_the.set_geometry[vp_set] - 1];
-    if (g->count != old->count) {
-        paris_fail("geometry: %d has %llu processors, the VP set %llu: they must be as many",
-                   geometry, (unsigned long long)g->count, (unsigned long long)old->count);
-        return;
-    }
-    if (machine_vpset_arrange(m, vp_set, g->dimensions, g->rank, paris_geometry_order(g)) !=
-        MACHINE_OK) {
-        paris_fail_machine();
-        return;
-    }
-    old->sets--;
-    paris_the.geometries[geometry - 1].sets++;
-    paris_the.set_geometry[vp_set] = geometry;
-    paris_the.pristine = false;
-    if (vp_set == CM_current_vp_set)
-        set_select(vp_set);
-}
-
-CM_geometry_id_t CM_vp_set_geometry(CM_vp_set_id_t vp_set)
-{
-    paris_the.call = "CM_vp_set_geometry";
-    return set_check(vp_set) ? paris_the.set_geometry[vp_set] : 0;
-}
-
-int CM_is_vp_set_valid(CM_vp_set_id_t vp_set)
-{
-    return set_valid(vp_set);
 }
 
 /* ---- beginning and end ---- */
@@ -163,10 +89,14 @@ void paris_sets_reset(void)
             machine_vpset_destroy(m, set);
     paris_sets_forget();
     int half = (int)CM_physical_processors_length / 2;
-    int dimensions[2] = {1 << half, 1 << ((int)CM_physical_processors_length - half)};
-    CM_geometry_id_t geometry = CM_create_geometry((CM_vector_t){.ints = dimensions}, 2);
-    default_set = geometry ? CM_allocate_vp_set(geometry) : 0;
+    struct paris_geometry g = {
+        .rank = 2,
+        .dimensions = {1 << half, 1 << ((int)CM_physical_processors_length - half)},
+        .weight = {1, 1},
+        .ordering = {CM_news_order, CM_news_order}};
+    CM_geometry_id_t geometry = paris_geometry_complete(&g) ? paris_geometry_add(&g) : 0;
+    default_set = geometry ? paris_set_make(geometry) : 0;
     if (default_set)
-        set_select(default_set);
+        paris_set_select(default_set);
     paris_the.pristine = true;
 }

@@ -1,0 +1,20 @@
+/* explain_words.c - what the reports as text and as JSON say alike. */
+#include "explain.h"
+
+double explain_bound_s(const struct machine_explained_kernel *k, const char **by)
+{
+    bool computes = k->operations_s > k->copy_s && k->copy_s > 0;
+    *by = computes ? "operations" : "bytes";
+    return computes ? k->operations_s : k->copy_s;
+}
+
+const char *explain_why(enum machine_cut why)
+{
+    static const char *const names[] = {
+        [MACHINE_CUT_LOOKED_AT] = "looked at",
+        [MACHINE_CUT_LIVE] = "content of a field or flag",
+        [MACHINE_CUT_NEIGHBOURS] = "for neighbours",
+        [MACHINE_CUT_LATER] = "for a later kernel",
+    };
+    return names[why];
+}
