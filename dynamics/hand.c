@@ -44,22 +44,22 @@ static void twang(struct dyn_network *n, int mass)
                                             .y = n->state[mass].y});
 }
 
-static int pull_of(const struct dyn_network *n, int mass)
+struct dyn_pull *dyn_pull_of(struct dyn_network *n, int mass)
 {
     for (int i = 0; i < n->pulls_count; i++)
         if (n->pulls[i].mass == mass)
-            return i;
-    return -1;
+            return &n->pulls[i];
+    return NULL;
 }
 
 static void pull_remove(struct dyn_network *n, int mass)
 {
-    int at = pull_of(n, mass);
-    if (at < 0)
+    struct dyn_pull *pull = dyn_pull_of(n, mass);
+    if (!pull)
         return;
     n->pulls_count--;
-    for (int i = at; i < n->pulls_count; i++)
-        n->pulls[i] = n->pulls[i + 1];
+    for (; pull < n->pulls + n->pulls_count; pull++)
+        pull[0] = pull[1];
     n->changed = true;
 }
 
@@ -96,13 +96,13 @@ enum dyn_status dyn_pull_begin(struct dyn_network *n, int mass, double x, double
         status = dyn_control_check(&dyn_spring_fields[0], constant);
     if (status != DYN_OK)
         return status;
-    int at = pull_of(n, mass);
-    if (at < 0 && n->pulls_count == DYN_PULLS_MAX)
+    struct dyn_pull *pull = dyn_pull_of(n, mass);
+    if (!pull && n->pulls_count == DYN_PULLS_MAX)
         return dyn_fail(DYN_TOO_LARGE, "at most %d masses are pulled at a time", DYN_PULLS_MAX);
-    if (at < 0)
-        at = n->pulls_count++;
+    if (!pull)
+        pull = &n->pulls[n->pulls_count++];
     double weight = dyn_mass_row(n, MASS_MASS)[mass] * n->world.mass;
-    n->pulls[at] = (struct dyn_pull){mass, x, y, constant, 2.0 / 3 * sqrt(constant * weight)};
+    *pull = (struct dyn_pull){mass, x, y, constant, 2.0 / 3 * sqrt(constant * weight)};
     n->changed = true;
     return DYN_OK;
 }
@@ -112,18 +112,18 @@ enum dyn_status dyn_pull_move(struct dyn_network *n, int mass, double x, double 
     enum dyn_status status = place_check(n, mass, x, y);
     if (status != DYN_OK)
         return status;
-    int at = pull_of(n, mass);
-    if (at < 0)
+    struct dyn_pull *pull = dyn_pull_of(n, mass);
+    if (!pull)
         return dyn_fail(DYN_BAD_ARGUMENT, "nobody pulls mass %d", mass);
-    n->pulls[at].x = x;
-    n->pulls[at].y = y;
+    pull->x = x;
+    pull->y = y;
     return DYN_OK;
 }
 
 enum dyn_status dyn_pull_end(struct dyn_network *n, int mass)
 {
     enum dyn_status status = dyn_mass_check(n, mass);
-    if (status != DYN_OK || pull_of(n, mass) < 0)
+    if (status != DYN_OK || !dyn_pull_of(n, mass))
         return status;
     pull_remove(n, mass);
     twang(n, mass);

@@ -30,7 +30,8 @@
 #include <stdint.h>
 
 #define DYN_SPEED_MAX 1e4
-#define DYN_EDGE 1e6 /* of the plane: masses bounce there */
+#define DYN_TIME_MAX 1e12 /* s; of networks in files */
+#define DYN_EDGE 1e6      /* of the plane: masses bounce there */
 
 /* Keeps the text for dyn_error() and returns the status. */
 extern _Thread_local struct error_text dyn_last_error;
@@ -146,6 +147,9 @@ void dyn_snap(struct dyn_network *n, int spring, double strain, double time_s);
 /* network.c: all that can be set, unchecked. */
 void dyn_mass_put(struct dyn_network *n, int index, const struct dyn_mass *mass);
 void dyn_spring_put(struct dyn_network *n, int index, const struct dyn_spring *spring);
+
+/* hand.c: NULL: nobody pulls the mass. */
+struct dyn_pull *dyn_pull_of(struct dyn_network *n, int mass);
 
 /* fields.c: whether the mass is there. */
 enum dyn_status dyn_mass_check(const struct dyn_network *n, int mass);

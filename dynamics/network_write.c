@@ -1,0 +1,138 @@
+/* network_write.c - see network_file.h. */
+#include "internal.h"
+#include "network_file.h"
+
+#include <locale.h>
+#include <output_file.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The shortest of three texts that reads as the same number. */
+static void number_print(FILE *to, double value)
+{
+    char text[40];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    fputs(text, to);
+}
+
+/* name=value of those that are not as usual. */
+static void fields_print(FILE *to, const struct dyn_control *fields, int count, const void *of)
+{
+    for (int i = 0; i < count; i++) {
+        double value = dyn_control_read(&fields[i], of);
+        if (memcmp(&value, &fields[i].usual, sizeof value) == 0) /* -0 is not 0 */
+            continue;
+        fprintf(to, " %s=", fields[i].name);
+        number_print(to, value);
+    }
+}
+
+static void world_print(FILE *to, const struct dyn_world *world)
+{
+    for (int i = 0; i < dyn_controls_count; i++) {
+        const struct dyn_control *c = &dyn_controls[i];
+        double value = dyn_control_read(c, world);
+        if (value == c->usual)
+            continue;
+        fprintf(to, "control %s ", c->name);
+        number_print(to, value);
+        fputc('\n', to);
+    }
+}
+
+static void mass_print(FILE *to, const struct dyn_mass *mass)
+{
+    static const char *const holds[] = {"", " stuck", " held", " stuck held"};
+    fputs("mass", to);
+    fields_print(to, dyn_mass_fields, dyn_mass_fields_count, mass);
+    fprintf(to, "%s\n", holds[mass->hold]);
+}
+
+static void spring_print(FILE *to, const struct dyn_spring *spring)
+{
+    fprintf(to, "spring %d %d", spring->end[0], spring->end[1]);
+    fields_print(to, dyn_spring_fields, dyn_spring_fields_count, spring);
+    if (spring->rest_length == dyn_spring_field_find("rest_length")->usual)
+        fprintf(to, " rest_length=%g", spring->rest_length); /* without it, it is as placed */
+    fputs(spring->broken ? " broken\n" : "\n", to);
+}
+
+static void pull_print(FILE *to, const struct dyn_pull *pull)
+{
+    const double values[] = {pull->x, pull->y, pull->constant, pull->damping};
+    fprintf(to, "pull %d", pull->mass);
+    for (int i = 0; i < 4; i++) {
+        fputc(' ', to);
+        number_print(to, values[i]);
+    }
+    fputc('\n', to);
+}
+
+static enum dyn_status look(const struct dyn_network *n)
+{
+    if (!(n->time_s >= -DYN_TIME_MAX && n->time_s <= DYN_TIME_MAX))
+        return dyn_fail(DYN_BAD_ARGUMENT, "a network's time cannot be %g s", n->time_s);
+    for (int i = 0; i < n->masses_count; i++) {
+        struct dyn_mass mass = dyn_mass_get(n, i);
+        if (dyn_controls_check(dyn_mass_fields, dyn_mass_fields_count, &mass) != DYN_OK)
+            return dyn_fail(DYN_BAD_ARGUMENT, "mass %d: %s", i, dyn_error());
+    }
+    return DYN_OK;
+}
+
+/* Numbers have a point, whatever the program's locale. */
+static bool plain_numbers(locale_t *plain, locale_t *before)
+{
+    *plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!*plain)
+        return false;
+    *before = uselocale(*plain);
+    return true;
+}
+
+enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to)
+{
+    locale_t plain, before;
+    enum dyn_status status = look(n);
+    if (status != DYN_OK)
+        return status;
+    if (!plain_numbers(&plain, &before))
+        return dyn_fail(DYN_NO_MEMORY, "no memory for a locale");
+    fputs("springs 1\ntime_s ", to);
+    number_print(to, n->time_s);
+    fputc('\n', to);
+    world_print(to, &n->world);
+    for (int i = 0; i < n->masses_count; i++) {
+        struct dyn_mass mass = dyn_mass_get(n, i);
+        mass_print(to, &mass);
+    }
+    for (int i = 0; i < n->springs_count; i++) {
+        struct dyn_spring spring = dyn_spring_get(n, i);
+        spring_print(to, &spring);
+    }
+    for (int i = 0; i < n->pulls_count; i++)
+        pull_print(to, &n->pulls[i]);
+    fputs("end\n", to);
+    uselocale(before);
+    freelocale(plain);
+    return DYN_OK;
+}
+
+enum dyn_status dyn_network_write(const struct dyn_network *n, const char *path)
+{
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return dyn_fail(DYN_BAD_FILE, "%s: cannot write: %s", path, out.why);
+    enum dyn_status status = dyn_network_print(n, out.stream);
+    if (status != DYN_OK) {
+        output_file_abandon(&out);
+        return status;
+    }
+    if (!output_file_commit(&out))
+        return dyn_fail(DYN_BAD_FILE, "%s: cannot write: %s", path, out.why);
+    return DYN_OK;
+}
