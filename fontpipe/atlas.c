@@ -11,7 +11,7 @@ enum { BUCKETS = 2048, PAGES_MAX = 64, GAP = 1, STEP = 4 };
 /* Compared whole: no padding, all of it set. */
 struct key {
     uint64_t version;
-    double size_px, map[9];
+    double size_px, map[FONT_MAP_NUMBERS];
     uint32_t glyph;
     int32_t place_x, place_y, kind;
 };

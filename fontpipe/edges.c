@@ -319,7 +319,7 @@ static enum font_status build(struct font_edges *e, const struct font_outline *o
     clear(e);
     if (!outline->prepared)
         return font_fail(FONT_BAD_ARGUMENT, "an outline is prepared before it is drawn");
-    for (int i = 0; i < 9; i++)
+    for (int i = 0; i < FONT_MAP_NUMBERS; i++)
         if (!isfinite(map->m[i]))
             return font_fail(FONT_BAD_ARGUMENT, "a size or a map cannot hold %g", map->m[i]);
     const double *m = map->m;

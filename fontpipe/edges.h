@@ -21,13 +21,15 @@
 #include "outline.h"
 
 /* How an outline's plane becomes the picture's. */
-enum font_map_kind { FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR };
+enum font_map_kind { FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR, FONT_SMOOTH };
+enum { FONT_MAP_NUMBERS = 12 };
 struct font_map {
     enum font_map_kind kind;
     /* Affine: x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5].
      * Projective: both over m[6] x + m[7] y + m[8].
-     * Bilinear: x' = m[0] + m[1] x + m[2] y + m[3] x y, y' = m[4] + m[5] x + m[6] y + m[7] x y. */
-    double m[9];
+     * Bilinear: x' = m[0] + m[1] x + m[2] y + m[3] x y, y' = m[4] + m[5] x + m[6] y + m[7] x y.
+     * Smooth: both of these over m[8] + m[9] x + m[10] y + m[11] x y. */
+    double m[FONT_MAP_NUMBERS];
 };
 
 /* Upright at a size: an em is that many pixels, y turned downwards. */
@@ -38,6 +40,8 @@ struct font_map font_map_then(struct font_map map, struct font_map affine);
 struct font_map font_map_rotation(double degrees);
 struct font_map font_map_shear(double x_per_y);
 /* The rectangle (x0, y0)..(x1, y1), y downwards, onto four corners: of (x0, y0), (x1, y0), (x1, y1), (x0, y1).
+ * SMOOTH: projective where the corners are well apart from a dent, bilinear where they are not, and continuous between
+ * (dynamics/quad/quad.h); the kind of *out is what it is.
  * Errors: BAD_ARGUMENT if the corners have no such map (three on a line, or a side turned over). */
 enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
                                   double y1, const struct font_point corners[4],

@@ -3,6 +3,7 @@
 #include "internal.h"
 
 #include <math.h>
+#include <quad.h>
 
 struct font_map font_map_size(double size_px, double units_per_em)
 {
@@ -45,6 +46,12 @@ struct font_map font_map_then(struct font_map map, struct font_map affine)
             r[4 + i] = a[3] * m[i] + a[4] * m[4 + i] + (i == 0 ? a[5] : 0);
         }
         break;
+    case FONT_SMOOTH:
+        for (int i = 0; i < 4; i++) {
+            r[i] = a[0] * m[i] + a[1] * m[4 + i] + a[2] * m[8 + i];
+            r[4 + i] = a[3] * m[i] + a[4] * m[4 + i] + a[5] * m[8 + i];
+        }
+        break;
     }
     return out;
 }
@@ -55,34 +62,32 @@ static double triangle(struct font_point a, struct font_point b, struct font_poi
     return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
 }
 
-/* The unit square onto four corners. Source: Heckbert, Fundamentals of texture mapping, 1989, section 2.2.3. */
-static struct font_map square_to(enum font_map_kind kind, const struct font_point q[4])
+/* The unit square onto four corners. False: there is no such map. */
+static bool square_to(enum font_map_kind kind, const struct font_point q[4],
+                      struct font_map *out)
 {
-    struct font_map map = {.kind = kind};
-    double sx = q[0].x - q[1].x + q[2].x - q[3].x, sy = q[0].y - q[1].y + q[2].y - q[3].y;
-    if (kind == FONT_BILINEAR) {
-        double m[8] = {q[0].x, q[1].x - q[0].x, q[3].x - q[0].x, sx,
-                       q[0].y, q[1].y - q[0].y, q[3].y - q[0].y, sy};
-        for (int i = 0; i < 8; i++)
-            map.m[i] = m[i];
-        return map;
+    static const enum dyn_quad_kind kinds[] = {[FONT_PROJECTIVE] = DYN_QUAD_PROJECTIVE,
+                                               [FONT_BILINEAR] = DYN_QUAD_BILINEAR,
+                                               [FONT_SMOOTH] = DYN_QUAD_SMOOTH};
+    struct dyn_quad_map map;
+    double corners[4][2], c[3][4];
+    for (int i = 0; i < 4; i++) {
+        corners[i][0] = q[i].x;
+        corners[i][1] = q[i].y;
     }
-    double dx1 = q[1].x - q[2].x, dx2 = q[3].x - q[2].x;
-    double dy1 = q[1].y - q[2].y, dy2 = q[3].y - q[2].y;
-    double det = dx1 * dy2 - dx2 * dy1;
-    double g = (sx * dy2 - sy * dx2) / det, h = (dx1 * sy - dy1 * sx) / det;
-    double m[9] = {q[1].x - q[0].x + g * q[1].x,
-                   q[3].x - q[0].x + h * q[3].x,
-                   q[0].x,
-                   q[1].y - q[0].y + g * q[1].y,
-                   q[3].y - q[0].y + h * q[3].y,
-                   q[0].y,
-                   g,
-                   h,
-                   1};
-    for (int i = 0; i < 9; i++)
-        map.m[i] = m[i];
-    return map;
+    if (!dyn_quad_make(&map, kinds[kind], corners))
+        return false;
+    dyn_quad_coefficients(&map, c);
+    *out = (struct font_map){.kind = map.kind == DYN_QUAD_PROJECTIVE ? FONT_PROJECTIVE
+                                     : map.kind == DYN_QUAD_BILINEAR ? FONT_BILINEAR
+                                                                     : FONT_SMOOTH};
+    bool projective = out->kind == FONT_PROJECTIVE;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; projective && i < 3; i++)
+            out->m[3 * k + i] = c[k][(i + 1) % 3]; /* x, y, 1 */
+    for (int i = 0; !projective && i < (out->kind == FONT_SMOOTH ? 12 : 8); i++)
+        out->m[i] = c[i / 4][i % 4];
+    return true;
 }
 
 enum font_status font_map_compose(const struct font_map *first, const struct font_map *second,
@@ -105,6 +110,7 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
         }
         return FONT_OK;
     case FONT_BILINEAR:
+    case FONT_SMOOTH:
         break;
     }
     /* x y becomes a square form of which only the mixed term may stay. */
@@ -113,7 +119,7 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
         return font_fail(
             FONT_BAD_ARGUMENT,
             "before a bilinear distortion type can be sized and moved, not turned");
-    for (int row = 0; row < 2; row++) {
+    for (int row = 0; row < (after.kind == FONT_SMOOTH ? 3 : 2); row++) {
         const double *s = m + 4 * row;
         r[4 * row] = s[0] + s[1] * a[2] + s[2] * a[5] + s[3] * a[2] * a[5];
         r[4 * row + 1] = s[1] * a[0] + s[3] * a[0] * a[5];
@@ -141,7 +147,9 @@ enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0,
                          "the four corners must go around a shape without a dent");
     struct font_map unit = {
         FONT_AFFINE, {1 / (x1 - x0), 0, -x0 / (x1 - x0), 0, 1 / (y1 - y0), -y0 / (y1 - y0)}};
-    struct font_map square = square_to(kind, q);
+    struct font_map square;
+    if (!square_to(kind, q, &square))
+        return font_fail(FONT_BAD_ARGUMENT, "the four corners have no such map");
     return font_map_compose(&unit, &square, out);
 }
 
@@ -176,6 +184,17 @@ bool font_map_point(const struct font_map *map, struct font_point from, struct f
         jacobian[1] = m[2] + m[3] * x;
         jacobian[2] = m[5] + m[7] * y;
         jacobian[3] = m[6] + m[7] * x;
+        return true;
+    case FONT_SMOOTH:
+        w = m[8] + m[9] * x + m[10] * y + m[11] * x * y;
+        if (!(w > 1e-9))
+            return false;
+        *to = (struct font_point){(m[0] + m[1] * x + m[2] * y + m[3] * x * y) / w,
+                                  (m[4] + m[5] * x + m[6] * y + m[7] * x * y) / w};
+        jacobian[0] = (m[1] + m[3] * y - to->x * (m[9] + m[11] * y)) / w;
+        jacobian[1] = (m[2] + m[3] * x - to->x * (m[10] + m[11] * x)) / w;
+        jacobian[2] = (m[5] + m[7] * y - to->y * (m[9] + m[11] * y)) / w;
+        jacobian[3] = (m[6] + m[7] * x - to->y * (m[10] + m[11] * x)) / w;
         return true;
     }
     return false;

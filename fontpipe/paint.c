@@ -14,7 +14,7 @@ enum { BUCKETS = 4096, TO_LIGHT = 256, TO_NUMBER = 4096 };
 /* Compared whole: no padding, all of it set. */
 struct key {
     uint64_t version;
-    double map[9];
+    double map[FONT_MAP_NUMBERS];
     uint32_t glyph;
     int32_t kind;
     int32_t place_x, place_y; /* of a picture; -1 for edges */

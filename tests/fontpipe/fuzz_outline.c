@@ -73,8 +73,10 @@ static void map_read(struct input *in, struct font_map *map)
             corners[i].x = number(in) / 16;
             corners[i].y = number(in) / 16;
         }
-        if (font_map_corners(kind & 32 ? FONT_PROJECTIVE : FONT_BILINEAR, 0, -kind, kind, 0,
-                             corners, &warp) == FONT_OK)
+        if (font_map_corners(kind & 1    ? FONT_SMOOTH
+                             : kind & 32 ? FONT_PROJECTIVE
+                                         : FONT_BILINEAR,
+                             0, -kind, kind, 0, corners, &warp) == FONT_OK)
             (void)font_map_compose(map, &warp, map);
     }
 }

@@ -121,21 +121,26 @@ static void gray_is_gold_when_large(void **state)
 static void gray_is_gold_sheared_and_distorted(void **state)
 {
     const struct fixture *f = *state;
-    struct font_difference bytes[3] = {{0}}, exact[3] = {{0}};
-    const struct font_point corners[4] = {{3, 2}, {41, 8}, {37, 35}, {0, 30}};
-    for (int k = 0; k < 108; k++) {
+    static const enum font_map_kind kinds[] = {FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR,
+                                               FONT_SMOOTH};
+    struct font_difference bytes[4] = {{0}}, exact[4] = {{0}};
+    /* the second almost has a dent: there a smooth map is neither of the others */
+    const struct font_point corners[2][4] = {{{3, 2}, {41, 8}, {37, 35}, {0, 30}},
+                                             {{3, 2}, {41, 8}, {23.5, 19.5}, {0, 30}}};
+    for (int k = 0; k < 144; k++) {
         struct font_outline outline;
-        int face = k % FACES, kind = k / 3 % 3;
+        int face = k % FACES, kind = k / 3 % 4;
         assert_font(font_face_outline(
             f->face[face], font_face_glyph(f->face[face], 33 + (uint32_t)(k * 17 % LETTERS)),
             &outline));
         struct font_map map = font_map_size(24, f->units[face]);
         if (kind == 0) {
-            map = font_map_then(map, font_map_shear(0.5 - k / 108.0));
+            map = font_map_then(map, font_map_shear(0.5 - k / 144.0));
         } else {
             struct font_map warp;
-            assert_font(font_map_corners(kind == 1 ? FONT_PROJECTIVE : FONT_BILINEAR, -4, -24,
-                                         28, 8, corners, &warp));
+            assert_font(
+                font_map_corners(kinds[kind], -4, -24, 28, 8, corners[kind == 3], &warp));
+            assert_int_equal(warp.kind, kinds[kind]);
             assert_font(font_map_compose(&map, &warp, &map));
         }
         compare(&outline, &map, f->filter[k / 9 % FILTERS], k % 16 / 16.0, k / 16 / 16.0,
@@ -145,6 +150,7 @@ static void gray_is_gold_sheared_and_distorted(void **state)
     sums_check("sheared", &bytes[0], &exact[0]);
     sums_check("projective", &bytes[1], &exact[1]);
     sums_check("bilinear", &bytes[2], &exact[2]);
+    sums_check("smooth", &bytes[3], &exact[3]);
 }
 
 /* The rarer filters, in the same way. */
