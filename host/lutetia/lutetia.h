@@ -25,6 +25,7 @@ int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
+int verb_voice(int argc, char **argv);
 
 /* ---- failures ---- */
 
