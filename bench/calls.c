@@ -93,15 +93,12 @@ void calls_turn(const struct calls *c, int turn)
     CM_deallocate_stack_through(east);
 }
 
-unsigned long calls_sum(const struct calls *c)
-{
-    return CM_global_u_add_1L(c->count, 32) + CM_global_u_add_1L(c->small, 8) +
-           CM_global_count_bit(c->mark);
-}
-
 /* ---- measuring ---- */
 
-void calls_make(const struct calls *c, int calls_count, double *recorded_s, double *total_s)
+/* Makes about that many calls, from turn 0 on. recorded_s: processor time of the calling thread
+ * until all are made; total_s: time until the device is done with them. */
+static void calls_make(const struct calls *c, int calls_count, double *recorded_s,
+                       double *total_s)
 {
     double thread = bench_thread_s(), start = bench_now_s();
     for (int turn = 0; turn < calls_count / CALLS_IN_TURN; turn++)

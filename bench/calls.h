@@ -27,12 +27,6 @@ void calls_init(struct calls *c, int width, int height);
  * from the stack and go back there. The numbers in them depend on the turn. Fields stay bounded
  * whatever the number of turns. */
 void calls_turn(const struct calls *c, int turn);
-/* Of all fields; the same after the same number of turns, whatever the mode. */
-unsigned long calls_sum(const struct calls *c);
-
-/* Makes about that many calls, from turn 0 on. recorded_s: processor time of the calling thread
- * until all are made; total_s: time until the device is done with them. */
-void calls_make(const struct calls *c, int calls_count, double *recorded_s, double *total_s);
 /* Memory of this process that is in use; 0 where the system does not say. */
 size_t calls_resident_bytes(void);
 

@@ -186,8 +186,3 @@ bool diffusion_hand_read(struct diffusion_hand *h, int field, float *out)
     cl_int error = plane_copy(h, (size_t)field, out, false);
     return error ? bench_opencl_fail("reading the sheet", error) : true;
 }
-
-const char *diffusion_hand_device(const struct diffusion_hand *h)
-{
-    return h->cl.device_name;
-}

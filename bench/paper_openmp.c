@@ -107,7 +107,8 @@ static int field_of(enum paper_peer_layer layer, int pigment)
     }
 }
 
-bool paper_openmp_air(struct paper_openmp *o, const struct paper_air *air)
+/* False, bench_error(): the air has surface tension. */
+static bool air_set(struct paper_openmp *o, const struct paper_air *air)
 {
     if (air->tension > 0)
         return bench_fail("the paper's peer knows no surface tension (got %g)", air->tension);
@@ -128,7 +129,7 @@ struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
         return NULL;
     }
     o->config = *config;
-    if (!paper_openmp_air(o, &config->air)) {
+    if (!air_set(o, &config->air)) {
         free(o);
         return NULL;
     }

@@ -53,8 +53,6 @@ void paper_openmp_read(const struct paper_openmp *o, enum paper_peer_layer layer
                        float *values);
 /* After the layers have been written: faces and the wet area. */
 void paper_openmp_start(struct paper_openmp *o);
-/* Errors: false, bench_error(): the air has surface tension. */
-bool paper_openmp_air(struct paper_openmp *o, const struct paper_air *air);
 void paper_openmp_steps(struct paper_openmp *o, int steps_count);
 
 #endif

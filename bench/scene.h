@@ -66,6 +66,5 @@ void diffusion_hand_destroy(struct diffusion_hand *h);
 /* Waits for the last step. */
 bool diffusion_hand_steps(struct diffusion_hand *h, int steps_count);
 bool diffusion_hand_read(struct diffusion_hand *h, int field, float *out);
-const char *diffusion_hand_device(const struct diffusion_hand *h);
 
 #endif

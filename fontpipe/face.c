@@ -27,7 +27,6 @@ struct font_face {
     unsigned char *bytes;
     size_t bytes_count;
     char *path;
-    char glyph_name[128];
     uint64_t version;
 };
 
@@ -293,14 +292,6 @@ void font_face_describe(const struct font_face *face, struct font_face_info *out
 uint32_t font_face_glyph(const struct font_face *face, uint32_t character)
 {
     return FT_Get_Char_Index(face->ft, character);
-}
-
-const char *font_face_glyph_name(struct font_face *face, uint32_t glyph)
-{
-    face->glyph_name[0] = '\0';
-    if (FT_HAS_GLYPH_NAMES(face->ft))
-        FT_Get_Glyph_Name(face->ft, glyph, face->glyph_name, sizeof face->glyph_name);
-    return face->glyph_name;
 }
 
 /* ---- outlines ---- */

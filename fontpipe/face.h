@@ -44,8 +44,6 @@ void font_face_describe(const struct font_face *face, struct font_face_info *out
 
 /* The glyph for a character; 0 if the font has none. */
 uint32_t font_face_glyph(const struct font_face *face, uint32_t character);
-/* Its name, or "" where the font keeps none. Owned by the face, until the next call. */
-const char *font_face_glyph_name(struct font_face *face, uint32_t glyph);
 
 /* The outline with advance and units_per_em, prepared. Owns: the caller finishes *out, which is empty on failure.
  * Errors: NO_GLYPH for an index the font has not or that is a bitmap, BAD_FILE for a damaged one. */

@@ -70,14 +70,48 @@ void colour (count, pixel)
     pixel[2] = 128.0 - 127.0 * cos (phase + 1.4);
 }
 
+void draw (counts, height, width)
+    unsigned short *counts;
+    int height, width;
+{
+    unsigned char *picture = (unsigned char *) malloc (3 * height * width);
+    int k;
+
+    for (k = 0; k < height * width; k++)
+        colour (counts[k], &picture[3 * k]);
+    write_picture ("mandelbrot.ppm", picture, width, height, 3);
+    free (picture);
+}
+
+/* How many of every 37th row's points a plain loop counts otherwise. */
+int compare (counts, height, width, pitch, most)
+    unsigned short *counts;
+    int height, width, most;
+    double pitch;
+{
+    int row, column, wrong = 0;
+    float px, py;
+
+    for (row = 0; row < height; row += 37)
+        for (column = 0; column < width; column++) {
+            px = column;
+            py = row;
+            px *= (float) pitch;
+            px += (float) west;
+            py *= (float) pitch;
+            py += (float) north;
+            wrong += plain_count (px, py, most) != counts[row * width + column];
+        }
+    return wrong;
+}
+
 int main (argc, argv)
     int argc;
     char **argv;
 {
-    int most, height, width, turn, k, row, column, last = 0, wrong = 0;
+    int most, height, width, turn, last = 0, wrong;
     unsigned int left = 0, before;
     unsigned short *counts;
-    unsigned char *picture;
     double pitch;
     CM_field_id_t cx, cy, x, y, xx, yy, count;
 
@@ -132,22 +166,10 @@ int main (argc, argv)
             height * width, most);
     CM_set_context ();
     counts = (unsigned short *) malloc (height * width * sizeof (short));
-    picture = (unsigned char *) malloc (3 * height * width);
     CM_u_read_from_news_array_1L (counts, zero, zero, sizes, axes, count, COUNT, 2, sizes,
                                   CM_16_bit);
-    for (k = 0; k < height * width; k++)
-        colour (counts[k], &picture[3 * k]);
-    write_picture ("mandelbrot.ppm", picture, width, height, 3);
-
-    for (row = 0; row < height; row += 37)
-        for (column = 0; column < width; column++) {
-            float px = column, py = row;
-            px *= (float) pitch;
-            px += (float) west;
-            py *= (float) pitch;
-            py += (float) north;
-            wrong += plain_count (px, py, most) != counts[row * width + column];
-        }
+    draw (counts, height, width);
+    wrong = compare (counts, height, width, pitch, most);
     printf ("same as a plain loop: %s\n", wrong ? "no" : "yes");
     return wrong != 0;
 }

@@ -456,6 +456,39 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     return picture_write(leds, leds->out_path ? leds->out_path : "leds.png");
 }
 
+static const char usage[] =
+    "usage: lutetia leds [options] prog [arguments]\n"
+    "       lutetia leds [options] recording (- is the standard input)\n"
+    "       lutetia leds [options] --pattern random\n\n"
+    "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
+    "them, in a\n"
+    "window or in PNG pictures. Closing the window, or Esc in it, stops the program. "
+    "A\n"
+    "recording stops and goes on with Space, steps with a full stop, slows with - and\n"
+    "quickens with =.\n"
+    "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
+    "recording.\n";
+
+/* 0: what the options say together can be done; else what the program ends with. */
+static int words_check(const struct leds *leds, int argc, char **argv)
+{
+    if (strcmp(leds->view, "cube") != 0 && strcmp(leds->view, "front") != 0 &&
+        strcmp(leds->view, "door") != 0)
+        return fail_usage("leds", "--view must be cube, front or door (got '%.60s')",
+                          leds->view);
+    if (leds->pattern && strcmp(leds->pattern, "random") != 0 &&
+        strcmp(leds->pattern, "noise") != 0 && strcmp(leds->pattern, "on") != 0)
+        return fail_usage("leds", "--pattern must be random, noise or on (got '%.60s')",
+                          leds->pattern);
+    if (!leds->pattern == !argc)
+        return fail_usage("leds",
+                          "give a program, a recording, or --pattern random: one of them");
+    if (argc > 1 && (is_recording(argv[0]) || strcmp(argv[0], "-") == 0))
+        return fail_usage("leds", "options stand before the recording (after it came '%.60s')",
+                          argv[1]);
+    return 0;
+}
+
 int verb_leds(int argc, char **argv)
 {
     struct leds leds = {.view = "cube", .size = {960, 960}, .every = 1, .brightness = 1};
@@ -492,18 +525,7 @@ int verb_leds(int argc, char **argv)
     if (!options_parse("leds", rows, own, argv, &words))
         return EXIT_USAGE;
     if (words.help) {
-        puts(
-            "usage: lutetia leds [options] prog [arguments]\n"
-            "       lutetia leds [options] recording (- is the standard input)\n"
-            "       lutetia leds [options] --pattern random\n\n"
-            "Runs a C/Paris program and shows the machine's lights as CM_latch_leds sets "
-            "them, in a\n"
-            "window or in PNG pictures. Closing the window, or Esc in it, stops the program. "
-            "A\n"
-            "recording stops and goes on with Space, steps with a full stop, slows with - and\n"
-            "quickens with =.\n"
-            "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
-            "recording.\n");
+        puts(usage);
         options_help(rows);
         return EXIT_SUCCESS;
     }
@@ -513,20 +535,9 @@ int verb_leds(int argc, char **argv)
         argc--;
         argv++;
     }
-    if (strcmp(leds.view, "cube") != 0 && strcmp(leds.view, "front") != 0 &&
-        strcmp(leds.view, "door") != 0)
-        return fail_usage("leds", "--view must be cube, front or door (got '%.60s')",
-                          leds.view);
-    if (leds.pattern && strcmp(leds.pattern, "random") != 0 &&
-        strcmp(leds.pattern, "noise") != 0 && strcmp(leds.pattern, "on") != 0)
-        return fail_usage("leds", "--pattern must be random, noise or on (got '%.60s')",
-                          leds.pattern);
-    if (!leds.pattern == !argc)
-        return fail_usage("leds",
-                          "give a program, a recording, or --pattern random: one of them");
-    if (argc > 1 && (is_recording(argv[0]) || strcmp(argv[0], "-") == 0))
-        return fail_usage("leds", "options stand before the recording (after it came '%.60s')",
-                          argv[1]);
+    int bad = words_check(&leds, argc, argv);
+    if (bad)
+        return bad;
     if (leds.pattern) { /* it has no time of its own: each step is a picture */
         leds.pattern_fps = leds.fps > 0 ? leds.fps : PATTERN_FPS;
         leds.fps = 0;

@@ -74,8 +74,6 @@ struct paper_stroke {
 
 /* Makes brush `number` anew: clean and dry. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_brush(struct paper_sheet *sheet, const struct paper_brush *brush);
-/* NULL: there is none of that number. */
-const struct paper_brush *paper_sheet_brush_get(const struct paper_sheet *sheet, int number);
 
 /* Dips the brush into paint, clean water, or (no amounts) a cloth. Errors: as paper_sheet_brush(). */
 enum paper_status paper_sheet_dip(struct paper_sheet *sheet, const struct paper_dip *dip);
@@ -88,11 +86,6 @@ enum paper_status paper_sheet_stroke(struct paper_sheet *sheet,
 /* What brush `number` holds of a substance (0 water, 1 + a pigment's number), in units; exact. */
 enum paper_status paper_sheet_brush_total(struct paper_sheet *sheet, int number, int substance,
                                           double *total);
-/* The same of each bristle, in grains, to be kept and put back. Shape: as many numbers as bristles. */
-enum paper_status paper_sheet_brush_read(struct paper_sheet *sheet, int number, int substance,
-                                         double *grains);
-enum paper_status paper_sheet_brush_write(struct paper_sheet *sheet, int number, int substance,
-                                          const double *grains);
 
 /* Long operations ask `due` between steps and end early, with PAPER_OK, when it says so; NULL: they do not ask. */
 void paper_sheet_stop_when(struct paper_sheet *sheet, bool (*due)(void *context),

@@ -137,24 +137,6 @@ void paper_sheet_stop_when(struct paper_sheet *p, bool (*due)(void *context), vo
     p->due_context = context;
 }
 
-const struct paper_brush *paper_sheet_brush_get(const struct paper_sheet *p, int number)
-{
-    return sheet_brush_get(p, number);
-}
-
-enum paper_status paper_sheet_brush_read(struct paper_sheet *p, int number, int substance,
-                                         double *grains)
-{
-    enum paper_status status = sheet_ready(p);
-    return status == PAPER_OK ? sheet_brush_read(p, number, substance, grains) : status;
-}
-
-enum paper_status paper_sheet_brush_write(struct paper_sheet *p, int number, int substance,
-                                          const double *grains)
-{
-    return sheet_brush_write(p, number, substance, grains);
-}
-
 enum paper_status paper_sheet_brush_total(struct paper_sheet *p, int number, int substance,
                                           double *total)
 {

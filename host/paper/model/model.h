@@ -143,11 +143,12 @@ const struct paper_brush *sheet_brush_get(const struct paper_sheet *p, int numbe
 enum paper_status sheet_brush_number_check(int number);
 /* Whether a bristle can hold so many grains. */
 bool sheet_bristle_may_hold(double grains);
-/* As paper_sheet_brush_read(), ..._write() and ..._total(), of the sheet as it is. */
+/* What a brush holds of a substance in each bristle, in grains, to be kept and put back. Shape: as many numbers as bristles. */
 enum paper_status sheet_brush_read(struct paper_sheet *p, int number, int substance,
                                    double *grains);
 enum paper_status sheet_brush_write(struct paper_sheet *p, int number, int substance,
                                     const double *grains);
+/* As paper_sheet_brush_total(), of the sheet as it is. */
 enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int substance,
                                     double *total);
 
