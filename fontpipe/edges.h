@@ -41,7 +41,8 @@ struct font_map font_map_rotation(double degrees);
 struct font_map font_map_shear(double x_per_y);
 /* The rectangle (x0, y0)..(x1, y1), y downwards, onto four corners: of (x0, y0), (x1, y0), (x1, y1), (x0, y1).
  * SMOOTH: projective where the corners are well apart from a dent, bilinear where they are not, and continuous between
- * (dynamics/quad/quad.h); the kind of *out is what it is.
+ * (dynamics/quad/quad.h); the kind of *out is what it is. It exists for any corners, but where they make a dent, or sides cross,
+ * the glyph may be folded over.
  * Errors: BAD_ARGUMENT if the corners have no such map (three on a line, or a side turned over). */
 enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0, double x1,
                                   double y1, const struct font_point corners[4],
@@ -52,6 +53,12 @@ enum font_status font_map_compose(const struct font_map *first, const struct fon
 /* False if the point has no picture. jacobian: xx, xy, yx, yy. */
 bool font_map_point(const struct font_map *map, struct font_point from, struct font_point *to,
                     double jacobian[4]);
+
+/* The outline in the picture, its curves as short lines: for maps that fold it over, whose edges cannot be built from the outline
+ * itself. Not prepared, in pixels: FONT_NONZERO fills what is covered from either side. Owns: the caller finishes *out, which is
+ * empty on failure. Errors: BAD_ARGUMENT (a point has no picture, or the outline was rebuilt when it was prepared), NO_MEMORY. */
+enum font_status font_outline_mapped(const struct font_outline *outline,
+                                     const struct font_map *map, struct font_outline *out);
 
 /* All zeros is no edges. */
 struct font_edges {

@@ -142,7 +142,7 @@ enum font_status font_map_corners(enum font_map_kind kind, double x0, double y0,
     }
     if (!(x1 > x0 && y1 > y0) || kind == FONT_AFFINE)
         return font_fail(FONT_BAD_ARGUMENT, "corners are given to a rectangle");
-    if (!(least > 1e-9) && !(most < -1e-9))
+    if (kind != FONT_SMOOTH && !(least > 1e-9) && !(most < -1e-9))
         return font_fail(FONT_BAD_ARGUMENT,
                          "the four corners must go around a shape without a dent");
     struct font_map unit = {

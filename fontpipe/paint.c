@@ -209,6 +209,25 @@ static double darkening(const struct font_painter *p, double size_px)
     return p->def.darken_px * fmin(1, fmax(0, share));
 }
 
+/* Of a glyph that its map folds over: what it covers from either side. */
+static enum font_status edges_make_folded(struct font_painter *p, struct font_face *face,
+                                          uint32_t glyph, const struct font_map *map,
+                                          struct font_edges *edges)
+{
+    static const struct font_map same = {FONT_AFFINE, {1, 0, 0, 0, 1, 0}};
+    struct font_outline raw, mapped = {0};
+    enum font_status status = font_face_outline_raw(face, glyph, &raw);
+    if (status == FONT_OK)
+        status = font_outline_mapped(&raw, map, &mapped);
+    if (status == FONT_OK)
+        status = font_outline_prepare(&mapped, FONT_NONZERO);
+    if (status == FONT_OK)
+        status = font_edges_build(edges, &mapped, &same, p->filter);
+    font_outline_finish(&raw);
+    font_outline_finish(&mapped);
+    return status;
+}
+
 static enum font_status edges_make(struct font_painter *p, struct font_face *face,
                                    uint32_t glyph, const struct font_map *map, double size_px,
                                    struct font_edges *edges)
@@ -229,6 +248,8 @@ static enum font_status edges_make(struct font_painter *p, struct font_face *fac
     if (status == FONT_OK)
         status = font_edges_build(edges, &outline, map, p->filter);
     font_outline_finish(&outline);
+    if (status == FONT_BAD_ARGUMENT && (map->kind == FONT_BILINEAR || map->kind == FONT_SMOOTH))
+        status = edges_make_folded(p, face, glyph, map, edges);
     return status;
 }
 

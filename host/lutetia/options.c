@@ -59,6 +59,7 @@ static bool value_take(const struct option_row *row, const char *text)
     double number;
     int integer, size[2];
     struct option_list *list;
+    struct option_texts *texts;
     switch (row->kind) {
     case OPTION_FLAG:
         *(bool *)row->target = true;
@@ -91,6 +92,12 @@ static bool value_take(const struct option_row *row, const char *text)
             return false;
         list->count++;
         return true;
+    case OPTION_TEXTS:
+        texts = row->target;
+        if (texts->count == OPTION_LIST_MAX || !*text)
+            return false;
+        texts->texts[texts->count++] = text;
+        return true;
     }
     return false;
 }
@@ -100,6 +107,13 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
     char range[80] = "", count[32] = "";
     const char *shape = "must be";
     switch (row->kind) {
+    case OPTION_TEXTS:
+        if (((struct option_texts *)row->target)->count == OPTION_LIST_MAX) {
+            fail_usage(verb, "--%s can be given %d times", row->name, OPTION_LIST_MAX);
+            return false;
+        }
+        fail_usage(verb, "--%s needs a value: %s", row->name, row->value);
+        return false;
     case OPTION_FLAG:
     case OPTION_TEXT:
         fail_usage(verb, "--%s needs a value: %s", row->name, row->value);

@@ -22,13 +22,19 @@ enum option_kind {
     OPTION_NUMBER,  /* double within least..most; NaN and infinity are not */
     OPTION_NUMBERS, /* double[count], separated by commas, each within least..most */
     OPTION_SIZE,    /* int[2]: WxH, each within least..most */
-    OPTION_LIST     /* struct option_list: NUMBERS as often as wanted */
+    OPTION_LIST,    /* struct option_list: NUMBERS as often as wanted */
+    OPTION_TEXTS    /* struct option_texts: TEXT as often as wanted */
 };
 
 enum { OPTION_LIST_MAX = 64, OPTION_NUMBERS_MAX = 8, OPTION_WORDS_MAX = 64 };
 
 struct option_list {
     double numbers[OPTION_LIST_MAX][OPTION_NUMBERS_MAX];
+    int count;
+};
+
+struct option_texts {
+    const char *texts[OPTION_LIST_MAX];
     int count;
 };
 

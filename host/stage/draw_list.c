@@ -144,9 +144,7 @@ void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *
         if (!is_near(px[i].x, px[i].y))
             return;
     }
-    if (font_map_corners(FONT_PROJECTIVE, letter->x0, letter->y0, letter->x1, letter->y1, px,
-                         &glyph.map) != FONT_OK &&
-        font_map_corners(FONT_BILINEAR, letter->x0, letter->y0, letter->x1, letter->y1, px,
+    if (font_map_corners(FONT_SMOOTH, letter->x0, letter->y0, letter->x1, letter->y1, px,
                          &glyph.map) != FONT_OK)
         return;
     struct stage_item *item = item_add(list, STAGE_DRAW_GLYPH, color);

@@ -89,8 +89,8 @@ struct stage_letter {
     double x0, y0, x1, y1; /* the box that is spread between the corners */
 };
 
-/* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places. Where they go round a shape without a
- * dent the map is projective, else bilinear. */
+/* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places. The map is projective where
+ * they go well round a shape without a dent, bilinear where they do not, and continuous between (font_map_corners()). */
 void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *letter,
                        const struct font_point corners[4], struct stage_color color);
 

@@ -24,7 +24,7 @@ struct stage_exact;
 enum stage_status stage_exact_create(const char *filter, struct stage_exact **out);
 void stage_exact_destroy(struct stage_exact *exact); /* NULL is fine */
 
-/* Draws into an image of three channels. What a map folds over, and what is too large to be filtered, is left out.
+/* Draws into an image of three channels. What a map sends beyond the horizon, and what is too large to be filtered, is left out.
  * Errors: NO_MEMORY. */
 enum stage_status stage_exact_draw(struct stage_exact *exact,
                                    const struct stage_draw_list *list,

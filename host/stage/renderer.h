@@ -34,7 +34,7 @@ void stage_renderer_destroy(struct stage_renderer *renderer); /* NULL is fine */
 
 void stage_renderer_size(const struct stage_renderer *renderer, int *width_px, int *height_px);
 
-/* Draws, and shows it where there is a window. What a map folds over is left out. Errors: NO_MEMORY, FAILED. */
+/* Draws, and shows it where there is a window. What a map sends beyond the horizon is left out. Errors: NO_MEMORY, FAILED. */
 enum stage_status stage_renderer_draw(struct stage_renderer *renderer,
                                       const struct stage_draw_list *list,
                                       struct stage_color background);

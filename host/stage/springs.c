@@ -18,15 +18,6 @@ struct stage_springs_def stage_springs_def_default(void)
     return (struct stage_springs_def){.show_masses = true, .show_springs = true};
 }
 
-enum stage_status springs_fail(enum dyn_status status)
-{
-    return stage_fail(status == DYN_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT
-                      : status == DYN_BAD_FILE   ? STAGE_BAD_FILE
-                      : status == DYN_NO_MEMORY  ? STAGE_NO_MEMORY
-                                                 : STAGE_FAILED,
-                      "%s", dyn_error());
-}
-
 /* ---- controls ---- */
 
 static double world_read(void *actor, int index)
@@ -213,6 +204,8 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .keep = springs_keep,
                                                      .restore = springs_restore,
                                                      .forget = springs_forget,
+                                                     .save = springs_save,
+                                                     .load = springs_load,
                                                      .heard = springs_heard,
                                                      .destroy = springs_destroy};
 

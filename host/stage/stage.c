@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OWN_CONTROLS = 5 };
+enum { OWN_CONTROLS = 6 };
 
 /* What of a stage can be adjusted, all doubles. */
 struct settings {
-    double rate, skins, skin_every_s, grid, shadow;
+    double rate, skins, skin_every_s, skin_of, grid, shadow;
 };
 
 /* A state to go back to; actor: what its keep() made, NULL if it has none. */
@@ -52,8 +52,8 @@ struct stage_def stage_def_default(void)
 static double own_read(void *stage, int index)
 {
     const struct settings *s = &((struct stage *)stage)->settings;
-    const double values[OWN_CONTROLS] = {s->rate, s->skins, s->skin_every_s, s->grid,
-                                         s->shadow};
+    const double values[OWN_CONTROLS] = {s->rate,    s->skins, s->skin_every_s,
+                                         s->skin_of, s->grid,  s->shadow};
     return values[index];
 }
 
@@ -67,8 +67,8 @@ static enum stage_status own_write(void *of, int index, double value)
 {
     struct stage *stage = of;
     struct settings *s = &stage->settings;
-    double *const values[OWN_CONTROLS] = {&s->rate, &s->skins, &s->skin_every_s, &s->grid,
-                                          &s->shadow};
+    double *const values[OWN_CONTROLS] = {&s->rate,    &s->skins, &s->skin_every_s,
+                                          &s->skin_of, &s->grid,  &s->shadow};
     *values[index] = value;
     frame_clock_rate_set(&stage->clock, s->rate);
     if (values[index] == &s->skins || values[index] == &s->skin_every_s)
@@ -83,10 +83,12 @@ static const struct stage_control own_rows[OWN_CONTROLS] = {
      "how many earlier moments are seen behind the present", own_read, own_write, 1},
     {"skin_every", "s", 0.01, 2, 0.1, STAGE_LOGARITHMIC, NULL,
      "how far these moments are apart", own_read, own_write, 2},
-    {"grid", "", 0, 1, 0, STAGE_SWITCH, NULL, "lines a unit of the world apart", own_read,
+    {"skin_of", "", 0, 1, 0, STAGE_CHOICE, "letters all", "what is seen of them", own_read,
      own_write, 3},
+    {"grid", "", 0, 1, 0, STAGE_SWITCH, NULL, "lines a unit of the world apart", own_read,
+     own_write, 4},
     {"shadow", "", 0, 1, 0, STAGE_SWITCH, NULL, "letters throw a shadow on what is behind",
-     own_read, own_write, 4}};
+     own_read, own_write, 5}};
 
 static const struct stage_control *actors_row(const struct stage *s, int index)
 {
@@ -225,9 +227,7 @@ enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
 {
     enum stage_status status = beginning_keep(s);
     if (!s->began) {
-        struct frame_clock *c = &s->clock;
-        *c = frame_clock_begin(c->step_s, now_s);
-        frame_clock_rate_set(c, s->settings.rate);
+        s->clock.now_s = now_s;
         s->began = true;
     }
     int due = frame_clock_advance(&s->clock, now_s);
@@ -276,15 +276,20 @@ static void grid_draw(const struct stage *s, struct stage_draw_list *list)
         stage_draw_line(list, x0, y, x1, y, px, color);
 }
 
+/* The newest of earlier moments covers so much of what the present does. */
+static const double skin_most = 0.7;
+
 static void skins_draw(const struct stage *s, struct stage_draw_list *list)
 {
     int count = (int)s->settings.skins;
+    bool all = s->settings.skin_of != 0;
     if (count > s->skins_count)
         count = s->skins_count;
     for (int back = count - 1; back >= 0; back--) {
         int i = (s->skins_last - back + STAGE_SKINS_MAX) % STAGE_SKINS_MAX;
-        stage_draw_again(list, &s->skins[i], 0, 0, &s->theme.colors[STAGE_COLOR_SKIN],
-                         1 - (double)back / (count + 1), true);
+        stage_draw_again(list, &s->skins[i], 0, 0,
+                         all ? NULL : &s->theme.colors[STAGE_COLOR_SKIN],
+                         skin_most * (1 - (double)back / (count + 1)), !all);
     }
 }
 

@@ -50,6 +50,7 @@ static const char *const pieces[] = {
     "\xff\xfe",    "%s%n",      "",
     "Wet Fonts",   "--steps=5", "--gravity=",
     "--ink=0,0,0", "-ofile",    "--nothing",
+    "--set",       "--set=a=1", "-sb=2",
     "-z",          "+7",        "1_000",
     "٣",           "\n",
 };
@@ -78,13 +79,15 @@ static void random_lines_are_taken_or_refused(void **state)
         const char *out = "out";
         bool loud = false;
         static struct option_list pools;
-        pools.count = 0;
+        static struct option_texts sets;
+        pools.count = sets.count = 0;
         const struct option_row rows[] = {
             {"steps", 0, OPTION_INTEGER, "N", "", &steps, 0, 1e6, 0},
             {"gravity", 'g', OPTION_NUMBER, "G", "", &gravity, 0.5, 2, 0},
             {"ink", 0, OPTION_NUMBERS, "C,M,Y", "", ink, 0, 1, 3},
             {"paper", 0, OPTION_SIZE, "WxH", "", size, 8, 16384, 0},
             {"pool", 0, OPTION_LIST, "A,B", "", &pools, -10, 10, 2},
+            {"set", 's', OPTION_TEXTS, "NAME=VALUE", "", &sets, 0, 0, 0},
             {"out", 'o', OPTION_TEXT, "FILE", "", &out, 0, 0, 0},
             {"loud", 0, OPTION_FLAG, NULL, "", &loud, 0, 0, 0},
             {0}};

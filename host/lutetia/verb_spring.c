@@ -1,0 +1,216 @@
+/* verb_spring.c - `lutetia spring`: words on springs, in a window, in stills and in films. */
+#include "lutetia.h"
+#include "options.h"
+#include "spring_scene.h"
+
+#include <stage_film.h>
+#include <stage_window.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct spring {
+    struct spring_scene_def scene;
+    struct stage_film_def film;
+    struct stage_window_def window;
+    struct option_texts sets;
+    const char *way, *frames, *save;
+    int size[2];
+    bool controls;
+    struct progress progress;
+};
+
+static int fail_stage(void)
+{
+    return fail("spring", "%s", stage_error());
+}
+
+/* ---- the command line ---- */
+
+static const char *const ways[] = {"exact", "egl", "osmesa"};
+
+static int spring_check(struct spring *s, const struct option_words *words)
+{
+    int way = -1;
+    for (int i = 0; i < 3; i++)
+        if (strcmp(s->way, ways[i]) == 0)
+            way = i;
+    if (way < 0)
+        return fail_usage("spring", "--way must be exact, egl or osmesa (got '%.60s')", s->way);
+    s->film.way = (enum stage_film_way)way;
+    if (words->count > 1)
+        return fail_usage("spring", "one word or text, please: \"%.40s %.40s ...\" in quotes",
+                          words->words[0], words->words[1]);
+    if (!words->count && !s->scene.network)
+        return fail_usage("spring",
+                          "a word, or --network FILE; `lutetia spring --help` says more");
+    if (words->count && s->scene.network)
+        return fail_usage("spring", "a word or --network FILE, not both");
+    if ((s->film.strip[0] != 1 || s->film.strip[1] != 1) && !s->film.still)
+        return fail_usage("spring", "--strip is for a --still");
+    const double *v = s->scene.view;
+    if ((v[0] != 0 || v[1] != 0 || v[2] != 0 || v[3] != 0) && !(v[2] > v[0] && v[3] > v[1]))
+        return fail_usage("spring", "--view must be X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+    s->film.width_px = s->window.width_px = s->size[0];
+    s->film.height_px = s->window.height_px = s->size[1];
+    if (s->film.video && (s->size[0] % 2 || s->size[1] % 2))
+        return fail_usage("spring", "a film has even sides (got --size %dx%d)", s->size[0],
+                          s->size[1]);
+    return EXIT_SUCCESS;
+}
+
+static void usage(const struct option_row *rows)
+{
+    puts("usage: lutetia spring \"word\" [options]\n"
+         "       lutetia spring --network FILE [options]\n\n"
+         "A word whose letters hang on masses and springs, in a window: drag a mass or a\n"
+         "letter, tack with Shift, cut with the right button; Tab shows the controls, ? the\n"
+         "keys. With --still, --video or --frames there is no window, and no display is "
+         "needed.\n");
+    options_help(rows);
+}
+
+static int spring_options(struct spring *s, int argc, char **argv, bool *help)
+{
+    const struct option_row rows[] = {
+        {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control, as often as wanted", &s->sets, 0,
+         0, 0},
+        {"controls", 0, OPTION_FLAG, NULL, "print the table of controls", &s->controls, 0, 0,
+         0},
+        {"network", 0, OPTION_TEXT, "FILE", "masses and springs from a file, not a word",
+         &s->scene.network, 0, 0, 0},
+        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths", &s->scene.theme, 0,
+         0, 0},
+        {"size", 0, OPTION_SIZE, "WxH", "pixels of the window or the picture (1280x720)",
+         s->size, 16, 8192, 0},
+        {"view", 0, OPTION_NUMBERS, "X0,Y0,X1,Y1", "the part of the world that is seen",
+         s->scene.view, -1e6, 1e6, 4},
+        {"still", 0, OPTION_TEXT, "FILE", "a picture of the moment after --seconds",
+         &s->film.still, 0, 0, 0},
+        {"strip", 0, OPTION_SIZE, "CxR", "the still has so many columns and rows of moments",
+         s->film.strip, 1, 100, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "a film", &s->film.video, 0, 0, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "a folder of pictures", &s->frames, 0, 0, 0},
+        {"seconds", 0, OPTION_NUMBER, "S", "how long (5)", &s->film.seconds, 0, 3600, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "pictures a second (30)", &s->film.fps, 1, 240, 0},
+        {"way", 0, OPTION_TEXT, "exact|egl|osmesa",
+         "how pictures are drawn: filtered, or by OpenGL", &s->way, 0, 0, 0},
+        {"filter", 0, OPTION_TEXT, "NAME", "of exact pictures (gaussian-fast)", &s->film.filter,
+         0, 0, 0},
+        {"save", 0, OPTION_TEXT, "FILE", "the masses and springs at the end; Control S",
+         &s->save, 0, 0, 0},
+        {"record", 0, OPTION_TEXT, "FILE", "where V in the window records (spring.mp4)",
+         &s->window.record_path, 0, 0, 0},
+        {0}};
+    struct option_words words;
+    if (!options_parse("spring", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    *help = words.help;
+    if (words.help) {
+        usage(rows);
+        return EXIT_SUCCESS;
+    }
+    return spring_check(s, &words);
+}
+
+/* ---- what is done ---- */
+
+static int controls_print(struct stage *stage)
+{
+    int count;
+    const struct stage_control *rows = stage_controls(stage, &count);
+    for (int i = 0; i < count; i++) {
+        char value[64], range[96];
+        stage_control_text(&rows[i], stage_control_read(&rows[i], stage), value, sizeof value);
+        if (rows[i].curve == STAGE_SWITCH)
+            snprintf(range, sizeof range, "on, off");
+        else if (rows[i].curve == STAGE_CHOICE)
+            snprintf(range, sizeof range, "%s", rows[i].choices);
+        else
+            snprintf(range, sizeof range, "%g..%g%s%s", rows[i].least, rows[i].most,
+                     rows[i].unit[0] ? " " : "", rows[i].unit);
+        printf("%-13s %-11s %-26s %s\n", rows[i].name, value, range, rows[i].does);
+    }
+    return EXIT_SUCCESS;
+}
+
+static bool frame_after(void *context, int frame, int frames)
+{
+    struct spring *s = context;
+    if (frame == 1)
+        s->progress = progress_begin("spring", frames);
+    progress_show(&s->progress, frame);
+    return interrupted();
+}
+
+static int film_make(struct spring *s, struct stage *stage)
+{
+    if (s->frames && folder_make("spring", s->frames) != EXIT_SUCCESS)
+        return EXIT_FAILED;
+    s->film.frames = s->frames;
+    s->film.after = frame_after;
+    s->film.context = s;
+    enum stage_status status = stage_film(stage, &s->film);
+    progress_end(&s->progress);
+    if (status == STAGE_OK && interrupted())
+        return EXIT_FAILED; /* which is said in the end */
+    return status == STAGE_OK ? EXIT_SUCCESS : fail_stage();
+}
+
+static int window_run(struct spring *s, struct stage *stage)
+{
+    struct stage_window *window;
+    s->window.save_path = s->save ? s->save : "spring.springs";
+    enum stage_status status = stage_window_create(stage, &s->window, &window);
+    if (status == STAGE_NO_DISPLAY)
+        return fail("spring",
+                    "%s; run it where there is a desktop, or take --still FILE or --video FILE",
+                    stage_error());
+    if (status != STAGE_OK)
+        return fail_stage();
+    while (status == STAGE_OK && stage_window_open(window) && !interrupted())
+        status = stage_window_turn(window);
+    if (status != STAGE_OK)
+        fail_stage();
+    stage_window_destroy(window);
+    return status == STAGE_OK ? EXIT_SUCCESS : EXIT_FAILED;
+}
+
+static int spring_run(struct spring *s, struct stage *stage)
+{
+    for (int i = 0; i < s->sets.count; i++)
+        if (stage_set(stage, s->sets.texts[i]) != STAGE_OK)
+            return fail_usage("spring", "--set: %s", stage_error());
+    if (s->controls)
+        return controls_print(stage);
+    interrupt_catch();
+    bool film = s->film.still || s->film.video || s->frames;
+    int status = film ? film_make(s, stage) : window_run(s, stage);
+    if (status == EXIT_SUCCESS && film && s->save && stage_save(stage, s->save) != STAGE_OK)
+        status = fail_stage();
+    return interrupt_report("spring", status, "what was written before is whole");
+}
+
+int verb_spring(int argc, char **argv)
+{
+    static struct spring s;
+    struct spring_scene scene;
+    bool help = false;
+    s = (struct spring){.film = stage_film_def_default(),
+                        .window = stage_window_def_default(),
+                        .scene = {.theme = "light"},
+                        .way = "exact",
+                        .size = {1280, 720}};
+    s.window.title = "springs";
+    s.window.record_path = "spring.mp4";
+    int status = spring_options(&s, argc, argv, &help);
+    if (status != EXIT_SUCCESS || help)
+        return status;
+    if (spring_scene_make(&s.scene, &scene) != STAGE_OK)
+        return fail_stage();
+    status = spring_run(&s, scene.stage);
+    spring_scene_finish(&scene);
+    return status;
+}

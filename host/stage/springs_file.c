@@ -1,0 +1,45 @@
+/* springs_file.c - springs in files: the network, as dynamics writes it; and what dynamics says is wrong. */
+#include "springs_internal.h"
+
+#include <network_file.h>
+
+enum stage_status springs_fail(enum dyn_status status)
+{
+    return stage_fail(status == DYN_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT
+                      : status == DYN_BAD_FILE   ? STAGE_BAD_FILE
+                      : status == DYN_NO_MEMORY  ? STAGE_NO_MEMORY
+                                                 : STAGE_FAILED,
+                      "%s", dyn_error());
+}
+
+enum stage_status springs_save(void *actor, const char *path)
+{
+    const struct springs *s = actor;
+    enum dyn_status status = dyn_network_write(s->network, path);
+    return status == DYN_OK ? STAGE_OK : springs_fail(status);
+}
+
+/* A network that the letters stand on: it must have their masses. */
+enum stage_status springs_load(void *actor, const char *path)
+{
+    struct springs *s = actor;
+    struct dyn_network *read;
+    enum dyn_status status = dyn_network_read(path, &read);
+    if (status != DYN_OK)
+        return springs_fail(status);
+    int most = -1;
+    for (int i = 0; i < s->letters_count; i++)
+        for (int k = 0; k < 4; k++)
+            most = s->letters[i].masses[k] > most ? s->letters[i].masses[k] : most;
+    if (most >= dyn_masses_count(read)) {
+        stage_fail(STAGE_BAD_FILE,
+                   "%s: a network of %d masses is not this word's, which has %d", path,
+                   dyn_masses_count(read), dyn_masses_count(s->network));
+        dyn_network_destroy(read);
+        return STAGE_BAD_FILE;
+    }
+    dyn_network_destroy(s->network);
+    s->network = read;
+    s->hand = (struct springs_hand){0};
+    return STAGE_OK;
+}

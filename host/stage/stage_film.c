@@ -1,0 +1,183 @@
+/* stage_film.c - see stage_film.h. */
+#include "stage_film.h"
+
+#include "exact.h"
+#include "renderer.h"
+
+#include <video.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOMENTS_MAX = 100 };
+
+struct film {
+    struct stage *stage;
+    const struct stage_film_def *def;
+    struct stage_exact *exact; /* or */
+    struct stage_renderer *renderer;
+    struct stage_draw_list list;
+    struct display_image image;
+    struct display_image strip; /* the moments so far; no pixels: there is none */
+    int moments;
+    struct video *video;
+};
+
+struct stage_film_def stage_film_def_default(void)
+{
+    return (struct stage_film_def){.strip = {1, 1},
+                                   .width_px = 1280,
+                                   .height_px = 720,
+                                   .px = 1,
+                                   .fps = 30,
+                                   .seconds = 5,
+                                   .filter = "gaussian-fast"};
+}
+
+static enum stage_status fail_display(enum display_status status)
+{
+    return stage_fail(status == DISPLAY_NO_MEMORY ? STAGE_NO_MEMORY : STAGE_BAD_FILE, "%s",
+                      display_error());
+}
+
+static int moments_wanted(const struct stage_film_def *def)
+{
+    return def->still ? def->strip[0] * def->strip[1] : 0;
+}
+
+static enum stage_status image_make(struct display_image *image, int width_px, int height_px)
+{
+    *image =
+        (struct display_image){.width_px = width_px, .height_px = height_px, .channels = 3};
+    enum display_status status = display_image_create(image);
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+static enum stage_status film_begin(struct film *f)
+{
+    const struct stage_film_def *def = f->def;
+    int width = def->width_px, height = def->height_px;
+    if (def->strip[0] < 1 || def->strip[1] < 1 || def->strip[0] * def->strip[1] > MOMENTS_MAX)
+        return stage_fail(STAGE_BAD_ARGUMENT, "a strip has 1..%d moments (got %dx%d)",
+                          MOMENTS_MAX, def->strip[0], def->strip[1]);
+    enum stage_status status = STAGE_OK;
+    if (moments_wanted(def) > 1) {
+        width /= def->strip[0];
+        height /= def->strip[1];
+        status = image_make(&f->strip, width * def->strip[0], height * def->strip[1]);
+    }
+    if (status == STAGE_OK)
+        status = image_make(&f->image, width, height);
+    if (status == STAGE_OK && def->way == STAGE_FILM_EXACT)
+        status = stage_exact_create(def->filter, &f->exact);
+    else if (status == STAGE_OK)
+        status = stage_renderer_offscreen(def->way == STAGE_FILM_EGL ? STAGE_BY_EGL
+                                                                     : STAGE_BY_OSMESA,
+                                          width, height, &f->renderer);
+    if (status == STAGE_OK && def->video) {
+        enum display_status made = video_create(def->video, width, height, def->fps, &f->video);
+        status = made == DISPLAY_OK ? STAGE_OK : fail_display(made);
+    }
+    return status;
+}
+
+static enum stage_status picture_draw(struct film *f)
+{
+    struct stage_color background = stage_background(f->stage);
+    stage_picture(f->stage, f->image.width_px, f->image.height_px, f->def->px, &f->list);
+    if (f->exact)
+        return stage_exact_draw(f->exact, &f->list, background, &f->image);
+    enum stage_status status = stage_renderer_draw(f->renderer, &f->list, background);
+    return status == STAGE_OK ? stage_renderer_read(f->renderer, &f->image) : status;
+}
+
+static enum stage_status png_write(const char *path, const struct display_image *image)
+{
+    enum display_status status = display_png_write(path, image);
+    return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
+}
+
+/* The next moment of the strip, from left to right and then below. */
+static void strip_add(struct film *f)
+{
+    const int columns = f->def->strip[0], w = f->image.width_px, h = f->image.height_px;
+    size_t x = (size_t)(f->moments % columns) * (size_t)w,
+           y = (size_t)(f->moments / columns) * (size_t)h;
+    for (int row = 0; row < h; row++)
+        memcpy(f->strip.pixels + 3 * ((y + (size_t)row) * (size_t)f->strip.width_px + x),
+               f->image.pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
+    f->moments++;
+}
+
+/* Of frames 0..last: whether moment `moments` of the strip is this one. */
+static bool is_moment(const struct film *f, int frame, int last)
+{
+    int wanted = moments_wanted(f->def);
+    if (wanted < 1 || f->moments >= wanted)
+        return false;
+    return wanted == 1 ? frame == last
+                       : frame == (int)lround((double)last * f->moments / (wanted - 1));
+}
+
+static enum stage_status frame_put(struct film *f, int frame, int last)
+{
+    const struct stage_film_def *def = f->def;
+    char path[4096];
+    bool moment = is_moment(f, frame, last);
+    if (!moment && !def->video && !def->frames &&
+        frame > 0) /* the first one has the view made */
+        return STAGE_OK;
+    enum stage_status status = picture_draw(f);
+    if (status == STAGE_OK && f->video && video_add(f->video, f->image.pixels) != DISPLAY_OK)
+        status = stage_fail(STAGE_BAD_FILE, "%s", display_error());
+    if (status == STAGE_OK && def->frames) {
+        int length = snprintf(path, sizeof path, "%s/frame-%06d.png", def->frames, frame);
+        status = length > 0 && (size_t)length < sizeof path
+                     ? png_write(path, &f->image)
+                     : stage_fail(STAGE_BAD_FILE, "the folder's name is too long");
+    }
+    while (status == STAGE_OK && f->strip.pixels && is_moment(f, frame, last))
+        strip_add(f);
+    if (status == STAGE_OK && moment && !f->strip.pixels) {
+        f->moments++;
+        status = png_write(def->still, &f->image);
+    }
+    return status;
+}
+
+static enum stage_status frames_run(struct film *f)
+{
+    const struct stage_film_def *def = f->def;
+    int last = (int)lround(def->seconds * def->fps);
+    enum stage_status status = STAGE_OK;
+    for (int frame = 0; frame <= last && status == STAGE_OK; frame++) {
+        status = stage_frame(f->stage, (double)frame / def->fps, NULL);
+        if (status == STAGE_OK)
+            status = frame_put(f, frame, last);
+        if (status == STAGE_OK && def->after && def->after(def->context, frame + 1, last + 1))
+            break;
+    }
+    if (status == STAGE_OK && f->strip.pixels && f->moments == moments_wanted(def))
+        status = png_write(def->still, &f->strip);
+    return status;
+}
+
+enum stage_status stage_film(struct stage *stage, const struct stage_film_def *def)
+{
+    struct film f = {.stage = stage, .def = def};
+    enum stage_status status = film_begin(&f);
+    stage_clock(stage)->frame_max_s = INFINITY; /* no frame is too late */
+    if (status == STAGE_OK)
+        status = frames_run(&f);
+    if (f.video && status != STAGE_OK)
+        video_abandon(f.video);
+    else if (f.video && video_finish(f.video) != DISPLAY_OK)
+        status = stage_fail(STAGE_BAD_FILE, "%s", display_error());
+    stage_exact_destroy(f.exact);
+    stage_renderer_destroy(f.renderer);
+    stage_draw_finish(&f.list);
+    display_image_destroy(&f.image);
+    display_image_destroy(&f.strip);
+    return status;
+}

@@ -1,0 +1,41 @@
+/* stage_film.h - a stage without a window: a still, a strip of moments, a film, or a folder of pictures.
+ *
+ *     struct stage_film_def def = stage_film_def_default();
+ *     def.still = "word.png";
+ *     def.seconds = 1.5;
+ *     if (stage_film(stage, &def) != STAGE_OK)
+ *         die(stage_error());
+ *
+ * Time is frame / fps: the same pictures come each time, however long they take. */
+#ifndef LUTETIA_STAGE_FILM_H
+#define LUTETIA_STAGE_FILM_H
+
+#include "stage.h"
+
+/* How pictures are drawn: through fontpipe's filter, or by OpenGL in one of its ways. */
+enum stage_film_way { STAGE_FILM_EXACT, STAGE_FILM_EGL, STAGE_FILM_OSMESA };
+
+struct stage_film_def {
+    /* What is written; NULL: it is not. */
+    const char *still;  /* a PNG of the last moment */
+    const char *video;  /* as video.h has it */
+    const char *frames; /* a folder that is there, for frame-000000.png and so on */
+    int strip
+        [2]; /* a still of so many columns and rows of moments, from the first to the last; 1, 1: of the last */
+    int width_px, height_px; /* 1280x720; of a strip, of all together */
+    double px;               /* pixels in one of a screen of 96 dpi; 1 */
+    int fps;                 /* 30 */
+    double seconds;          /* 5 */
+    enum stage_film_way way; /* EXACT */
+    const char *filter;      /* of exact pictures; "gaussian-fast" */
+    /* Called after each picture; true: no more, what is whole by then is kept. NULL: nothing is called. */
+    bool (*after)(void *context, int frame, int frames);
+    void *context;
+};
+struct stage_film_def stage_film_def_default(void);
+
+/* Runs the stage from the beginning. Errors: NO_DISPLAY (no OpenGL in that way), BAD_FILE (what cannot be written), NO_MEMORY, and
+ * the actor's. A file that is not whole is not there. */
+enum stage_status stage_film(struct stage *stage, const struct stage_film_def *def);
+
+#endif

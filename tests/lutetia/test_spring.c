@@ -1,0 +1,220 @@
+/* test_spring.c - `lutetia spring` as a user runs it: pictures by each way, what is said where something is wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <display.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../display/scratch.h"
+#include "../stage/likeness.h"
+#include "child.h"
+
+static const char *lutetia, *collision;
+
+static struct child run(const char *const *arguments, int status)
+{
+    static struct child child;
+    child = (struct child){.arguments = {lutetia, "spring"},
+                           .variables = {"DISPLAY=", "WAYLAND_DISPLAY="}};
+    for (int i = 0; arguments[i]; i++)
+        child.arguments[2 + i] = arguments[i];
+    child_run(&child);
+    if (child.status != status)
+        fail_msg("%s ended with %d and said: %s", arguments[0], child.status, child.errors);
+    if (status == 0)
+        assert_string_equal(child.errors, "");
+    return child;
+}
+
+#define RUN(status, ...) run((const char *const[]){__VA_ARGS__, NULL}, status)
+
+static void one_line(const struct child *child, const char *part)
+{
+    const char *end = strchr(child->errors, '\n');
+    if (!end || end[1] || !strstr(child->errors, part))
+        fail_msg("no single line with \"%s\": %s", part, child->errors);
+}
+
+static struct display_image picture(const char *path)
+{
+    struct display_image image;
+    if (display_png_read_rgb(path, &image) != DISPLAY_OK)
+        fail_msg("%s", display_error());
+    return image;
+}
+
+/* Without a display: exactly, by EGL and by OSMesa the same moment. */
+static void stills_agree(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"exact", "egl", "osmesa"};
+    static const uint8_t background[3] = {0xf6, 0xf4, 0xef};
+    struct display_image images[3];
+    for (int i = 0; i < 3; i++) {
+        const char *path = scratch_path("still.png");
+        RUN(0, "--network", collision, "--still", path, "--seconds", "0.9", "--size", "400x300",
+            "--way", ways[i]);
+        images[i] = picture(path);
+        assert_true(images[i].width_px == 400 && images[i].height_px == 300);
+    }
+    for (int i = 1; i < 3; i++) {
+        double alike = likeness(&images[i], &images[0]);
+        double weight = ink_weight(&images[i], background) / ink_weight(&images[0], background);
+        if (alike < 0.98 || fabs(weight - 1) > 0.02)
+            fail_msg("%s: likeness %.4f, weight %.4f", ways[i], alike, weight);
+    }
+    for (int i = 0; i < 3; i++)
+        display_image_destroy(&images[i]);
+}
+
+/* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
+static void films_stills_and_strips_are_of_one_run(void **state)
+{
+    (void)state;
+    const char *folder = scratch_path("frames"), *still = scratch_path("last.png");
+    const char *strip = scratch_path("strip.png"), *video = scratch_path("film.y4m");
+    char path[600];
+    RUN(0, "--network", collision, "--frames", folder, "--still", still, "--video", video,
+        "--seconds", "0.5", "--fps", "10", "--size", "120x90");
+    RUN(0, "--network", collision, "--still", strip, "--strip", "3x2", "--seconds", "0.5",
+        "--fps", "10", "--size", "360x180");
+    struct display_image last = picture(still), all = picture(strip);
+    assert_true(all.width_px == 360 && all.height_px == 180);
+    for (int i = 0; i < 6; i++) {
+        snprintf(path, sizeof path, "%s/frame-%06d.png", folder, i);
+        struct display_image frame = picture(path);
+        for (int y = 0; y < 90; y++)
+            assert_memory_equal(frame.pixels + 3 * 120 * y,
+                                all.pixels + 3 * (360 * (y + 90 * (i / 3)) + 120 * (i % 3)),
+                                3 * 120);
+        if (i == 5)
+            assert_memory_equal(frame.pixels, last.pixels, 3 * 120 * 90);
+        display_image_destroy(&frame);
+    }
+    snprintf(path, sizeof path, "%s/frame-000006.png", folder);
+    assert_int_not_equal(access(path, F_OK), 0);
+    FILE *film = fopen(video, "rb");
+    assert_non_null(film);
+    fseek(film, 0, SEEK_END);
+    assert_true(ftell(film) > 6 * 120 * 90 * 3 / 2);
+    fclose(film);
+    display_image_destroy(&last);
+    display_image_destroy(&all);
+}
+
+/* What was saved goes on where it was: the bits of one long run. */
+static void runs_are_saved_and_gone_on_with(void **state)
+{
+    (void)state;
+    const char *half = scratch_path("half.springs"), *whole = scratch_path("whole.springs");
+    const char *both = scratch_path("both.springs"), *still = scratch_path("still.png");
+    RUN(0, "--network", collision, "--still", still, "--save", half, "--seconds", "0.5",
+        "--size", "32x32");
+    RUN(0, "--network", half, "--still", still, "--save", both, "--seconds", "0.5", "--size",
+        "32x32");
+    RUN(0, "--network", collision, "--still", still, "--save", whole, "--seconds", "1",
+        "--size", "32x32");
+    char texts[2][8192] = {"", ""};
+    const char *paths[2] = {both, whole};
+    for (int i = 0; i < 2; i++) {
+        FILE *file = fopen(paths[i], "rb");
+        assert_non_null(file);
+        size_t count = fread(texts[i], 1, sizeof texts[i] - 1, file);
+        assert_true(count > 100);
+        fclose(file);
+    }
+    assert_string_equal(texts[0], texts[1]);
+}
+
+static void controls_are_listed(void **state)
+{
+    (void)state;
+    struct child child = RUN(0, "--network", collision, "--set", "gravity=3.25", "-s",
+                             "integrator=verlet", "--controls");
+    assert_non_null(strstr(child.output, "\ngravity       3.25        -100..100 units/s2"));
+    assert_non_null(
+        strstr(child.output, "\nintegrator    verlet      symplectic verlet thesis"));
+    RUN(0, "--help");
+}
+
+static void what_is_wrong_is_said_in_a_line(void **state)
+{
+    (void)state;
+    const char *bad = scratch_path("bad.springs"), *still = scratch_path("none.png");
+    FILE *file = fopen(bad, "w");
+    fputs("springs 1\nmass x=0 y=1\nspring 0 0\nend\n", file);
+    fclose(file);
+    const struct {
+        const char *arguments[8];
+        int status;
+        const char *said;
+    } wrong[] = {
+        {{"--still", still}, 2, "a word, or --network FILE"},
+        {{"a", "b"}, 2, "in quotes"},
+        {{"--network", collision},
+         1,
+         "no display: neither DISPLAY nor WAYLAND_DISPLAY is set; run it"},
+        {{"--network", "/no/such", "--still", still}, 1, "/no/such: "},
+        {{"--network", bad, "--still", still}, 1, "bad.springs:3: "},
+        {{"--network", collision, "--still", still, "--set", "gravita=3"},
+         2,
+         "there is no control 'gravita'; there are rate,"},
+        {{"--network", collision, "--still", still, "--set", "gravity=1e9"},
+         2,
+         "gravity must be -100..100"},
+        {{"--network", collision, "--still", still, "--theme", "/no/theme"}, 1, "/no/theme: "},
+        {{"--network", collision, "--still", still, "--way", "cuda"},
+         2,
+         "--way must be exact, egl or osmesa"},
+        {{"--network", collision, "--still", "/no/folder/a.png"}, 1, "/no/folder/a.png"},
+        {{"--network", collision, "--video", still, "--size", "33x32"}, 2, "even sides"},
+        {{"--network", collision, "--still", still, "--view", "1,0,0,1"}, 2, "X0 < X1"},
+        {{"--network", collision, "--strip", "2x2"}, 2, "--strip is for a --still"},
+        {{"--network", collision, "--still", still, "--filter", "soft"}, 1, "soft"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct child child = run(wrong[i].arguments, wrong[i].status);
+        one_line(&child, wrong[i].said);
+        assert_int_not_equal(access(still, F_OK), 0);
+    }
+}
+
+/* Ctrl-C: the film is whole until then, and nothing else is left. */
+static void films_are_interrupted(void **state)
+{
+    (void)state;
+    static struct child child;
+    const char *film = scratch_path("long.y4m");
+    child = (struct child){.arguments = {lutetia, "spring", "--network", collision, "--video",
+                                         film, "--seconds", "3000", "--size", "64x48"},
+                           .interrupt_after_ms = 300};
+    child_run(&child);
+    assert_int_equal(child.status, 130);
+    one_line(&child, "interrupted");
+    assert_int_equal(access(film, F_OK), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stills_agree),
+        cmocka_unit_test(films_stills_and_strips_are_of_one_run),
+        cmocka_unit_test(runs_are_saved_and_gone_on_with),
+        cmocka_unit_test(controls_are_listed),
+        cmocka_unit_test(what_is_wrong_is_said_in_a_line),
+        cmocka_unit_test(films_are_interrupted),
+    };
+    lutetia = getenv("LUTETIA");
+    collision = getenv("SPRINGS_NETWORK");
+    if (!lutetia || !collision)
+        return 77;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
