@@ -135,6 +135,9 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
         return false;
     kept->width = screen->width_px;
     kept->height = screen->height_px;
+    double bytes = (double)screen->width_px * screen->height_px;
+    script_memory_take(L, bytes, "a mask");
+    kept->bytes = bytes;
     kept->x = *x;
     kept->y = *y;
     return true;

@@ -180,10 +180,7 @@ static int paper_frame(lua_State *L)
     int bits = script_arg_integer(L, 3, "frame", "bits", 8, 8, 16);
     if (bits != 8 && bits != 16)
         luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);
-    size_t length = strlen(name);
-    if (length < 5 || strcmp(name + length - 4, ".png") != 0)
-        luaL_error(L, "frame's file must end in .png (got '%s')", name);
-    const char *path = script_path(L, paper->script->config->out_folder, name, "frame");
+    const char *path = script_path_to_write(L, name, ".png", "frame");
 
     if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0)
         return 0; /* made before this run was saved */

@@ -115,8 +115,7 @@ static int paper_save(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 2);
     history_need(L, paper);
-    const char *path = script_path(L, paper->script->config->out_folder, luaL_checkstring(L, 2),
-                                   "a saved paper");
+    const char *path = script_path_to_write(L, luaL_checkstring(L, 2), ".h5", "a saved paper");
     script_paper_check(L,
                        paper_state_save(path, &(struct paper_state_sheet){1, paper->sheet}, 1));
     return 0;

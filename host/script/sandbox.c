@@ -48,6 +48,21 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
     return path;
 }
 
+const char *script_path_to_write(lua_State *L, const char *name, const char *ending,
+                                 const char *what)
+{
+    const struct script_config *config = script_of(L)->config;
+    size_t length = strlen(name), tail = strlen(ending);
+    if (length <= tail || strcmp(name + length - tail, ending) != 0)
+        luaL_error(L, "%s's file must end in %s (got '%s')", what, ending, name);
+    for (const char *part = name; part && !config->trusted; part = strchr(part, '/')) {
+        part += *part == '/';
+        if (part[0] == '.' && part[1] != '/' && strncmp(part, "../", 3) != 0)
+            luaL_error(L, "%s's file must not be hidden (got '%s')", what, name);
+    }
+    return script_path(L, config->out_folder, name, what);
+}
+
 /* After time is up every instruction is stopped, so that a script cannot go on by catching errors. */
 static void hook(lua_State *L, lua_Debug *event)
 {

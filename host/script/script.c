@@ -4,6 +4,7 @@
 
 #include <history.h>
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,5 +155,6 @@ enum script_status script_run(const struct script_config *config,
     self->over = true;
     lua_close(L); /* a trusted script's finalizers run */
     script_watchdog_end(self);
+    assert(script.memory_bytes == 0); /* all that was taken has been given back */
     return status == SCRIPT_OK ? words_end(self) : status;
 }

@@ -86,6 +86,10 @@ void script_words_check(lua_State *L);
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
+/* The same for a file that is written, in the script's folder for that: of this ending, and not hidden. */
+const char *script_path_to_write(lua_State *L, const char *name, const char *ending,
+                                 const char *what);
+
 /* ---- arguments ---- */
 
 /* Field `name` of the table at index, a finite number within low..high; missing is fallback. `what` says whose. */
