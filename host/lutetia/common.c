@@ -71,11 +71,12 @@ bool interrupted(void)
     sigset_t pending;
     if (interrupt_flag == 0 && sigpending(&pending) == 0 &&
         sigismember(&pending, SIGINT) == 1) {
+        const struct timespec now = {0};
         sigset_t interrupt;
-        int signal_number;
         sigemptyset(&interrupt);
         sigaddset(&interrupt, SIGINT);
-        sigwait(&interrupt, &signal_number); /* this one is taken; the next ends the program */
+        /* this one is taken, here or by a thread that looks at the same time; the next ends the program */
+        sigtimedwait(&interrupt, NULL, &now);
         sigprocmask(SIG_UNBLOCK, &interrupt, NULL);
         interrupt_flag = 1;
     }
