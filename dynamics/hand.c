@@ -169,6 +169,12 @@ enum dyn_status dyn_mass_place(struct dyn_network *n, int mass, double x, double
     return status;
 }
 
+enum dyn_status dyn_mass_clamp(struct dyn_network *n, int mass, double x, double y)
+{
+    enum dyn_status status = dyn_mass_place(n, mass, x, y);
+    return status == DYN_OK ? dyn_mass_tack(n, mass) : status;
+}
+
 /* ---- springs ---- */
 
 enum dyn_status dyn_spring_cut(struct dyn_network *n, int spring)

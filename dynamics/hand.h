@@ -36,6 +36,9 @@ enum dyn_status dyn_mass_untack(struct dyn_network *n, int mass);
 /* Puts the mass there, at rest. */
 enum dyn_status dyn_mass_place(struct dyn_network *n, int mass, double x, double y);
 
+/* Puts the mass there and tacks it: to shape a word. */
+enum dyn_status dyn_mass_clamp(struct dyn_network *n, int mass, double x, double y);
+
 /* Cuts the spring: a snap, unless it was broken. */
 enum dyn_status dyn_spring_cut(struct dyn_network *n, int spring);
 /* Cuts all that the stroke from one point to the other crosses; *cut: how many. */

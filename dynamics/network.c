@@ -239,6 +239,30 @@ enum dyn_status dyn_spring_add(struct dyn_network *n, const struct dyn_spring *s
     return DYN_OK;
 }
 
+void dyn_network_truncate(struct dyn_network *n, int masses_count, int springs_count)
+{
+    int kept = 0;
+    memset(n->degree, 0, n->degree_capacity * sizeof *n->degree);
+    for (int i = 0; i < springs_count; i++) {
+        struct dyn_spring spring = dyn_spring_get(n, i);
+        if (spring.end[0] >= masses_count || spring.end[1] >= masses_count)
+            continue;
+        memcpy(n->end[kept], spring.end, sizeof spring.end);
+        dyn_spring_put(n, kept++, &spring);
+        n->degree[spring.end[0]]++;
+        n->degree[spring.end[1]]++;
+    }
+    n->springs_count = kept;
+    for (int i = n->pulls_count - 1; i >= 0; i--)
+        if (n->pulls[i].mass >= masses_count)
+            memmove(&n->pulls[i], &n->pulls[i + 1],
+                    (size_t)(--n->pulls_count - i) * sizeof *n->pulls);
+    for (int i = masses_count; i < n->masses_count; i++)
+        n->state[i] = (struct dyn_state){0};
+    n->masses_count = masses_count;
+    n->changed = true;
+}
+
 int dyn_masses_count(const struct dyn_network *n)
 {
     return n->masses_count;

@@ -83,6 +83,9 @@ enum dyn_status dyn_mass_add(struct dyn_network *n, const struct dyn_mass *mass,
 enum dyn_status dyn_spring_add(struct dyn_network *n, const struct dyn_spring *spring,
                                int *index);
 
+/* Takes away all but the first so many masses and springs, and springs of masses that go. The counts are at most those there are. */
+void dyn_network_truncate(struct dyn_network *n, int masses_count, int springs_count);
+
 int dyn_masses_count(const struct dyn_network *n);
 int dyn_springs_count(const struct dyn_network *n);
 

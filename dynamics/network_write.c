@@ -1,23 +1,10 @@
 /* network_write.c - see network_file.h. */
 #include "internal.h"
 #include "network_file.h"
+#include "number_text.h"
 
-#include <locale.h>
 #include <output_file.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* The shortest of three texts that reads as the same number. */
-static void number_print(FILE *to, double value)
-{
-    char text[40];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            break;
-    }
-    fputs(text, to);
-}
 
 /* name=value of those that are not as usual. */
 static void fields_print(FILE *to, const struct dyn_control *fields, int count, const void *of)
@@ -27,7 +14,7 @@ static void fields_print(FILE *to, const struct dyn_control *fields, int count, 
         if (memcmp(&value, &fields[i].usual, sizeof value) == 0) /* -0 is not 0 */
             continue;
         fprintf(to, " %s=", fields[i].name);
-        number_print(to, value);
+        dyn_number_print(to, value);
     }
 }
 
@@ -39,7 +26,7 @@ static void world_print(FILE *to, const struct dyn_world *world)
         if (value == c->usual)
             continue;
         fprintf(to, "control %s ", c->name);
-        number_print(to, value);
+        dyn_number_print(to, value);
         fputc('\n', to);
     }
 }
@@ -67,7 +54,7 @@ static void pull_print(FILE *to, const struct dyn_pull *pull)
     fprintf(to, "pull %d", pull->mass);
     for (int i = 0; i < 4; i++) {
         fputc(' ', to);
-        number_print(to, values[i]);
+        dyn_number_print(to, values[i]);
     }
     fputc('\n', to);
 }
@@ -84,26 +71,16 @@ static enum dyn_status look(const struct dyn_network *n)
     return DYN_OK;
 }
 
-/* Numbers have a point, whatever the program's locale. */
-static bool plain_numbers(locale_t *plain, locale_t *before)
-{
-    *plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!*plain)
-        return false;
-    *before = uselocale(*plain);
-    return true;
-}
-
 enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to)
 {
-    locale_t plain, before;
+    struct dyn_plain_numbers plain;
     enum dyn_status status = look(n);
     if (status != DYN_OK)
         return status;
-    if (!plain_numbers(&plain, &before))
+    if (!dyn_plain_numbers_begin(&plain))
         return dyn_fail(DYN_NO_MEMORY, "no memory for a locale");
     fputs("springs 1\ntime_s ", to);
-    number_print(to, n->time_s);
+    dyn_number_print(to, n->time_s);
     fputc('\n', to);
     world_print(to, &n->world);
     for (int i = 0; i < n->masses_count; i++) {
@@ -117,8 +94,7 @@ enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to)
     for (int i = 0; i < n->pulls_count; i++)
         pull_print(to, &n->pulls[i]);
     fputs("end\n", to);
-    uselocale(before);
-    freelocale(plain);
+    dyn_plain_numbers_end(&plain);
     return DYN_OK;
 }
 

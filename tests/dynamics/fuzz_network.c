@@ -1,5 +1,6 @@
-/* fuzz_network.c - networks from damaged text: each is read or refused with one line; what is read moves without exploding, and is
+/* fuzz_network.c - networks and clamps from damaged text: each is read or refused with one line; what is read moves without exploding, and is
  * written and read again as the same text. */
+#include <clamps.h>
 #include <network_file.h>
 #include <step.h>
 
@@ -32,6 +33,34 @@ static void moves(struct dyn_network *n)
     }
 }
 
+static void refused(const void *out)
+{
+    if (out || !*dyn_error() || strchr(dyn_error(), '\n'))
+        abort();
+}
+
+static void clamps_look(const char *text, size_t count)
+{
+    struct dyn_clamps *c;
+    struct dyn_network *n;
+    struct dyn_mass mass = dyn_mass_usual();
+    if (dyn_clamps_parse(text, count, "fuzz", &c) != DYN_OK) {
+        refused(c);
+        return;
+    }
+    if (dyn_network_create(&n) != DYN_OK)
+        abort();
+    for (int i = 0; i < 4; i++)
+        if (dyn_mass_add(n, &mass, NULL) != DYN_OK)
+            abort();
+    (void)dyn_clamps_step(c, n, 0.25, 8);
+    for (int i = 0; i < 4; i++)
+        if (!(fabs(dyn_network_states(n)[i].x) <= 1e6))
+            abort();
+    dyn_network_destroy(n);
+    dyn_clamps_destroy(c);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     struct dyn_network *n, *again;
@@ -39,11 +68,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
     if (!text)
         abort();
     memcpy(text, bytes, count);
+    clamps_look(text, count);
     enum dyn_status status = dyn_network_parse(text, count, "fuzz", &n);
     free(text);
     if (status != DYN_OK) {
-        if (n || !*dyn_error() || strchr(dyn_error(), '\n'))
-            abort();
+        refused(n);
         return 0;
     }
     size_t count_n, count_again;
@@ -75,13 +104,16 @@ int main(void)
         "springs 1\r\n# c\nmass vx=-4 vy=5 held\nmass x=1 restitution=0.3 friction=2\nmass y=1 "
         "gravity=-1\nspring 1 2 rest_length=0.5 breaking_strain=0.01\nspring 0 2 "
         "broken\ncontrol floor_on off\ncontrol left 0.5\ncontrol left_on on\nend\n",
+        "clamps 1\nkey 0 0 1 2\nkey 0 0.5 2 2\nkey 0 1e0 3 2.5\nfree 0 1.25\nkey 3 -1 4 4\nkey "
+        "3 9 "
+        "-4 1e3\nend\n",
     };
     enum { ROUNDS = 20000, MOST = 700 };
     uint8_t bytes[MOST];
     uint64_t state = 19;
     int read = 0;
     for (int i = 0; i < ROUNDS; i++) {
-        const char *seed = seeds[i % 2];
+        const char *seed = seeds[i % 3];
         size_t count = strlen(seed);
         memcpy(bytes, seed, count);
         for (uint64_t changes = 1 + sample_word(&state) % 4; changes > 0; changes--) {
@@ -114,6 +146,6 @@ int main(void)
         read += dyn_network_parse((const char *)bytes, count, "fuzz", &n) == DYN_OK;
         dyn_network_destroy(n);
     }
-    return read > ROUNDS / 20 ? 0 : 1; /* enough of them are read, too */
+    return read > ROUNDS / 30 ? 0 : 1; /* enough of them are read, too */
 }
 #endif

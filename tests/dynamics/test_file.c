@@ -114,8 +114,8 @@ static void bad_networks_are_refused_in_one_line(void **unused)
     static const struct {
         const char *text, *error;
     } bad[] = {
-        {"", "bad:1: no network: its first line must be 'springs 1'"},
-        {"springs 2\nend\n", "bad:1: no network: its first line must be 'springs 1'"},
+        {"", "bad:1: its first line must be 'springs 1'"},
+        {"springs 2\nend\n", "bad:1: its first line must be 'springs 1'"},
         {"springs 1\nmass\nspring 0 0\nend\n",
          "bad:3: a spring cannot go from mass 0 to itself"},
         {"springs 1\nmass\nspring 0 1\nend\n",
@@ -139,7 +139,7 @@ static void bad_networks_are_refused_in_one_line(void **unused)
         {"springs 1\nmass\npull 0 1 2 3\nend\n", "bad:3: there is no damping"},
         {"springs 1\nmass\npull 0 1 2 3 4 5\nend\n", "bad:3: '5' is one word too many"},
         {"springs 1\nhello\nend\n",
-         "bad:2: a line begins with time_s, control, mass, spring, pull or end (got 'hello')"},
+         "bad:2: a line begins with one of: time_s control mass spring pull end (got 'hello')"},
         {"springs 1\nmass x=1\nmass y=", "bad:3: y: '' is no number"},
         {"springs 1\nmass x=1\n", "bad:2: the file is cut short: there is no 'end'"},
         {"springs 1\nend\nmass\n", "bad:3: after 'end' there can be nothing more"},

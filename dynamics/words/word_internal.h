@@ -1,0 +1,37 @@
+/* word_internal.h - what the files of springy words share. */
+#ifndef LUTETIA_DYN_WORD_INTERNAL_H
+#define LUTETIA_DYN_WORD_INTERNAL_H
+
+#include "word.h"
+
+#include <internal.h>
+
+struct dyn_word {
+    struct dyn_letter *letters;
+    int letters_count, letters_capacity;
+    struct dyn_word_style style;
+    struct dyn_word_range range;
+    uint8_t *part; /* of each spring */
+    int parts_capacity;
+};
+
+/* letters.c: the letters of the text, with their boxes; their masses are not there yet. place: of each letter's origin, in units
+ * from where the first baseline begins, y upwards; owns: the caller frees it. */
+struct dyn_place {
+    double x, y;
+};
+enum dyn_status dyn_letters_make(struct dyn_word *word, const struct dyn_word_def *def,
+                                 struct dyn_place **places);
+
+/* path.c: a point along a path: x from its beginning, y to its left. Errors: BAD_ARGUMENT: no length, or a point that is no
+ * number. */
+struct dyn_path {
+    const double (*points)[2];
+    double *at; /* how far each point is along it */
+    int count;
+};
+enum dyn_status dyn_path_make(struct dyn_path *path, const double (*points)[2], int count);
+void dyn_path_finish(struct dyn_path *path);
+struct dyn_place dyn_path_place(const struct dyn_path *path, double x, double y);
+
+#endif
