@@ -1,4 +1,4 @@
-/* midi_internal.h - what the files of this folder share. */
+/* midi_internal.h - what the files of this folder and of those in it share. */
 #ifndef LUTETIA_MIDI_INTERNAL_H
 #define LUTETIA_MIDI_INTERNAL_H
 
@@ -6,10 +6,9 @@
 
 #include <error_text.h>
 
-#include <stdint.h>
+extern _Thread_local struct error_text midi_last_error;
 
 /* Keeps the text for midi_error() and returns the status. */
-extern _Thread_local struct error_text midi_last_error;
 #define midi_fail(status, ...)                                                                 \
     ((enum midi_status)error_text_fail(&midi_last_error, (int)(status), __VA_ARGS__))
 

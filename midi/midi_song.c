@@ -135,7 +135,7 @@ enum midi_status song_sort(struct midi_song *song)
     enum midi_status status = tempo_add(song, 0, MIDI_TEMPO_USUAL_US);
     for (size_t i = 0; status == MIDI_OK && i < song->events_count; i++) {
         struct song_event *e = &song->events[i];
-        const uint8_t *b = song->bytes + e->offset;
+        const uint8_t *b = e->count ? song->bytes + e->offset : NULL;
         if (e->kind == MIDI_SONG_META && e->meta == MIDI_META_TEMPO && e->count == 3 &&
             song->division > 0)
             status = tempo_add(song, e->tick, (uint32_t)(b[0] << 16 | b[1] << 8 | b[2]));
@@ -209,7 +209,7 @@ struct midi_song_event midi_song_event(struct midi_song *song, size_t index)
                                     (enum midi_song_kind)e->kind,
                                     e->meta,
                                     e->count,
-                                    song->bytes + e->offset};
+                                    e->count ? song->bytes + e->offset : NULL};
 }
 
 void midi_song_play(const struct midi_song_event *e, struct midi_parser *parser,

@@ -46,7 +46,7 @@ struct midi_song_event {
     enum midi_song_kind kind;
     uint8_t meta; /* its type; of META */
     uint32_t count;
-    const uint8_t *bytes; /* the song's */
+    const uint8_t *bytes; /* the song's; NULL where there are none */
 };
 
 struct midi_song;

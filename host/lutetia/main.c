@@ -20,6 +20,8 @@ static const struct {
     {"leds", verb_leds, "prog [args...]", "show the lights that a C/Paris program latches"},
     {"explain", verb_explain, "prog [args...]",
      "run a C/Paris program and say what its machine did"},
+    {"midi", verb_midi, "serve | play | monitor | ...",
+     "instruments: a server, and programs that use it"},
     {"bench", verb_bench, "NAME [options]", "measure"},
     {"tune", verb_tune, "", "measure what suits the device, and keep it"},
     {"info", verb_info, "", "versions, devices, folders, and what a fiber takes"},

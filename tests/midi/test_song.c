@@ -215,6 +215,7 @@ static void odd_files_are_read(void **unused)
         WRONG(HEADER("\1", "\5", "\0", "\x60") "MTrk\0\0\0\4\0\xff\x2f\0", 0), /* one of five */
         WRONG(HEADER("\0", "\1", "\0", "\x60") "XFIH\0\0\0\1zMTrk\0\0\0\4\0\xff\x2f\0", 0),
         WRONG("MThd\0\0\0\10\0\0\0\1\0\x60..MTrk\0\0\0\4\0\xff\x2f\0", 0), /* a longer header */
+        WRONG(TRACK("\7", "\0\xf7\0\0\xff\x2f\0"), 1), /* an escape of nothing */
         WRONG("RIFF....RMIDdata....MThd\0\0\0\6\0\0\0\1\0\x60MTrk\0\0\0\4\0\xff\x2f\0", 0),
     };
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {

@@ -1,0 +1,486 @@
+/* midi_client.c - see midi_client.h. What arrives becomes events in a queue; commands wait for their reply among it. */
+#include "midi_client.h"
+#include "midi_connect.h"
+#include "midi_wire.h"
+
+#include <midi_internal.h>
+#include <midi_notes.h>
+#include <midi_time.h>
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+enum {
+    LISTENS_MAX = MIDI_WIRE_DEVICES,
+    NAME_MAX_BYTES = 64,
+    FILTERS_MAX_BYTES = 512,
+    QUEUE_MAX = 1 << 16,
+    REPLY_WAIT_MS = 5000,
+    RETRY_MS = 200
+};
+
+struct listen_to {
+    char device[NAME_MAX_BYTES], filters[FILTERS_MAX_BYTES];
+};
+
+struct midi_client {
+    char name[NAME_MAX_BYTES], address[256], token[128];
+    bool usual, stays;
+    int file; /* -1: gone */
+    uint64_t retry_ns;
+    uint8_t in[MIDI_WIRE_HEAD + MIDI_WIRE_REPLY_MAX + 16384];
+    size_t in_count;
+    struct midi_client_event *queue;
+    size_t first, count, room; /* a ring */
+    uint32_t lost_here;        /* left out because the queue is full */
+    struct listen_to listens[LISTENS_MAX];
+    int listens_count;
+    char devices[MIDI_WIRE_DEVICES][NAME_MAX_BYTES]; /* "": none */
+    struct midi_notes heard[MIDI_WIRE_DEVICES];
+    /* the command that is waited for */
+    uint32_t command, sent;
+    bool welcome, replied, refused;
+    char *reply;
+    size_t reply_room;
+    char farewell[160]; /* what the server said at the end */
+};
+
+struct midi_client_def midi_client_def_default(const char *name)
+{
+    return (struct midi_client_def){.name = name, .stays = true};
+}
+
+/* ---- events ---- */
+
+static struct midi_client_event *event_add(struct midi_client *c)
+{
+    if (c->count == c->room) {
+        const size_t room = c->room ? 2 * c->room : 64;
+        struct midi_client_event *grown =
+            c->room < QUEUE_MAX ? malloc(room * sizeof *grown) : NULL;
+        if (!grown) {
+            c->lost_here++;
+            return NULL;
+        }
+        for (size_t i = 0; i < c->count; i++)
+            grown[i] = c->queue[(c->first + i) % c->room];
+        free(c->queue);
+        c->queue = grown;
+        c->room = room;
+        c->first = 0;
+    }
+    struct midi_client_event *e = &c->queue[(c->first + c->count++) % c->room];
+    e->kind = MIDI_CLIENT_NOTHING;
+    e->device = -1;
+    e->lost = 0;
+    e->text[0] = '\0';
+    e->message.count = 0;
+    return e;
+}
+
+static bool event_take(struct midi_client *c, struct midi_client_event *out)
+{
+    if (c->count) {
+        *out = c->queue[c->first];
+        c->first = (c->first + 1) % c->room;
+        c->count--;
+        return true;
+    }
+    *out = (struct midi_client_event){.device = -1, .lost = c->lost_here};
+    out->kind = c->lost_here ? MIDI_CLIENT_LOST : MIDI_CLIENT_NOTHING;
+    c->lost_here = 0;
+    return out->lost > 0;
+}
+
+struct released {
+    struct midi_client *client;
+    int device;
+};
+
+static void release_take(void *context, const struct midi_message *m)
+{
+    const struct released *r = context;
+    struct midi_client_event *e = event_add(r->client);
+    if (!e)
+        return;
+    e->kind = MIDI_CLIENT_MESSAGE;
+    e->device = r->device;
+    e->message = *m;
+}
+
+static void gone(struct midi_client *c, const char *why)
+{
+    if (c->file < 0)
+        return;
+    close(c->file);
+    c->file = -1;
+    c->in_count = 0;
+    c->retry_ns = midi_now_ns() + RETRY_MS * UINT64_C(1000000);
+    for (int i = 0; i < MIDI_WIRE_DEVICES; i++) {
+        struct released r = {c, i};
+        midi_notes_release(&c->heard[i], midi_now_ns(), release_take, &r);
+        c->devices[i][0] = '\0';
+    }
+    struct midi_client_event *e = event_add(c);
+    if (!e)
+        return;
+    e->kind = MIDI_CLIENT_GONE;
+    snprintf(e->text, sizeof e->text, "%s", why);
+}
+
+/* ---- what arrives ---- */
+
+static void payload_text(const struct midi_wire_frame *f, char *text, size_t room)
+{
+    const size_t count = f->count < room ? f->count : room - 1;
+    memcpy(text, f->payload, count);
+    text[count] = '\0';
+}
+
+static void device_take(struct midi_client *c, const struct midi_wire_frame *f)
+{
+    struct midi_client_event *e = event_add(c);
+    char text[160];
+    payload_text(f, text, sizeof text);
+    if (f->device < MIDI_WIRE_DEVICES)
+        snprintf(c->devices[f->device], NAME_MAX_BYTES, "%.*s", (int)strcspn(text, " "), text);
+    if (!e)
+        return;
+    e->kind = MIDI_CLIENT_DEVICE;
+    e->device = f->device;
+    memcpy(e->text, text, sizeof text);
+}
+
+/* False: that was no frame of ours, or the server ends the connection. */
+static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
+{
+    struct midi_client_event *e;
+    switch (f->kind) {
+    case MIDI_WIRE_MIDI:
+        e = event_add(c);
+        if (!e)
+            return true;
+        e->kind = MIDI_CLIENT_MESSAGE;
+        e->device = f->device;
+        if (f->device >= MIDI_WIRE_DEVICES || !midi_wire_message(f, &e->message)) {
+            c->count--;
+            return false;
+        }
+        midi_notes_take(&c->heard[f->device], &e->message);
+        return true;
+    case MIDI_WIRE_DEVICE:
+        device_take(c, f);
+        return true;
+    case MIDI_WIRE_LOST:
+        e = event_add(c);
+        if (e) {
+            e->kind = MIDI_CLIENT_LOST;
+            e->lost = f->number;
+        }
+        return true;
+    case MIDI_WIRE_WELCOME:
+        c->welcome = f->count == strlen(MIDI_WIRE_GREETING) &&
+                     !memcmp(f->payload, MIDI_WIRE_GREETING, f->count);
+        return c->welcome;
+    case MIDI_WIRE_REPLY:
+    case MIDI_WIRE_ERROR:
+        if (f->number != c->command && f->number)
+            return true;
+        c->refused = f->kind == MIDI_WIRE_ERROR;
+        c->replied = true;
+        if (c->reply_room)
+            payload_text(f, c->reply, c->reply_room);
+        else
+            payload_text(f, c->farewell, sizeof c->farewell); /* and it closes */
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* Reads what is there, without waiting. */
+static void input_take(struct midi_client *c)
+{
+    const ssize_t got =
+        recv(c->file, c->in + c->in_count, sizeof c->in - c->in_count, MSG_DONTWAIT);
+    if (got < 0 && (errno == EAGAIN || errno == EINTR))
+        return;
+    if (got <= 0) {
+        gone(c, c->farewell[0] ? c->farewell : "the server is gone");
+        return;
+    }
+    c->in_count += (size_t)got;
+    struct midi_wire_frame f;
+    size_t at = 0;
+    for (size_t used; (used = midi_wire_read(c->in + at, c->in_count - at, &f)); at += used)
+        if (!frame_take(c, &f)) {
+            gone(c, "what answers there is no MIDI server");
+            return;
+        }
+    if (!at && c->in_count == sizeof c->in) {
+        gone(c, "what answers there is no MIDI server");
+        return;
+    }
+    memmove(c->in, c->in + at, c->in_count - at);
+    c->in_count -= at;
+}
+
+/* Until it is readable, writable or the time has come. */
+static bool wait_for(struct midi_client *c, short events, uint64_t until_ns)
+{
+    const uint64_t now_ns = midi_now_ns();
+    struct pollfd p = {c->file, events, 0};
+    if (until_ns != UINT64_MAX && now_ns >= until_ns)
+        return poll(&p, 1, 0) > 0;
+    struct timespec left = {(time_t)((until_ns - now_ns) / 1000000000),
+                            (long)((until_ns - now_ns) % 1000000000)};
+    return ppoll(&p, 1, until_ns == UINT64_MAX ? NULL : &left, NULL) > 0;
+}
+
+/* ---- what is sent ---- */
+
+static enum midi_status frame_send(struct midi_client *c, const struct midi_wire_frame *f)
+{
+    uint8_t bytes[MIDI_WIRE_HEAD + MIDI_WIRE_TEXT_MAX];
+    const size_t count = MIDI_WIRE_HEAD + (size_t)f->count;
+    midi_wire_head(f, bytes);
+    memcpy(bytes + MIDI_WIRE_HEAD, f->payload, f->count);
+    for (size_t at = 0; c->file >= 0 && at < count;) {
+        const ssize_t sent = send(c->file, bytes + at, count - at, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0)
+            at += (size_t)sent;
+        else if (errno == EAGAIN)
+            wait_for(c, POLLOUT, midi_now_ns() + 100000000);
+        else if (errno != EINTR)
+            gone(c, strerror(errno));
+    }
+    return c->file >= 0 ? MIDI_OK : midi_fail(MIDI_NO_SERVER, "the server is gone");
+}
+
+static enum midi_status text_send(struct midi_client *c, uint8_t kind, const char *text)
+{
+    const size_t count = strlen(text);
+    if (count > MIDI_WIRE_TEXT_MAX)
+        return midi_fail(MIDI_BAD_ARGUMENT, "a command has at most %d bytes",
+                         MIDI_WIRE_TEXT_MAX);
+    c->replied = c->refused = false;
+    c->command++;
+    return frame_send(c, &(struct midi_wire_frame){.count = (uint16_t)count,
+                                                   .kind = kind,
+                                                   .device = MIDI_WIRE_NO_DEVICE,
+                                                   .number = c->command,
+                                                   .payload = (const uint8_t *)text});
+}
+
+/* Waits until *done, for a reply. */
+static enum midi_status reply_wait(struct midi_client *c, const bool *done, const char *text)
+{
+    const uint64_t until_ns = midi_now_ns() + REPLY_WAIT_MS * UINT64_C(1000000);
+    while (c->file >= 0 && !*done && !c->refused && midi_now_ns() < until_ns)
+        if (wait_for(c, POLLIN, until_ns))
+            input_take(c);
+    if (c->refused)
+        return midi_fail(MIDI_REFUSED, "%.300s", text);
+    if (*done)
+        return MIDI_OK;
+    return midi_fail(MIDI_NO_SERVER,
+                     c->file < 0 ? "the server is gone" : "the server does not answer");
+}
+
+static enum midi_status command(struct midi_client *c, const char *text, char *reply,
+                                size_t room)
+{
+    char usual[400];
+    c->reply = reply ? reply : usual;
+    c->reply_room = reply ? room : sizeof usual;
+    c->reply[0] = '\0';
+    enum midi_status status = text_send(c, MIDI_WIRE_COMMAND, text);
+    if (status == MIDI_OK)
+        status = reply_wait(c, &c->replied, c->reply);
+    c->reply_room = 0;
+    return status;
+}
+
+enum midi_status midi_client_command(struct midi_client *c, const char *text, char *reply,
+                                     size_t room)
+{
+    if (c->file < 0)
+        return midi_fail(MIDI_NO_SERVER, "the server is gone");
+    return command(c, text, reply, room);
+}
+
+static enum midi_status listen_say(struct midi_client *c, const struct listen_to *l)
+{
+    char text[NAME_MAX_BYTES + FILTERS_MAX_BYTES + 16];
+    snprintf(text, sizeof text, "listen %s %s", l->device, l->filters);
+    return command(c, text, NULL, 0);
+}
+
+/* ---- connecting ---- */
+
+static enum midi_status connect_to(struct midi_client *c)
+{
+    char hello[400], why[200] = "";
+    enum midi_status status = midi_connect(c->usual ? NULL : c->address, &c->file);
+    if (status != MIDI_OK)
+        return status;
+    snprintf(hello, sizeof hello, "%s\n%s\n%s", MIDI_WIRE_GREETING, c->name, c->token);
+    c->in_count = 0;
+    c->farewell[0] = '\0';
+    c->welcome = false;
+    c->reply = why;
+    c->reply_room = sizeof why;
+    status = text_send(c, MIDI_WIRE_HELLO, hello);
+    if (status == MIDI_OK)
+        status = reply_wait(c, &c->welcome, why);
+    c->reply_room = 0;
+    for (int i = 0; status == MIDI_OK && i < c->listens_count; i++)
+        status = listen_say(c, &c->listens[i]);
+    if (status == MIDI_OK) /* once that is answered, all devices are known */
+        status = command(c, "devices", NULL, 0);
+    if (status != MIDI_OK && c->file >= 0) {
+        close(c->file);
+        c->file = -1;
+    }
+    return status;
+}
+
+enum midi_status midi_client_open(const struct midi_client_def *def, struct midi_client **out)
+{
+    struct midi_client *c = calloc(1, sizeof *c);
+    *out = NULL;
+    if (!c)
+        return midi_fail(MIDI_NO_MEMORY, "no memory for a MIDI client");
+    snprintf(c->name, sizeof c->name, "%s", def->name ? def->name : "unnamed");
+    for (char *l = c->name; *l; l++)
+        *l = *l == '\n' ? ' ' : *l;
+    snprintf(c->address, sizeof c->address, "%s", def->address ? def->address : "");
+    snprintf(c->token, sizeof c->token, "%s", def->token ? def->token : "");
+    c->usual = !def->address;
+    c->stays = def->stays;
+    c->file = -1;
+    enum midi_status status = connect_to(c);
+    if (status != MIDI_OK) {
+        midi_client_close(c);
+        return status;
+    }
+    *out = c;
+    return MIDI_OK;
+}
+
+void midi_client_close(struct midi_client *c)
+{
+    if (!c)
+        return;
+    if (c->file >= 0)
+        close(c->file);
+    free(c->queue);
+    free(c);
+}
+
+/* ---- use ---- */
+
+enum midi_status midi_client_listen(struct midi_client *c, const char *device,
+                                    const char *filters)
+{
+    struct listen_to l;
+    filters = filters ? filters : "";
+    if (strlen(device) >= sizeof l.device || strlen(filters) >= sizeof l.filters ||
+        strpbrk(device, " \n"))
+        return midi_fail(MIDI_BAD_ARGUMENT,
+                         "a device's name has no spaces and %d bytes at most, filters %d",
+                         NAME_MAX_BYTES - 1, FILTERS_MAX_BYTES - 1);
+    snprintf(l.device, sizeof l.device, "%s", device);
+    snprintf(l.filters, sizeof l.filters, "%s", filters);
+    enum midi_status status =
+        c->file >= 0 ? listen_say(c, &l) : midi_fail(MIDI_NO_SERVER, "the server is gone");
+    if (status != MIDI_OK)
+        return status;
+    int i = 0;
+    while (i < c->listens_count && strcmp(c->listens[i].device, device) != 0)
+        i++;
+    if (i == LISTENS_MAX)
+        return MIDI_OK; /* heard, but not again after a reconnection */
+    c->listens[i] = l;
+    c->listens_count = i == c->listens_count ? i + 1 : c->listens_count;
+    return MIDI_OK;
+}
+
+int midi_client_device(const struct midi_client *c, const char *name)
+{
+    for (int i = 0; i < MIDI_WIRE_DEVICES; i++)
+        if (name[0] && !strcmp(c->devices[i], name))
+            return i;
+    return -1;
+}
+
+const char *midi_client_device_name(const struct midi_client *c, int device)
+{
+    const bool known = device >= 0 && device < MIDI_WIRE_DEVICES && c->devices[device][0];
+    return known ? c->devices[device] : NULL;
+}
+
+enum midi_status midi_client_send(struct midi_client *c, int device,
+                                  const struct midi_message *m)
+{
+    if (device < 0 || device >= MIDI_WIRE_DEVICES || !midi_message_good(m))
+        return midi_fail(MIDI_BAD_ARGUMENT, "there is no such device, or that is no message");
+    if (c->file < 0)
+        return midi_fail(MIDI_NO_SERVER, "the server is gone");
+    return frame_send(
+        c, &(struct midi_wire_frame){m->count, MIDI_WIRE_MIDI, (uint8_t)device, c->sent++,
+                                     m->time_ns ? m->time_ns : midi_now_ns(), m->bytes});
+}
+
+int midi_client_descriptor(const struct midi_client *c)
+{
+    return c->file;
+}
+
+/* While the server is gone: waits until the next try, and tries. */
+static void try_again(struct midi_client *c, uint64_t until_ns)
+{
+    const uint64_t now_ns = midi_now_ns();
+    const uint64_t wake_ns = c->retry_ns < until_ns ? c->retry_ns : until_ns;
+    if (wake_ns > now_ns) {
+        const struct timespec left = {(time_t)((wake_ns - now_ns) / 1000000000),
+                                      (long)((wake_ns - now_ns) % 1000000000)};
+        nanosleep(&left, NULL);
+    }
+    if (midi_now_ns() < c->retry_ns)
+        return;
+    c->retry_ns = midi_now_ns() + RETRY_MS * UINT64_C(1000000);
+    if (connect_to(c) != MIDI_OK)
+        return;
+    struct midi_client_event *e = event_add(c);
+    if (e)
+        e->kind = MIDI_CLIENT_BACK;
+}
+
+enum midi_status midi_client_next(struct midi_client *c, int wait_ms,
+                                  struct midi_client_event *event)
+{
+    const uint64_t until_ns =
+        wait_ms < 0 ? UINT64_MAX : midi_now_ns() + (uint64_t)wait_ms * 1000000;
+    for (bool last = false;;) {
+        if (event_take(c, event))
+            return MIDI_OK;
+        if (last)
+            return MIDI_OK; /* NOTHING: event_take() has cleared it */
+        if (c->file < 0 && !c->stays)
+            return midi_fail(MIDI_NO_SERVER, "the server is gone");
+        last = midi_now_ns() >= until_ns;
+        if (c->file < 0)
+            try_again(c, until_ns);
+        else if (wait_for(c, POLLIN, until_ns))
+            input_take(c);
+        else if (until_ns == UINT64_MAX)
+            last = true; /* a signal: the caller may want to look */
+    }
+}

@@ -1,0 +1,25 @@
+/* midi_notes.h - which notes sound, so that none goes on when whoever plays it is gone.
+ *
+ *     struct midi_notes notes = {0};
+ *     midi_notes_take(&notes, &message);                      // for each message that goes by
+ *     ...
+ *     midi_notes_release(&notes, now_ns, message_taken, context);   // ends all of them */
+#ifndef LUTETIA_MIDI_NOTES_H
+#define LUTETIA_MIDI_NOTES_H
+
+#include "midi_parser.h"
+
+struct midi_notes { /* zeros: none */
+    uint64_t on[MIDI_CHANNELS][2];
+    uint16_t pedals; /* a bit for each channel whose sustain pedal is down */
+};
+
+/* Notes, sustain pedals, and the controllers and the reset that end all notes; else nothing. */
+void midi_notes_take(struct midi_notes *n, const struct midi_message *m);
+int midi_notes_count(const struct midi_notes *n);
+/* A note-off for each note, and pedals up; then none sounds. At most MIDI_CHANNELS * (MIDI_NOTES + 1) messages. */
+void midi_notes_release(struct midi_notes *n, uint64_t time_ns, midi_take *take, void *context);
+/* For who knows nothing of what came before: on each channel pedal up and all notes off. */
+void midi_notes_silence(uint64_t time_ns, midi_take *take, void *context);
+
+#endif

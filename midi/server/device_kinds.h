@@ -1,0 +1,13 @@
+/* device_kinds.h - the kinds of devices; a new one is a row, and a file. */
+#ifndef LUTETIA_MIDI_DEVICE_KINDS_H
+#define LUTETIA_MIDI_DEVICE_KINDS_H
+
+#include "device.h"
+
+extern const struct device_kind device_kind_raw, device_kind_serial, device_kind_pty,
+    device_kind_loop, device_kind_file;
+
+/* All that this build has; NULL ends them. */
+extern const struct device_kind *const device_kinds[];
+
+#endif

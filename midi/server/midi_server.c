@@ -1,0 +1,349 @@
+/* midi_server.c - see midi_server.h: puts devices, clients and sockets together. */
+#include "midi_server.h"
+#include "device_kinds.h"
+#include "server_commands.h"
+#include "server_route.h"
+#include "server_socket.h"
+
+#include <midi_internal.h>
+
+#include <errno.h>
+#include <sched.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+enum { HOUSEKEEPING_MS = 500, REAL_TIME_PRIORITY = 40 };
+
+__attribute__((format(printf, 2, 3))) static void tell(struct midi_server *s,
+                                                       const char *format, ...)
+{
+    char line[400];
+    va_list arguments;
+    if (!s->log)
+        return;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    s->log(s->context, line);
+}
+
+/* ---- devices ---- */
+
+static void device_announce(const struct midi_server *s, struct server_client *c, int device)
+{
+    char text[160];
+    (void)s;
+    command_device_text(s->devices[device], text);
+    (void)client_put_text(c, MIDI_WIRE_DEVICE, device, 0, text);
+}
+
+static void device_changed(struct server_device *d)
+{
+    struct midi_server *s = d->owner;
+    tell(s, d->up ? "device %s is there" : "device %s is away: %s", d->name, d->why);
+    if (!d->up)
+        route_device_away(s, d->number);
+    for (struct server_client *c = s->clients; c; c = c->next)
+        if (c->greeted && !c->dead) {
+            device_announce(s, c, d->number);
+            client_flush(c);
+        }
+}
+
+static enum midi_status device_add(struct midi_server *s, const char *spec)
+{
+    struct server_device *d;
+    if (s->devices_count == MIDI_WIRE_DEVICES)
+        return midi_fail(MIDI_BAD_ARGUMENT, "a server has at most %d devices",
+                         MIDI_WIRE_DEVICES);
+    enum midi_status status = device_create(device_kinds, spec, &s->loop, &d);
+    if (status != MIDI_OK)
+        return status;
+    const size_t length = strlen(d->name);
+    for (int i = 0, count = 2; i < s->devices_count; i++)
+        if (!strcmp(s->devices[i]->name, d->name)) { /* a name of its own: serial, serial2 */
+            snprintf(d->name + length, sizeof d->name - length, "%d", count++);
+            i = -1;
+        }
+    d->number = s->devices_count;
+    d->owner = s;
+    d->received = route_received;
+    d->read = route_read;
+    d->changed = device_changed;
+    d->drained = route_drained;
+    s->devices[s->devices_count++] = d;
+    return device_start(d);
+}
+
+/* ---- clients ---- */
+
+/* The time that it takes does not depend on how much is right. */
+static bool token_right(const struct midi_server *s, const char *said)
+{
+    const size_t count = strlen(s->token);
+    unsigned int differs = strlen(said) != count;
+    for (size_t i = 0; i < count && i < strlen(said); i++)
+        differs |= (unsigned int)(s->token[i] ^ said[i]);
+    return !differs && count > 0;
+}
+
+static enum client_verdict greet(struct midi_server *s, struct server_client *c, char *text)
+{
+    char *rest = text;
+    const char *greeting = strsep(&rest, "\n"), *name = strsep(&rest, "\n");
+    if (strcmp(greeting, MIDI_WIRE_GREETING) != 0 || !name) {
+        client_end(c, "the greeting must be: " MIDI_WIRE_GREETING ", a line with a name");
+        return CLIENT_ENDS;
+    }
+    if (c->tcp && !token_right(s, rest ? rest : "")) {
+        client_end(c, "the token is not right");
+        return CLIENT_ENDS;
+    }
+    for (size_t i = 0; name[i] && i + 1 < sizeof c->name; i++) /* for terminals */
+        c->name[i] = (char)((unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i]);
+    c->greeted = true;
+    (void)client_put_text(c, MIDI_WIRE_WELCOME, MIDI_WIRE_NO_DEVICE, 0, MIDI_WIRE_GREETING);
+    for (int i = 0; i < s->devices_count; i++)
+        device_announce(s, c, i);
+    client_flush(c);
+    return CLIENT_GOES_ON;
+}
+
+static enum client_verdict frame_take(struct server_client *c, const struct midi_wire_frame *f)
+{
+    struct midi_server *s = c->owner;
+    char text[MIDI_WIRE_TEXT_MAX + 1];
+    if (c->greeted != (f->kind != MIDI_WIRE_HELLO)) {
+        client_end(c, c->greeted ? "a second greeting" : "a greeting must come first");
+        return CLIENT_ENDS;
+    }
+    if (f->kind == MIDI_WIRE_MIDI)
+        return route_message(s, c, f);
+    memcpy(text, f->payload, f->count);
+    text[f->count] = '\0';
+    if (f->kind == MIDI_WIRE_HELLO)
+        return greet(s, c, text);
+    command_do(s, c, f->number, text);
+    return CLIENT_GOES_ON;
+}
+
+static void clients_sweep(struct midi_server *s)
+{
+    for (struct server_client **at = &s->clients; *at;) {
+        struct server_client *c = *at;
+        if (!c->dead) {
+            at = &c->next;
+            continue;
+        }
+        *at = c->next;
+        s->clients_count--;
+        client_destroy(c);
+    }
+}
+
+static void client_ended(struct server_client *c)
+{
+    struct midi_server *s = c->owner;
+    route_client_away(s, c);
+    loop_timer(&s->loop, &s->second, midi_now_ns()); /* it is destroyed when nobody uses it */
+}
+
+static void accept_ready(struct server_watch *w, uint32_t events)
+{
+    struct midi_server *s = w->owner;
+    const bool tcp = w == &s->tcp_watch;
+    bool ours;
+    (void)events;
+    const int file = socket_accept(w->file, tcp, &ours);
+    if (file < 0)
+        return;
+    struct server_client *c = client_create(&s->loop, file, tcp);
+    if (!c)
+        return;
+    c->owner = s;
+    c->frame = frame_take;
+    c->ended = client_ended;
+    c->latency = &s->latency;
+    c->number = ++s->clients_seen;
+    c->next = s->clients;
+    s->clients = c;
+    s->clients_count++;
+    if (!ours)
+        client_end(c, "this server is another user's");
+    else if (s->clients_count > SERVER_CLIENTS_MAX)
+        client_end(c, "the server has as many clients as it can");
+    else if (!client_begin(c))
+        client_end(c, "no memory");
+}
+
+/* ---- now and then ---- */
+
+static void rates_take(struct midi_server *s, uint64_t now_ns)
+{
+    const double seconds = (double)(now_ns - s->rates_ns) / 1e9;
+    if (seconds < HOUSEKEEPING_MS / 1e3)
+        return;
+    s->rates_ns = now_ns;
+    for (int i = 0; i < s->devices_count; i++) {
+        const struct device_counts *n = &s->devices[i]->counts;
+        s->in_hz[i] = (double)(n->in - s->in_before[i]) / seconds;
+        s->out_hz[i] = (double)(n->out - s->out_before[i]) / seconds;
+        s->in_before[i] = n->in;
+        s->out_before[i] = n->out;
+    }
+}
+
+static void second_fire(struct server_timer *t, uint64_t now_ns)
+{
+    struct midi_server *s = t->owner;
+    for (struct server_client *c = s->clients; c; c = c->next) {
+        const bool was_dead = c->dead;
+        client_look(c, now_ns);
+        if (c->dead && !was_dead) {
+            s->dropped++;
+            tell(s, "client %u %s is dropped: it does nothing", c->number, c->name);
+        }
+        if (!c->dead && c->waits_for >= 0) /* a system exclusive that nobody ends */
+            route_drained(s->devices[c->waits_for]);
+    }
+    clients_sweep(s);
+    rates_take(s, now_ns);
+    loop_timer(&s->loop, t, now_ns + HOUSEKEEPING_MS * UINT64_C(1000000));
+}
+
+static void stop_ready(struct server_watch *w, uint32_t events)
+{
+    struct midi_server *s = w->owner;
+    (void)events;
+    s->loop.stops = true;
+}
+
+/* ---- the server ---- */
+
+static void real_time_begin(struct midi_server *s, bool wanted)
+{
+    const struct sched_param priority = {.sched_priority = REAL_TIME_PRIORITY};
+    if (!wanted)
+        snprintf(s->real_time, sizeof s->real_time, "usual priority");
+    else if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0)
+        snprintf(s->real_time, sizeof s->real_time, "real-time priority %d",
+                 REAL_TIME_PRIORITY);
+    else
+        snprintf(s->real_time, sizeof s->real_time,
+                 "usual priority: real time is not allowed (%s; `ulimit -r`)", strerror(errno));
+    tell(s, "%s", s->real_time);
+}
+
+static enum midi_status listen_begin(struct midi_server *s, const struct midi_server_def *def)
+{
+    const char *why;
+    if (def->tcp_port && (!def->token || !def->token[0]))
+        return midi_fail(MIDI_BAD_ARGUMENT, "a TCP port needs a token");
+    if (def->token && strlen(def->token) >= sizeof s->token)
+        return midi_fail(MIDI_BAD_ARGUMENT, "a token has at most %zu bytes",
+                         sizeof s->token - 1);
+    snprintf(s->token, sizeof s->token, "%s", def->token ? def->token : "");
+    if (!def->path) {
+        if (!midi_wire_usual_path(s->path, &why))
+            return midi_fail(MIDI_REFUSED, "%s: %s", s->path, why);
+    } else if (strlen(def->path) >= sizeof s->path) {
+        return midi_fail(MIDI_BAD_ARGUMENT, "%s: a socket's path has at most %zu bytes",
+                         def->path, sizeof s->path - 1);
+    } else {
+        snprintf(s->path, sizeof s->path, "%s", def->path);
+    }
+    enum midi_status status = socket_listen_unix(s->path, &s->unix_watch.file, &s->lock);
+    if (status == MIDI_OK && def->tcp_port)
+        status = socket_listen_tcp(def->tcp_port, &s->tcp_watch.file);
+    if (status == MIDI_OK && (!loop_watch(&s->loop, &s->unix_watch, EPOLLIN) ||
+                              (def->tcp_port && !loop_watch(&s->loop, &s->tcp_watch, EPOLLIN))))
+        status = midi_fail(MIDI_IO_FAILED, "cannot wait for clients: %s", strerror(errno));
+    return status;
+}
+
+enum midi_status midi_server_create(const struct midi_server_def *def, struct midi_server **out)
+{
+    struct midi_server *s = calloc(1, sizeof *s);
+    *out = NULL;
+    if (!s)
+        return midi_fail(MIDI_NO_MEMORY, "no memory for a MIDI server");
+    s->log = def->log;
+    s->context = def->context;
+    s->began_ns = s->rates_ns = midi_now_ns();
+    s->lock = -1;
+    s->unix_watch = (struct server_watch){-1, accept_ready, s};
+    s->tcp_watch = (struct server_watch){-1, accept_ready, s};
+    s->stop_watch =
+        (struct server_watch){eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), stop_ready, s};
+    s->thinned = (struct server_timer){.due_ns = UINT64_MAX, .fire = route_thinned, .owner = s};
+    s->second = (struct server_timer){.due_ns = UINT64_MAX, .fire = second_fire, .owner = s};
+    enum midi_status status = MIDI_OK;
+    if (!loop_create(&s->loop) || s->stop_watch.file < 0 ||
+        !loop_watch(&s->loop, &s->stop_watch, EPOLLIN))
+        status = midi_fail(MIDI_IO_FAILED, "no descriptors for a server: %s", strerror(errno));
+    if (status == MIDI_OK)
+        status = listen_begin(s, def);
+    loop_timer(&s->loop, &s->second, midi_now_ns() + HOUSEKEEPING_MS * UINT64_C(1000000));
+    for (int i = 0; status == MIDI_OK && i < def->devices_count; i++)
+        status = device_add(s, def->devices[i]);
+    if (status != MIDI_OK) {
+        midi_server_destroy(s);
+        return status;
+    }
+    real_time_begin(s, def->real_time);
+    *out = s;
+    return MIDI_OK;
+}
+
+void midi_server_run(struct midi_server *s)
+{
+    loop_run(&s->loop);
+}
+
+void midi_server_stop(struct midi_server *s)
+{
+    const uint64_t one = 1;
+    ssize_t written = write(s->stop_watch.file, &one, sizeof one);
+    (void)written;
+}
+
+void midi_server_destroy(struct midi_server *s)
+{
+    if (!s)
+        return;
+    s->log = NULL;
+    for (int i = 0; i < s->devices_count; i++)
+        if (s->devices[i]->up)
+            route_device_away(s, i);
+    for (struct server_client *c = s->clients; c; c = c->next)
+        client_end(c, "the server stops");
+    for (int i = 0; i < s->devices_count; i++)
+        device_destroy(s->devices[i]);
+    s->devices_count = 0;
+    clients_sweep(s);
+    socket_leave(s->path, s->unix_watch.file, s->lock);
+    if (s->tcp_watch.file >= 0)
+        close(s->tcp_watch.file);
+    if (s->stop_watch.file >= 0)
+        close(s->stop_watch.file);
+    loop_finish(&s->loop);
+    free(s);
+}
+
+const char *midi_server_path(const struct midi_server *s)
+{
+    return s->path;
+}
+
+const char *midi_server_kind(int i, const char **argument, const char **help)
+{
+    if (!device_kinds[i])
+        return NULL;
+    *argument = device_kinds[i]->argument ? device_kinds[i]->argument : "";
+    *help = device_kinds[i]->help;
+    return device_kinds[i]->name;
+}

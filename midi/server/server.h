@@ -1,0 +1,33 @@
+/* server.h - the server's own: what its files share. */
+#ifndef LUTETIA_MIDI_SERVER_INTERNAL_H
+#define LUTETIA_MIDI_SERVER_INTERNAL_H
+
+#include "device.h"
+#include "server_client.h"
+
+enum { SERVER_CLIENTS_MAX = 64, SERVER_TOKEN_BYTES = 128 };
+
+struct midi_server {
+    struct server_loop loop;
+    struct server_device *devices[MIDI_WIRE_DEVICES];
+    int devices_count;
+    struct server_client *owners[MIDI_WIRE_DEVICES]; /* who has a system exclusive open there */
+    uint64_t owned_ns[MIDI_WIRE_DEVICES];            /* since when */
+    struct server_client *clients;
+    int clients_count;
+    uint32_t clients_seen, dropped;
+    struct midi_histogram latency;
+    struct server_timer thinned; /* the next value that a filter holds back */
+    struct server_timer second;  /* housekeeping */
+    uint64_t began_ns, rates_ns;
+    uint64_t in_before[MIDI_WIRE_DEVICES], out_before[MIDI_WIRE_DEVICES]; /* a second ago */
+    double in_hz[MIDI_WIRE_DEVICES], out_hz[MIDI_WIRE_DEVICES];
+    char token[SERVER_TOKEN_BYTES], path[108], real_time[160];
+    /* sockets */
+    struct server_watch unix_watch, tcp_watch, stop_watch;
+    int lock;
+    void (*log)(void *context, const char *line);
+    void *context;
+};
+
+#endif

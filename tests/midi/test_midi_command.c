@@ -1,0 +1,201 @@
+/* test_midi_command.c - `lutetia midi` and a program that uses the library: what is played is heard and recorded; what is wrong is
+ * said. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <midi_song.h>
+
+#include "../display/scratch.h"
+#include "../lutetia/child.h"
+#include "server_support.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+static const char *lutetia;
+
+static void run(struct child *child, int status, const char *says)
+{
+    child->arguments[0] = lutetia;
+    child->arguments[1] = "midi";
+    child_run(child);
+    const char *said = status ? child->errors : child->output;
+    if (child->status != status || !strstr(said, says))
+        fail_msg("exit %d for %d, and it said: %s%s", child->status, status, child->output,
+                 child->errors);
+    if (status == 1)
+        assert_ptr_equal(strchr(child->errors, '\n') + 1,
+                         child->errors + strlen(child->errors));
+}
+
+#define MIDI(...)                                                                              \
+    &(struct child)                                                                            \
+    {                                                                                          \
+        .arguments = { NULL, NULL, __VA_ARGS__ }                                               \
+    }
+
+static void words_are_sent_and_status_is_told(void **unused)
+{
+    (void)unused;
+    struct served s = served_begin((const char *[]){"loop", NULL}, 0, NULL);
+    struct midi_client *c = client_of(&s, "listener", "");
+    run(MIDI("send", "note-on 1 c4 100", "bend 2 -5", "-s", s.path), 0, "");
+    struct midi_message m = next_message(c, NULL);
+    check_text(&m, "note-on 1 c4 100");
+    m = next_message(c, NULL);
+    check_text(&m, "bend 2 -5");
+    m = next_message(c, NULL); /* its player is gone */
+    check_text(&m, "note-off 1 c4 64");
+    run(MIDI("devices", "-s", s.path), 0, "loop loop in,out up\n");
+    run(MIDI("status", "-s", s.path), 0, "listener: sent 3");
+    run(MIDI("devices", "kinds"), 0, "serial:PATH[@SPEED]");
+    run(MIDI("send", "clock", "-d", "piano", "-s", s.path), 1, "no device 'piano'");
+    run(MIDI("monitor", "-f", "loud=1", "-s", s.path), 1, "no filter 'loud'");
+    run(MIDI("serve", "-s", s.path), 1, "listens there already");
+    midi_client_close(c);
+    served_end(&s);
+    run(MIDI("status", "-s", s.path), 1, "`lutetia midi serve` starts one");
+}
+
+/* A song of that many notes, 10 ms apart. */
+static void song_write(const char *path, int notes)
+{
+    const struct midi_song_def def = midi_song_def_default();
+    struct midi_song *song;
+    assert_int_equal(midi_song_create(&def, &song), MIDI_OK);
+    for (int i = 0; i < 2 * notes; i++) {
+        struct midi_message m =
+            midi_message_make((uint64_t)(5 * i) * 1000000, i & 1 ? 0x80 : 0x90,
+                              (uint8_t)(40 + i / 2), (uint8_t)(20 + i));
+        assert_int_equal(midi_song_record(song, 0, &m, 0), MIDI_OK);
+    }
+    assert_int_equal(midi_song_write(song, path), MIDI_OK);
+    midi_song_destroy(song);
+}
+
+static pid_t in_background(const char *const *words)
+{
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        char *arguments[16] = {NULL};
+        for (int i = 0; words[i]; i++)
+            arguments[i] = strdup(words[i]);
+        execv(arguments[0], arguments);
+        _exit(127);
+    }
+    return child;
+}
+
+static void ended_well(pid_t child)
+{
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+/* Until so many clients are there. */
+static void wait_clients(struct midi_client *c, const char *name)
+{
+    char text[8000] = "";
+    for (int i = 0; i < 500 && !strstr(text, name); i++) {
+        assert_int_equal(midi_client_command(c, "status", text, sizeof text), MIDI_OK);
+        usleep(10000);
+    }
+    assert_non_null(strstr(text, name));
+}
+
+static void what_is_played_is_recorded(void **unused)
+{
+    (void)unused;
+    enum { NOTES = 12 };
+    char played[300], recorded[300];
+    struct served s = served_begin((const char *[]){"loop", NULL}, 0, NULL);
+    struct midi_client *c = client_of(&s, "look", NULL);
+    snprintf(played, sizeof played, "%s", scratch_path("played.mid"));
+    snprintf(recorded, sizeof recorded, "%s", scratch_path("recorded.mid"));
+    song_write(played, NOTES);
+    pid_t recorder = in_background(
+        (const char *[]){lutetia, "midi", "record", recorded, "-n", "24", "-s", s.path, NULL});
+    wait_clients(c, "midi record");
+    run(MIDI("play", played, "-s", s.path), 0, "");
+    ended_well(recorder);
+    struct midi_song *a, *b;
+    assert_int_equal(midi_song_read(played, &a), MIDI_OK);
+    assert_int_equal(midi_song_read(recorded, &b), MIDI_OK);
+    const struct midi_song_info info = midi_song_info(b);
+    assert_int_equal(info.events_count, 2 * NOTES + 1);
+    const struct midi_song_event name = midi_song_event(b, 0);
+    assert_memory_equal(name.bytes, "loop", 4);
+    const uint64_t first_ns = midi_song_event(b, 1).time_ns;
+    for (size_t i = 0; i < 2 * NOTES; i++) {
+        const struct midi_song_event x = midi_song_event(a, i), y = midi_song_event(b, i + 1);
+        assert_memory_equal(x.bytes, y.bytes, 3);
+        assert_true(y.time_ns - first_ns < x.time_ns + 400000000); /* a busy machine is late */
+    }
+    midi_song_destroy(a);
+    midi_song_destroy(b);
+    midi_client_close(c);
+    served_end(&s);
+}
+
+/* examples/midi_octave.c, built as any program is that uses the library. */
+static void programs_use_the_library(void **unused)
+{
+    (void)unused;
+    struct served s = served_begin((const char *[]){"keys=loop", "synth=loop", NULL}, 0, NULL);
+    struct midi_client *c = client_of(&s, "look", NULL);
+    assert_int_equal(midi_client_listen(c, "synth", ""), MIDI_OK);
+    pid_t octave =
+        in_background((const char *[]){getenv("OCTAVE"), "keys", "synth", s.path, NULL});
+    wait_clients(c, "octave");
+    struct midi_message m = midi_message_make(0, 0x90, 60, 100);
+    struct midi_client_event e = {.kind = MIDI_CLIENT_NOTHING};
+    for (int i = 0; i < 500 && e.kind != MIDI_CLIENT_MESSAGE; i++) { /* until it listens */
+        assert_int_equal(midi_client_send(c, midi_client_device(c, "keys"), &m), MIDI_OK);
+        assert_int_equal(midi_client_next(c, 20, &e), MIDI_OK);
+    }
+    check_text(&e.message, "note-on 1 c5 100");
+    midi_client_close(c);
+    served_end(&s);
+    ended_well(octave);
+}
+
+static void wrong_lines_are_refused(void **unused)
+{
+    (void)unused;
+    const char *text = scratch_path("text.mid");
+    FILE *file = fopen(text, "w");
+    fputs("a song of words", file);
+    fclose(file);
+    run(MIDI("dance"), 2, "known are serve");
+    run(MIDI("send", "note-on 1 z 100"), 2, "c#4");
+    run(MIDI("send"), 2, "note-on 1 c4 100");
+    run(MIDI("play"), 2, "one Standard MIDI File");
+    run(MIDI("play", text), 1, "MThd");
+    run(MIDI("record"), 2, "file to write");
+    run(MIDI("serve", "piano:x", "-s", scratch_path("nowhere")), 1, "known kinds are raw");
+    run(MIDI("serve", "--tcp", "5000", "-s", scratch_path("nowhere")), 2, "LUTETIA_MIDI_TOKEN");
+    run(MIDI("status", "-s", "/nowhere/socket"), 1, "no MIDI server at /nowhere/socket");
+    run(MIDI("monitor", "-n", "x"), 2, "--count");
+}
+
+int main(void)
+{
+    lutetia = getenv("LUTETIA");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_sent_and_status_is_told),
+        cmocka_unit_test(what_is_played_is_recorded),
+        cmocka_unit_test(programs_use_the_library),
+        cmocka_unit_test(wrong_lines_are_refused),
+    };
+    return lutetia && getenv("OCTAVE")
+               ? cmocka_run_group_tests_name("midi command", tests, NULL, NULL)
+               : 1;
+}
