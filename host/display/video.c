@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,9 +28,11 @@ enum { SIDE_MOST = 16384, FPS_MOST = 240 };
 /* What a name may end with, and what ffmpeg calls that; NULL: written by us. */
 static const struct container {
     const char *ending, *format;
+    bool sounds; /* it can hold sound */
 } containers[] = {
-    {".mp4", "mp4"}, {".m4v", "mp4"}, {".mkv", "matroska"}, {".webm", "webm"}, {".mov", "mov"},
-    {".avi", "avi"}, {".ogv", "ogg"}, {".gif", "gif"},      {".y4m", NULL},
+    {".mp4", "mp4", true},   {".m4v", "mp4", true},  {".mkv", "matroska", true},
+    {".webm", "webm", true}, {".mov", "mov", true},  {".avi", "avi", true},
+    {".ogv", "ogg", true},   {".gif", "gif", false}, {".y4m", NULL, false},
 };
 enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
 
@@ -38,6 +41,7 @@ struct video {
     struct output_file out;
     const struct container *container;
     int width, height;
+    int sound; /* a descriptor of a WAV file; -1: it is silent */
     long frames;
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
     pid_t encoder;   /* 0: none, the file is written by us */
@@ -69,20 +73,56 @@ static bool program_is_there(const char *name)
  * that is said. So nothing in a film's name can be an option, a pattern of names or a protocol to it. */
 _Noreturn static void encoder_become(const struct video *v, int input, int fps)
 {
-    enum { OUTPUT = 3 };
-    char rate[16], output[32];
+    enum { OUTPUT = 3, SOUND = 4, WORDS_MAX = 48 };
+    char rate[16], output[32], sound[32];
+    char *words[WORDS_MAX]; /* which execvp() does not change */
+    int count = 0;
     int nowhere = open("/dev/null", O_WRONLY), complaint = dup(fileno(v->complaint)),
-        file = dup(fileno(v->out.stream));
+        file = dup(fileno(v->out.stream)), wav = v->sound >= 0 ? dup(v->sound) : -1;
     snprintf(rate, sizeof rate, "%d", fps);
     snprintf(output, sizeof output, "/proc/self/fd/%d", OUTPUT);
+    snprintf(sound, sizeof sound, "/proc/self/fd/%d", SOUND);
+    const char *const begin[] = {"ffmpeg",
+                                 "-hide_banner",
+                                 "-nostdin",
+                                 "-loglevel",
+                                 "error",
+                                 "-y",
+                                 "-protocol_whitelist",
+                                 "pipe,file",
+                                 "-f",
+                                 "yuv4mpegpipe",
+                                 "-i",
+                                 "pipe:0"};
+    const char *const sounding[] = {
+        "-protocol_whitelist", "file", "-f", "wav", "-i", sound, "-map", "0:v", "-map", "1:a"};
+    const char *const end[] = {"-r",
+                               rate,
+                               "-pix_fmt",
+                               "yuv420p",
+                               "-colorspace",
+                               "bt709",
+                               "-color_primaries",
+                               "bt709",
+                               "-color_trc",
+                               "bt709",
+                               "-f",
+                               v->container->format,
+                               output};
+    for (size_t i = 0; i < sizeof begin / sizeof *begin; i++)
+        words[count++] = (char *)(uintptr_t)begin[i];
+    for (size_t i = 0; wav >= 0 && i < sizeof sounding / sizeof *sounding; i++)
+        words[count++] = (char *)(uintptr_t)sounding[i];
+    for (size_t i = 0; i < sizeof end / sizeof *end; i++)
+        words[count++] = (char *)(uintptr_t)end[i];
+    words[count] = NULL;
     dup2(input, STDIN_FILENO);
     dup2(nowhere, STDOUT_FILENO);
     dup2(complaint, STDERR_FILENO);
     dup2(file, OUTPUT);
-    execlp("ffmpeg", "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
-           "-protocol_whitelist", "pipe,file", "-f", "yuv4mpegpipe", "-i", "pipe:0", "-r", rate,
-           "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709",
-           "-color_trc", "bt709", "-f", v->container->format, output, (char *)NULL);
+    if (wav >= 0)
+        dup2(wav, SOUND);
+    execvp("ffmpeg", words);
     dprintf(STDERR_FILENO, "cannot be run: %s", strerror(errno));
     _exit(127);
 }
@@ -150,6 +190,8 @@ static void video_free(struct video *v)
     if (v->complaint)
         fclose(v->complaint);
     output_file_abandon(&v->out);
+    if (v->sound >= 0)
+        close(v->sound);
     free(v->planes);
     free(v->path);
     free(v);
@@ -227,6 +269,12 @@ static enum display_status video_open(struct video *v, int fps)
 enum display_status video_create(const char *path, int width_px, int height_px, int fps,
                                  struct video **out)
 {
+    return video_create_with_sound(path, width_px, height_px, fps, -1, out);
+}
+
+enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
+                                            int fps, int sound, struct video **out)
+{
     *out = NULL;
     if (width_px < 2 || height_px < 2 || width_px > SIDE_MOST || height_px > SIDE_MOST ||
         width_px % 2 || height_px % 2 || fps < 1 || fps > FPS_MOST)
@@ -239,7 +287,14 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
         return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
     v->width = width_px;
     v->height = height_px;
+    v->sound = -1;
     enum display_status status = name_make(v, path);
+    if (status == DISPLAY_OK && sound >= 0 && v->container->sounds) {
+        v->sound = fcntl(sound, F_DUPFD_CLOEXEC, 0);
+        if (v->sound < 0)
+            status =
+                display_fail(DISPLAY_IO_FAILED, "%s: the sound: %s", path, strerror(errno));
+    }
     if (status == DISPLAY_OK && !(v->planes = malloc(3 * (size_t)width_px * (size_t)height_px)))
         status = display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
     if (status == DISPLAY_OK)
@@ -250,6 +305,11 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
     }
     *out = v;
     return DISPLAY_OK;
+}
+
+bool video_sounds(const struct video *v)
+{
+    return v->sound >= 0;
 }
 
 const char *video_path(const struct video *v)

@@ -20,12 +20,20 @@
 
 #include "display.h"
 
+#include <stdbool.h>
+
 struct video;
 
 /* Width and height: even, 2 to 16384. `fps` 1 to 240. Errors: BAD_ARGUMENT, IO_FAILED, NO_MEMORY; *out is then NULL.
  * Owns: the caller ends it by video_finish() or video_abandon(). */
 enum display_status video_create(const char *path, int width_px, int height_px, int fps,
                                  struct video **out);
+/* The same with sound: `sound` is a descriptor of a whole WAV file, which is read from its beginning while the video is made; -1: none.
+ * The caller may close it at once. Pictures and sound begin together. */
+enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
+                                            int fps, int sound, struct video **out);
+/* Whether there is sound in it: none in .gif and .y4m. */
+bool video_sounds(const struct video *video);
 /* Adds a picture. Shape: height * width * 3 bytes of display values. Errors: IO_FAILED (a full disk; ffmpeg failed or was
  * killed: what it said). */
 enum display_status video_add(struct video *video, const uint8_t *rgb);

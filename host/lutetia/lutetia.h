@@ -27,6 +27,7 @@ int verb_type(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
 int verb_spring(int argc, char **argv);
+int verb_voice(int argc, char **argv);
 
 /* ---- failures ---- */
 

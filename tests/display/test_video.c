@@ -176,9 +176,53 @@ static void what_cannot_be_is_refused(void **state)
     assert_int_equal(video_create("/no/such/x.mp4", 4, 4, 25, &video), DISPLAY_IO_FAILED);
 }
 
+/* The encoder gets the sound as a file of its own, from the beginning; where there can be none it gets none. */
+static void sound_goes_to_the_encoder(void **state)
+{
+    (void)state;
+    static const char wav[] = "RIFF as a whole";
+    struct video *video;
+    char path[600], script[700], got[32] = "";
+    snprintf(path, sizeof path, "%s", scratch_path("sound.mkv"));
+    const char *heard = scratch_path("heard");
+    FILE *sound = tmpfile();
+    assert_non_null(sound);
+    fputs(wav, sound);
+    fflush(sound); /* its place is at the end: the encoder must not mind */
+    snprintf(script, sizeof script,
+             "case \"$*\" in *\"-f wav -i /proc/self/fd/4\"*) cat /proc/self/fd/4 >%s ;; esac\n"
+             "cat >\"$file\"",
+             heard);
+    for (int silent = 0; silent < 2; silent++) {
+        unlink(heard);
+        encoder_put(script);
+        char *path_before = strdup(getenv("PATH"));
+        char both[1400];
+        snprintf(both, sizeof both, "%s:/usr/bin:/bin", path_before);
+        setenv("PATH", both, 1);
+        free(path_before);
+        if (silent)
+            snprintf(path, sizeof path, "%s", scratch_path("sound.gif"));
+        check(video_create_with_sound(path, WIDTH, HEIGHT, 25, fileno(sound), &video));
+        assert_int_equal(video_sounds(video), !silent);
+        uint8_t rgb[3 * COUNT] = {0};
+        check(video_add(video, rgb));
+        check(video_finish(video));
+        FILE *file = fopen(heard, "r");
+        assert_int_equal(file != NULL, !silent);
+        if (file) {
+            assert_non_null(fgets(got, sizeof got, file));
+            assert_string_equal(got, wav);
+            fclose(file);
+        }
+    }
+    fclose(sound);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sound_goes_to_the_encoder),
         cmocka_unit_test(pictures_are_in_it),
         cmocka_unit_test(without_an_encoder_it_is_a_y4m),
         cmocka_unit_test(an_encoder_gets_all_of_it),

@@ -1,0 +1,504 @@
+/* verb_voice.c - `lutetia voice`: letters that a voice plays, as a poster, a sheet of moments, frames or a film with the voice in it. */
+#include "lutetia.h"
+#include "options.h"
+#include "type_common.h"
+
+#include <display.h>
+#include <output_file.h>
+#include <video.h>
+#include <voice.h>
+#include <voice_cry.h>
+#include <voice_picture.h>
+#include <voice_sound.h>
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
+
+struct voice_work {
+    const char *sound_path, *text, *font, *axes, *map;
+    const char *poster, *sheet, *envelope, *still, *frames, *video;
+    bool cry;
+    double size_px[2], rise_em, slant, paper[3], inks[9], second_px, at_s;
+    int picture[2], fps;
+    struct voice_type_def def;
+    struct voice_def hearing;
+    /* made */
+    struct voice_sound sound;
+    struct voice_frame *heard;
+    int heard_count;
+    struct voice_score score;
+    struct voice_words words;
+    struct font_face *face;
+};
+
+static int words_take(struct voice_work *w, const struct option_words *words)
+{
+    int wanted = w->cry ? 1 : 2;
+    if (words->count != wanted)
+        return fail_usage("voice",
+                          words->count < wanted
+                              ? (w->cry ? "give a text" : "give a sound and a text")
+                              : "there is one %s; put it in quotes (then came '%.60s')",
+                          w->cry ? "text, and no sound with --cry" : "sound and one text",
+                          words->count ? words->words[words->count - 1] : "");
+    w->sound_path = w->cry ? NULL : words->words[0];
+    w->text = words->words[wanted - 1];
+    if (w->picture[0] % 2 || w->picture[1] % 2)
+        return fail_usage("voice", "--picture must be even (got %dx%d)", w->picture[0],
+                          w->picture[1]);
+    if (w->size_px[1] > 0 && w->size_px[1] < w->size_px[0])
+        return fail_usage("voice", "--size is the least and the most (got %g,%g)",
+                          w->size_px[0], w->size_px[1]);
+    char why[200];
+    if (w->map && !voice_mapping_read(&w->def.mapping, w->map, why, sizeof why))
+        return fail_usage("voice", "--map: %s", why);
+    if (!w->poster && !w->sheet && !w->envelope && !w->still && !w->frames && !w->video)
+        w->poster = "out.png";
+    return EXIT_SUCCESS;
+}
+
+static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
+{
+    const struct option_row rows[] = {
+        {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
+         &w->poster, 0, 0, 0},
+        {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments of it, PNG", &w->sheet, 0, 0, 0},
+        {"envelope", 0, OPTION_TEXT, "FILE", "how loud it is, PNG", &w->envelope, 0, 0, 0},
+        {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
+        {"at", 0, OPTION_NUMBER, "S", "of --still (where it is loudest)", &w->at_s, 0, 1800, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "all moments, as numbered PNG", &w->frames, 0, 0, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "a film with the voice in it (.mp4, .webm, ...)",
+         &w->video, 0, 0, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
+        {"picture", 0, OPTION_SIZE, "WxH", "of a moment, even (960x540)", w->picture, 2, 8192,
+         0},
+        {"cry", 0, OPTION_FLAG, NULL, "a cry of our own making, in place of a file", &w->cry, 0,
+         0, 0},
+        {"map", 0, OPTION_TEXT, "P=F,..", "what plays what (size=envelope)", &w->map, 0, 0, 0},
+        {"font", 0, OPTION_TEXT, "F",
+         "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
+        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700", &w->axes, 0, 0,
+         0},
+        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most, of the em (as fits)", w->size_px,
+         0, 4000, 2},
+        {"rise", 0, OPTION_NUMBER, "EM", "how far the baseline is played (0.6)", &w->rise_em, 0,
+         10, 0},
+        {"slant", 0, OPTION_NUMBER, "S", "the most, pixels to the right for each up (0.4)",
+         &w->slant, -2, 2, 0},
+        {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (480)",
+         &w->second_px, 10, 20000, 0},
+        {"paper", 0, OPTION_NUMBERS, "R,G,B", "0..1 (1,1,1)", w->paper, 0, 1, 3},
+        {"inks", 0, OPTION_NUMBERS, "R,G,B,R,G,B", "the ink, and the one at a feature's end",
+         w->inks, 0, 1, 6},
+        {0}};
+    struct option_words words;
+    if (!options_parse("voice", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    *help = words.help;
+    if (words.help) {
+        puts("usage: lutetia voice SOUND \"Text\" [options]\n"
+             "       lutetia voice --cry \"Text\" [options]\n");
+        options_help(rows);
+        puts("\nSOUND is a file (WAV, FLAC, ...). A text of one word is played as it is; more "
+             "words "
+             "are spread over\nthe sounds that begin in it.  --map ties size, weight, slant, "
+             "baseline "
+             "and ink to envelope, level,\npitch, clarity, open, front (a vowel's two "
+             "formants), "
+             "vowel (ink only) or nothing.");
+        return EXIT_SUCCESS;
+    }
+    return words_take(w, &words);
+}
+
+/* ---- hearing ---- */
+
+static int sound_take(struct voice_work *w)
+{
+    char why[300];
+    if (!w->cry)
+        return voice_sound_read(w->sound_path, &w->sound, why, sizeof why)
+                   ? EXIT_SUCCESS
+                   : fail("voice", "%s", why);
+    struct voice_cry cry = voice_cry_default();
+    w->sound.rate_hz = cry.rate_hz;
+    w->sound.samples = voice_cry_make(&cry, &w->sound.count);
+    return w->sound.samples ? EXIT_SUCCESS : fail("voice", "no memory for a cry");
+}
+
+static int hear(struct voice_work *w)
+{
+    bool empty;
+    int status = sound_take(w);
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (!voice_frames(&w->hearing, w->sound.samples, w->sound.count, w->sound.rate_hz,
+                      &w->heard, &w->heard_count))
+        return fail("voice", "no memory for the sound");
+    if (!voice_score_make(w->heard, w->heard_count, w->def.silence, &w->score, &empty))
+        return empty ? fail("voice", "%s: nothing can be heard in it", w->sound_path)
+                     : fail("voice", "no memory for the sound");
+    if (!voice_words_make(w->text, &w->words, &empty))
+        return empty ? fail_usage("voice", "the text is empty: there is nothing to play")
+                     : fail("voice", "no memory");
+    return EXIT_SUCCESS;
+}
+
+/* ---- type ---- */
+
+static bool axis_there(const struct font_face *face, const char *tag)
+{
+    struct font_face_info info;
+    struct font_axis axis;
+    font_face_describe(face, &info);
+    for (int i = 0; i < info.axes_count; i++)
+        if (font_face_axis(face, i, &axis) == FONT_OK && strcmp(axis.tag, tag) == 0)
+            return true;
+    return false;
+}
+
+/* The most size at which the widest of what is shown fits a picture. */
+static int size_fit(struct voice_work *w)
+{
+    struct font_shaper *shaper;
+    double widest = 0.1;
+    if (font_shaper_create(w->face, &shaper) != FONT_OK)
+        return fail_font("voice");
+    for (int i = 0; i < w->score.begins; i++) {
+        struct font_layout layout = {0};
+        int begin, end;
+        voice_words_at(&w->words, &w->score, w->score.begin_s[i], &begin, &end);
+        if (font_shaper_layout(shaper, w->text + begin, (size_t)(end - begin), 100, NULL,
+                               &layout) == FONT_OK)
+            widest = fmax(widest, layout.width_px / 100);
+        font_layout_finish(&layout);
+    }
+    font_shaper_destroy(shaper);
+    double rise = w->def.mapping.feature[TYPE_BASELINE] != VOICE_NOTHING ? w->rise_em : 0;
+    w->size_px[1] = fmin(0.92 * w->picture[0] / widest, w->picture[1] / (1.15 + rise));
+    w->size_px[0] = fmin(w->size_px[0], w->size_px[1]);
+    return EXIT_SUCCESS;
+}
+
+static int type_prepare(struct voice_work *w)
+{
+    int status = type_face_open("voice", w->font, 0, w->axes, &w->face);
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (w->def.mapping.feature[TYPE_WEIGHT] != VOICE_NOTHING && !axis_there(w->face, "wght"))
+        return fail_usage("voice",
+                          "%s has no axis of weight to play; choose a variable font with wght",
+                          w->font);
+    if (w->size_px[1] == 0 && (status = size_fit(w)) != EXIT_SUCCESS)
+        return status;
+    memcpy(w->def.size_px, w->size_px, sizeof w->size_px);
+    w->def.rise_em = w->rise_em;
+    w->def.slant = w->slant;
+    memcpy(w->def.paper, w->paper, sizeof w->paper);
+    memcpy(w->def.inks, w->inks, 6 * sizeof *w->inks);
+    return EXIT_SUCCESS;
+}
+
+static int player_make(const struct voice_work *w, double scale, struct voice_type **out)
+{
+    struct voice_type_def def = w->def;
+    def.size_px[0] *= scale;
+    def.size_px[1] *= scale;
+    return voice_type_create(&def, w->face, &w->words, &w->score, out) == FONT_OK
+               ? EXIT_SUCCESS
+               : fail_font("voice");
+}
+
+/* ---- pictures ---- */
+
+/* Cuts rows off at the top and at the bottom until ink is `margin` pixels away. */
+static void rows_cut(struct display_image *image, int margin)
+{
+    size_t row = 3 * (size_t)image->width_px;
+    int top = 0, bottom = image->height_px;
+    while (top < bottom && memcmp(image->pixels + row * (size_t)top, image->pixels, row) == 0)
+        top++;
+    while (bottom > top &&
+           memcmp(image->pixels + row * (size_t)(bottom - 1), image->pixels, row) == 0)
+        bottom--;
+    if (top == bottom)
+        return;
+    top = top > margin ? top - margin : 0;
+    bottom = bottom + margin < image->height_px ? bottom + margin : image->height_px;
+    memmove(image->pixels, image->pixels + row * (size_t)top, row * (size_t)(bottom - top));
+    image->height_px = bottom - top;
+}
+
+static int poster_write(const struct voice_work *w)
+{
+    struct voice_type *type;
+    struct display_image image = {0};
+    double most = w->size_px[1], margin = ceil(0.25 * most),
+           rise =
+               w->def.mapping.feature[TYPE_BASELINE] != VOICE_NOTHING ? w->rise_em * most : 0;
+    double width = 0;
+    int status = player_make(w, 1, &type);
+    if (status == EXIT_SUCCESS && voice_type_line_width(type, w->second_px, &width) != FONT_OK)
+        status = fail_font("voice");
+    if (status == EXIT_SUCCESS) /* a row of paper above all ink, and one below */
+        status = type_image_create("voice", ceil(width + 2 * margin),
+                                   ceil(2 * margin + 1.7 * most + rise), &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS &&
+        voice_type_line(type, w->second_px, margin, margin + 1.1 * most + rise, &picture) !=
+            FONT_OK)
+        status = fail_font("voice");
+    if (status == EXIT_SUCCESS) {
+        rows_cut(&image, (int)margin);
+        status = type_image_write("voice", w->poster, &image);
+    }
+    display_image_destroy(&image);
+    voice_type_destroy(type);
+    return status;
+}
+
+/* A part of an image as a picture of its own. */
+static struct font_picture part_of(const struct display_image *image, int x, int y, int width,
+                                   int height)
+{
+    return (struct font_picture){width, height, 3 * image->width_px,
+                                 image->pixels +
+                                     3 * ((size_t)y * (size_t)image->width_px + (size_t)x)};
+}
+
+static int sheet_write_moments(const struct voice_work *w)
+{
+    enum { CELL = 256, GAP = 16, COUNT = SHEET_COLUMNS * SHEET_ROWS };
+    struct voice_type *type;
+    struct display_image image = {0};
+    struct type_labels *labels = type_labels_create(LABEL_PX);
+    int height = (int)fmax(2, round((double)CELL * w->picture[1] / w->picture[0]));
+    int pitch = height + GAP + LABEL_PX;
+    int status = player_make(w, (double)CELL / w->picture[0], &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("voice", GAP + SHEET_COLUMNS * (CELL + GAP),
+                                   GAP + SHEET_ROWS * pitch, &image);
+    for (int i = 0; i < COUNT && status == EXIT_SUCCESS; i++) {
+        int x = GAP + i % SHEET_COLUMNS * (CELL + GAP), y = GAP + i / SHEET_COLUMNS * pitch;
+        double begin_s = w->score.begin_s[0],
+               time_s = begin_s + (i + 0.5) / COUNT * (w->score.end_s - begin_s);
+        struct font_picture picture = part_of(&image, x, y, CELL, height);
+        if (voice_type_moment(type, time_s, &picture) != FONT_OK)
+            status = fail_font("voice");
+        type_label(labels, &image, x, y + height + LABEL_PX, "%.2f s", time_s);
+    }
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("voice", w->sheet, &image);
+    type_labels_destroy(labels);
+    display_image_destroy(&image);
+    voice_type_destroy(type);
+    return status;
+}
+
+static int envelope_write(const struct voice_work *w)
+{
+    enum { WIDTH = 1200, HEIGHT = 320, MARGIN = 28 };
+    struct voice_type *type;
+    struct display_image image = {0};
+    struct type_labels *labels = type_labels_create(LABEL_PX);
+    int status = player_make(w, 1, &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("voice", WIDTH, HEIGHT, &image);
+    if (status == EXIT_SUCCESS) {
+        struct font_picture picture = type_picture(&image);
+        voice_type_envelope(type, MARGIN, &picture);
+        double seconds = w->score.seconds, step = seconds > 20 ? 5 : seconds > 4 ? 1 : 0.25;
+        for (double t = 0; t <= seconds; t += step)
+            type_label(labels, &image, MARGIN + (WIDTH - 2 * MARGIN) * t / seconds,
+                       HEIGHT - MARGIN / 2, "%g s", t);
+        status = type_image_write("voice", w->envelope, &image);
+    }
+    type_labels_destroy(labels);
+    display_image_destroy(&image);
+    voice_type_destroy(type);
+    return status;
+}
+
+static double loudest_at(const struct voice_score *score)
+{
+    double time_s = 0, loudest = -1;
+    for (int i = 0; i < score->count; i++)
+        if (score->frames[i].envelope > loudest) {
+            loudest = score->frames[i].envelope;
+            time_s = score->frames[i].time_s;
+        }
+    return time_s;
+}
+
+/* ---- a film ---- */
+
+/* The sound as a WAV file in memory; -1: none. */
+static int sound_in_memory(const struct voice_work *w)
+{
+    int descriptor = memfd_create("voice", MFD_CLOEXEC);
+    if (descriptor >= 0 && voice_sound_write(descriptor, &w->sound))
+        return descriptor;
+    if (descriptor >= 0)
+        close(descriptor);
+    return -1;
+}
+
+static int film_begin(const struct voice_work *w, struct video **out)
+{
+    *out = NULL;
+    if (!w->video)
+        return EXIT_SUCCESS;
+    int sound = sound_in_memory(w);
+    if (sound < 0)
+        return fail("voice", "no memory for the sound of a film");
+    enum display_status status =
+        video_create_with_sound(w->video, w->picture[0], w->picture[1], w->fps, sound, out);
+    close(sound);
+    return status == DISPLAY_OK ? EXIT_SUCCESS : fail("voice", "%s", display_error());
+}
+
+/* Where the film is silent, its sound goes beside it: film.y4m and film.wav. */
+static int film_end_sound(const struct voice_work *w, const char *film)
+{
+    char path[PATH_MAX];
+    struct output_file out;
+    const char *dot = strrchr(film, '.');
+    snprintf(path, sizeof path, "%.*s.wav", (int)(dot ? dot - film : (long)strlen(film)), film);
+    if (!output_file_open(&out, path))
+        return fail("voice", "%s: cannot write: %s", path, out.why);
+    if (!voice_sound_write(fileno(out.stream), &w->sound)) {
+        int error = errno;
+        output_file_abandon(&out);
+        return fail("voice", "%s: cannot write: %s", path, output_file_explain(error));
+    }
+    if (!output_file_commit(&out))
+        return fail("voice", "%s: cannot write: %s", path, out.why);
+    fprintf(stderr, "lutetia voice: %s has no sound in it; that is %s\n", film, path);
+    return EXIT_SUCCESS;
+}
+
+static int film_end(const struct voice_work *w, struct video *video, int status)
+{
+    if (!video)
+        return status;
+    if (status != EXIT_SUCCESS) {
+        video_abandon(video);
+        return status;
+    }
+    char path[PATH_MAX];
+    bool sounds = video_sounds(video);
+    snprintf(path, sizeof path, "%s", video_path(video));
+    if (video_finish(video) != DISPLAY_OK)
+        return fail("voice", "%s", display_error());
+    return sounds ? EXIT_SUCCESS : film_end_sound(w, path);
+}
+
+static int frame_write(const struct voice_work *w, long number,
+                       const struct display_image *image)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/voice-%06ld.png", w->frames, number);
+    return type_image_write("voice", path, image);
+}
+
+static int moments_film(const struct voice_work *w)
+{
+    struct voice_type *type = NULL;
+    struct display_image image = {0};
+    struct video *video = NULL;
+    int count = (int)floor((double)w->sound.count / w->sound.rate_hz * w->fps) + 1;
+    int status = w->frames ? folder_make("voice", w->frames) : EXIT_SUCCESS;
+    if (status == EXIT_SUCCESS)
+        status = player_make(w, 1, &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("voice", w->picture[0], w->picture[1], &image);
+    if (status == EXIT_SUCCESS)
+        status = film_begin(w, &video);
+    struct font_picture picture = type_picture(&image);
+    struct progress progress = progress_begin("frame", count);
+    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
+        progress_show(&progress, i);
+        if (interrupted())
+            status = EXIT_INTERRUPTED;
+        else if (voice_type_moment(type, (i + 0.5) / w->fps, &picture) != FONT_OK)
+            status = fail_font("voice");
+        if (status == EXIT_SUCCESS && w->frames)
+            status = frame_write(w, i, &image);
+        if (status == EXIT_SUCCESS && video && video_add(video, image.pixels) != DISPLAY_OK)
+            status = fail("voice", "%s", display_error());
+    }
+    progress_end(&progress);
+    status = film_end(w, video, status);
+    display_image_destroy(&image);
+    voice_type_destroy(type);
+    return status;
+}
+
+static int still_write(const struct voice_work *w)
+{
+    struct voice_type *type = NULL;
+    struct display_image image = {0};
+    int status = player_make(w, 1, &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("voice", w->picture[0], w->picture[1], &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS &&
+        voice_type_moment(type, w->at_s < 0 ? loudest_at(&w->score) : w->at_s, &picture) !=
+            FONT_OK)
+        status = fail_font("voice");
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("voice", w->still, &image);
+    display_image_destroy(&image);
+    voice_type_destroy(type);
+    return status;
+}
+
+int verb_voice(int argc, char **argv)
+{
+    static struct voice_work w;
+    bool help = false;
+    w = (struct voice_work){.font = "EBGaramond12-Regular",
+                            .size_px = {8, 0},
+                            .rise_em = 0.6,
+                            .slant = 0.4,
+                            .paper = {1, 1, 1},
+                            .second_px = 480,
+                            .at_s = -1,
+                            .picture = {960, 540},
+                            .fps = 30,
+                            .def = voice_type_def_default(),
+                            .hearing = voice_def_default()};
+    memcpy(w.inks, w.def.inks, sizeof w.inks);
+    int status = options_read(&w, argc, argv, &help);
+    if (status != EXIT_SUCCESS || help)
+        return status;
+    interrupt_catch();
+    status = hear(&w);
+    if (status == EXIT_SUCCESS)
+        status = type_prepare(&w);
+    const struct {
+        const char *path;
+        int (*write)(const struct voice_work *);
+    } pictures[] = {{w.poster, poster_write},
+                    {w.sheet, sheet_write_moments},
+                    {w.envelope, envelope_write},
+                    {w.still, still_write},
+                    {w.frames ? w.frames : w.video, moments_film}};
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && status == EXIT_SUCCESS; i++)
+        if (pictures[i].path)
+            status = pictures[i].write(&w);
+    font_face_close(w.face);
+    voice_words_finish(&w.words);
+    voice_score_finish(&w.score);
+    free(w.heard);
+    voice_sound_finish(&w.sound);
+    return interrupt_report("voice", status, "the film is");
+}

@@ -1,0 +1,153 @@
+/* test_voice.c - `lutetia voice`: pictures and films of a voice, and one clear line about what is wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../display/scratch.h"
+#include "child.h"
+
+#include <display.h>
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *lutetia;
+static bool reads; /* the build has libsndfile */
+
+static void run(struct child *child, int status, const char *says)
+{
+    child->arguments[0] = lutetia;
+    child->arguments[1] = "voice";
+    child_run(child);
+    int lines = 0;
+    for (const char *c = child->errors; *c; c++)
+        lines += *c == '\n';
+    if (child->status != status || !strstr(child->errors, says) || lines != (*says != 0))
+        fail_msg("exit %d for %d, and it said: %s", child->status, status, child->errors);
+}
+
+static void ink_is_in(const char *path, int width, int height)
+{
+    struct display_image image;
+    long dark = 0;
+    if (display_png_read_gray(path, &image) != DISPLAY_OK)
+        fail_msg("%s", display_error());
+    for (int i = 0; i < image.width_px * image.height_px; i++)
+        dark += image.pixels[i] < 128;
+    assert_true(dark > 200);
+    if (width)
+        assert_true(image.width_px == width && image.height_px == height);
+    display_image_destroy(&image);
+}
+
+static void cry_is_pictures(void **state)
+{
+    (void)state;
+    const char *poster = scratch_path("poster.png"), *sheet = scratch_path("sheet.png"),
+               *envelope = scratch_path("envelope.png"), *still = scratch_path("still.png");
+    struct child child = {.arguments = {"", "", "--cry", "Aagh!", "-o", poster, "--sheet",
+                                        sheet, "--envelope", envelope, "--still", still,
+                                        "--picture", "320x180", "--map",
+                                        "baseline=pitch,ink=vowel"}};
+    run(&child, 0, "");
+    ink_is_in(poster, 0, 0);
+    ink_is_in(sheet, 0, 0);
+    ink_is_in(envelope, 1200, 320);
+    ink_is_in(still, 320, 180);
+}
+
+static long bytes_of(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 ? (long)status.st_size : -1;
+}
+
+/* Without ffmpeg the film is silent, and its sound lies beside it, as long as the film. */
+static void film_and_its_sound(void **state)
+{
+    (void)state;
+    enum { RATE = 44100, SECONDS_10 = 42, FPS = 10, FRAMES = SECONDS_10 + 1 };
+    const char *film = scratch_path("film.y4m"), *sound = scratch_path("film.wav"),
+               *again = scratch_path("again.png");
+    /* nothing on the PATH: a film by us, whatever is installed */
+    struct child child = {.arguments = {"", "", "--cry", "Aagh", "--video", film, "--fps", "10",
+                                        "--picture", "64x36"},
+                          .variables = {"PATH=/nowhere"}};
+    run(&child, 0, "has no sound in it; that is");
+    assert_int_equal(bytes_of(sound), 44 + 2 * RATE * SECONDS_10 / 10);
+    long frame = 6 + 3 * 64 * 36, bytes = bytes_of(film);
+    assert_true(bytes > FRAMES * frame && bytes < FRAMES * frame + 100);
+    /* the sound that was written is one that can be read, and is the same cry */
+    struct child second = {
+        .arguments = {"", "", sound, "Aagh", "--still", again, "--picture", "320x180"}};
+    run(&second, reads ? 0 : 1, reads ? "" : "this build reads no sounds");
+    if (reads)
+        ink_is_in(again, 320, 180);
+}
+
+static void what_is_wrong_is_said(void **state)
+{
+    (void)state;
+    const char *fifo = scratch_path("fifo"), *text = scratch_path("text.wav"),
+               *out = scratch_path("x.png");
+    mkfifo(fifo, 0600);
+    FILE *file = fopen(text, "w");
+    assert_non_null(file);
+    fputs("this is no sound", file);
+    fclose(file);
+    struct {
+        const char *words[5];
+        int status;
+        const char *says;
+    } wrong[] = {
+        {{"--cry"}, 2, "give a text"},
+        {{"only.wav"}, 2, "give a sound and a text"},
+        {{"/no/such.wav", "x"}, 1, "No such file"},
+        {{fifo, "x"}, 1, "must be a regular file"},
+        {{"/dev/null", "x"}, 1, "must be a regular file"},
+        {{text, "x"}, 1, "not a sound"},
+        {{"--cry", " "}, 2, "the text is empty"},
+        {{"--cry", "x", "--map", "size=loud"}, 2, "there are nothing, envelope"},
+        {{"--cry", "x", "--map", "weight=pitch"}, 2, "no axis of weight"},
+        {{"--cry", "x", "--picture", "33x20"}, 2, "must be even"},
+        {{"--cry", "x", "--size", "9,3"}, 2, "the least and the most"},
+        {{"--cry", "x", "--font", "no-such-font"}, 1, "no-such-font"},
+        {{"--cry", "x", "--video", "/no/such/film.mp4"}, 1, "/no/such/film"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        bool named = wrong[i].words[1] && wrong[i].words[0][0] == '/';
+        if (!reads && (named || wrong[i].words[0] == fifo || wrong[i].words[0] == text))
+            continue;
+        struct child child = {.arguments = {"", ""}};
+        int count = 2;
+        for (int k = 0; k < 5 && wrong[i].words[k]; k++)
+            child.arguments[count++] = wrong[i].words[k];
+        if (count < 8) {
+            child.arguments[count++] = "-o";
+            child.arguments[count++] = out;
+        }
+        unlink(out);
+        run(&child, wrong[i].status, wrong[i].says);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    reads = argc > 1 && strcmp(argv[1], "reads") == 0;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cry_is_pictures),
+                                       cmocka_unit_test(film_and_its_sound),
+                                       cmocka_unit_test(what_is_wrong_is_said)};
+    lutetia = getenv("LUTETIA");
+    if (!lutetia) {
+        fputs("set LUTETIA to the command\n", stderr);
+        return 1;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,319 @@
+/* test_voice_letters.c - what a voice plays: which letters, how large, where; measured on the pictures. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <voice_cry.h>
+#include <voice_picture.h>
+
+enum { WIDTH = 480, HEIGHT = 300 };
+
+static uint8_t pixels[HEIGHT][WIDTH][3];
+static struct font_picture picture = {WIDTH, HEIGHT, 3 * WIDTH, &pixels[0][0][0]};
+
+static struct voice_frame *frames;
+static int frames_count;
+static struct voice_score score;
+
+static void cry(void)
+{
+    struct voice_cry cry = voice_cry_default();
+    struct voice_def def = voice_def_default();
+    size_t count;
+    bool empty;
+    float *samples = voice_cry_make(&cry, &count);
+    assert_non_null(samples);
+    assert_true(voice_frames(&def, samples, count, cry.rate_hz, &frames, &frames_count));
+    assert_true(voice_score_make(frames, frames_count, 0.03, &score, &empty));
+    free(samples);
+}
+
+/* A score with sounds at given times. */
+static struct voice_score sounds(double *begin_s, int count, double end_s)
+{
+    return (struct voice_score){.begin_s = begin_s, .begins = count, .end_s = end_s};
+}
+
+static void shown(const struct voice_words *words, const struct voice_score *s, double time_s,
+                  const char *expected)
+{
+    int begin, end;
+    char text[100];
+    voice_words_at(words, s, time_s, &begin, &end);
+    snprintf(text, sizeof text, "%.*s", end - begin, words->text + begin);
+    assert_string_equal(text, expected);
+}
+
+static void words_are_spread_over_sounds(void **state)
+{
+    (void)state;
+    double begin_s[4] = {0, 1, 2, 3};
+    struct voice_score four = sounds(begin_s, 4, 4), one = sounds(begin_s, 1, 4);
+    struct voice_words words;
+    bool empty;
+    assert_true(voice_words_make("Aagh", &words, &empty));
+    shown(&words, &four, 0.5, "Aagh");
+    shown(&words, &four, 3.9, "Aagh");
+    voice_words_finish(&words);
+    assert_true(voice_words_make("  The  sea,\nthe open \"sea\"! ", &words, &empty));
+    assert_int_equal(words.count, 5);
+    shown(&words, &four, 0.5, "The");
+    shown(&words, &four, 1.5, "sea,");
+    shown(&words, &four, 2.5, "the");
+    shown(&words, &four, 3.5, "open \"sea\"!");
+    shown(&words, &one, 3.5, "The  sea,\nthe open \"sea\"!");
+    voice_words_finish(&words);
+    assert_true(voice_words_make("oh dear", &words, &empty));
+    shown(&words, &four, 1.5, "oh");
+    shown(&words, &four, 2.5, "dear");
+    voice_words_finish(&words);
+    assert_false(voice_words_make(" \t\xe2\x80\x83", &words, &empty));
+    assert_true(empty);
+}
+
+static void letters_share_the_time(void **state)
+{
+    (void)state;
+    double begin_s[2] = {1, 3}, until_s;
+    struct voice_score two = sounds(begin_s, 2, 5);
+    struct voice_words words;
+    bool empty;
+    /* one word lasts for both sounds: a second for each letter */
+    assert_true(voice_words_make("\xc2\xab"
+                                 "Aa\xcc\x81gh!\xc2\xbb",
+                                 &words, &empty));
+    assert_int_equal(words.letters_count, 4);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(voice_letter_at(&words, &two, 1.5 + i, &until_s), i);
+        assert_true(fabs(until_s - (2 + i)) < 1e-9);
+    }
+    const struct voice_letter *l = words.letters;
+    assert_true(l[0].before == 0 && l[0].begin == 2 &&
+                l[0].end == 3);                     /* the quotation mark goes before */
+    assert_true(l[1].begin == 3 && l[1].end == 6);  /* with its accent */
+    assert_true(l[3].end == 8 && l[3].after == 11); /* "!»" comes after */
+    voice_words_finish(&words);
+    assert_true(
+        voice_words_make("wow !!!", &words, &empty)); /* nothing but punctuation is letters */
+    assert_int_equal(words.letters_count, 6);
+    assert_int_equal(voice_letter_at(&words, &two, 4.9, &until_s), 5);
+    voice_words_finish(&words);
+    assert_true(voice_words_make("\xff\xfe\x80", &words, &empty)); /* no UTF-8: as many signs */
+    assert_true(words.letters_count >= 1 && words.letters[words.letters_count - 1].after == 3);
+    voice_words_finish(&words);
+}
+
+static void mappings_are_read(void **state)
+{
+    (void)state;
+    char why[200];
+    struct voice_mapping mapping = voice_mapping_default();
+    assert_int_equal(mapping.feature[TYPE_SIZE], VOICE_ENVELOPE);
+    assert_true(
+        voice_mapping_read(&mapping, "size=nothing,ink=vowel,baseline=pitch", why, sizeof why));
+    assert_int_equal(mapping.feature[TYPE_SIZE], VOICE_NOTHING);
+    assert_int_equal(mapping.feature[TYPE_INK], VOICE_VOWEL);
+    assert_int_equal(mapping.feature[TYPE_BASELINE], VOICE_PITCH);
+    static const char *const wrong[][2] = {
+        {"", "a mapping is like"},
+        {"size", "a mapping is like"},
+        {"size=", "no feature ''"},
+        {"size=loud", "there are nothing, envelope, level"},
+        {"colour=pitch", "there are size, weight, slant, baseline, ink"},
+        {"size=vowel", "plays ink only"},
+        {"size=pitch,", "a mapping is like"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_false(voice_mapping_read(&mapping, wrong[i][0], why, sizeof why));
+        assert_non_null(strstr(why, wrong[i][1]));
+    }
+    assert_int_equal(mapping.feature[TYPE_INK], VOICE_VOWEL); /* as it was */
+}
+
+static double correlation(const double *x, const double *y, int n)
+{
+    double sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
+    for (int i = 0; i < n; i++) {
+        sx += x[i];
+        sy += y[i];
+        sxx += x[i] * x[i];
+        syy += y[i] * y[i];
+        sxy += x[i] * y[i];
+    }
+    return (n * sxy - sx * sy) / sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
+}
+
+/* Rows that have ink, the first and last by how dark they are. */
+static double ink_height(double *middle)
+{
+    int first = -1, last = -1;
+    double darkest[HEIGHT];
+    for (int y = 0; y < HEIGHT; y++) {
+        darkest[y] = 0;
+        for (int x = 0; x < WIDTH; x++)
+            darkest[y] = fmax(darkest[y], 1 - pixels[y][x][1] / 255.0);
+        if (darkest[y] > 0.02) {
+            first = first < 0 ? y : first;
+            last = y;
+        }
+    }
+    *middle = (first + last) / 2.0;
+    return first < 0 ? 0 : last - first + 1;
+}
+
+static void heights_follow_the_envelope(void **state)
+{
+    (void)state;
+    enum { MOMENTS = 84 };
+    struct voice_type_def def = voice_type_def_default();
+    struct voice_type *type;
+    struct voice_words words;
+    struct font_face *face;
+    double heights[MOMENTS], envelope[MOMENTS], middles[MOMENTS], pitch[MOMENTS];
+    int count = 0;
+    bool empty;
+    assert_int_equal(font_face_open("DejaVuSans", 0, &face), FONT_OK);
+    assert_true(voice_words_make("H", &words, &empty));
+    def.size_px[0] = 8;
+    def.size_px[1] = 220;
+    for (int played = 0; played < 2; played++) {
+        if (played) { /* size stays, the baseline goes with the pitch */
+            assert_true(voice_mapping_read(&def.mapping, "size=nothing,baseline=pitch",
+                                           (char[200]){0}, 200));
+            def.size_px[1] = 60;
+            def.rise_em = 2;
+        }
+        assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
+        count = 0;
+        for (int i = 0; i < MOMENTS; i++) {
+            double time_s = i * score.seconds / MOMENTS;
+            assert_int_equal(voice_type_moment(type, time_s, &picture), FONT_OK);
+            heights[count] = ink_height(&middles[count]);
+            envelope[count] = voice_score_at(&score, VOICE_ENVELOPE, time_s);
+            pitch[count] = -voice_score_at(&score, VOICE_PITCH, time_s);
+            count++;
+        }
+        if (played)
+            assert_true(correlation(middles, pitch, count) > 0.99);
+        else
+            assert_true(correlation(heights, envelope, count) > 0.99);
+        voice_type_destroy(type);
+    }
+    voice_words_finish(&words);
+    font_face_close(face);
+}
+
+static void every_letter_is_on_the_line(void **state)
+{
+    (void)state;
+    struct voice_type_def def = voice_type_def_default();
+    struct voice_type *type;
+    struct voice_words words;
+    struct font_face *face;
+    double narrow, wide, longer;
+    bool empty;
+    assert_int_equal(font_face_open("DejaVuSans", 0, &face), FONT_OK);
+    def.size_px[0] = 4;
+    def.size_px[1] = 40;
+    assert_true(voice_words_make("Aagh", &words, &empty));
+    assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
+    assert_int_equal(voice_type_line_width(type, 100, &narrow), FONT_OK);
+    assert_int_equal(voice_type_line_width(type, 200, &wide), FONT_OK);
+    double seconds = score.end_s - score.begin_s[0];
+    assert_true(fabs(narrow - 100 * seconds) < 60 && fabs(wide - 200 * seconds) < 60);
+    voice_type_destroy(type);
+    voice_words_finish(&words);
+    /* more letters than the time has room for */
+    assert_true(voice_words_make("the quick brown fox jumps over the lazy dog and the quick "
+                                 "brown fox jumps over the lazy dog",
+                                 &words, &empty));
+    assert_int_equal(voice_type_create(&def, face, &words, &score, &type), FONT_OK);
+    assert_int_equal(voice_type_line_width(type, 10, &longer), FONT_OK);
+    assert_true(longer > 3 * 10 * seconds);
+    assert_int_equal(voice_type_line(type, 10, 10, 100, &picture), FONT_OK);
+    double middle;
+    assert_true(ink_height(&middle) > 20);
+    voice_type_destroy(type);
+    voice_words_finish(&words);
+    font_face_close(face);
+}
+
+static double always(double t)
+{
+    (void)t;
+    return 1;
+}
+static double low(double t)
+{
+    (void)t;
+    return 110;
+}
+static void open_vowel(double t, double formant_hz[2])
+{
+    (void)t;
+    formant_hz[0] = 730;
+    formant_hz[1] = 1090;
+}
+
+static void vowels_are_inks(void **state)
+{
+    (void)state;
+    struct voice_cry man = {0.5, 22050, always, low, open_vowel};
+    struct voice_def hearing = voice_def_default();
+    struct voice_frame *said;
+    struct voice_score spoken;
+    size_t samples_count;
+    int said_count;
+    float *samples = voice_cry_make(&man, &samples_count);
+    assert_non_null(samples);
+    assert_true(
+        voice_frames(&hearing, samples, samples_count, man.rate_hz, &said, &said_count));
+    struct voice_type_def def = voice_type_def_default();
+    struct voice_type *type;
+    struct voice_words words;
+    struct font_face *face;
+    bool empty;
+    int reddest = 0;
+    assert_int_equal(font_face_open("DejaVuSans", 0, &face), FONT_OK);
+    assert_true(voice_words_make("H", &words, &empty));
+    assert_true(voice_score_make(said, said_count, 0.03, &spoken, &empty));
+    def.inks[0][0] = 1; /* [a] is red */
+    assert_true(voice_mapping_read(&def.mapping, "ink=vowel", (char[200]){0}, 200));
+    assert_int_equal(voice_type_create(&def, face, &words, &spoken, &type), FONT_OK);
+    assert_int_equal(voice_type_moment(type, 0.25, &picture), FONT_OK);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            reddest = pixels[y][x][0] - pixels[y][x][2] > reddest
+                          ? pixels[y][x][0] - pixels[y][x][2]
+                          : reddest;
+    assert_true(reddest > 100);
+    voice_type_destroy(type);
+    voice_words_finish(&words);
+    voice_score_finish(&spoken);
+    free(said);
+    free(samples);
+    font_face_close(face);
+}
+
+int main(void)
+{
+    cry();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_spread_over_sounds),
+        cmocka_unit_test(letters_share_the_time),
+        cmocka_unit_test(mappings_are_read),
+        cmocka_unit_test(heights_follow_the_envelope),
+        cmocka_unit_test(every_letter_is_on_the_line),
+        cmocka_unit_test(vowels_are_inks),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    voice_score_finish(&score);
+    free(frames);
+    return failed;
+}

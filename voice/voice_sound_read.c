@@ -1,0 +1,94 @@
+/* voice_sound_read.c - sounds in files, by libsndfile. */
+#include "voice_sound.h"
+
+#include <sndfile.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { FRAMES_AT_ONCE = 4096, CHANNELS_MAX = 64 };
+
+/* Appends what the file still has. False: no memory, or it is too long: then *too_long is true. */
+static bool frames_read(SNDFILE *file, const SF_INFO *info, struct voice_sound *out,
+                        bool *too_long)
+{
+    size_t room = 0, most = (size_t)VOICE_SECONDS_MAX * (size_t)info->samplerate;
+    float *frames = malloc(sizeof *frames * FRAMES_AT_ONCE * (size_t)info->channels);
+    bool memory = frames != NULL;
+    *too_long = false;
+    while (memory && !*too_long) {
+        sf_count_t count = sf_readf_float(file, frames, FRAMES_AT_ONCE);
+        if (count <= 0)
+            break;
+        *too_long = out->count + (size_t)count > most;
+        if (out->count + (size_t)count > room) {
+            room = 2 * room + FRAMES_AT_ONCE;
+            float *grown = realloc(out->samples, room * sizeof *grown);
+            memory = grown != NULL;
+            if (!grown)
+                break;
+            out->samples = grown;
+        }
+        for (sf_count_t i = 0; i < count; i++) {
+            float sum = 0;
+            for (int c = 0; c < info->channels; c++)
+                sum += frames[i * info->channels + c];
+            sum /= (float)info->channels;
+            out->samples[out->count++] = isfinite(sum) ? fmaxf(-1, fminf(1, sum)) : 0;
+        }
+    }
+    free(frames);
+    return memory && !*too_long;
+}
+
+static bool refuse(struct voice_sound *out, char *why, size_t room, const char *path,
+                   const char *what)
+{
+    snprintf(why, room, "%s: %s", path, what);
+    voice_sound_finish(out);
+    return false;
+}
+
+bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size_t room)
+{
+    struct stat status;
+    SF_INFO info = {0};
+    bool too_long;
+    *out = (struct voice_sound){0};
+    /* without waiting for a pipe's other end */
+    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor < 0)
+        return refuse(out, why, room, path, strerror(errno));
+    if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+        close(descriptor);
+        return refuse(out, why, room, path, "a sound must be a regular file");
+    }
+    SNDFILE *file = sf_open_fd(descriptor, SFM_READ, &info, 0);
+    if (!file) {
+        close(descriptor);
+        return refuse(out, why, room, path,
+                      "not a sound that can be read (WAV, FLAC, AIFF, Ogg, ...)");
+    }
+    bool good = info.channels >= 1 && info.channels <= CHANNELS_MAX &&
+                info.samplerate >= VOICE_RATE_MIN && info.samplerate <= VOICE_RATE_MAX;
+    out->rate_hz = info.samplerate;
+    bool done = good && frames_read(file, &info, out, &too_long);
+    sf_close(file);
+    close(descriptor);
+    if (!good)
+        return refuse(
+            out, why, room, path,
+            "a sound must have 1 to 64 channels and 4,000 to 384,000 samples a second");
+    if (!done)
+        return refuse(out, why, room, path,
+                      too_long ? "the sound is longer than half an hour" : "no memory");
+    if (out->count == 0)
+        return refuse(out, why, room, path, "there is no sound in it");
+    return true;
+}
