@@ -1,7 +1,8 @@
-"""layers.py ROOT [TABLE] [--rows]: checks the arrows between folders, circles of files, lengths and namesakes.
+"""layers.py ROOT [TABLE] [--rows]: checks the arrows between folders, circles of files, lengths, namesakes and the tour.
 
 Reads TABLE (tests/layers/layers.txt under ROOT), whose head explains the rows, and every C file under ROOT. Prints one line for
-each offence that no row of the table excuses, and for each excuse that is no longer needed; ends with 1 if there was one.
+each offence that no row of the table excuses, and for each excuse that is no longer needed; ends with 1 if there was one. Where
+there is a docs/tour.md, it must name each folder of the table.
 --rows prints the offences as rows of the table instead.
 
 C is read as text, in the shape that clang-format gives it here: a function's braces stand alone in the first column. A file
@@ -29,6 +30,7 @@ ATTRIBUTE = re.compile(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)")
 EXTERN = re.compile(r"^extern\b[^;({]*;", re.MULTILINE)
 NESTED = re.compile(r"\{[^{}]*\}")
 ARGUMENTS = re.compile(r"\([^()]+\)")
+TOUR_LINE = re.compile(r"^ {4}([a-z][\w/]*)/(?: |$)", re.MULTILINE)
 KEYWORDS = {"void", "int", "char", "float", "double", "return", "sizeof"}
 CALLED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")
 VARIABLE = re.compile(r"\b([A-Za-z_]\w*)(?:\[[^\]\n]*\])*\s*[=,;]")
@@ -217,6 +219,8 @@ class House:
         static = re.compile(r"\b(?:%s)\b" % "|".join(["static"] + sorted(hidden)))
         for path, text in texts.items():
             self.files[path] = File(path, text, static)
+        tour = root / "docs/tour.md"
+        self.tour = tour.read_text(encoding="utf-8") if tour.exists() else None
         self.find_variables()
         self.row_of = {path: table.folder_of(path) for path in self.files}
         self.by_name = collections.defaultdict(list)  # header's file name -> paths
@@ -282,6 +286,8 @@ class House:
             self.check_lengths(file)
         self.check_circles()
         self.check_namesakes()
+        if self.tour is not None:
+            self.check_tour()
         for row, number in self.table.flat.items():
             if ("length",) + row not in self.offences:
                 self.problems.append("%s:%d: 'table %s' is short or gone: remove the row"
@@ -291,6 +297,20 @@ class House:
             if row not in self.offences:
                 self.problems.append("%s:%d: 'offends %s' offends no longer: remove the row"
                                      % (self.table.name, number, " ".join(row)))
+
+    def check_tour(self):
+        """Each folder stands in the tour: by its path, or as a line `    name/` of a list; what is listed is there."""
+        listed = set(TOUR_LINE.findall(self.tour))
+        for folder in self.table.folders:
+            name = folder[:-2] if folder.endswith("/*") else folder
+            if name in self.files or re.search(r"(?<![\w/])%s(?![\w/]*\w)" % re.escape(name), self.tour):
+                continue
+            if name.rpartition("/")[2] not in listed:
+                self.problems.append("docs/tour.md: says nothing of %s" % name)
+        folders = {part for path in self.files for part in above(path)}
+        for name in sorted(listed):
+            if not any(folder == name or folder.endswith("/" + name) for folder in folders):
+                self.problems.append("docs/tour.md: lists %s/, where no C file is" % name)
 
     def offend(self, row, file, line, text):
         self.offences.setdefault(row, "%s:%d: %s" % (file.path, line, text))
@@ -404,6 +424,13 @@ class House:
                 path = sorted(places.values())[0]
                 self.offend(("namesake", name), self.files[path], self.files[path].line_of(name),
                             "%s is defined in %s" % (name, " and ".join(sorted(places.values()))))
+
+
+def above(path):
+    """The folders that a file is in."""
+    while "/" in path:
+        path = path.rpartition("/")[0]
+        yield path
 
 
 def strong_parts(edges):

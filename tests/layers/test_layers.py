@@ -187,6 +187,14 @@ class Layers(unittest.TestCase):
         status, lines = run({"low/l.c": '#include "h.h"\n' + function("l", 80)}, words=["--rows"])
         self.assertEqual((status, lines), (0, ["offends include low/l.c h.h", "offends length low/l.c l"]))
 
+    def test_the_tour_names_each_folder_and_no_other(self):
+        tour = "In `base/` and high.\n\n    low/      text\n    tests/    text\n"
+        self.clean({"docs/tour.md": tour})
+        self.wrong({"docs/tour.md": tour.replace("low/", "lower/")}, ROWS, "docs/tour.md: says nothing of low",
+                   "docs/tour.md: lists lower/, where no C file is")
+        self.wrong({"docs/tour.md": tour.replace("high", "high/deep highland")}, ROWS, "docs/tour.md: says nothing of high")
+        self.clean({"docs/tour.md": tour + "    deep/    text\n", "low/deep/d.c": ""}, ROWS + "folder low/deep: low\n")
+
     def test_folders_and_rows_must_meet(self):
         self.wrong({"new/n.c": ""}, ROWS, "new/n.c: its folder has no row")
         self.wrong({}, ROWS + "folder gone:\n", "folder gone has a row, but no file")
