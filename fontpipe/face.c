@@ -2,7 +2,8 @@
 #include "face.h"
 #include "internal.h"
 
-#include <errno.h>
+#include <input_file.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -173,16 +174,14 @@ static char *by_fontconfig(const char *name, int *index)
 static enum font_status file_read(const char *path, unsigned char **bytes, size_t *count)
 {
     struct stat about;
-    FILE *file = fopen(path, "rb");
+    const char *why = "";
+    FILE *file = input_file_open(path, &why);
     *bytes = NULL;
-    if (!file || fstat(fileno(file), &about) != 0) {
-        int reason = errno;
-        if (file)
-            fclose(file);
-        return font_fail(FONT_BAD_FILE, "%s: %s", path, strerror(reason));
-    }
+    if (!file)
+        return font_fail(FONT_BAD_FILE, "%s: %s", path, why);
     enum font_status status = FONT_OK;
-    if (!S_ISREG(about.st_mode) || about.st_size <= 0 || about.st_size > FILE_BYTES_MAX) {
+    if (fstat(fileno(file), &about) != 0 || about.st_size <= 0 ||
+        about.st_size > FILE_BYTES_MAX) {
         status = font_fail(FONT_BAD_FILE, "%s is no font file", path);
     } else {
         *count = (size_t)about.st_size;

@@ -4,12 +4,21 @@
 #include <stdlib.h>
 
 #include "paris_state.h"
+#include "visible_text.h"
 
 struct paris_state paris_the = {.call = "Paris"};
 
 static char error_text[1024];
 static unsigned int error_status; /* CM_error_...: of what error_text says */
 static void (*error_handler)(const char *message);
+
+void paris_error_print(void)
+{
+    char line[2 * sizeof error_text];
+    visible_text(line, sizeof line, error_text);
+    fflush(stdout);
+    fprintf(stderr, "%s\n", line);
+}
 
 PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_list args)
 {
@@ -23,8 +32,7 @@ PARIS_PRINTF(2, 0) static void fail(unsigned int status, const char *format, va_
         error_handler(error_text);
         return;
     }
-    fflush(stdout);
-    fprintf(stderr, "%s\n", error_text);
+    paris_error_print();
     exit(1);
 }
 

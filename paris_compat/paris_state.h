@@ -128,6 +128,8 @@ void paris_fail(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 void paris_fail_memory(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 /* The same with what the machine says. */
 void paris_fail_machine(void) PARIS_COLD;
+/* Prints what the last failure said; nothing in it does anything to a terminal. */
+void paris_error_print(void) PARIS_COLD;
 /* Keeps why there is no machine, for paris_error(), and tells nobody. m: what machine_create() left; NULL is fine. */
 void paris_fail_without(const struct machine *m) PARIS_COLD;
 

@@ -73,8 +73,7 @@ static bool machine_make(void)
 struct machine *paris_machine(void)
 {
     if (!paris_the.machine && !machine_make()) {
-        fflush(stdout);
-        fprintf(stderr, "%s\n", paris_error());
+        paris_error_print();
         exit(1);
     }
     return paris_the.machine;
@@ -95,7 +94,7 @@ unsigned int CM_attach(void)
 {
     paris_the.call = "CM_attach";
     if (!paris_the.machine && !machine_make()) {
-        fprintf(stderr, "%s\n", paris_error());
+        paris_error_print();
         return 0;
     }
     paris_the.attached = true;

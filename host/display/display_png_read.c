@@ -4,6 +4,8 @@
  * are plain: palette and low depths expanded, 16 bits scaled, transparency put over white, colours weighed. */
 #include "display_internal.h"
 
+#include <input_file.h>
+
 #include <errno.h>
 #include <png.h>
 #include <setjmp.h>
@@ -111,11 +113,11 @@ static int png_decode(png_structp png, png_infop info, struct png_source *source
 static enum display_status read_as(const char *path, int channels, struct display_image *image)
 {
     *image = (struct display_image){0};
-    errno = 0;
-    struct png_source source = {.file = fopen(path, "rb"), .image = {.channels = channels}};
+    const char *why = "";
+    struct png_source source = {.file = input_file_open(path, &why),
+                                .image = {.channels = channels}};
     if (!source.file)
-        return display_fail(DISPLAY_IO_FAILED, "%s: cannot read: %s", path,
-                            strerror(errno ? errno : EIO));
+        return display_fail(DISPLAY_IO_FAILED, "%s: cannot read: %s", path, why);
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, source_error, source_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;

@@ -3,6 +3,7 @@
 
 #include <display.h>
 #include <paris_internal.h>
+#include <visible_text.h>
 
 #include <errno.h>
 #include <signal.h>
@@ -14,16 +15,29 @@
 #include <time.h>
 #include <unistd.h>
 
+void tell_line(const char *text)
+{
+    char line[2400]; /* whatever a name, a script or a build log holds */
+    visible_text(line, sizeof line, text);
+    fprintf(stderr, "%s\n", line);
+}
+
 __attribute__((format(printf, 3, 0))) static int fail_as(int status, const char *verb,
                                                          const char *format, va_list arguments)
 {
     char text[1200];
-    vsnprintf(text, sizeof text, format, arguments);
-    for (char *c = text; *c; c++)
-        if (*c == '\n' || *c == '\r')
-            *c = ' '; /* one line, whatever a name or a build log holds */
-    fprintf(stderr, "lutetia%s%s: %s\n", verb ? " " : "", verb ? verb : "", text);
+    int begin = snprintf(text, sizeof text, "lutetia%s%s: ", verb ? " " : "", verb ? verb : "");
+    vsnprintf(text + begin, sizeof text - (size_t)begin, format, arguments);
+    tell_line(text);
     return status;
+}
+
+void tell(const char *verb, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fail_as(EXIT_SUCCESS, verb, format, arguments);
+    va_end(arguments);
 }
 
 int fail(const char *verb, const char *format, ...)
@@ -135,7 +149,9 @@ void progress_show(struct progress *p, int done)
     char left[40] = "";
     if (passed > 0.5 && done > 0 && done < p->total)
         time_left_text(left, sizeof left, passed / done * (p->total - done));
-    fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s  %s\033[K", p->what, bar, done, p->total,
+    char what[400];
+    visible_text(what, sizeof what, p->what);
+    fprintf(stderr, "\r%s [%s] %d/%d  %.1f steps/s  %s\033[K", what, bar, done, p->total,
             passed > 0 ? done / passed : 0, left);
     fflush(stderr);
 }

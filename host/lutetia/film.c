@@ -2,6 +2,8 @@
  * those before it ended. */
 #include "film.h"
 
+#include "lutetia.h"
+
 #include <display.h>
 #include <history.h>
 #include <video.h>
@@ -168,7 +170,6 @@ bool film_end(struct film *film)
         return false;
     }
     if (strcmp(video_path(file), film->video) != 0)
-        fprintf(stderr, "lutetia run: ffmpeg is not installed; the film is %s\n",
-                video_path(file));
+        tell("run", "ffmpeg is not installed; the film is %s", video_path(file));
     return video_finish(file) == DISPLAY_OK || film_fail(film, display_error());
 }

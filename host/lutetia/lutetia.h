@@ -33,6 +33,10 @@ int verb_voice(int argc, char **argv);
 
 /* Prints `lutetia VERB: message` and returns EXIT_FAILED. */
 int fail(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Prints the same and nothing has failed: what one should know. */
+void tell(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The one place where lines go to the standard error; what comes from outside does nothing to a terminal there. */
+void tell_line(const char *text);
 /* At a verb's end: the status, and what was interrupted says so, once. */
 int interrupt_report(const char *verb, int status, const char *untouched);
 /* Says paper_error(), but not after Ctrl-C: what fails then fails because of it. */

@@ -1,6 +1,8 @@
 /* main.c - the verbs. */
 #include "lutetia.h"
 
+#include <streams.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +46,8 @@ static void help(FILE *out)
           out);
 }
 
-int main(int argc, char **argv)
+/* The verb's status; whose it is, *name says. */
+static int verb_run_named(int argc, char **argv, const char **name)
 {
     if (argc < 2) {
         help(stderr);
@@ -59,13 +62,20 @@ int main(int argc, char **argv)
         help(stdout);
         return EXIT_SUCCESS;
     }
-    for (int i = 0; i < VERBS_COUNT; i++) {
-        if (strcmp(argv[1], verbs[i].name) != 0)
-            continue;
-        int status = verbs[i].run(argc - 1, argv + 1);
-        if (fflush(stdout) != 0 && status == EXIT_SUCCESS)
-            status = fail(verbs[i].name, "cannot write to the standard output");
-        return status;
-    }
+    for (int i = 0; i < VERBS_COUNT; i++)
+        if (strcmp(argv[1], verbs[i].name) == 0) {
+            *name = verbs[i].name;
+            return verbs[i].run(argc - 1, argv + 1);
+        }
     return fail_usage(NULL, "there is no verb '%.60s'; `lutetia --help` lists them", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    const char *name = NULL;
+    streams_fill();
+    int status = verb_run_named(argc, argv, &name);
+    if (!streams_end() && status == EXIT_SUCCESS)
+        status = fail(name, "cannot write to the standard output");
+    return status;
 }

@@ -24,4 +24,7 @@ struct run {
 /* One run of the script: EXIT_SUCCESS, EXIT_FAILED or EXIT_INTERRUPTED. */
 int run_script(struct run *run);
 
+/* What the script prints, on the standard output. */
+void run_print(const struct run *run, const char *text, size_t length);
+
 #endif

@@ -2,29 +2,45 @@
 #include "run.h"
 
 #include <history.h>
+#include <visible_text.h>
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+void run_print(const struct run *run, const char *text, size_t length)
+{
+    if (run->config.trusted || !isatty(STDOUT_FILENO)) {
+        fwrite(text, 1, length, stdout);
+    } else { /* a script that nobody trusts does nothing to a terminal; a byte is shown as 4 at most */
+        char shown[2048];
+        for (size_t at = 0; at < length; at += sizeof shown / 8) {
+            size_t rest = length - at, most = sizeof shown / 8;
+            fwrite(
+                shown, 1,
+                visible_text_lines(shown, sizeof shown, text + at, rest < most ? rest : most),
+                stdout);
+        }
+    }
+    fflush(stdout);
+}
+
 static void print(void *context, const char *text, size_t length)
 {
-    (void)context;
-    fwrite(text, 1, length, stdout);
-    fflush(stdout);
+    run_print(context, text, length);
 }
 
 static void complain(void *context, const char *text)
 {
     (void)context;
-    fprintf(stderr, "%s\n", text);
+    tell_line(text);
 }
 
 static void note(void *context, const char *text)
 {
     (void)context;
-    fprintf(stderr, "lutetia run: %s\n", text);
+    tell("run", "%s", text);
 }
 
 static bool stop(void *context)
@@ -78,11 +94,10 @@ static void divergence_report(const struct run *run, const struct paper_state_sh
 {
     for (int i = 0; i < count; i++)
         if (paper_history_diverged(papers[i].sheet) && !run->quiet)
-            fprintf(
-                stderr,
-                "lutetia run: paper %d goes another way than the one that was saved; it was "
-                "computed again from there\n",
-                papers[i].number);
+            tell("run",
+                 "paper %d goes another way than the one that was saved; it was computed again "
+                 "from there",
+                 papers[i].number);
 }
 
 /* What was done until now, however the run ended. */
@@ -100,8 +115,7 @@ static enum script_status save(struct run *run, const struct paper_state_sheet *
         return SCRIPT_FAILED;
     }
     if (!run->quiet && status != SCRIPT_OK)
-        fprintf(stderr, "lutetia run: saved; `lutetia run %s --resume %s` goes on\n",
-                run->config.path, run->save);
+        tell("run", "saved; `lutetia run %s --resume %s` goes on", run->config.path, run->save);
     return status;
 }
 

@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -215,7 +216,7 @@ static void runs_in_turn(struct all *all)
     for (int i = 0; i < all->runs_count && !interrupted(); i++) {
         struct one *one = &all->runs[i];
         if (!all->run->quiet)
-            fprintf(stderr, "lutetia run: %s\n", one->folder);
+            tell("run", "%s", one->folder);
         one->status = one_run(all, one);
         all->failed += one->status == EXIT_FAILED;
     }
@@ -270,16 +271,19 @@ static bool job_start(struct all *all, struct job *job, int number, int threads)
 }
 
 /* Copies what a run said, errors with the run's name before each line. */
-static void one_print(struct one *one)
+static void one_print(const struct all *all, struct one *one)
 {
-    char line[4096];
+    char line[4096], text[4096 + PATH_MAX];
+    size_t count;
     rewind(one->output);
-    while (fgets(line, sizeof line, one->output))
-        fputs(line, stdout);
-    fflush(stdout);
+    while ((count = fread(line, 1, sizeof line, one->output)) > 0)
+        run_print(all->run, line, count);
     rewind(one->errors);
-    while (fgets(line, sizeof line, one->errors))
-        fprintf(stderr, "%s: %s%s", one->folder, line, strchr(line, '\n') ? "" : "\n");
+    while (fgets(line, sizeof line, one->errors)) {
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(text, sizeof text, "%s: %s", one->folder, line);
+        tell_line(text);
+    }
     fclose(one->output);
     fclose(one->errors);
     one->output = one->errors = NULL;
@@ -374,7 +378,7 @@ static void runs_at_once(struct all *all, int jobs_count)
         if (any && shown)
             fputs("\r\033[K", stderr);
         while (printed < all->runs_count && all->runs[printed].status >= 0)
-            one_print(&all->runs[printed++]);
+            one_print(all, &all->runs[printed++]);
         if (shown)
             jobs_show(all, jobs, jobs_count, ended, began_s);
     }
@@ -382,7 +386,7 @@ static void runs_at_once(struct all *all, int jobs_count)
         fputs("\r\033[K", stderr);
     for (; printed < all->runs_count; printed++)
         if (all->runs[printed].status >= 0)
-            one_print(&all->runs[printed]);
+            one_print(all, &all->runs[printed]);
     if (short_of) {
         fail("run", "cannot start more runs: %s; fewer --jobs take less", strerror(errno));
         all->failed++;

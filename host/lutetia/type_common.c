@@ -2,7 +2,8 @@
 #include "type_common.h"
 #include "lutetia.h"
 
-#include <errno.h>
+#include <input_file.h>
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -76,17 +77,17 @@ int type_filter_read(const char *verb, const char *name, char **out)
         return fail(verb, "no memory");
     if (name[0] != '@')
         return EXIT_SUCCESS;
-    FILE *file = fopen(name + 1, "rb");
+    const char *why = "";
+    FILE *file = input_file_open(name + 1, &why);
     size_t count = file ? fread(*out, 1, BYTES_MAX, file) : 0;
     bool whole = file && !ferror(file) && fgetc(file) == EOF;
-    int reason = errno;
     if (file)
         fclose(file);
     if (!whole) {
         free(*out);
         *out = NULL;
         return file ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
-                    : fail(verb, "%s: %s", name + 1, strerror(reason));
+                    : fail(verb, "%s: %s", name + 1, why);
     }
     /* Words, whatever is between them, as one line with a comma between each; none behind "samples:". */
     size_t length = 0;

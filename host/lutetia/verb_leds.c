@@ -137,7 +137,7 @@ static int window_open(struct leds *leds)
             "DIR for pictures",
             display_error());
     if (status != DISPLAY_OK)
-        fprintf(stderr, "lutetia leds: %s; the last lights go to leds.png\n", display_error());
+        tell("leds", "%s; the last lights go to leds.png", display_error());
     return EXIT_SUCCESS;
 }
 
@@ -294,7 +294,7 @@ static int child_end(struct leds *leds, pid_t child, const char *name)
     if (WEXITSTATUS(status) == 126 && !leds->taken)
         return EXIT_FAILED; /* it has been said why it could not run */
     if (WEXITSTATUS(status) != 0)
-        fprintf(stderr, "lutetia leds: %s: ended with status %d\n", name, WEXITSTATUS(status));
+        tell("leds", "%s: ended with status %d", name, WEXITSTATUS(status));
     return EXIT_SUCCESS;
 }
 

@@ -138,10 +138,8 @@ static int screen_from_text(struct paint *paint)
         paper_line_screen(&line, &paint->screen, &missing) != PAPER_OK)
         return fail_paper("paint");
     if (missing)
-        fprintf(stderr,
-                "lutetia paint: no font has a glyph for U+%04X; %s's sign for that is set "
-                "instead\n",
-                (unsigned)missing, line.font);
+        tell("paint", "no font has a glyph for U+%04X; %s's sign for that is set instead",
+             (unsigned)missing, line.font);
     return EXIT_SUCCESS;
 }
 

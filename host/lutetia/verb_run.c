@@ -4,11 +4,11 @@
 #include "run.h"
 #include "run_sweep.h"
 
-#include <errno.h>
+#include <input_file.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { JOBS_MOST = 256 };
@@ -106,11 +106,11 @@ int verb_run(int argc, char **argv)
     memcpy(run.film.camera, o.camera, sizeof run.film.camera);
     for (int i = 1; i < words.count; i++)
         run.words[config->words_count++] = words.words[i];
-    struct stat found;
-    if (access(config->path, R_OK) != 0)
-        return fail("run", "%s: cannot read: %s", config->path, strerror(errno));
-    if (stat(config->path, &found) == 0 && S_ISDIR(found.st_mode))
-        return fail("run", "%s: cannot read: %s", config->path, strerror(EISDIR));
+    const char *why = "";
+    int found = input_file_descriptor(config->path, &why);
+    if (found < 0)
+        return fail("run", "%s: cannot read: %s", config->path, why);
+    close(found);
     char *folder = strdup(config->path), *slash = folder ? strrchr(folder, '/') : NULL;
     if (slash)
         *slash = '\0';

@@ -2,6 +2,8 @@
  * memory. Trusted scripts get Lua's whole library. */
 #include "script_internal.h"
 
+#include <input_file.h>
+
 #include <lualib.h>
 
 #include <limits.h>
@@ -52,13 +54,16 @@ const char *script_path_to_write(lua_State *L, const char *name, const char *end
                                  const char *what)
 {
     const struct script_config *config = script_of(L)->config;
-    size_t length = strlen(name), tail = strlen(ending);
-    if (length <= tail || strcmp(name + length - tail, ending) != 0)
+    const char *last = strrchr(name, '/');
+    size_t stem = strlen(last ? last + 1 : name), tail = strlen(ending);
+    if (stem <= tail || strcmp(name + strlen(name) - tail, ending) != 0)
         luaL_error(L, "%s's file must end in %s (got '%s')", what, ending, name);
     for (const char *part = name; part && !config->trusted; part = strchr(part, '/')) {
         part += *part == '/';
         if (part[0] == '.' && part[1] != '/' && strncmp(part, "../", 3) != 0)
             luaL_error(L, "%s's file must not be hidden (got '%s')", what, name);
+        if (part[0] == '-') /* other programs would take it for an option */
+            luaL_error(L, "%s's file must not begin with '-' (got '%s')", what, name);
     }
     return script_path(L, config->out_folder, name, what);
 }
@@ -171,10 +176,62 @@ static int param(lua_State *L)
     return 1;
 }
 
+/* ---- the script's file ---- */
+
+struct piece {
+    FILE *stream;
+    char bytes[4096];
+};
+
+static const char *piece_read(lua_State *L, void *context, size_t *count)
+{
+    struct piece *piece = context;
+    (void)L;
+    *count = fread(piece->bytes, 1, sizeof piece->bytes, piece->stream);
+    return *count ? piece->bytes : NULL;
+}
+
+/* Behind a mark that the file is UTF-8, and a first line that names an interpreter. */
+static void beginning_skip(FILE *stream)
+{
+    char mark[3];
+    if (fread(mark, 1, sizeof mark, stream) != sizeof mark ||
+        memcmp(mark, "\xef\xbb\xbf", sizeof mark) != 0)
+        rewind(stream);
+    int c = getc(stream);
+    bool names = c == '#';
+    while (names && c != EOF &&
+           c != '\n') /* the line's end stays, so that lines have their numbers */
+        c = getc(stream);
+    if (c != EOF)
+        ungetc(c, stream);
+}
+
+int script_load(lua_State *L, const char *path)
+{
+    const char *why = "";
+    struct piece piece = {.stream = input_file_open(path, &why)};
+    if (!piece.stream) {
+        lua_pushfstring(L, "%s: cannot read: %s", path, why);
+        return LUA_ERRFILE;
+    }
+    beginning_skip(piece.stream);
+    lua_pushfstring(L, "@%s", path);
+    int status = lua_load(L, piece_read, &piece, lua_tostring(L, -1), "t");
+    lua_remove(L, -2);
+    bool failed = ferror(piece.stream) != 0;
+    fclose(piece.stream);
+    if (!failed)
+        return status;
+    lua_pop(L, 1);
+    lua_pushfstring(L, "%s: cannot be read whole", path);
+    return LUA_ERRFILE;
+}
+
 /* The script's text; NULL where it cannot be read, or has zeros in it. */
 static char *script_text(const char *path)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file = input_file_open(path, NULL);
     char *text = NULL;
     size_t room = 0;
     ssize_t length = file ? getdelim(&text, &room, '\0', file) : -1;

@@ -72,7 +72,7 @@ static enum script_status perform(struct script *script, lua_State *L)
     lua_pushcfunction(L, script_open);
     int status = lua_pcall(L, 0, 0, 1);
     if (status == LUA_OK)
-        status = luaL_loadfilex(L, path, "t");
+        status = script_load(L, path);
     if (status == LUA_OK)
         status = lua_pcall(L, 0, 0, 1);
     if (status == LUA_OK)

@@ -80,13 +80,16 @@ void script_note_tell(const struct script *script, const char *text);
 /* NULL: the work is over. */
 void script_progress_tell(const struct script *script, const struct script_progress *progress);
 
+/* Pushes the script as a function, or why it cannot be read or is none; returns what lua_load() would. */
+int script_load(lua_State *L, const char *path);
 /* Before the first step: a key=value that the script's text has nowhere is an error now, not when all is done. */
 void script_words_check(lua_State *L);
 
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
-/* The same for a file that is written, in the script's folder for that: of this ending, and not hidden. */
+/* The same for a file that is written, in the script's folder for that: of this ending, not hidden, and no option to
+ * other programs. */
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,
                                  const char *what);
 

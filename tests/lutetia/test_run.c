@@ -280,7 +280,8 @@ static void wrong_command_lines_are_refused(void **state)
     child_script(&child, "/tmp", (const char *[]){NULL});
     child_run(&child);
     assert_int_equal(child.status, 1);
-    assert_string_equal(child.errors, "lutetia run: /tmp: cannot read: Is a directory\n");
+    assert_string_equal(child.errors,
+                        "lutetia run: /tmp: cannot read: Is a directory; name a file in it\n");
 }
 
 int main(void)

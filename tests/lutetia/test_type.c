@@ -187,7 +187,7 @@ static void wrong_lines_are_said(void **state)
         {{"type", "a", "--size", "-12"}, 2, "--size must be"},
         {{"type", "a", "--size", "nan"}, 2, "--size must be"},
         {{"type", "a", "--font", "nobody's"}, 1, "there is no font"},
-        {{"type", "a", "--font", "/dev/null"}, 1, "no font file"},
+        {{"type", "a", "--font", "/dev/null"}, 1, "not a regular file"},
         {{"type", "a", "--face", "9"}, 1, "has no face 9"},
         {{"type", "a", "--axes", "wght"}, 2, "--axes must be like"},
         {{"type", "a", "--axes", "wght=700"}, 1, "has no axis"},

@@ -27,6 +27,7 @@
 #include "base/parts.h"
 #include "device/cache.h"
 #include "output_file.h"
+#include "visible_text.h"
 
 #define FIRST_LINE "lutetia tuning 1"
 
@@ -201,7 +202,9 @@ void tuning_apply(struct machine *m, const struct machine_config *config)
              file_read(d, &tuning, text, sizeof text) == MACHINE_TUNED_BADLY &&
              m->settings.verbose) {
         machine_tuning_describe(m, text, sizeof text);
-        fprintf(stderr, "lutetia: %s\n", text);
+        char line[sizeof text * 2];
+        visible_text(line, sizeof line, text);
+        fprintf(stderr, "lutetia: %s\n", line);
     }
     for (int k = 0; k < MACHINE_KNOBS; k++)
         if (m->settings.knob[k] == SETTING_FREE &&

@@ -2,6 +2,7 @@
 #include "shapes/path_internal.h"
 
 #include <array.h>
+#include <input_file.h>
 
 #include <errno.h>
 #include <math.h>
@@ -11,11 +12,10 @@
 
 enum paper_status paper_file_read(const char *file, char **bytes, size_t *count)
 {
-    errno = 0;
-    FILE *stream = fopen(file, "rb");
+    const char *why = "no memory for it";
+    FILE *stream = input_file_open(file, &why);
     *bytes = stream ? malloc(PAPER_FILE_MAX + 2) : NULL;
     if (!*bytes) {
-        const char *why = strerror(errno ? errno : EIO);
         if (stream)
             fclose(stream);
         return paper_fail(PAPER_BAD_ARGUMENT, "%s: cannot read: %s", file, why);

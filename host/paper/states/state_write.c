@@ -68,15 +68,31 @@ static bool text_note(hid_t at, const char *name, const char *text)
     return done;
 }
 
+/* How a file, a group or a dataset is made: without the time, so that the same papers make the same file. */
+static hid_t how_made(hid_t kind)
+{
+    hid_t how = H5Pcreate(kind);
+    H5Pset_obj_track_times(how, false);
+    return how;
+}
+
+static hid_t group_make(hid_t at, const char *name)
+{
+    hid_t how = how_made(H5P_GROUP_CREATE);
+    hid_t group = H5Gcreate2(at, name, H5P_DEFAULT, how, H5P_DEFAULT);
+    H5Pclose(how);
+    return group;
+}
+
 static bool bytes_write(hid_t group, const uint8_t *bytes, size_t count)
 {
     hsize_t size = count;
-    hid_t space = H5Screate_simple(1, &size, NULL);
-    hid_t set =
-        H5Dcreate2(group, "run", H5T_STD_U8LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &size, NULL), how = how_made(H5P_DATASET_CREATE);
+    hid_t set = H5Dcreate2(group, "run", H5T_STD_U8LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
     bool done =
         set >= 0 && H5Dwrite(set, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
     H5Dclose(set);
+    H5Pclose(how);
     H5Sclose(space);
     return done;
 }
@@ -87,7 +103,7 @@ static bool plane_write(hid_t group, const struct paper_plane *plane, const hsiz
     hsize_t chunk[2];
     for (int i = 0; i < 2; i++)
         chunk[i] = size[i] < CHUNK_SIDE ? size[i] : CHUNK_SIDE;
-    hid_t space = H5Screate_simple(2, size, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t space = H5Screate_simple(2, size, NULL), how = how_made(H5P_DATASET_CREATE);
     H5Pset_chunk(how, 2, chunk);
     H5Pset_shuffle(how);
     H5Pset_deflate(how, DEFLATE_LEVEL);
@@ -116,8 +132,7 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
         return paper_fail(PAPER_NO_MEMORY, "no memory to save a sheet of %dx%d", config->width,
                           config->height);
     state_sheet_name(name, s->number);
-    hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t inner = H5Gcreate2(group, "planes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t group = group_make(file, name), inner = group_make(group, "planes");
     int count = paper_sheet_planes(s->sheet, planes);
     enum paper_status status = PAPER_OK;
     *written = group >= 0 && inner >= 0;
@@ -151,7 +166,7 @@ static enum paper_status content_write(const char *path, const struct paper_stat
                                        int count, bool *written)
 {
     H5dont_atexit(); /* what could not be written, on a full disk, it would try again at exit, and fall */
-    hid_t how = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+    hid_t how = how_made(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     enum paper_status status = PAPER_OK;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     H5Pset_userblock(how, STATE_HEADER_BYTES);

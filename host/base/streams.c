@@ -1,0 +1,21 @@
+/* streams.c - see streams.h. */
+#include "streams.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+void streams_fill(void)
+{
+    for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
+        if (fcntl(i, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) != i)
+            abort(); /* nothing could be said */
+}
+
+bool streams_end(void)
+{
+    bool failed = ferror(stdout) != 0;
+    return fflush(stdout) == 0 && !failed;
+}

@@ -1,0 +1,90 @@
+/* visible_text.c - see visible_text.h. */
+#include "visible_text.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The character at the text's beginning and its bytes; 0 bytes: it is no UTF-8. */
+static size_t character_read(const unsigned char *text, size_t length, uint32_t *out)
+{
+    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    unsigned char first = text[0];
+    size_t bytes = first < 0x80         ? 1
+                   : first >> 5 == 0x06 ? 2
+                   : first >> 4 == 0x0e ? 3
+                   : first >> 3 == 0x1e ? 4
+                                        : 0;
+    if (bytes == 0 || bytes > length)
+        return 0;
+    *out = bytes == 1 ? first : first & (0x7fu >> bytes);
+    for (size_t i = 1; i < bytes; i++) {
+        if (text[i] >> 6 != 2)
+            return 0;
+        *out = *out << 6 | (text[i] & 0x3f);
+    }
+    bool surrogate = *out >= 0xd800 && *out <= 0xdfff;
+    return *out < least[bytes] || *out > 0x10ffff || surrogate ? 0 : bytes;
+}
+
+/* Controls, and what changes how other characters are shown, or is not shown itself. */
+static bool is_invisible(uint32_t c)
+{
+    static const struct {
+        uint32_t first, last;
+    } ranges[] = {
+        {0x80, 0x9f},     {0xad, 0xad},       {0x61c, 0x61c},   {0x180e, 0x180e},
+        {0x200b, 0x200f}, {0x2028, 0x202e},   {0x2060, 0x206f}, {0xfeff, 0xfeff},
+        {0xfff0, 0xfffb}, {0xe0000, 0xe0fff},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        if (c >= ranges[i].first && c <= ranges[i].last)
+            return true;
+    return false;
+}
+
+static size_t text_pass(char *out, size_t size, const char *text, size_t length, bool lines)
+{
+    size_t used = 0;
+    if (size == 0)
+        return 0;
+    for (size_t at = 0; at < length;) {
+        const unsigned char *from = (const unsigned char *)text + at;
+        char shown[16];
+        uint32_t c = 0;
+        size_t bytes = character_read(from, length - at, &c), room;
+        if (bytes == 0 || c < ' ' || c == 127) {
+            bool gap = bytes && (c == '\n' || c == '\r' || c == '\t');
+            if (bytes && lines && (c == '\n' || c == '\t'))
+                room = (size_t)snprintf(shown, sizeof shown, "%c", (int)c);
+            else if (gap && !lines)
+                room = (size_t)snprintf(shown, sizeof shown, " ");
+            else
+                room = (size_t)snprintf(shown, sizeof shown, "\\x%02x", *from);
+            bytes = 1;
+        } else if (is_invisible(c)) {
+            room = (size_t)snprintf(shown, sizeof shown, "\\u{%04x}", (unsigned)c);
+        } else {
+            memcpy(shown, from, bytes);
+            room = bytes;
+        }
+        if (room > size - 1 - used)
+            break;
+        memcpy(out + used, shown, room);
+        used += room;
+        at += bytes;
+    }
+    out[used] = '\0';
+    return used;
+}
+
+size_t visible_text(char *out, size_t size, const char *text)
+{
+    return text_pass(out, size, text, strlen(text), false);
+}
+
+size_t visible_text_lines(char *out, size_t size, const char *text, size_t length)
+{
+    return text_pass(out, size, text, length, true);
+}

@@ -1,0 +1,186 @@
+"""test_hostile.py LUTETIA: the command where somebody or something means harm.
+
+Closed and full streams, pipes and devices where files should be, names and texts with escapes, links and folders in the place of
+what is written. Whatever it is: one clear line, a status that says so, in time, and nothing lost or replaced.
+"""
+import os
+import pathlib
+import re
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+LUTETIA = ""
+SECONDS = 30
+BAD = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]")
+
+SHEET = 'local p = paper{width = 16, height = 16}\np:put(ellipse(8, 8, 4), {water = 1})\nprint("printed")\n'
+
+
+class Hostile(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="lutetia-hostile-")
+        self.at = pathlib.Path(self.folder.name)
+        self.script("sheet.lua", SHEET + 'p:step(2)\np:frame("frame.png")\np:save("sheet.h5")\n')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def script(self, name, text):
+        (self.at / name).write_text(text)
+        return name
+
+    def run_it(self, *arguments, close=(), full=False):
+        """The command, with those of its streams closed, or its output on a full disk."""
+        def streams():
+            for number in close:
+                os.close(number)
+        output = open("/dev/full", "wb") if full else subprocess.PIPE
+        done = subprocess.run([LUTETIA, *arguments], cwd=self.at, stdin=subprocess.DEVNULL, stdout=output,
+                              stderr=subprocess.PIPE, timeout=SECONDS, preexec_fn=streams, check=False)
+        if full:
+            output.close()
+        done.words = done.stderr.decode("utf-8", "replace")
+        return done
+
+    def refused(self, done, *says, status=1):
+        """One line that does nothing to a terminal, and a status."""
+        self.assertEqual(done.returncode, status, done.words)
+        self.assertEqual(done.words.count("\n"), 1, done.words)
+        self.assertIsNone(BAD.search(done.words), repr(done.words))
+        for text in says:
+            self.assertIn(text, done.words)
+
+    # ---- streams ----
+
+    def test_closed_streams_are_nobodys(self):
+        good = {}
+        for close in ((), (0,), (1,), (2,), (0, 1, 2)):
+            done = self.run_it("run", "sheet.lua", "-q", "--save", "all.h5", "--video", "film.y4m", close=close)
+            self.assertEqual(done.returncode, 0, (close, done.words))
+            for name in ("frame.png", "film.y4m", "sheet.h5", "all.h5"):
+                found = (self.at / name).read_bytes()
+                self.assertEqual(found, good.setdefault(name, found), (close, name))
+            self.assertEqual(self.run_it("run", "sheet.lua", "-q", "--resume", "all.h5", close=close).returncode, 0)
+        self.assertEqual(self.run_it("nothing", close=(2,)).returncode, 2)
+
+    def test_full_output_is_told(self):
+        fonts = ("font", "DejaVuSans")
+        self.script("words.lua", "print(param('a', 1))\n")
+        for arguments in (("--version",), ("--help",), ("run", "--help"), ("info",), fonts, ("run", "words.lua", "-q"),
+                          ("run", "words.lua", "-q", "--sweep", "a=1..2"), ("bench", "--help"), ("cc", "--help"),
+                          ("tune", "--help")):
+            with self.subTest(arguments=arguments):
+                self.refused(self.run_it(*arguments, full=True), "standard output")
+
+    # ---- what is read ----
+
+    def test_pipes_hold_nobody(self):
+        os.mkfifo(self.at / "pipe.png")
+        os.mkfifo(self.at / "pipe.svg")
+        self.script("image.lua", 'image("pipe.png")\n')
+        self.script("drawing.lua", 'svg("pipe.svg")\n')
+        self.script("samples.lua", SHEET + 'p:stroke{brush = p:brush{}, file = "pipe.svg"}\n')
+        self.script("load.lua", 'paper.load("pipe.svg")\n')
+        for arguments in (("run", "pipe.png"), ("run", "sheet.lua", "--resume", "pipe.png"), ("font", "./pipe.png"),
+                          ("type", "x", "--font", "./pipe.png"), ("type", "x", "--filter", "@pipe.png"),
+                          ("paint", "--image", "pipe.png"), ("run", "image.lua"), ("run", "drawing.lua"),
+                          ("run", "samples.lua"), ("run", "load.lua")):
+            with self.subTest(arguments=arguments):
+                self.refused(self.run_it(*arguments), "regular file", "pipe.")
+
+    def test_devices_and_folders_are_no_files(self):
+        for what in ("/dev/zero", "/dev/null", "/"):
+            for arguments in (("run", what), ("run", "sheet.lua", "--resume", what), ("font", what),
+                              ("type", "x", "--font", what), ("type", "x", "--filter", "@" + what)):
+                with self.subTest(arguments=arguments):
+                    self.refused(self.run_it(*arguments), what)
+
+    # ---- what is printed ----
+
+    def test_escapes_are_shown(self):
+        evil = "a\x1b]0;owned\x07\x9b2J\x7f\r\n\u202egnp"
+        literal = '"\\x1b]0;owned\\x07\\x9b2J\\r\\n\\u{202e}"'
+        (self.at / (evil + ".lua")).write_text("error(1)")
+        (self.at / (evil + ".png")).write_bytes(b"no picture")
+        self.script("error.lua", "error(%s)" % literal)
+        self.script("name.lua", "_ENV[%s]()" % literal)
+        self.script("image.lua", "image(%s .. 'x.png')" % literal)
+        self.script("keys.lua", "paper{[%s] = 1}" % literal)
+        self.script("words.lua", "param('a', 1)\n")
+        self.script("syntax.lua", "x = = '%s'" % evil)
+        for arguments, status in (((evil,), 2), (("run", "--" + evil), 2), (("run", evil), 1), (("run", evil + ".lua"), 1),
+                                  (("run", "error.lua"), 1), (("run", "name.lua"), 1), (("run", "image.lua"), 1),
+                                  (("run", "keys.lua"), 1), (("run", "words.lua", "a=" + evil), 1),
+                                  (("run", "words.lua", evil + "=1"), 1), (("run", "syntax.lua"), 1),
+                                  (("run", "sheet.lua", "--save", evil + "/x.h5"), 1),
+                                  (("run", "sheet.lua", "--sweep", "b=" + evil), 1),
+                                  (("run", "sheet.lua", "--resume", evil + ".png"), 1),
+                                  (("paint", "--image", evil + ".png"), 1), (("type", "x", "--font", evil), 1),
+                                  (("type", "x", "--filter", evil), 2), (("font", "./" + evil + ".png"), 1),
+                                  (("leds", "./" + evil), 1), (("explain", "./" + evil), 1),
+                                  (("bench", evil), 2)):
+            with self.subTest(arguments=arguments):
+                done = self.run_it(*arguments)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertGreater(len(done.words), 0)
+                self.assertIsNone(BAD.search(done.words), repr(done.words))
+
+    # ---- what is written ----
+
+    def test_only_files_are_replaced(self):
+        os.mkfifo(self.at / "pipe.png")
+        (self.at / "folder.png").mkdir()
+        (self.at / "old").write_text("old")
+        os.symlink("old", self.at / "link.png")
+        os.symlink("nowhere", self.at / "dangling.png")
+        os.mknod(self.at / "null.png", 0o600 | stat.S_IFCHR, os.makedev(1, 3)) if os.getuid() == 0 else None
+        names = ["pipe.png", "folder.png", "link.png", "dangling.png", "/dev/null", "no/such.png"]
+        names += ["null.png"] if os.getuid() == 0 else []
+        self.script("nothing.lua", "")
+        self.script("frame.lua", "local p = paper{width = 16, height = 16}\n" + "".join(
+            'print(pcall(p.frame, p, "%s"))\n' % name for name in names))
+        before = sorted(os.listdir(self.at))
+        for name in names:
+            for arguments in (("type", "x", "-o", name), ("font", "DejaVuSans", "-o", name),
+                              ("run", "nothing.lua", "-q", "--save", name)):
+                with self.subTest(arguments=arguments):
+                    self.refused(self.run_it(*arguments), name.split(".")[0])
+        lines = self.run_it("run", "frame.lua", "-q").stdout.decode().splitlines()
+        self.assertEqual([line.split()[0] for line in lines], ["false"] * len(names), lines)
+        self.refused(self.run_it("run", "sheet.lua", "-q", "--video", "no/such.y4m"), "no/such.y4m")
+        for name in ("frame.png", "sheet.h5"):
+            (self.at / name).unlink(missing_ok=True)
+        self.assertEqual((self.at / "old").read_text(), "old")
+        self.assertTrue(stat.S_ISFIFO(os.lstat(self.at / "pipe.png").st_mode))
+        self.assertTrue(os.path.islink(self.at / "link.png"))
+        self.assertEqual(before, sorted(os.listdir(self.at)))
+
+    def test_scripts_names_have_our_endings(self):
+        names = (".bashrc", "x@OTHER", "x", "@END", "sub/@END", ".x@END", "sub/.x@END", "-rf@END", "sub/-x@END", "../x@END",
+                 "sub/../x@END", "sub/../../x@END", "/tmp/x@END", "x@END/", ".git/x@END", "link@END", "out/x@END", "X@UPPER")
+        (self.at / "sub").mkdir()
+        (self.at / ".git").mkdir()
+        os.symlink("nowhere", self.at / "link.png")
+        os.symlink("nowhere", self.at / "link.h5")
+        os.symlink("/tmp", self.at / "out")
+        for what, end, other in (("frame", ".png", ".h5"), ("save", ".h5", ".png")):
+            all_names = [name.replace("@END", end).replace("@OTHER", other).replace("@UPPER", end.upper()) for name in names]
+            self.script(what + ".lua", "local p = paper{width = 16, height = 16}\n" + "".join(
+                "print(pcall(p.%s, p, %s))\n" % (what, '"%s"' % name) for name in [*all_names, "./sub/x" + end]))
+            before = sorted(str(path) for path in self.at.rglob("*"))
+            done = self.run_it("run", what + ".lua", "-q")
+            lines = done.stdout.decode().splitlines()
+            self.assertEqual((done.returncode, len(lines)), (0, len(names) + 1), done.words)
+            for name, line in zip(all_names, lines):
+                self.assertTrue(line.startswith("false"), (name, line))
+            self.assertEqual(lines[-1], "true")
+            (self.at / "sub" / ("x" + end)).unlink()
+            self.assertEqual(before, sorted(str(path) for path in self.at.rglob("*")))
+
+
+if __name__ == "__main__":
+    LUTETIA = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
