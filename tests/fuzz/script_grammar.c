@@ -170,9 +170,9 @@ static void mask(struct script_source *s, int depth)
 /* A function; what it returns suits most that ask. */
 static void function(struct script_source *s, int depth)
 {
-    static const char *const known[] = {"close",  "collect", "fail",  "again", "paint",
-                                        "yield",  "undo",    "brush", "half",  "place",
-                                        "resume", "change",  "half"};
+    static const char *const known[] = {"close", "close",  "collect", "fail",  "again",
+                                        "paint", "yield",  "undo",    "brush", "half",
+                                        "place", "resume", "change",  "half"};
     if (script_byte(s) % 4 || depth > 2) {
         say(s, "%s", ONE_OF(s, known));
         return;
@@ -374,6 +374,8 @@ static void call(struct script_source *s, int depth)
 {
     static const char *const papers[] = {"p", "p", "p", "P", "P", "T", "V"};
     unsigned row = script_byte(s) % GRAMMAR_COUNT;
+    for (int i = 0; i < 3 && !strpbrk(grammar[row].takes, "flUO"); i++) /* most call back */
+        row = script_byte(s) % GRAMMAR_COUNT;
     const char *of = grammar[row].of, *name = grammar[row].name;
     if (name[0] == '_' && strcmp(name, "__call") != 0) {
         mask(s, 0);
@@ -382,7 +384,7 @@ static void call(struct script_source *s, int depth)
     if (strcmp(name, "close") == 0 && script_byte(s) % 3)
         name = "dry";
     if (of && strcmp(of, "paper") == 0)
-        say(s, "%s:%s(", ONE_OF(s, papers), name);
+        say(s, "used(%s):%s(", ONE_OF(s, papers), name);
     else if (of && strcmp(of, "papers") == 0)
         say(s, "paper%s%s(", name[0] == '_' ? "" : ".", name[0] == '_' ? "" : name);
     else if (of)
@@ -470,7 +472,8 @@ static void statement(struct script_source *s, int depth)
 
 static const char functions[] =
     "local depth, turns = 0, 0\n"
-    "function close() if p then p:close() end return 0.5, 1 end\n"
+    "function used(x) last = x return x end\n"
+    "function close() local x = last or p x:close() return 0.5, 1 end\n"
     "function collect() for i = 1, 40 do V = ('x'):rep(50 * i) .. i end if collectgarbage then "
     "collectgarbage() end return 0.5, 1 end\n"
     "function fail(x) error(x or {}) end\n"
@@ -496,23 +499,26 @@ const char *script_by_chance(struct script_source *s)
     s->text[0] = '\0';
     say(s, "%s", functions);
     say(s,
-        "function reopen() p = paper{width = %u, height = %u, pigments = {'cyan'}, model = "
-        "{'infused'}, torus = %s} "
-        "B = p:brush{width = 3, bristles = 8} end reopen()\n",
+        "function reopen() last = nil p = paper{width = %u, height = %u, pigments = {'cyan'}, "
+        "model = {'infused'}, "
+        "torus = %s} B = p:brush{width = 3, bristles = 8} end\n",
         8 + script_byte(s) % 25, 8 + script_byte(s) % 25,
         script_byte(s) % 2 ? "true" : "false");
     say(s,
-        "P = paper{width = 9, height = 8, pigments = {'cyan', {name = 'spot', white = "
-        "'#c04020', black = '#201008'}}, "
-        "model = %s, history = %s}\n",
+        "function anew() P = paper{width = 9, height = 8, pigments = {'cyan', {name = 'spot', "
+        "white = "
+        "'#c04020', black = '#201008'}}, model = %s, history = %s} C = B pcall(function() C = "
+        "P:brush{width = 2, bristles = 4} end) end\n",
         ONE_OF(s, models), script_byte(s) % 4 ? "true" : "false");
-    say(s, "T = p C = B pcall(function() C = P:brush{width = 2, bristles = 4} end) M, N, E = "
-           "rect(1, 1, 5, 4), ellipse(4, "
-           "5, 3):soften(1), rect(0, 0, 0, 0)\n"
-           "I = picture(3, 2, function(x, y) return x / 3, y / 2, 0.5 end)\n");
+    say(s,
+        "function open(x) return x and pcall(function() return x.width end) end\n"
+        "function ready() if not open(p) then reopen() end if not open(P) then anew() end end\n"
+        "ready() T = p M, N, E = rect(1, 1, 5, 4), ellipse(4, 5, 3):soften(1), rect(0, 0, 0, "
+        "0)\n"
+        "I = picture(3, 2, function(x, y) return x / 3, y / 2, 0.5 end)\n");
     for (int i = 0; i < STATEMENTS_MAX && s->at < s->end; i++) {
         statement(s, 0);
-        say(s, "\n");
+        say(s, "pcall(ready)\n");
     }
     return s->text;
 }
