@@ -2,6 +2,7 @@
 #include "script_internal.h"
 #include "script_paper.h"
 
+#include <brush.h>
 #include <history.h>
 
 #include <assert.h>
@@ -95,8 +96,9 @@ static enum script_status finish(struct script *script, enum script_status statu
 {
     size_t count = 0, room = 0;
     for (struct script_paper *p = script->first_paper; p; p = p->next) {
-        paper_history_set_watch(p->sheet, NULL,
-                                NULL); /* what is to be computed now is not stopped */
+        /* what is to be computed now is not stopped */
+        paper_history_set_watch(p->sheet, NULL, NULL);
+        paper_sheet_stop_when(p->sheet, NULL, NULL);
         room++;
     }
     if (!script->host->finish)
@@ -133,6 +135,11 @@ enum script_status script_run(const struct script_config *config,
     struct script script = {.config = config, .host = host, .began_s = script_clock_s()},
                   *self = &script;
     char text[128];
+    if (config->words_count > SCRIPT_WORDS_MAX) {
+        snprintf(text, sizeof text, "a script takes up to %d key=value", SCRIPT_WORDS_MAX);
+        script_error_tell(self, text);
+        return SCRIPT_FAILED;
+    }
     if (config->timeout_s > 0)
         script.deadline_s = script.began_s + config->timeout_s;
     lua_State *L = lua_newstate(allocate, self);

@@ -55,6 +55,9 @@ static void words_are_read_and_must_be_asked_for(void **state)
     assert_string_equal(s.prints, "3\tx\t7\n");
     assert_int_equal(scripted_run(&s, "print(param('a', 0))"), SCRIPT_FAILED);
     assert_non_null(strstr(s.errors, "asked for no 'b'"));
+    s.config.words_count = SCRIPT_WORDS_MAX + 1;
+    assert_int_equal(scripted_run(&s, ""), SCRIPT_FAILED);
+    assert_non_null(strstr(s.errors, "up to 64"));
 }
 
 static void what_the_state_takes_is_limited(void **state)
@@ -258,6 +261,28 @@ static void papers_without_end_are_saved(void **state)
     assert_int_equal(end.count, 64);
 }
 
+static bool said_so(void *context)
+{
+    return ((struct ending *)context)->s.prints[0] != '\0';
+}
+
+/* A stroke asks whether to stop between its steps; but not when it is computed again for the end. */
+static void what_was_stopped_is_computed_for_the_end(void **state)
+{
+    (void)state;
+    struct ending end = {
+        .s = {.config = scripted_config(), .host = {.finish = finish, .interrupted = said_so}}};
+    assert_int_equal(
+        scripted_run(
+            &end.s,
+            "P = paper" SMALL " local b = P:brush{width = 4, bristles = 8} b:dip{water = 1} "
+            "P:stroke{brush = b, pace = 20, points = {{2, 2}, {14, 9}}, seconds = 0.2} "
+            "P:at(0, function() P:wash{water = 0.5} end) print('stop') while true do end"),
+        SCRIPT_INTERRUPTED);
+    assert_int_equal(end.count, 1);
+    assert_true(end.water > 0.5 * 16 * 12);
+}
+
 /* ---- a script within a script ---- */
 
 static void nested(void *context, const char *text, size_t length)
@@ -307,6 +332,7 @@ int main(void)
         cmocka_unit_test(what_is_computed_again_is_told_apart),
         cmocka_unit_test(the_host_can_stop_it),
         cmocka_unit_test(the_end_has_all_open_papers),
+        cmocka_unit_test(what_was_stopped_is_computed_for_the_end),
         cmocka_unit_test(papers_without_end_are_saved),
         cmocka_unit_test(nothing_is_shared_between_runs),
     };
