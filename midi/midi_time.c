@@ -33,6 +33,14 @@ void midi_histogram_add(struct midi_histogram *h, uint64_t ns)
     h->bins[bin_of(ns)]++;
 }
 
+void midi_histogram_join(struct midi_histogram *h, const struct midi_histogram *more)
+{
+    h->count += more->count;
+    h->most_ns = more->most_ns > h->most_ns ? more->most_ns : h->most_ns;
+    for (int i = 0; i < MIDI_BINS; i++)
+        h->bins[i] += more->bins[i];
+}
+
 double midi_histogram_part(const struct midi_histogram *h, double part)
 {
     const double wanted = part * (double)h->count;

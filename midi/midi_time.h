@@ -22,6 +22,8 @@ struct midi_histogram { /* zeros: empty */
 void midi_histogram_add(struct midi_histogram *h, uint64_t ns);
 /* The time that `part` (0..1) of all do not exceed; 0 of none. The largest is exact. */
 double midi_histogram_part(const struct midi_histogram *h, double part);
+/* Adds what the other one has. */
+void midi_histogram_join(struct midi_histogram *h, const struct midi_histogram *more);
 /* How many took from_ns or longer and less than to_ns, to the width of a bin. */
 uint64_t midi_histogram_between(const struct midi_histogram *h, uint64_t from_ns,
                                 uint64_t to_ns);

@@ -24,6 +24,7 @@ static const struct {
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
     {"model", bench_model_main,
      "what the engine's cost model prefers, beside what it could have had"},
+    {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},
     {"start", bench_start_main, "the first picture, from the command, with warm caches"},
 };
 

@@ -6,6 +6,7 @@
 #include <midi_server.h>
 #include <midi_song.h>
 #include <midi_time.h>
+#include <sound.h>
 
 #include <glob.h>
 #include <poll.h>
@@ -18,7 +19,7 @@ enum { LOOK_MS = 100, TEXT_MAX = 33000 };
 
 struct midi_verb {
     const char *name; /* "midi play" */
-    const char *address, *device, *filters;
+    const char *address, *device, *filters, *output, *font;
     int tcp_port, count;
     double seconds;
     bool usual_priority;
@@ -383,6 +384,26 @@ static int play_do(struct midi_verb *v)
     return status;
 }
 
+/* ---- render ---- */
+
+static int render_do(struct midi_verb *v)
+{
+    struct sound_def def = sound_def_default();
+    struct midi_song *song;
+    if (v->words.count != 1)
+        return fail_usage(v->name, "it takes one Standard MIDI File");
+    def.font = v->font;
+    def.room = true;
+    if (midi_song_read(v->words.words[0], &song) != MIDI_OK)
+        return fail_midi(v);
+    int status =
+        sound_render(&def, song, v->seconds, v->output ? v->output : "out.wav") == MIDI_OK
+            ? EXIT_SUCCESS
+            : fail_midi(v);
+    midi_song_destroy(song);
+    return status;
+}
+
 /* ---- the verb ---- */
 
 static const struct {
@@ -397,6 +418,7 @@ static const struct {
     {"monitor", monitor_do, "", "print what arrives"},
     {"send", send_do, "MESSAGE...", "send messages, like 'note-on 1 c4 100'"},
     {"play", play_do, "SONG.mid", "play a Standard MIDI File"},
+    {"render", render_do, "SONG.mid", "a Standard MIDI File as sound, to a WAV file"},
     {"record", record_do, "SONG.mid", "write what arrives to a Standard MIDI File"},
 };
 
@@ -429,13 +451,18 @@ int verb_midi(int argc, char **argv)
         {"count", 'n', OPTION_INTEGER, "N", "monitor, record: end after so many messages",
          &v.count, 1, 1e9, 0},
         {"seconds", 't', OPTION_NUMBER, "S",
-         "monitor, record, play: end after so long; send: hold notes so long", &v.seconds,
-         0.001, 1e7, 0},
+         "monitor, record, play, render: end after so long; send: hold notes so long",
+         &v.seconds, 0.001, 1e7, 0},
         {"tcp", 0, OPTION_INTEGER, "PORT",
          "serve: listen at 127.0.0.1:PORT, too, for who knows LUTETIA_MIDI_TOKEN", &v.tcp_port,
          1, 65535, 0},
         {"usual-priority", 0, OPTION_FLAG, NULL,
          "serve: not in real time, even where that is allowed", &v.usual_priority, 0, 0, 0},
+        {"output", 'o', OPTION_TEXT, "FILE.wav", "render: what is written (out.wav)", &v.output,
+         0, 0, 0},
+        {"soundfont", 0, OPTION_TEXT, "FILE",
+         "render: the instruments; else LUTETIA_SOUNDFONT, or the distribution's", &v.font, 0,
+         0, 0},
         {0}};
     if (argc < 2) {
         midi_help(stderr, rows);
@@ -451,7 +478,7 @@ int verb_midi(int argc, char **argv)
     if (i == VERBS_COUNT)
         return fail_usage("midi",
                           "there is no verb '%.60s'; known are serve, devices, status, "
-                          "monitor, send, play, record",
+                          "monitor, send, play, render, record",
                           argv[1]);
     snprintf(name, sizeof name, "midi %s", verbs[i].name);
     v.name = name;

@@ -2,6 +2,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "spring_scene.h"
+#include "spring_sound.h"
 
 #include <stage_film.h>
 #include <stage_window.h>
@@ -16,10 +17,12 @@ struct spring {
     struct stage_film_def film;
     struct stage_window_def window;
     struct option_texts sets;
-    const char *way, *frames, *save;
+    const char *way, *frames, *save, *sound_path;
     int size[2];
     bool controls;
     struct progress progress;
+    struct spring_sound *sound; /* of the film; NULL: none */
+    struct stage *stage;
 };
 
 static int fail_stage(void)
@@ -50,6 +53,8 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "a word or --network FILE, not both");
     if ((s->film.strip[0] != 1 || s->film.strip[1] != 1) && !s->film.still)
         return fail_usage("spring", "--strip is for a --still");
+    if (s->sound_path && !s->film.still && !s->film.video && !s->frames)
+        return fail_usage("spring", "--sound goes with --video, --frames or --still");
     const double *v = s->scene.view;
     if ((v[0] != 0 || v[1] != 0 || v[2] != 0 || v[3] != 0) && !(v[2] > v[0] && v[3] > v[1]))
         return fail_usage("spring", "--view must be X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
@@ -99,6 +104,8 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          "how pictures are drawn: filtered, or by OpenGL", &s->way, 0, 0, 0},
         {"filter", 0, OPTION_TEXT, "NAME", "of exact pictures (gaussian-fast)", &s->film.filter,
          0, 0, 0},
+        {"sound", 0, OPTION_TEXT, "FILE.wav",
+         "what is heard in the film: clanks, clicks, twangs", &s->sound_path, 0, 0, 0},
         {"save", 0, OPTION_TEXT, "FILE", "the masses and springs at the end; Control S",
          &s->save, 0, 0, 0},
         {"record", 0, OPTION_TEXT, "FILE", "where V in the window records (spring.mp4)",
@@ -139,10 +146,23 @@ static int controls_print(struct stage *stage)
 static bool frame_after(void *context, int frame, int frames)
 {
     struct spring *s = context;
+    if (s->sound)
+        spring_sound_take(s->sound, s->stage);
     if (frame == 1)
         s->progress = progress_begin("spring", frames);
     progress_show(&s->progress, frame);
     return interrupted();
+}
+
+static int sound_end(struct spring *s)
+{
+    int count;
+    if (!s->sound)
+        return EXIT_SUCCESS;
+    if (spring_sound_finish(s->sound, s->film.seconds, &count) != MIDI_OK)
+        return fail("spring", "--sound: %s", midi_error());
+    printf("%d sounds in %s\n", count, s->sound_path);
+    return EXIT_SUCCESS;
 }
 
 static int film_make(struct spring *s, struct stage *stage)
@@ -152,11 +172,18 @@ static int film_make(struct spring *s, struct stage *stage)
     s->film.frames = s->frames;
     s->film.after = frame_after;
     s->film.context = s;
+    s->stage = stage;
+    if (s->sound_path && spring_sound_create(s->sound_path, &s->sound) != MIDI_OK)
+        return fail("spring", "--sound: %s", midi_error());
     enum stage_status status = stage_film(stage, &s->film);
     progress_end(&s->progress);
+    if (status != STAGE_OK || interrupted()) {
+        spring_sound_abandon(s->sound);
+        s->sound = NULL;
+    }
     if (status == STAGE_OK && interrupted())
         return EXIT_FAILED; /* which is said in the end */
-    return status == STAGE_OK ? EXIT_SUCCESS : fail_stage();
+    return status == STAGE_OK ? sound_end(s) : fail_stage();
 }
 
 static int window_run(struct spring *s, struct stage *stage)

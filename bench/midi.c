@@ -1,0 +1,168 @@
+/* midi.c - `lutetia bench midi`: how long a note takes from an instrument to a program.
+ *
+ * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16 programs that listen. A thousand notes a
+ * second, five rounds of a thousand; each delivery counts, from before the write at the instrument's end to after the read in the
+ * program. Idle; beside as many busy processes as there are processors; and so again with real-time priority for the server, the programs
+ * and the player, where that is allowed. That nothing is lost or altered is checked.
+ *
+ * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone (midi_soak.c). */
+#include "bench.h"
+#include "midi_scene.h"
+#include "midi_soak.h"
+#include "options.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { LISTENERS = 16, NOTES = 1000, BUSY_MAX = 256, APART_US = 1000, SOAK_S = 600 };
+
+struct busy {
+    pid_t processes[BUSY_MAX];
+    int count;
+};
+
+static void busy_begin(struct busy *b)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    for (b->count = 0; b->count < processors && b->count < BUSY_MAX; b->count++) {
+        b->processes[b->count] = fork();
+        if (b->processes[b->count] == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            for (volatile unsigned int i = 0;; i++)
+                ;
+        }
+    }
+}
+
+static void busy_end(struct busy *b)
+{
+    for (int i = 0; i < b->count; i++)
+        if (b->processes[i] > 0) {
+            kill(b->processes[i], SIGKILL);
+            waitpid(b->processes[i], NULL, 0);
+        }
+}
+
+/* A round: its notes, a millisecond apart; what all listeners took for them, in us. */
+static bool round_measure(struct midi_scene *s, uint32_t from, double *p50_us, double *p99_us)
+{
+    static struct midi_histogram all;
+    uint64_t due_ns = midi_now_ns();
+    for (int i = 0; i < LISTENERS; i++)
+        memset(&s->shared->listeners[i].took, 0, sizeof s->shared->listeners[i].took);
+    for (uint32_t i = 0; i < NOTES; i++) {
+        if (!midi_scene_play(s, from + i))
+            return bench_fail("the instrument cannot write");
+        due_ns += APART_US * UINT64_C(1000);
+        const uint64_t now_ns = midi_now_ns();
+        if (due_ns > now_ns) {
+            const struct timespec left = {0, (long)(due_ns - now_ns)};
+            ppoll(NULL, 0, &left, NULL);
+        }
+    }
+    if (!midi_scene_wait(s, from + NOTES))
+        return false;
+    memset(&all, 0, sizeof all);
+    for (int i = 0; i < LISTENERS; i++)
+        midi_histogram_join(&all, &s->shared->listeners[i].took);
+    *p50_us = midi_histogram_part(&all, 0.5) / 1e3;
+    *p99_us = midi_histogram_part(&all, 0.99) / 1e3;
+    return true;
+}
+
+static bool case_measure(struct bench_report *r, const char *name, bool loaded, bool real_time,
+                         int rounds)
+{
+    struct midi_scene scene;
+    struct busy busy = {.count = 0};
+    double *p50 = calloc(2 * (size_t)rounds, sizeof *p50), *p99 = p50 ? p50 + rounds : NULL;
+    if (!p50)
+        return bench_fail("no memory for %d rounds", rounds);
+    if (loaded)
+        busy_begin(&busy);
+    bool ok = midi_scene_begin(&scene, real_time) && midi_scene_listeners(&scene, LISTENERS, 0);
+    double ignored;
+    ok = ok && round_measure(&scene, 0, &ignored, &ignored); /* warm */
+    for (int i = 0; ok && i < rounds; i++)
+        ok = round_measure(&scene, (uint32_t)(i + 1) * NOTES, &p50[i], &p99[i]);
+    midi_scene_end(&scene);
+    busy_end(&busy);
+    char row[2][32];
+    snprintf(row[0], sizeof row[0], "%s p50%s", loaded ? "loaded" : "idle",
+             real_time ? ", real time" : "");
+    snprintf(row[1], sizeof row[1], "%s", name);
+    if (ok) {
+        bench_report_add(r, "server", row[0], bench_sample_of(p50, rounds), 1, "us");
+        bench_report_add(r, "server", row[1], bench_sample_of(p99, rounds), 1, "us");
+    }
+    free(p50);
+    return ok;
+}
+
+static bool soak_add(struct bench_report *r, double seconds)
+{
+    struct midi_soak_result soak;
+    if (!midi_soak(seconds, &soak))
+        return false;
+    char name[32];
+    snprintf(name, sizeof name, "%.0f s", seconds);
+    const struct {
+        const char *what, *unit;
+        double value;
+    } rows[] = {{"soak, deliveries", "messages", (double)soak.deliveries},
+                {"soak, lost or altered", "messages", (double)soak.wrong},
+                {"soak, programs killed", "programs", (double)soak.killed},
+                {"soak, memory grown", "KiB", soak.grown_kib},
+                {"soak, p99", "us", soak.p99_us}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        bench_report_add(r, rows[i].what, name,
+                         (struct bench_sample){rows[i].value, rows[i].value}, 1, rows[i].unit);
+    return true;
+}
+
+int bench_midi_main(int argc, char **argv)
+{
+    static struct bench_report report;
+    struct bench_options options = {.name = "midi",
+                                    .repeat_least = 1,
+                                    .repeat_count = 5,
+                                    .thorough_does = "ten minutes of soak, too"};
+    double soak_s = 0;
+    if (argc > 2 && !strcmp(argv[1], "--soak")) {
+        char *end;
+        soak_s = strtod(argv[2], &end);
+        if (*end || !(soak_s >= 1 && soak_s <= 1e6)) {
+            fprintf(stderr,
+                    "lutetia bench midi: --soak must be 1..1000000 seconds (got \"%s\")\n",
+                    argv[2]);
+            return 2;
+        }
+        argc -= 2;
+        argv += 2;
+    }
+    int status = bench_options_parse(&options, argc, argv);
+    if (status >= 0)
+        return status;
+    bench_report_init(&report, "midi", 1, "a pseudo-terminal");
+    bool ok = true;
+    if (soak_s > 0) {
+        ok = soak_add(&report, soak_s);
+        return bench_options_finish(&options, &report, "server", ok);
+    }
+    ok = case_measure(&report, "idle p99", false, false, options.repeat_count) &&
+         case_measure(&report, "loaded p99", true, false, options.repeat_count);
+    if (ok && midi_real_time_allowed())
+        ok = case_measure(&report, "loaded p99, real time", true, true, options.repeat_count);
+    else if (ok)
+        fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
+                        "rows are missing\n");
+    if (ok && options.thorough)
+        ok = soak_add(&report, SOAK_S);
+    return bench_options_finish(&options, &report, "server", ok);
+}

@@ -1,0 +1,259 @@
+/* midi_scene.c - see midi_scene.h. */
+#include "midi_scene.h"
+#include "harness.h"
+
+#include <midi_client.h>
+#include <midi_server.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+enum { PRIORITY = 30, READY_MS = 5000 };
+
+static void real_time_set(bool real_time)
+{
+    const struct sched_param priority = {.sched_priority = real_time ? PRIORITY : 0};
+    (void)sched_setscheduler(0, real_time ? SCHED_FIFO : SCHED_OTHER, &priority);
+}
+
+bool midi_real_time_allowed(void)
+{
+    const pid_t child = fork();
+    int status = 1;
+    if (child == 0) {
+        const struct sched_param priority = {.sched_priority = PRIORITY};
+        _exit(sched_setscheduler(0, SCHED_FIFO, &priority) == 0 ? 0 : 1);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+/* splitmix64's finaliser. */
+static uint64_t mixed(uint64_t z)
+{
+    z = (z + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+struct midi_message midi_scene_message(uint32_t i)
+{
+    const uint64_t any = mixed(i);
+    if (any % 64 == 0) { /* a system exclusive of up to 40 bytes */
+        struct midi_message m = {.count = (uint16_t)(3 + (any >> 8) % 38), .bytes = {0xf0}};
+        for (int k = 1; k < m.count - 1; k++)
+            m.bytes[k] = (uint8_t)(mixed(any + (uint64_t)k) & 0x7f);
+        m.bytes[m.count - 1] = 0xf7;
+        return m;
+    }
+    /* Mostly notes, on few channels, so that running status is used. */
+    const uint8_t kinds[8] = {0x90, 0x90, 0x90, 0x80, 0xa0, 0xb0, 0xd0, 0xe0};
+    return midi_message_make(0, (uint8_t)(kinds[any >> 8 & 7] | (any >> 16 & 1)),
+                             (uint8_t)(any >> 24 & 0x3f), (uint8_t)(any >> 32 & 0x7f));
+}
+
+/* ---- processes ---- */
+
+static struct midi_server *serving;
+
+static void serve_stop(int signal_number)
+{
+    (void)signal_number;
+    midi_server_stop(serving);
+}
+
+static void serve(const struct midi_scene *s, bool real_time)
+{
+    char device[128];
+    const char *devices[] = {device};
+    snprintf(device, sizeof device, "keys=serial:%s", s->link);
+    const struct midi_server_def def = {
+        .path = s->path, .devices = devices, .devices_count = 1, .real_time = real_time};
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close(s->port);
+    if (midi_server_create(&def, &serving) != MIDI_OK)
+        _exit(1);
+    signal(SIGTERM, serve_stop);
+    midi_server_run(serving);
+    midi_server_destroy(serving);
+    _exit(0);
+}
+
+static void listen_on(const struct midi_scene *s, struct midi_listener *l, uint32_t next)
+{
+    struct midi_client_def def = {.name = "listener", .address = s->path};
+    struct midi_client *client;
+    struct midi_client_event e;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close(s->port);
+    if (midi_client_open(&def, &client) != MIDI_OK ||
+        midi_client_listen(client, "keys", "") != MIDI_OK)
+        _exit(1);
+    l->ready = true;
+    while (midi_client_next(client, -1, &e) == MIDI_OK) {
+        if (e.kind == MIDI_CLIENT_LOST)
+            l->lost += e.lost;
+        if (e.kind != MIDI_CLIENT_MESSAGE)
+            continue;
+        const uint64_t now_ns = midi_now_ns();
+        const struct midi_message wanted = midi_scene_message(next);
+        if (!midi_message_equal(&e.message, &wanted) && !l->wrong)
+            l->wrong = 1 + next;
+        midi_histogram_add(&l->took, now_ns - s->shared->sent_ns[next % MIDI_TIMES]);
+        next++;
+        l->heard++;
+    }
+    _exit(0);
+}
+
+/* ---- the scene ---- */
+
+static bool port_open(struct midi_scene *s)
+{
+    char other[64];
+    struct termios t;
+    s->port = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (s->port < 0 || grantpt(s->port) != 0 || unlockpt(s->port) != 0 ||
+        ptsname_r(s->port, other, sizeof other) != 0 || tcgetattr(s->port, &t) != 0)
+        return bench_fail("no pseudo-terminal: %s", strerror(errno));
+    cfmakeraw(&t);
+    return (tcsetattr(s->port, TCSANOW, &t) == 0 && symlink(other, s->link) == 0) ||
+           bench_fail("%s: %s", s->link, strerror(errno));
+}
+
+/* Until the server says that its device is there. */
+static bool server_ready(const struct midi_scene *s)
+{
+    const struct midi_client_def def = {.name = "look", .address = s->path};
+    const uint64_t until_ns = midi_now_ns() + READY_MS * UINT64_C(1000000);
+    struct midi_client *client;
+    char text[400] = "";
+    while (midi_client_open(&def, &client) != MIDI_OK) {
+        if (midi_now_ns() > until_ns || waitpid(s->server, NULL, WNOHANG) != 0)
+            return bench_fail("the server did not start: %s", midi_error());
+        poll(NULL, 0, 5);
+    }
+    while (!strstr(text, " up") && midi_now_ns() < until_ns &&
+           midi_client_command(client, "devices", text, sizeof text) == MIDI_OK)
+        poll(NULL, 0, 5);
+    midi_client_close(client);
+    return strstr(text, " up") || bench_fail("the server's device did not come: %s", text);
+}
+
+bool midi_scene_begin(struct midi_scene *s, bool real_time)
+{
+    *s = (struct midi_scene){.port = -1, .server = -1, .encoder = {.running_status = true}};
+    snprintf(s->folder, sizeof s->folder, "/tmp/lutetia-midi-XXXXXX");
+    if (!mkdtemp(s->folder))
+        return bench_fail("no folder can be made in /tmp");
+    snprintf(s->link, sizeof s->link, "%s/keys", s->folder);
+    snprintf(s->path, sizeof s->path, "%s/socket", s->folder);
+    s->shared = mmap(NULL, sizeof *s->shared, PROT_READ | PROT_WRITE,
+                     MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (s->shared == MAP_FAILED) {
+        s->shared = NULL;
+        return bench_fail("no memory for %zu bytes", sizeof *s->shared);
+    }
+    if (!port_open(s))
+        return false;
+    real_time_set(real_time);
+    s->server = fork();
+    if (s->server == 0)
+        serve(s, real_time);
+    return s->server > 0 ? server_ready(s) : bench_fail("no process: %s", strerror(errno));
+}
+
+bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from)
+{
+    for (int i = 0; i < count; i++) {
+        struct midi_listener *l = &s->shared->listeners[i];
+        s->listeners[i] = fork();
+        if (s->listeners[i] == 0)
+            listen_on(s, l, from);
+        s->listeners_count = i + 1;
+        if (s->listeners[i] < 0)
+            return bench_fail("no process: %s", strerror(errno));
+    }
+    const uint64_t until_ns = midi_now_ns() + READY_MS * UINT64_C(1000000);
+    for (int i = 0; i < count; i++)
+        while (!s->shared->listeners[i].ready) {
+            if (midi_now_ns() > until_ns)
+                return bench_fail("listener %d did not reach the server", i + 1);
+            poll(NULL, 0, 2);
+        }
+    return true;
+}
+
+size_t midi_scene_play(struct midi_scene *s, uint32_t i)
+{
+    uint8_t bytes[MIDI_ENCODED_MAX];
+    const struct midi_message m = midi_scene_message(i);
+    const size_t count = midi_encoder_put(&s->encoder, &m, bytes);
+    s->shared->sent_ns[i % MIDI_TIMES] = midi_now_ns();
+    return write(s->port, bytes, count) == (ssize_t)count ? count : 0;
+}
+
+bool midi_scene_wait(struct midi_scene *s, uint32_t count)
+{
+    uint64_t until_ns = midi_now_ns() + READY_MS * UINT64_C(1000000), sum = 0;
+    for (;;) {
+        uint64_t now_sum = 0;
+        bool all = true;
+        for (int i = 0; i < s->listeners_count; i++) {
+            const struct midi_listener *l = &s->shared->listeners[i];
+            now_sum += l->heard;
+            all = all && l->heard >= count;
+            if (l->wrong)
+                return bench_fail("listener %d: message %u is not what was played", i + 1,
+                                  l->wrong - 1);
+            if (l->lost)
+                return bench_fail("listener %d lost %u messages", i + 1, l->lost);
+        }
+        if (all)
+            return true;
+        if (now_sum != sum)
+            until_ns = midi_now_ns() + READY_MS * UINT64_C(1000000);
+        if (midi_now_ns() > until_ns)
+            return bench_fail("%llu messages of %llu arrived", (unsigned long long)now_sum,
+                              (unsigned long long)count * (unsigned)s->listeners_count);
+        sum = now_sum;
+        poll(NULL, 0, 2);
+    }
+}
+
+static void process_end(pid_t process, int signal_number)
+{
+    if (process > 0) {
+        kill(process, signal_number);
+        waitpid(process, NULL, 0);
+    }
+}
+
+void midi_scene_end(struct midi_scene *s)
+{
+    real_time_set(false);
+    for (int i = 0; i < s->listeners_count; i++)
+        process_end(s->listeners[i], SIGKILL);
+    process_end(s->server, SIGTERM);
+    if (s->port >= 0)
+        close(s->port);
+    if (s->shared)
+        munmap(s->shared, sizeof *s->shared);
+    char lock[128];
+    snprintf(lock, sizeof lock, "%s.lock", s->path);
+    unlink(lock);
+    unlink(s->link);
+    rmdir(s->folder);
+    s->shared = NULL;
+}

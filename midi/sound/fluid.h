@@ -1,0 +1,38 @@
+/* fluid.h - FluidSynth, loaded when it is first asked for; a machine without it does everything else. */
+#ifndef LUTETIA_MIDI_FLUID_H
+#define LUTETIA_MIDI_FLUID_H
+
+#include <midi_status.h>
+
+/* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers, drivers and renderers are all ours to
+ * hand around and never to look into. */
+struct fluid {
+    void *(*new_fluid_settings)(void);
+    void (*delete_fluid_settings)(void *settings);
+    int (*fluid_settings_setstr)(void *settings, const char *name, const char *value);
+    int (*fluid_settings_setint)(void *settings, const char *name, int value);
+    int (*fluid_settings_setnum)(void *settings, const char *name, double value);
+    void *(*new_fluid_synth)(void *settings);
+    void (*delete_fluid_synth)(void *synth);
+    int (*fluid_synth_sfload)(void *synth, const char *path, int reset);
+    int (*fluid_synth_noteon)(void *synth, int channel, int note, int velocity);
+    int (*fluid_synth_noteoff)(void *synth, int channel, int note);
+    int (*fluid_synth_cc)(void *synth, int channel, int control, int value);
+    int (*fluid_synth_program_change)(void *synth, int channel, int program);
+    int (*fluid_synth_channel_pressure)(void *synth, int channel, int value);
+    int (*fluid_synth_key_pressure)(void *synth, int channel, int note, int value);
+    int (*fluid_synth_pitch_bend)(void *synth, int channel, int value);
+    int (*fluid_synth_system_reset)(void *synth);
+    void *(*new_fluid_audio_driver)(void *settings, void *synth);
+    void (*delete_fluid_audio_driver)(void *driver);
+    void *(*new_fluid_file_renderer)(void *synth);
+    int (*fluid_file_renderer_process_block)(void *renderer);
+    void (*delete_fluid_file_renderer)(void *renderer);
+    void *(*fluid_set_log_function)(int level, void (*function)(int, const char *, void *),
+                                    void *data);
+};
+
+/* Errors: NO_DEVICE: it is not installed. Threads: one first. */
+enum midi_status fluid_load(const struct fluid **out);
+
+#endif

@@ -1,0 +1,239 @@
+/* sound.c - see sound.h. */
+#include "sound.h"
+#include "fluid.h"
+
+#include <midi_internal.h>
+
+#include <output_file.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SECONDS_MAX = 36000 };
+
+struct sound {
+    const struct fluid *fluid;
+    void *settings, *synth, *driver, *renderer;
+};
+
+struct sound_def sound_def_default(void)
+{
+    return (struct sound_def){.rate_hz = 44100, .gain = 0.6, .tail_s = 1.5};
+}
+
+enum midi_status sound_font_find(const char *font, const char **found)
+{
+    static const char *const usual[] = {
+        "/usr/share/sounds/sf2/TimGM6mb.sf2", "/usr/share/sounds/sf2/default-GM.sf2",
+        "/usr/share/sounds/sf3/default-GM.sf3", "/usr/share/soundfonts/default.sf2"};
+    font = font ? font : getenv("LUTETIA_SOUNDFONT");
+    *found = font;
+    if (font)
+        return access(font, R_OK) == 0
+                   ? MIDI_OK
+                   : midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont can be read there", font);
+    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
+        if (access(usual[i], R_OK) == 0) {
+            *found = usual[i];
+            return MIDI_OK;
+        }
+    return midi_fail(MIDI_NO_DEVICE,
+                     "sound needs a SoundFont: install timgm6mb-soundfont, or name one in "
+                     "LUTETIA_SOUNDFONT");
+}
+
+/* What is no SoundFont FluidSynth's helpers complain of in words of their own: it is looked at before. */
+static bool font_good(const char *path)
+{
+    char head[12] = "";
+    FILE *file = fopen(path, "rb");
+    const bool read = file && fread(head, 1, sizeof head, file) == sizeof head;
+    if (file)
+        fclose(file);
+    return read && !memcmp(head, "RIFF", 4) && !memcmp(head + 8, "sfbk", 4);
+}
+
+static enum midi_status settings_make(struct sound *s, const struct sound_def *def)
+{
+    const struct fluid *f = s->fluid;
+    s->settings = f->new_fluid_settings();
+    if (!s->settings)
+        return midi_fail(MIDI_NO_MEMORY, "no memory for a synthesizer");
+    f->fluid_settings_setnum(s->settings, "synth.sample-rate", def->rate_hz);
+    f->fluid_settings_setnum(s->settings, "synth.gain", def->gain);
+    f->fluid_settings_setint(s->settings, "synth.reverb.active", def->room);
+    f->fluid_settings_setint(s->settings, "synth.chorus.active", def->room);
+    f->fluid_settings_setint(s->settings, "synth.lock-memory", 0);
+    f->fluid_settings_setint(s->settings, "audio.period-size", SOUND_BLOCK);
+    f->fluid_settings_setint(s->settings, "audio.realtime-prio", 0);
+    f->fluid_settings_setstr(s->settings, "audio.file.type", "wav");
+    f->fluid_settings_setstr(s->settings, "audio.file.format", "s16");
+    return MIDI_OK;
+}
+
+enum midi_status sound_create(const struct sound_def *def, struct sound **out)
+{
+    const struct fluid *fluid;
+    const char *font;
+    *out = NULL;
+    if (def->rate_hz < 8000 || def->rate_hz > 96000 || !(def->gain >= 0 && def->gain <= 10))
+        return midi_fail(
+            MIDI_BAD_ARGUMENT,
+            "sound has 8000..96000 samples a second and a gain of 0..10 (got %d, %g)",
+            def->rate_hz, def->gain);
+    enum midi_status status = fluid_load(&fluid);
+    if (status == MIDI_OK)
+        status = sound_font_find(def->font, &font);
+    if (status != MIDI_OK)
+        return status;
+    struct sound *s = calloc(1, sizeof *s);
+    if (!s)
+        return midi_fail(MIDI_NO_MEMORY, "no memory for a synthesizer");
+    s->fluid = fluid;
+    status = settings_make(s, def);
+    if (status == MIDI_OK) {
+        s->synth = fluid->new_fluid_synth(s->settings);
+        if (!s->synth)
+            status = midi_fail(MIDI_NO_MEMORY, "FluidSynth makes no synthesizer");
+    }
+    if (status == MIDI_OK &&
+        (!font_good(font) || fluid->fluid_synth_sfload(s->synth, font, 1) < 0))
+        status = midi_fail(MIDI_NO_DEVICE, "%s: no SoundFont, or a damaged one", font);
+    if (status != MIDI_OK) {
+        sound_destroy(s);
+        return status;
+    }
+    *out = s;
+    return MIDI_OK;
+}
+
+void sound_destroy(struct sound *s)
+{
+    if (!s)
+        return;
+    if (s->renderer)
+        s->fluid->delete_fluid_file_renderer(s->renderer);
+    if (s->driver)
+        s->fluid->delete_fluid_audio_driver(s->driver);
+    if (s->synth)
+        s->fluid->delete_fluid_synth(s->synth);
+    if (s->settings)
+        s->fluid->delete_fluid_settings(s->settings);
+    free(s);
+}
+
+enum midi_status sound_listen(struct sound *s, const char *driver)
+{
+    const size_t count = driver ? strlen(driver) : 0;
+    const bool file = count > 4 && !strcmp(driver + count - 4, ".wav");
+    if (file)
+        s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", driver);
+    if (driver && s->fluid->fluid_settings_setstr(s->settings, "audio.driver",
+                                                  file ? "file" : driver) != 0)
+        return midi_fail(
+            MIDI_NO_DEVICE,
+            "FluidSynth has no sound driver '%.40s' here; pulseaudio, alsa and jack "
+            "are usual, and a name that ends with .wav is a file",
+            driver);
+    s->driver = s->fluid->new_fluid_audio_driver(s->settings, s->synth);
+    return s->driver
+               ? MIDI_OK
+               : midi_fail(MIDI_NO_DEVICE,
+                           "no sound comes out of %s: is a sound server running? A file can "
+                           "take it: sound:NAME.wav",
+                           driver ? driver : "this machine");
+}
+
+void sound_message(struct sound *s, const struct midi_message *m)
+{
+    const struct fluid *f = s->fluid;
+    const int channel = m->bytes[0] & 15, a = m->bytes[1], b = m->bytes[2];
+    switch (m->bytes[0] & 0xf0) {
+    case MIDI_NOTE_OFF:
+        f->fluid_synth_noteoff(s->synth, channel, a);
+        break;
+    case MIDI_NOTE_ON:
+        f->fluid_synth_noteon(s->synth, channel, a, b); /* velocity 0 is an off to it, too */
+        break;
+    case MIDI_POLY_PRESSURE:
+        f->fluid_synth_key_pressure(s->synth, channel, a, b);
+        break;
+    case MIDI_CONTROL:
+        f->fluid_synth_cc(s->synth, channel, a, b);
+        break;
+    case MIDI_PROGRAM:
+        f->fluid_synth_program_change(s->synth, channel, a);
+        break;
+    case MIDI_PRESSURE:
+        f->fluid_synth_channel_pressure(s->synth, channel, a);
+        break;
+    case MIDI_BEND:
+        f->fluid_synth_pitch_bend(s->synth, channel, a | b << 7);
+        break;
+    default:
+        if (m->bytes[0] == MIDI_RESET)
+            f->fluid_synth_system_reset(s->synth);
+    }
+}
+
+/* ---- to a file ---- */
+
+static void render_take(void *context, const struct midi_message *m)
+{
+    sound_message(context, m);
+}
+
+static enum midi_status blocks_render(struct sound *s, struct midi_song *song, int rate_hz,
+                                      double seconds)
+{
+    const size_t events_count = midi_song_info(song).events_count;
+    const double block_s = (double)SOUND_BLOCK / rate_hz;
+    const long blocks = (long)ceil(seconds / block_s);
+    struct midi_parser parser;
+    midi_parser_init(&parser);
+    size_t next = 0;
+    for (long i = 0; i < blocks; i++) {
+        while (next < events_count) {
+            const struct midi_song_event e = midi_song_event(song, next);
+            if ((double)e.time_ns / 1e9 >= ((double)i + 0.5) * block_s) /* the nearer block */
+                break;
+            midi_song_play(&e, &parser, render_take, s);
+            next++;
+        }
+        if (s->fluid->fluid_file_renderer_process_block(s->renderer) != 0)
+            return midi_fail(MIDI_IO_FAILED, "sound cannot be written: is the disk full?");
+    }
+    return MIDI_OK;
+}
+
+enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
+                              double seconds, const char *path)
+{
+    struct output_file out;
+    struct sound *s;
+    if (!(seconds > 0))
+        seconds = (double)midi_song_info(song).end_ns / 1e9 + def->tail_s;
+    if (!(seconds > 0 && seconds <= SECONDS_MAX))
+        return midi_fail(MIDI_BAD_ARGUMENT, "sound is rendered for at most %d hours",
+                         SECONDS_MAX / 3600);
+    enum midi_status status = sound_create(def, &s);
+    if (status != MIDI_OK)
+        return status;
+    if (!output_file_open(&out, path)) {
+        sound_destroy(s);
+        return midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    }
+    s->fluid->fluid_settings_setstr(s->settings, "audio.file.name", out.part);
+    s->renderer = s->fluid->new_fluid_file_renderer(s->synth);
+    status = s->renderer ? blocks_render(s, song, def->rate_hz, seconds)
+                         : midi_fail(MIDI_IO_FAILED, "%s: FluidSynth cannot write it", path);
+    sound_destroy(s); /* the file's head is written at the end */
+    if (status != MIDI_OK)
+        output_file_abandon(&out);
+    else if (!output_file_commit(&out))
+        status = midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    return status;
+}

@@ -1,0 +1,165 @@
+/* test_sound.c - events to sound: three bounces are three onsets, when they should be, louder when faster. Skips where FluidSynth or
+ * its SoundFont is not installed. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <fluid.h>
+#include <sound.h>
+#include <sound_events.h>
+
+#include "../display/scratch.h"
+#include "wav.h"
+
+#include <math.h>
+
+static bool able(void)
+{
+    const struct fluid *fluid;
+    const char *font;
+    if (fluid_load(&fluid) == MIDI_OK && sound_font_find(NULL, &font) == MIDI_OK)
+        return true;
+    print_message("%s\n", midi_error());
+    return false;
+}
+
+/* A ball that falls and bounces, as the springs' floor has it: times and speeds of its first three bounces. */
+static void bounces(double times_s[3], double speeds[3])
+{
+    const double gravity = 9.8, height = 1, restitution = 0.7;
+    double speed = sqrt(2 * gravity * height), t = speed / gravity;
+    for (int i = 0; i < 3; i++) {
+        speed *= restitution;
+        times_s[i] = t;
+        speeds[i] = speed;
+        t += 2 * speed / gravity;
+    }
+}
+
+static void bounces_are_onsets(void **unused)
+{
+    (void)unused;
+    if (!able())
+        skip();
+    static const double starts_s[2] = {0.1, 0.3337};
+    for (int kind = 0; kind < SOUND_KINDS; kind++)
+        for (int start = 0; start < 2; start++) {
+            double times_s[3], speeds[3], heard_s[16];
+            struct sound_def def = sound_def_default();
+            struct midi_song *song = sound_events_song();
+            assert_non_null(song);
+            bounces(times_s, speeds);
+            for (int i = 0; i < 3; i++) {
+                times_s[i] += starts_s[start];
+                const struct sound_event e = {.kind = (enum sound_kind)kind,
+                                              .time_s = times_s[i],
+                                              .velocity = (int)fmin(127, 20 * speeds[i]),
+                                              .height = 0.5};
+                assert_int_equal(sound_event_add(song, &e), MIDI_OK);
+            }
+            const char *path = scratch_path("bounces.wav");
+            if (sound_render(&def, song, 2.5, path) != MIDI_OK)
+                fail_msg("%s", midi_error());
+            midi_song_destroy(song);
+            struct wav w = wav_read(path);
+            assert_int_equal(w.rate_hz, 44100);
+            assert_true(labs(w.count - (long)(2.5 * 44100)) <= SOUND_BLOCK);
+            const int count = wav_onsets(&w, heard_s, 16);
+            int before = 32768;
+            if (count != 3)
+                fail_msg("%s: %d onsets", sound_kind_name((enum sound_kind)kind), count);
+            for (int i = 0; i < 3; i++) {
+                if (fabs(heard_s[i] - times_s[i]) > 0.005)
+                    fail_msg("%s %d is heard at %g, must be at %g",
+                             sound_kind_name((enum sound_kind)kind), i, heard_s[i], times_s[i]);
+                const int loud = wav_peak(&w, times_s[i], times_s[i] + 0.15);
+                assert_true(loud < before); /* slower each time */
+                before = loud;
+            }
+            free(w.samples);
+        }
+}
+
+static void the_same_song_is_the_same_sound(void **unused)
+{
+    (void)unused;
+    if (!able())
+        skip();
+    struct wav w[2];
+    for (int i = 0; i < 2; i++) {
+        struct sound_def def = sound_def_default();
+        struct midi_song *song = sound_events_song();
+        const struct sound_event e = {SOUND_TWANG, 0.01, 100, 0.3, i ? 0.9 : -0.9};
+        assert_int_equal(sound_event_add(song, &e), MIDI_OK);
+        const char *path = scratch_path("one.wav");
+        def.rate_hz = 22050;
+        assert_int_equal(sound_render(&def, song, 0.3, path), MIDI_OK);
+        midi_song_destroy(song);
+        w[i] = wav_read(path);
+    }
+    /* Left is right on the other side. */
+    assert_int_equal(w[0].count, w[1].count);
+    double left[2] = {0, 0}, right[2] = {0, 0};
+    for (int i = 0; i < 2; i++)
+        for (long k = 0; k < w[i].count; k++) {
+            left[i] += abs(w[i].samples[2 * k]);
+            right[i] += abs(w[i].samples[2 * k + 1]);
+        }
+    assert_true(left[0] > 3 * right[0] && right[1] > 3 * left[1]);
+    free(w[0].samples);
+    free(w[1].samples);
+}
+
+static void what_is_missing_is_named(void **unused)
+{
+    (void)unused;
+    const struct fluid *fluid;
+    struct sound_def def = sound_def_default();
+    struct sound *sound;
+    const char *font;
+    assert_int_equal(sound_font_find("/nowhere/font.sf2", &font), MIDI_NO_DEVICE);
+    assert_non_null(strstr(midi_error(), "/nowhere/font.sf2"));
+    setenv("LUTETIA_SOUNDFONT", "/nowhere/else.sf2", 1);
+    assert_int_equal(sound_font_find(NULL, &font), MIDI_NO_DEVICE);
+    assert_non_null(strstr(midi_error(), "/nowhere/else.sf2"));
+    unsetenv("LUTETIA_SOUNDFONT");
+    def.rate_hz = 1;
+    assert_int_equal(sound_create(&def, &sound), MIDI_BAD_ARGUMENT);
+    if (fluid_load(&fluid) != MIDI_OK)
+        skip();
+    const char *text = scratch_path("font.sf2");
+    FILE *file = fopen(text, "w");
+    fputs("no font", file);
+    fclose(file);
+    def = sound_def_default();
+    def.font = text;
+    assert_int_equal(sound_create(&def, &sound), MIDI_NO_DEVICE);
+    assert_non_null(strstr(midi_error(), "no SoundFont, or a damaged one"));
+    if (!able())
+        skip();
+    struct midi_song *song = sound_events_song();
+    def.font = NULL;
+    assert_int_equal(sound_render(&def, song, 1, "/nowhere/out.wav"), MIDI_IO_FAILED);
+    assert_int_equal(sound_render(&def, song, 1e9, scratch_path("long.wav")),
+                     MIDI_BAD_ARGUMENT);
+    midi_song_destroy(song);
+    assert_int_equal(sound_create(&def, &sound), MIDI_OK);
+    assert_int_equal(sound_listen(sound, "trumpet"), MIDI_NO_DEVICE);
+    assert_non_null(strstr(midi_error(), "trumpet"));
+    sound_destroy(sound);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounces_are_onsets),
+        cmocka_unit_test(the_same_song_is_the_same_sound),
+        cmocka_unit_test(what_is_missing_is_named),
+    };
+    return cmocka_run_group_tests_name("sound", tests, NULL, NULL);
+}
