@@ -123,7 +123,8 @@ static bool soak_add(struct bench_report *r, double seconds)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         bench_report_add(r, rows[i].what, name,
                          (struct bench_sample){rows[i].value, rows[i].value}, 1, rows[i].unit);
-    return true;
+    return soak.wrong == 0 ||
+           bench_fail("%llu messages were lost or altered", (unsigned long long)soak.wrong);
 }
 
 int bench_midi_main(int argc, char **argv)

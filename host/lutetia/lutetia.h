@@ -18,6 +18,7 @@ int verb_paint(int argc, char **argv);
 int verb_demo(int argc, char **argv);
 int verb_info(int argc, char **argv);
 int verb_bench(int argc, char **argv);
+int verb_keys(int argc, char **argv);
 int verb_midi(int argc, char **argv);
 int verb_cc(int argc, char **argv);
 int verb_leds(int argc, char **argv);

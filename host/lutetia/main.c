@@ -23,6 +23,7 @@ static const struct {
     {"leds", verb_leds, "prog [args...]", "show the lights that a C/Paris program latches"},
     {"explain", verb_explain, "prog [args...]",
      "run a C/Paris program and say what its machine did"},
+    {"keys", verb_keys, "SONG.mid [-o out.png]", "letters that the keys of a song play"},
     {"midi", verb_midi, "serve | play | monitor | ...",
      "instruments: a server, and programs that use it"},
     {"bench", verb_bench, "NAME [options]", "measure"},

@@ -167,6 +167,45 @@ static void programs_use_the_library(void **unused)
     ended_well(octave);
 }
 
+static void keys(struct child *child, int status, const char *says)
+{
+    child->arguments[0] = lutetia;
+    child->arguments[1] = "keys";
+    child_run(child);
+    if (child->status != status || !strstr(status ? child->errors : child->output, says))
+        fail_msg("exit %d for %d, and it said: %s%s", child->status, status, child->output,
+                 child->errors);
+}
+
+static void songs_become_letters(void **unused)
+{
+    (void)unused;
+    char song[300], poster[300], still[300], sheet[300], frames[300], last[320];
+    snprintf(song, sizeof song, "%s", scratch_path("letters.mid"));
+    snprintf(poster, sizeof poster, "%s", scratch_path("poster.png"));
+    snprintf(still, sizeof still, "%s", scratch_path("still.png"));
+    snprintf(sheet, sizeof sheet, "%s", scratch_path("sheet.png"));
+    snprintf(frames, sizeof frames, "%s", scratch_path("frames"));
+    song_write(song, 6);
+    keys(MIDI(song, "-o", poster, "--still", still, "--sheet", sheet, "--text", "type",
+              "--font", "DejaVuSans"),
+         0, "");
+    assert_int_equal(access(poster, R_OK) | access(still, R_OK) | access(sheet, R_OK), 0);
+    /* 60 ms and three times the release: five pictures at ten a second */
+    keys(MIDI(song, "--frames", frames, "--fps", "10", "--release", "0.1", "--picture", "96x40",
+              "--font", "DejaVuSans"),
+         0, "");
+    snprintf(last, sizeof last, "%s/keys-000004.png", frames);
+    assert_int_equal(access(last, R_OK), 0);
+    snprintf(last, sizeof last, "%s/keys-000005.png", frames);
+    assert_int_not_equal(access(last, R_OK), 0);
+    keys(MIDI(song, "--text", " ", "-o", poster), 2, "no letter");
+    keys(MIDI(song, "--map", "/nowhere/map", "-o", poster), 1, "/nowhere/map");
+    keys(MIDI("/nowhere/song.mid"), 1, "/nowhere/song.mid");
+    keys(MIDI(song, "--size", "9,3"), 2, "least and the most");
+    keys(MIDI(NULL), 2, "one Standard MIDI File");
+}
+
 static void wrong_lines_are_refused(void **unused)
 {
     (void)unused;
@@ -193,6 +232,7 @@ int main(void)
         cmocka_unit_test(words_are_sent_and_status_is_told),
         cmocka_unit_test(what_is_played_is_recorded),
         cmocka_unit_test(programs_use_the_library),
+        cmocka_unit_test(songs_become_letters),
         cmocka_unit_test(wrong_lines_are_refused),
     };
     return lutetia && getenv("OCTAVE")

@@ -1,0 +1,341 @@
+/* verb_keys.c - `lutetia keys`: letters that the keys of a song play, as a sheet of moments, a line, frames or a film. */
+#include "lutetia.h"
+#include "options.h"
+#include "type_common.h"
+
+#include <display.h>
+#include <keys_picture.h>
+#include <sound.h>
+#include <video.h>
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
+
+struct keys_work {
+    const char *text, *map, *font, *axes;
+    const char *poster, *sheet, *still, *frames, *video, *sound;
+    double size_px[2], second_px, at_s;
+    int picture[2], fps;
+    struct keys_def def;
+    struct keys_type_def type;
+    /* made */
+    struct midi_song *song;
+    struct keys_score score;
+    struct keys_letters letters;
+    struct font_face *face;
+};
+
+static int options_read(struct keys_work *w, int argc, char **argv, const char **song)
+{
+    const struct option_row rows[] = {
+        {"text", 't', OPTION_TEXT, "TEXT",
+         "its letters go to the keys played, from the lowest (note names)", &w->text, 0, 0, 0},
+        {"map", 0, OPTION_TEXT, "FILE", "what a key plays: lines like 'c4 A'", &w->map, 0, 0,
+         0},
+        {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
+         &w->poster, 0, 0, 0},
+        {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments, PNG", &w->sheet, 0, 0, 0},
+        {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
+        {"at", 0, OPTION_NUMBER, "S", "of --still (0)", &w->at_s, 0, 36000, 0},
+        {"frames", 0, OPTION_TEXT, "DIR", "all moments, as numbered PNG", &w->frames, 0, 0, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "a film (.mp4, .webm, ...)", &w->video, 0, 0, 0},
+        {"sound", 0, OPTION_TEXT, "FILE.wav", "the song as sound, as long as the film",
+         &w->sound, 0, 0, 0},
+        {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
+        {"picture", 0, OPTION_SIZE, "WxH", "of a moment, even (960x360)", w->picture, 2, 8192,
+         0},
+        {"font", 0, OPTION_TEXT, "F",
+         "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
+        {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700", &w->axes, 0, 0,
+         0},
+        {"size", 0, OPTION_NUMBERS, "PX,PX", "least and most, of the em (0, and as fits)",
+         w->size_px, 0, 4000, 2},
+        {"second", 0, OPTION_NUMBER, "PX", "length of a second on the poster (160)",
+         &w->second_px, 10, 20000, 0},
+        {"step", 0, OPTION_NUMBER, "PX", "from key to key on the poster, upwards (12)",
+         &w->type.step_px, 0, 1000, 0},
+        {"attack", 0, OPTION_NUMBER, "S", "until a letter is as large as its velocity (0.03)",
+         &w->def.attack_s, 0, 10, 0},
+        {"release", 0, OPTION_NUMBER, "S", "until it is a third, once let go (0.25)",
+         &w->def.release_s, 0, 60, 0},
+        {"pressure", 0, OPTION_NUMBER, "P", "what aftertouch adds, 0..1 (1)", &w->def.pressure,
+         0, 1, 0},
+        {0}};
+    struct option_words words;
+    if (!options_parse("keys", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    *song = words.count ? words.words[0] : NULL;
+    if (words.help) {
+        puts("usage: lutetia keys SONG.mid [options]\n");
+        options_help(rows);
+        puts(
+            "\nA key is a letter, its velocity and aftertouch how large it is, its release how "
+            "it goes. SONG.mid is a\nStandard MIDI File; `lutetia midi record` makes one of "
+            "what is played.");
+        *song = NULL;
+        return EXIT_SUCCESS;
+    }
+    if (words.count != 1)
+        return fail_usage("keys", "it takes one Standard MIDI File");
+    if (w->picture[0] % 2 || w->picture[1] % 2)
+        return fail_usage("keys", "--picture must be even (got %dx%d)", w->picture[0],
+                          w->picture[1]);
+    if (w->size_px[1] > 0 && w->size_px[1] < w->size_px[0])
+        return fail_usage("keys", "--size is the least and the most (got %g,%g)", w->size_px[0],
+                          w->size_px[1]);
+    if (!w->poster && !w->sheet && !w->still && !w->frames && !w->video && !w->sound)
+        w->poster = "out.png";
+    return EXIT_SUCCESS;
+}
+
+/* ---- what is played ---- */
+
+static int song_take(struct keys_work *w, const char *path)
+{
+    char why[300];
+    bool empty;
+    if (midi_song_read(path, &w->song) != MIDI_OK)
+        return fail("keys", "%s", midi_error());
+    if (!keys_score_make(&w->def, w->song, &w->score, &empty))
+        return empty ? fail("keys", "%s: there is no note in it", path)
+                     : fail("keys", "%s: no memory for its notes", path);
+    keys_letters_names(&w->letters);
+    if (w->text && !keys_letters_text(&w->score, w->text, &w->letters))
+        return fail_usage("keys", "--text: there is no letter in it");
+    if (w->map && !keys_letters_file(w->map, &w->letters, why, sizeof why))
+        return fail("keys", "--map: %s", why);
+    int status = type_face_open("keys", w->font, 0, w->axes, &w->face);
+    if (status != EXIT_SUCCESS)
+        return status;
+    if (w->size_px[1] <= 0 && keys_type_fit(w->face, &w->score, &w->letters, w->picture[0],
+                                            w->picture[1], &w->size_px[1]) != FONT_OK)
+        return fail_font("keys");
+    w->size_px[0] = fmin(w->size_px[0], w->size_px[1]);
+    return EXIT_SUCCESS;
+}
+
+/* When the last letter is hardly there. */
+static double seconds_of(const struct keys_work *w)
+{
+    return w->score.seconds + 3 * w->def.release_s;
+}
+
+static int type_make(const struct keys_work *w, double scale, struct keys_type **out)
+{
+    struct keys_type_def def = w->type;
+    def.size_px[0] = w->size_px[0] * scale;
+    def.size_px[1] = w->size_px[1] * scale;
+    return keys_type_create(&def, w->face, &w->score, &w->letters, out) == FONT_OK
+               ? EXIT_SUCCESS
+               : fail_font("keys");
+}
+
+/* ---- pictures ---- */
+
+/* Cuts rows of paper off at the top and at the bottom until ink is `margin` pixels away. */
+static void paper_cut(struct display_image *image, int margin)
+{
+    const size_t row = 3 * (size_t)image->width_px;
+    int top = 0, bottom = image->height_px;
+    while (top < bottom && !memcmp(image->pixels + row * (size_t)top, image->pixels, row))
+        top++;
+    while (bottom > top &&
+           !memcmp(image->pixels + row * (size_t)(bottom - 1), image->pixels, row))
+        bottom--;
+    if (top == bottom)
+        return;
+    top = top > margin ? top - margin : 0;
+    bottom = bottom + margin < image->height_px ? bottom + margin : image->height_px;
+    memmove(image->pixels, image->pixels + row * (size_t)top, row * (size_t)(bottom - top));
+    image->height_px = bottom - top;
+}
+
+static void gray_fill(struct display_image *image, int x, int y, int width, int height)
+{
+    enum { GRAY = 205 };
+    for (int i = 0; i < height; i++)
+        memset(image->pixels + 3 * ((size_t)(y + i) * (size_t)image->width_px + (size_t)x),
+               GRAY, 3 * (size_t)width);
+}
+
+/* A thin frame around a part of an image. */
+static void frame_draw(struct display_image *image, int x, int y, int width, int height)
+{
+    gray_fill(image, x - 1, y - 1, width + 2, 1);
+    gray_fill(image, x - 1, y + height, width + 2, 1);
+    gray_fill(image, x - 1, y, 1, height);
+    gray_fill(image, x + width, y, 1, height);
+}
+
+static int poster_write(const struct keys_work *w)
+{
+    struct keys_type *type;
+    struct display_image image = {0};
+    /* letters of notes that follow each other closely are not to hide each other */
+    const double most = fmin(w->size_px[1], 0.55 * w->second_px);
+    const double margin = ceil(0.3 * most + 8);
+    const double rise = w->type.step_px * w->score.keys_count;
+    int status = type_make(w, most / w->size_px[1], &type);
+    if (status == EXIT_SUCCESS)
+        status =
+            type_image_create("keys", ceil(2 * margin + w->second_px * w->score.seconds + most),
+                              ceil(2 * margin + 1.1 * most + rise), &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS &&
+        keys_type_line(type, w->second_px, margin, margin + 0.85 * most + rise, &picture) !=
+            FONT_OK)
+        status = fail_font("keys");
+    if (status == EXIT_SUCCESS) {
+        paper_cut(&image, (int)(0.6 * margin));
+        status = type_image_write("keys", w->poster, &image);
+    }
+    display_image_destroy(&image);
+    keys_type_destroy(type);
+    return status;
+}
+
+static int moments_write(const struct keys_work *w)
+{
+    enum { CELL = 256, GAP = 16, COUNT = SHEET_COLUMNS * SHEET_ROWS };
+    struct keys_type *type;
+    struct display_image image = {0};
+    struct type_labels *labels = type_labels_create(LABEL_PX);
+    const int height = (int)fmax(2, round((double)CELL * w->picture[1] / w->picture[0]));
+    const int pitch = height + GAP + LABEL_PX;
+    int status = type_make(w, (double)CELL / w->picture[0], &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("keys", GAP + SHEET_COLUMNS * (CELL + GAP),
+                                   GAP + SHEET_ROWS * pitch, &image);
+    for (int i = 0; i < COUNT && status == EXIT_SUCCESS; i++) {
+        const int x = GAP + i % SHEET_COLUMNS * (CELL + GAP),
+                  y = GAP + i / SHEET_COLUMNS * pitch;
+        const double time_s = (i + 0.5) / COUNT * seconds_of(w);
+        struct font_picture picture = {
+            CELL, height, 3 * image.width_px,
+            image.pixels + 3 * ((size_t)y * (size_t)image.width_px + (size_t)x)};
+        if (keys_type_moment(type, time_s, &picture) != FONT_OK)
+            status = fail_font("keys");
+        frame_draw(&image, x, y, CELL, height);
+        type_label(labels, &image, x, y + height + LABEL_PX + 3, "%.2f s", time_s);
+    }
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("keys", w->sheet, &image);
+    type_labels_destroy(labels);
+    display_image_destroy(&image);
+    keys_type_destroy(type);
+    return status;
+}
+
+static int still_write(const struct keys_work *w)
+{
+    struct keys_type *type;
+    struct display_image image = {0};
+    int status = type_make(w, 1, &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("keys", w->picture[0], w->picture[1], &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS && keys_type_moment(type, w->at_s, &picture) != FONT_OK)
+        status = fail_font("keys");
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("keys", w->still, &image);
+    display_image_destroy(&image);
+    keys_type_destroy(type);
+    return status;
+}
+
+/* ---- a film ---- */
+
+static int moment_keep(const struct keys_work *w, struct video *video, int number,
+                       const struct display_image *image)
+{
+    char path[PATH_MAX];
+    if (video && video_add(video, image->pixels) != DISPLAY_OK)
+        return fail("keys", "%s", display_error());
+    if (!w->frames)
+        return EXIT_SUCCESS;
+    snprintf(path, sizeof path, "%s/keys-%06d.png", w->frames, number);
+    return type_image_write("keys", path, image);
+}
+
+static int film_write(const struct keys_work *w)
+{
+    struct keys_type *type = NULL;
+    struct display_image image = {0};
+    struct video *video = NULL;
+    const int count = (int)ceil(seconds_of(w) * w->fps) + 1;
+    int status = w->frames ? folder_make("keys", w->frames) : EXIT_SUCCESS;
+    if (status == EXIT_SUCCESS)
+        status = type_make(w, 1, &type);
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("keys", w->picture[0], w->picture[1], &image);
+    if (status == EXIT_SUCCESS && w->video &&
+        video_create(w->video, w->picture[0], w->picture[1], w->fps, &video) != DISPLAY_OK)
+        status = fail("keys", "%s", display_error());
+    struct font_picture picture = type_picture(&image);
+    struct progress progress = progress_begin("keys", count);
+    for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {
+        if (interrupted())
+            status = EXIT_FAILED;
+        else if (keys_type_moment(type, (double)i / w->fps, &picture) != FONT_OK)
+            status = fail_font("keys");
+        else
+            status = moment_keep(w, video, i, &image);
+        progress_show(&progress, i + 1);
+    }
+    progress_end(&progress);
+    if (status != EXIT_SUCCESS)
+        video_abandon(video);
+    else if (video && video_finish(video) != DISPLAY_OK)
+        status = fail("keys", "%s", display_error());
+    display_image_destroy(&image);
+    keys_type_destroy(type);
+    return status;
+}
+
+static int all_write(struct keys_work *w)
+{
+    int status = EXIT_SUCCESS;
+    if (w->poster)
+        status = poster_write(w);
+    if (status == EXIT_SUCCESS && w->sheet)
+        status = moments_write(w);
+    if (status == EXIT_SUCCESS && w->still)
+        status = still_write(w);
+    if (status == EXIT_SUCCESS && w->sound) {
+        struct sound_def def = sound_def_default();
+        def.room = true;
+        if (sound_render(&def, w->song, seconds_of(w), w->sound) != MIDI_OK)
+            status = fail("keys", "--sound: %s", midi_error());
+    }
+    if (status == EXIT_SUCCESS && (w->frames || w->video))
+        status = film_write(w);
+    return status;
+}
+
+int verb_keys(int argc, char **argv)
+{
+    static struct keys_work w;
+    const char *song = NULL;
+    w = (struct keys_work){.font = "EBGaramond12-Regular",
+                           .second_px = 160,
+                           .picture = {960, 360},
+                           .fps = 30,
+                           .def = keys_def_default(),
+                           .type = keys_type_def_default()};
+    int status = options_read(&w, argc, argv, &song);
+    if (status != EXIT_SUCCESS || !song)
+        return status;
+    interrupt_catch();
+    status = song_take(&w, song);
+    if (status == EXIT_SUCCESS)
+        status = all_write(&w);
+    font_face_close(w.face);
+    keys_score_finish(&w.score);
+    midi_song_destroy(w.song);
+    return interrupt_report("keys", status, "what was written before is whole");
+}

@@ -1,0 +1,224 @@
+/* keys_score.c - see keys_score.h. */
+#include "keys_score.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SUSTAIN = 64 };
+
+struct keys_def keys_def_default(void)
+{
+    return (struct keys_def){.attack_s = 0.03, .release_s = 0.25, .pressure = 1};
+}
+
+/* What a song does, as it goes by. */
+struct reading {
+    struct keys_score *score;
+    int notes_room, pressures_room;
+    int sounding[MIDI_CHANNELS][MIDI_NOTES]; /* 1 + the note's index; 0: none */
+    bool kept[MIDI_CHANNELS][MIDI_NOTES];    /* let go, and the pedal is down */
+    bool pedal[MIDI_CHANNELS];
+    double time_s;
+    bool failed;
+};
+
+static void *one_more(struct reading *r, void *items, int count, int *room, size_t bytes)
+{
+    if (count < *room)
+        return items;
+    const int wanted = *room ? 2 * *room : 256;
+    void *grown = realloc(items, (size_t)wanted * bytes);
+    if (!grown) {
+        r->failed = true;
+        return items;
+    }
+    *room = wanted;
+    return grown;
+}
+
+static void note_end(struct reading *r, int channel, int note)
+{
+    const int index = r->sounding[channel][note] - 1;
+    if (index >= 0)
+        r->score->notes[index].end_s = r->time_s;
+    r->sounding[channel][note] = 0;
+    r->kept[channel][note] = false;
+}
+
+static void note_begin(struct reading *r, int channel, int note, int velocity)
+{
+    struct keys_score *s = r->score;
+    note_end(r, channel, note);
+    s->notes = one_more(r, s->notes, s->notes_count, &r->notes_room, sizeof *s->notes);
+    if (r->failed)
+        return;
+    s->notes[s->notes_count++] = (struct keys_note){.note = note,
+                                                    .channel = channel,
+                                                    .begin_s = r->time_s,
+                                                    .end_s = INFINITY,
+                                                    .velocity = velocity / 127.0,
+                                                    .release = 0.5};
+    r->sounding[channel][note] = s->notes_count;
+}
+
+static void note_let_go(struct reading *r, int channel, int note, int velocity)
+{
+    const int index = r->sounding[channel][note] - 1;
+    if (index < 0)
+        return;
+    r->score->notes[index].release = velocity / 127.0;
+    if (r->pedal[channel])
+        r->kept[channel][note] = true;
+    else
+        note_end(r, channel, note);
+}
+
+static void pedal_set(struct reading *r, int channel, bool down)
+{
+    r->pedal[channel] = down;
+    for (int i = 0; i < MIDI_NOTES && !down; i++)
+        if (r->kept[channel][i])
+            note_end(r, channel, i);
+}
+
+static void pressure_add(struct reading *r, int channel, int note, int value)
+{
+    struct keys_score *s = r->score;
+    s->pressures =
+        one_more(r, s->pressures, s->pressures_count, &r->pressures_room, sizeof *s->pressures);
+    if (!r->failed)
+        s->pressures[s->pressures_count++] =
+            (struct keys_pressure){r->time_s, value / 127.0, note, channel};
+}
+
+static void message_take(struct reading *r, const struct midi_song_event *e)
+{
+    const int channel = e->bytes[0] & 15, data = e->bytes[1];
+    switch (e->bytes[0] & 0xf0) {
+    case MIDI_NOTE_ON:
+        if (e->bytes[2])
+            note_begin(r, channel, data, e->bytes[2]);
+        else
+            note_let_go(r, channel, data, 64);
+        break;
+    case MIDI_NOTE_OFF:
+        note_let_go(r, channel, data, e->bytes[2]);
+        break;
+    case MIDI_POLY_PRESSURE:
+        pressure_add(r, channel, data, e->bytes[2]);
+        break;
+    case MIDI_PRESSURE:
+        pressure_add(r, channel, -1, data);
+        break;
+    case MIDI_CONTROL:
+        if (data == SUSTAIN)
+            pedal_set(r, channel, e->bytes[2] >= 64);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Which keys are played, from the lowest; notes that nobody let go end with the song. */
+static void keys_find(struct keys_score *s)
+{
+    bool played[MIDI_NOTES] = {false};
+    for (int i = 0; i < s->notes_count; i++) {
+        played[s->notes[i].note] = true;
+        s->notes[i].end_s = fmin(s->notes[i].end_s, s->seconds);
+    }
+    for (int i = 0; i < MIDI_NOTES; i++) {
+        s->rank[i] = played[i] ? s->keys_count : -1;
+        if (played[i])
+            s->keys[s->keys_count++] = i;
+    }
+}
+
+bool keys_score_make(const struct keys_def *def, struct midi_song *song, struct keys_score *out,
+                     bool *empty)
+{
+    struct reading r = {.score = out};
+    *out = (struct keys_score){.def = *def};
+    const struct midi_song_info info = midi_song_info(song);
+    for (size_t i = 0; i < info.events_count && !r.failed; i++) {
+        const struct midi_song_event e = midi_song_event(song, i);
+        r.time_s = (double)e.time_ns / 1e9;
+        if (e.kind == MIDI_SONG_MESSAGE)
+            message_take(&r, &e);
+    }
+    out->seconds = (double)info.end_ns / 1e9;
+    *empty = !r.failed && out->notes_count == 0;
+    if (r.failed || *empty) {
+        keys_score_finish(out);
+        return false;
+    }
+    keys_find(out);
+    return true;
+}
+
+void keys_score_finish(struct keys_score *s)
+{
+    free(s->notes);
+    free(s->pressures);
+    *s = (struct keys_score){0};
+}
+
+/* The last aftertouch of the key or of its channel since the note began; 0: none. */
+static double pressure_at(const struct keys_score *s, const struct keys_note *n, double time_s)
+{
+    double value = 0;
+    for (int i = 0; i < s->pressures_count && s->pressures[i].time_s <= time_s; i++) {
+        const struct keys_pressure *p = &s->pressures[i];
+        if (p->time_s >= n->begin_s && p->channel == n->channel &&
+            (p->note == n->note || p->note < 0))
+            value = p->value;
+    }
+    return value;
+}
+
+double keys_note_level(const struct keys_score *s, int index, double time_s)
+{
+    const struct keys_note *n = &s->notes[index];
+    if (time_s < n->begin_s)
+        return 0;
+    const double until_s = fmin(time_s, n->end_s);
+    const double rise =
+        s->def.attack_s > 0 ? fmin(1, (until_s - n->begin_s) / s->def.attack_s) : 1;
+    const double held =
+        n->velocity + (1 - n->velocity) * s->def.pressure * pressure_at(s, n, until_s);
+    if (time_s <= n->end_s)
+        return rise * held;
+    /* let go at once it goes at twice the middle's pace, slowly at half of it */
+    const double fall_s = s->def.release_s * exp2(1 - 2 * n->release);
+    return fall_s > 0 ? rise * held * exp(-(time_s - n->end_s) / fall_s) : 0;
+}
+
+double keys_key_level(const struct keys_score *s, int key, double time_s, int *index)
+{
+    double most = 0;
+    int which = -1;
+    for (int i = 0; i < s->notes_count && s->notes[i].begin_s <= time_s; i++) {
+        const double level = s->notes[i].note == key ? keys_note_level(s, i, time_s) : 0;
+        if (level > most) {
+            most = level;
+            which = i;
+        }
+    }
+    if (index)
+        *index = which;
+    return most;
+}
+
+double keys_note_most(const struct keys_score *s, int index)
+{
+    const struct keys_note *n = &s->notes[index];
+    double most = n->velocity;
+    for (int i = 0; i < s->pressures_count; i++) {
+        const struct keys_pressure *p = &s->pressures[i];
+        if (p->time_s >= n->begin_s && p->time_s <= n->end_s && p->channel == n->channel &&
+            (p->note == n->note || p->note < 0))
+            most = fmax(most, n->velocity + (1 - n->velocity) * s->def.pressure * p->value);
+    }
+    return most;
+}
