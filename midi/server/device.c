@@ -17,6 +17,12 @@ static void retry_fire(struct server_timer *t, uint64_t now_ns)
     (void)device_start(t->owner);
 }
 
+static void retry_set(struct server_device *d)
+{
+    const int ms = d->kind->retry_ms ? d->kind->retry_ms : RETRY_MS;
+    loop_timer(d->loop, &d->retry, midi_now_ns() + (uint64_t)ms * 1000000);
+}
+
 /* The name is letters, digits and -_. */
 static bool name_good(const char *name, size_t count)
 {
@@ -94,7 +100,7 @@ enum midi_status device_start(struct server_device *d)
         memcpy(d->why, why, sizeof why);
         if (status == MIDI_BAD_ARGUMENT || status == MIDI_BAD_FILE)
             return midi_fail(status, "device %s: %s", d->name, why);
-        loop_timer(d->loop, &d->retry, midi_now_ns() + RETRY_MS * UINT64_C(1000000));
+        retry_set(d);
         if (changed)
             d->changed(d);
         return MIDI_OK;
@@ -131,7 +137,7 @@ void device_down(struct server_device *d, const char *why)
     d->out_count = 0;
     d->more_wanted = false;
     d->sounding = (struct midi_notes){0};
-    loop_timer(d->loop, &d->retry, midi_now_ns() + RETRY_MS * UINT64_C(1000000));
+    retry_set(d);
     d->changed(d);
     d->drained(d); /* who waits need not wait any longer */
 }

@@ -21,9 +21,10 @@ struct server_device;
 
 struct device_kind {
     const char *name, *argument, *help;
-    bool plays; /* all of this kind take messages; else open() says */
-    bool hears; /* all give some */
-    bool stays; /* goes and comes with the server: nobody else has played it */
+    bool plays;   /* all of this kind take messages; else open() says */
+    bool hears;   /* all give some */
+    int retry_ms; /* between tries while it is away; 0: 100 */
+    bool stays;   /* goes and comes with the server: nobody else has played it */
     /* Tries to be there. Errors: NO_DEVICE, IO_FAILED: it is tried again later. BAD_ARGUMENT, BAD_FILE: it never will be. */
     enum midi_status (*open)(struct server_device *d);
     void (*close)(struct server_device *d);  /* also after an open() that failed */

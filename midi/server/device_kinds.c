@@ -2,11 +2,6 @@
 #include "device_kinds.h"
 
 const struct device_kind *const device_kinds[] = {
-    &device_kind_raw,
-    &device_kind_serial,
-    &device_kind_pty,
-    &device_kind_loop,
-    &device_kind_file,
-    &device_kind_sound,
-    NULL,
+    &device_kind_raw,  &device_kind_serial, &device_kind_pty,  &device_kind_loop,
+    &device_kind_file, &device_kind_sound,  &device_kind_jack, NULL,
 };

@@ -1,0 +1,175 @@
+/* device_jack.c - two ports of JACK's, one in and one out.
+ *
+ *     JACK's thread   process(): events of the period -> heard -> the server's loop, woken by an eventfd
+ *                                events to write      <- said  <-
+ *
+ * An event keeps its time within the period. What is said is written at the next period's beginning. */
+#include "device_kinds.h"
+#include "jack_library.h"
+#include "message_ring.h"
+
+#include <midi_internal.h>
+#include <midi_time.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+enum { EVENT_BYTES_MAX = 8192 };
+
+struct jack_device {
+    const struct jack_library *jack;
+    void *client, *in, *out;
+    uint32_t rate_hz;
+    struct server_watch watch;
+    struct message_ring heard, said;
+    _Atomic bool gone;
+    struct midi_parser parser; /* of what is written: JACK wants whole messages */
+    uint8_t sysex[EVENT_BYTES_MAX];
+    size_t sysex_count;
+    uint8_t event[EVENT_BYTES_MAX]; /* process()'s own */
+};
+
+static void wake(const struct jack_device *j)
+{
+    const uint64_t one = 1;
+    const ssize_t written = write(j->watch.file, &one, sizeof one);
+    (void)written;
+}
+
+/* JACK's thread: nothing here waits or asks for memory. */
+static int process(uint32_t frames, void *context)
+{
+    struct jack_device *j = context;
+    const struct jack_library *jack = j->jack;
+    void *in = jack->jack_port_get_buffer(j->in, frames);
+    void *out = jack->jack_port_get_buffer(j->out, frames);
+    const uint64_t now_ns = midi_now_ns();
+    const uint64_t ago = jack->jack_frames_since_cycle_start(j->client);
+    const uint32_t count = jack->jack_midi_get_event_count(in);
+    struct jack_event e;
+    for (uint32_t i = 0; i < count; i++)
+        if (jack->jack_midi_event_get(&e, in, i) == 0) {
+            /* the period before this one is what is heard: its events are that old */
+            const uint64_t old = (uint64_t)frames + ago - (e.time < frames ? e.time : 0);
+            (void)ring_put(&j->heard, now_ns - old * 1000000000 / j->rate_hz, e.buffer, e.size);
+        }
+    if (count)
+        wake(j);
+    jack->jack_midi_clear_buffer(out);
+    uint64_t time_ns;
+    for (size_t bytes; (bytes = ring_take(&j->said, &time_ns, j->event, sizeof j->event)) > 0;)
+        (void)jack->jack_midi_event_write(out, 0, j->event, bytes);
+    return 0;
+}
+
+static void shut_down(void *context)
+{
+    struct jack_device *j = context;
+    j->gone = true;
+    wake(j);
+}
+
+static void jack_ready(struct server_watch *w, uint32_t events)
+{
+    struct server_device *d = w->owner;
+    struct jack_device *j = d->own;
+    uint8_t bytes[EVENT_BYTES_MAX];
+    uint64_t count, time_ns;
+    (void)events;
+    const ssize_t got = read(w->file, &count, sizeof count);
+    (void)got;
+    for (size_t size; (size = ring_take(&j->heard, &time_ns, bytes, sizeof bytes)) > 0;)
+        device_input(d, time_ns, bytes, size);
+    device_read_end(d);
+    if (j->gone)
+        device_down(d, "the JACK server is gone");
+}
+
+static enum midi_status ports_open(struct server_device *d, struct jack_device *j)
+{
+    const struct jack_library *jack = j->jack;
+    const char *name = d->argument[0] ? d->argument : "lutetia";
+    j->client = jack->jack_client_open(name, JACK_NO_START, NULL);
+    if (!j->client)
+        return midi_fail(MIDI_NO_DEVICE, "no JACK server runs");
+    j->rate_hz = jack->jack_get_sample_rate(j->client);
+    j->in = jack->jack_port_register(j->client, "in", JACK_MIDI_TYPE, JACK_PORT_IN, 0);
+    j->out = jack->jack_port_register(j->client, "out", JACK_MIDI_TYPE, JACK_PORT_OUT, 0);
+    jack->jack_on_shutdown(j->client, shut_down, j);
+    if (!j->in || !j->out || !j->rate_hz ||
+        jack->jack_set_process_callback(j->client, process, j) != 0 ||
+        jack->jack_activate(j->client) != 0)
+        return midi_fail(MIDI_NO_DEVICE, "JACK gives no MIDI ports");
+    return MIDI_OK;
+}
+
+static enum midi_status jack_open(struct server_device *d)
+{
+    const struct jack_library *jack;
+    enum midi_status status = jack_load(&jack);
+    if (status != MIDI_OK)
+        return MIDI_BAD_ARGUMENT; /* it will not be installed while the server runs */
+    struct jack_device *j = calloc(1, sizeof *j);
+    if (!j)
+        return midi_fail(MIDI_NO_MEMORY, "no memory");
+    d->own = j;
+    j->jack = jack;
+    midi_parser_init(&j->parser);
+    j->watch = (struct server_watch){eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), jack_ready, d};
+    if (j->watch.file < 0 || !loop_watch(d->loop, &j->watch, EPOLLIN))
+        return midi_fail(MIDI_NO_DEVICE, "no descriptor for JACK");
+    return ports_open(d, j);
+}
+
+static void jack_close(struct server_device *d)
+{
+    struct jack_device *j = d->own;
+    if (!j)
+        return;
+    if (j->client)
+        j->jack->jack_client_close(j->client);
+    loop_unwatch(d->loop, &j->watch);
+    if (j->watch.file >= 0)
+        close(j->watch.file);
+    free(j);
+    d->own = NULL;
+}
+
+static void say(void *context, const struct midi_message *m)
+{
+    struct jack_device *j = context;
+    if (midi_message_kind(m) != MIDI_KIND_SYSEX) {
+        (void)ring_put(&j->said, 0, m->bytes, m->count);
+        return;
+    }
+    if (m->bytes[0] == MIDI_SYSEX)
+        j->sysex_count = 0;
+    if (j->sysex_count + m->count <= sizeof j->sysex)
+        memcpy(j->sysex + j->sysex_count, m->bytes, m->count);
+    j->sysex_count += m->count;
+    if (!midi_message_open(m) &&
+        j->sysex_count <= sizeof j->sysex) /* longer ones JACK has no room for */
+        (void)ring_put(&j->said, 0, j->sysex, j->sysex_count);
+}
+
+static size_t jack_write(struct server_device *d, const uint8_t *bytes, size_t count)
+{
+    struct jack_device *j = d->own;
+    midi_parser_take(&j->parser, 0, bytes, count, say, j);
+    return count;
+}
+
+const struct device_kind device_kind_jack = {
+    .name = "jack",
+    .argument = "[CLIENT]",
+    .help = "ports `in` and `out` of a JACK client, which is called lutetia",
+    .plays = true,
+    .hears = true,
+    .retry_ms = 1000,
+    .open = jack_open,
+    .close = jack_close,
+    .write = jack_write,
+};

@@ -1,0 +1,67 @@
+/* jack_library.c - see jack_library.h. */
+#include "jack_library.h"
+
+#include <midi_internal.h>
+
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <string.h>
+
+#define FUNCTION(name)                                                                         \
+    {                                                                                          \
+#name, offsetof(struct jack_library, name)                                             \
+    }
+
+static const struct {
+    const char *name;
+    size_t at;
+} functions[] = {
+    FUNCTION(jack_client_open),
+    FUNCTION(jack_client_close),
+    FUNCTION(jack_activate),
+    FUNCTION(jack_deactivate),
+    FUNCTION(jack_connect),
+    FUNCTION(jack_port_register),
+    FUNCTION(jack_port_get_buffer),
+    FUNCTION(jack_set_process_callback),
+    FUNCTION(jack_on_shutdown),
+    FUNCTION(jack_get_sample_rate),
+    FUNCTION(jack_frames_since_cycle_start),
+    FUNCTION(jack_midi_get_event_count),
+    FUNCTION(jack_midi_event_get),
+    FUNCTION(jack_midi_clear_buffer),
+    FUNCTION(jack_midi_event_write),
+    FUNCTION(jack_set_error_function),
+    FUNCTION(jack_set_info_function),
+};
+
+static void told(const char *text)
+{
+    (void)text; /* what fails we say ourselves */
+}
+
+enum midi_status jack_load(const struct jack_library **out)
+{
+    static struct jack_library loaded;
+    static bool there;
+    *out = &loaded;
+    if (there)
+        return MIDI_OK;
+    void *library = dlopen("libjack.so.0", RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        return midi_fail(MIDI_NO_DEVICE, "JACK is not installed: install libjack-jackd2-0 (%s)",
+                         dlerror());
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+        void *function = dlsym(library, functions[i].name);
+        if (!function) {
+            dlclose(library);
+            return midi_fail(MIDI_NO_DEVICE, "JACK has no %s: install libjack-jackd2-0",
+                             functions[i].name);
+        }
+        memcpy((char *)&loaded + functions[i].at, &function, sizeof function);
+    }
+    loaded.jack_set_error_function(told);
+    loaded.jack_set_info_function(told);
+    there = true;
+    return MIDI_OK;
+}
