@@ -3,7 +3,7 @@
 #ifndef PARIS_EXPLAIN_H
 #define PARIS_EXPLAIN_H
 
-#include "machine.h"
+#include "machine_explained.h"
 
 #include <stdio.h>
 

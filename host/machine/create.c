@@ -1,11 +1,12 @@
-/* machine.c - creation, configuration, errors. */
-#include <stdarg.h>
+/* create.c - a machine made, with all its layers, and destroyed. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/errors.h"
 #include "build/background.h"
+#include "build/plans.h"
+#include "explain/copies.h"
 #include "memory/memory.h"
 #include "run/replay.h"
 #include "values/graph.h"
@@ -41,6 +42,22 @@ struct machine_layers {
     struct run run;
 };
 
+/* Those who watch get to know the device. */
+static void be_watched(struct machine *m)
+{
+    char title[400];
+    struct device_buffer *scratch = device_buffer_get(m, 64);
+    snprintf(title, sizeof title, "%d processors on %s", m->values->processors_count,
+             m->device->name);
+    watch_ready(m, m->device->queue, scratch ? scratch->mem : NULL, title);
+    if (scratch)
+        device_buffer_unref(m, scratch);
+    machine_error_clear(m); /* then later commands must do */
+    struct watch_sums *sums = watch_explain(m);
+    if (sums)
+        copies_ready(m, sums);
+}
+
 enum machine_status machine_create(const struct machine_config *config, struct machine **out)
 {
     struct machine_layers *layers = calloc(1, sizeof *layers);
@@ -58,7 +75,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     enum machine_status status = settings_read(m);
     if (status)
         return status;
-    m->run->eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
+    m->settings.eager = config->eager < 0 ? m->settings.eager : config->eager != 0;
     const char *dump = config->dump_dir ? config->dump_dir : getenv("LUTETIA_DUMP");
     if (dump && *dump)
         m->plans->dump_dir = strdup(dump);
@@ -77,7 +94,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
         return status;
     status = device_open(m, config);
     if (!status && m->watch)
-        watch_ready(m);
+        be_watched(m);
     return status;
 }
 
@@ -102,8 +119,7 @@ void machine_destroy(struct machine *m)
 
 void machine_leave(struct machine *m)
 {
-    if (m && m->device->queue && m->device->inside == 0 &&
-        pthread_equal(m->owner, pthread_self())) {
+    if (m && m->device->queue && m->inside == 0 && pthread_equal(m->owner, pthread_self())) {
         clFinish(m->device->queue);
         watch_leave(m);
     }

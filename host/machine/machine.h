@@ -41,6 +41,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "machine_op.h"
+
 struct machine;
 struct machine_value;
 
@@ -213,102 +215,8 @@ struct machine_stats {
 };
 void machine_stats_get(const struct machine *m, struct machine_stats *out);
 
-/* ---- what it did, and why ---- */
-
 /* machine_begin(), and says which instruction it is, a literal, to those who watch. */
 void machine_instruction(struct machine *m, const char *name);
-
-/* A row of a table: of what, how often, and, where that is said, how long and how much. */
-struct machine_explained_row {
-    const char *name;
-    uint64_t count;
-    double time_s;
-    uint64_t bytes;
-};
-
-/* Why a value was put into memory. */
-enum machine_cut {
-    MACHINE_CUT_LOOKED_AT, /* somebody asked for it: the front end, a scan, the router */
-    MACHINE_CUT_LIVE,      /* the content of a field or flag that may be looked at */
-    MACHINE_CUT_NEIGHBOURS, /* others load it at an offset, cheaper than computing it there again */
-    MACHINE_CUT_LATER       /* a later kernel needs it */
-};
-
-struct machine_explained_store {
-    enum machine_cut why;
-    struct machine_type type;
-    const char *operation; /* that gave it, under the context or not */
-    bool in_ring;   /* some of its rows, or tiles, at a time, in no array: strips.h, tiles.h */
-    char where[40]; /* the field or flag that held it when the kernel was made; else "" */
-};
-
-/* A kernel, on processors of one VP set. Bytes are those of what is read or written at all, once for each
- * processor that it belongs to. */
-struct machine_explained_kernel {
-    const char *name;    /* of a generated one: what it stores */
-    bool generated;      /* else by hand, and what follows is 0 to `made` */
-    int vpset;           /* as it was called then */
-    uint64_t processors; /* in one run */
-    int operations; /* for a processor, those computed again at neighbours too; of operands: no coordinates */
-    int operations_cost; /* ... as the cost model has them */
-    int arrays_read, arrays_written;
-    int bytes_read, bytes_written; /* for a processor */
-    int shifts_computed;           /* neighbours' values that were computed again, not loaded */
-    int stages, rings; /* in strips: one after the other; values in rings of rows. Else 1, 0 */
-    int tile_width, tile_height; /* in tiles, then rings are of tiles; else 0 */
-    bool split;                  /* of one that would have had too many arguments */
-    const char *made;            /* how well: "quick", "optimised", "boxed" */
-    const struct machine_explained_store *stores;
-    int stores_count;
-    uint64_t runs;
-    uint64_t bytes;      /* in all runs; by hand: of all arrays that it was given */
-    uint64_t runs_timed; /* whose times the device told */
-    double time_s;       /* of these, together */
-    /* What one run takes at least: to copy as many bytes, measured when machine_explain() was called (0: it
-     * was not), and for the operations by the cost model. */
-    double copy_s, operations_s;
-};
-
-enum { MACHINE_VANISHED_OPS_MOST = 128 };
-
-struct machine_explained {
-    const char *device;
-    int processors_count;
-    /* Instructions, in the order in which each first came: count, recorded ones; bytes, those foreseen. */
-    const struct machine_explained_row *calls;
-    int calls_count;
-    uint64_t calls_recorded, calls_foreseen;
-    uint64_t stores; /* into fields and flags; those foreseen too */
-    /* Values recorded: computed in some kernel; of these, put into memory; nobody ever asked for. What is left
-     * out is foreseen calls' values, which were not recorded again, and what still waits. */
-    uint64_t values_computed, values_stored, values_vanished;
-    struct machine_explained_row vanished[MACHINE_VANISHED_OPS_MOST]; /* by operation */
-    int vanished_count;
-    struct machine_explained_row
-        reasons[8]; /* why values vanished: how often each rule found something */
-    int reasons_count;
-    struct machine_explained_row evaluations[8]; /* what made them happen */
-    int evaluations_count;
-    uint64_t plans_built, plans_improved;
-    struct machine_explained_row
-        phases[24]; /* where the front end's time went; one may be in another */
-    int phases_count;
-    struct machine_explained_row transfers[24]; /* waits of the front end: for what */
-    int transfers_count;
-    const struct machine_explained_kernel *kernels; /* most time first, then most runs */
-    int kernels_count;
-    uint64_t copy_bytes;     /* read and written by the largest copy that was measured */
-    double copy_bytes_per_s; /* ... how fast; 0: none was */
-};
-
-/* What has happened so far, without calls that are noted and wait. Waits for the device; measures how fast it copies
- * the first time that there is something to compare it with, if measure. Valid until the next call or the machine's
- * end. NULL: the configuration did not ask for it, or not enough memory, or the exit comes from where
- * machine_leave() must not wait. */
-const struct machine_explained *machine_explain(struct machine *m, bool measure);
-
-/* Called between instructions from now on, where the machine is asked to explain. */
-void machine_explain_between(struct machine *m, void (*between)(void));
 
 /* For `lutetia info`: calls back for each OpenCL device there is; returns how many. */
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
@@ -443,109 +351,6 @@ struct machine_value *machine_self_index(struct machine *m, int width);
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 
-enum machine_op {
-    /* bits -> bits, one operand */
-    MACHINE_NOT,
-    MACHINE_NEG,
-    /* bits, bits -> bits, all of one width, modulo 2^width */
-    MACHINE_AND,
-    MACHINE_OR,
-    MACHINE_XOR,
-    MACHINE_ADD,
-    MACHINE_SUB,
-    MACHINE_MUL,
-    MACHINE_UMIN,
-    MACHINE_UMAX,
-    MACHINE_SMIN,
-    MACHINE_SMAX,
-    /* bits, bits -> bit */
-    MACHINE_EQ,
-    MACHINE_NE,
-    MACHINE_ULT,
-    MACHINE_ULE,
-    MACHINE_SLT,
-    MACHINE_SLE,
-    /* Integers beyond these: integers.c.
-       bits, bits -> bits, all of one width. Quotients are rounded toward zero (DIV), down
-       (FLOOR), up (CEIL), to nearest with halves to even (ROUND); REM has the sign of a, MOD
-       that of b. A quotient by zero is 0, what remains of a by zero is a. POW: modulo 2^width,
-       b unsigned. */
-    MACHINE_UDIV,
-    MACHINE_UCEIL,
-    MACHINE_UROUND,
-    MACHINE_UREM,
-    MACHINE_SDIV,
-    MACHINE_SFLOOR,
-    MACHINE_SCEIL,
-    MACHINE_SROUND,
-    MACHINE_SREM,
-    MACHINE_SMOD,
-    MACHINE_POW,
-    /* bits, bits -> bit: a to the b (b unsigned) is not a number of that width */
-    MACHINE_UPOW_BEYOND,
-    MACHINE_SPOW_BEYOND,
-    /* bits, and a signed number of 32 bits (-128..128) -> bits: to the left by so many, to the
-       right where it is negative; S keeps the sign. ROTATE: 0 to width - 1. Made by
-       machine_bits_shift() */
-    MACHINE_USHIFT,
-    MACHINE_SSHIFT,
-    MACHINE_ROTATE,
-    /* bits -> bits */
-    MACHINE_POPCOUNT, /* how many are 1 */
-    MACHINE_LENGTH,   /* the place of the highest 1, from 1 on; 0: there is none */
-    MACHINE_REVERSE,  /* the last bit first */
-    MACHINE_UNGRAY,   /* the number whose Gray code it is */
-    MACHINE_ISQRT,    /* the square root, rounded down */
-    /* float -> float */
-    MACHINE_FNEG,
-    MACHINE_FABS,
-    MACHINE_FSQRT,
-    MACHINE_FFLOOR,
-    MACHINE_FCEIL,
-    MACHINE_FTRUNC,
-    MACHINE_FROUND, /* to nearest, halves to even */
-    /* float, float -> float; min is a < b ? a : b and max is a > b ? a : b: b where either is
-       NaN */
-    MACHINE_FADD,
-    MACHINE_FSUB,
-    MACHINE_FMUL,
-    MACHINE_FDIV,
-    MACHINE_FMIN,
-    MACHINE_FMAX,
-    /* float, float -> bit: false where either is NaN, except FNE */
-    MACHINE_FEQ,
-    MACHINE_FNE,
-    MACHINE_FLT,
-    MACHINE_FLE,
-    MACHINE_FGT,
-    MACHINE_FGE,
-    /* float -> float: kernels/math.cl, the same bits on every device and here; within 1 ulp
-       (single) and 2 ulp (double) of the correctly rounded result; special cases as in Annex F
-       of C */
-    MACHINE_FEXP,
-    MACHINE_FLN,
-    MACHINE_FLOG2,
-    MACHINE_FLOG10,
-    MACHINE_FSIN, /* radians */
-    MACHINE_FCOS,
-    MACHINE_FTAN,
-    MACHINE_FASIN,
-    MACHINE_FACOS,
-    MACHINE_FATAN,
-    MACHINE_FSINH,
-    MACHINE_FCOSH,
-    MACHINE_FTANH,
-    MACHINE_FASINH,
-    MACHINE_FACOSH,
-    MACHINE_FATANH,
-    /* float, float -> float */
-    MACHINE_FATAN2, /* of the point with y = a, x = b */
-    MACHINE_FPOW,   /* a to the power b */
-    MACHINE_FMOD,   /* a - b floor(a / b): exact but for one rounding; its sign is b's */
-    MACHINE_FREM,   /* a - b trunc(a / b): exact; its sign is a's */
-    MACHINE_FSCALE, /* a 2^b, rounded once; b is whole */
-    MACHINE_OP_COUNT_PUBLIC
-};
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a);
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,

@@ -1,5 +1,6 @@
 /* test_background.c - better kernels that a process compiles while others run: whenever they come, the bits are those of a
  * machine that waits for them; where it cannot, the machine does wait; and machines and programs end in the middle of it. */
+#include "machine_explained.h"
 #include "support.h"
 
 #include "base/clock.h"

@@ -1,5 +1,6 @@
 /* test_explain.c - machine_explain(): what it tells of programs whose kernels, bytes and vanished values are known by
  * hand. */
+#include "machine_explained.h"
 #include "support.h"
 
 enum { ROWS = 24, COLUMNS = 160, COUNT = ROWS * COLUMNS };

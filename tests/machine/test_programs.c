@@ -1,5 +1,6 @@
 /* test_programs.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged;
  * and those that need what functions.cl does not declare. */
+#include "machine_explained.h"
 #include "support.h"
 
 #include "device/device.h"

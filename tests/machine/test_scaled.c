@@ -3,6 +3,7 @@
  * and in plain C, and only for factors that it holds for. */
 #include <math.h>
 
+#include "machine_explained.h"
 #include "support.h"
 
 enum { COLUMNS = 48 };

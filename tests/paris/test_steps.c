@@ -13,6 +13,7 @@
 #include <cm/paris.h>
 
 #include "base/parts.h"
+#include "machine_explained.h"
 #include "memory/memory.h"
 #include "values/values.h"
 

@@ -1,32 +1,37 @@
-/* begin.c - before an instruction. */
+/* begin.c - the beginning of an instruction: the one place where what is left of earlier ones is seen to.
+ *
+ *     the program          machine_instruction()     values handed out before are given back;
+ *     a call of Paris      machine_begin()           calls that are noted are performed; an evaluation that is due is made
+ *
+ * Inside a call that is performed only values are given back. Functions that look at fields, or change them, settle what is
+ * noted for themselves (settle.h), for not everybody begins an instruction. */
+#include "access/settle.h"
+#include "run/notes.h"
 #include "run/replay.h"
 #include "values/graph.h"
-#include "watch/trace.h"
-#include "watch/watch_struct.h"
+#include "watch/watch.h"
+
+enum { SIMPLIFY_BUDGET = 256 }; /* nodes that rules may look at in one instruction */
+
+static bool in_call(const struct machine *m)
+{
+    return m->run->replay && m->run->replay->depth;
+}
 
 void machine_begin(struct machine *m)
 {
     graph_give_back(m);
-    m->values->simplify_budget = 256;
-    if (!run_in_call(m)) {
-        notes_settle(m);
-        run_flush_due(m);
-        history_looked(m);
-    }
+    m->values->simplify_budget = SIMPLIFY_BUDGET;
+    if (in_call(m))
+        return;
+    settle(m);
+    run_flush_due(m);
+    history_looked(m);
 }
 
-/* One that no call goes before: it looks at something, or makes something. */
 void machine_instruction(struct machine *m, const char *name)
 {
     machine_begin(m);
-    struct watch *w = m->watch;
-    if (!w)
-        return;
-    if (!w->depth) {
-        sums_call(w->explain, name, 0, 0);
-        if (w->machine)
-            trace_event(w->machine, TRACE_FRONT_END, name, "record", clock_s(), 0, NULL);
-    }
-    if (w->explain->between)
-        w->explain->between();
+    if (m->watch)
+        watch_instruction(m, name);
 }

@@ -1,6 +1,10 @@
 /* calls.c - calls: foreseen, or recorded. */
+#include "access/settle.h"
 #include "base/arrays.h"
+#include "memory/memory.h"
+#include "run/notes.h"
 #include "run/replay.h"
+#include "watch/watch.h"
 
 static bool foreseen(struct machine *m, struct machine_call *call)
 {
@@ -14,10 +18,10 @@ static bool foreseen(struct machine *m, struct machine_call *call)
     call->vpset = m->values->set_current;
     if (notes_take(m, call) || notes_take_elsewhere(m, call))
         return true;
-    notes_settle(m);
+    settle(m);
     if (m->run->flush_due)
         run_flush_due(m);
-    if (!p->catching_up && notes_take(m, call))
+    if (!run_mode_catches_up(m->run->mode) && notes_take(m, call))
         return true;
     history_call(m, call);
     p->since++;
@@ -36,8 +40,10 @@ static bool foreseen(struct machine *m, struct machine_call *call)
 bool machine_call_foreseen(struct machine *m, struct machine_call *call)
 {
     bool known = foreseen(m, call);
-    if (m->watch)
-        watch_call(m, call->name, known);
+    if (m->watch && known)
+        watch_noted(m, m->run->calls_noted == 1);
+    else if (m->watch)
+        watch_call(m, call->name);
     return known;
 }
 
@@ -46,7 +52,8 @@ void machine_call_performed(struct machine *m)
     struct replay *p = m->run->replay;
     if (m->watch)
         watch_performed(m);
-    if (p && p->depth && --p->depth == 0 && !m->run->hold_flush && history_turn_ends(m))
+    if (p && p->depth && --p->depth == 0 && !run_mode_holds(m->run->mode) &&
+        history_turn_ends(m))
         m->run->flush_due = true;
 }
 

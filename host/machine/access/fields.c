@@ -1,8 +1,9 @@
 /* fields.c - what a field holds: looked at and stored. */
+#include "access/settle.h"
 #include "alias/alias.h"
 #include "base/errors.h"
 #include "base/types.h"
-#include "run/replay.h"
+#include "run/notes.h"
 #include "values/graph.h"
 #include "values/rules.h"
 #include "values/soft.h"
@@ -56,7 +57,7 @@ static struct field *field_part(struct machine *m, uint32_t id, struct machine_t
 struct machine_value *machine_field_value(struct machine *m, uint32_t field,
                                           struct machine_type type, enum machine_scope scope)
 {
-    notes_settle(m);
+    settle(m);
     uint32_t offset;
     if (type.s && type_good(type))
         return soft_unpacked(
@@ -78,7 +79,7 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
                                         struct machine_value *value, enum machine_scope scope)
 {
-    notes_settle(m);
+    settle(m);
     if (value && value->type.s)
         value = soft_packed(m, value);
     if (!value)

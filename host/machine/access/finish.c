@@ -1,4 +1,7 @@
 /* finish.c - all that waits is computed. */
+#include "access/settle.h"
+#include "device/device.h"
+#include "run/notes.h"
 #include "run/replay.h"
 
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
@@ -8,7 +11,7 @@ enum machine_status machine_settle(struct machine *m, struct machine_value **val
 
 enum machine_status machine_flush(struct machine *m)
 {
-    notes_settle(m);
+    settle(m);
     run_flush_due(m);
     history_looked(m);
     return run_evaluate(m, NULL, 0, false);

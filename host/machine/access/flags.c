@@ -2,10 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "access/settle.h"
 #include "base/errors.h"
 #include "base/types.h"
 #include "memory/memory.h"
-#include "run/replay.h"
+#include "run/notes.h"
 #include "values/graph.h"
 #include "values/rules.h"
 
@@ -14,7 +15,7 @@
 struct machine_value *machine_flag_value(struct machine *m, enum machine_flag flag,
                                          enum machine_scope scope)
 {
-    notes_settle(m);
+    settle(m);
     struct vpset *s = vpset_get(m, m->values->set_current);
     if (!s)
         return NULL;
@@ -39,7 +40,7 @@ static bool flag_suits(struct machine *m, const struct machine_value *value)
 enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag,
                                        struct machine_value *value, enum machine_scope scope)
 {
-    notes_settle(m);
+    settle(m);
     struct vpset *s = vpset_get(m, m->values->set_current);
     if (!value || !s)
         return m->status;
@@ -89,8 +90,8 @@ static int overflow_op(enum machine_op op, bool is_signed)
 static void overflow_remember(struct machine *m, struct vpset *s, int node,
                               struct machine_value *a, struct machine_value *b)
 {
-    notes_settle(m);
-    states_before_change(m);
+    settle(m);
+    values_before_change(m);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
     if (flags_of(m, s)->overflow.op && flags_of(m, s)->overflow.context != context)
         flag_resolved(m, s, MACHINE_OVERFLOW);

@@ -2,9 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "access/settle.h"
 #include "alias/alias.h"
 #include "base/errors.h"
-#include "run/replay.h"
+#include "run/notes.h"
 #include "run/slices.h"
 
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
@@ -33,7 +34,7 @@ int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int r
             return 0;
         }
     }
-    notes_settle(m);
+    settle(m);
     int id = 1;
     while (id < m->values->sets_count && m->values->sets[id].used)
         id++;
@@ -68,8 +69,12 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
     machine_begin(m);
     notes_forget(m);
     for (int i = m->memory->fields_count - 1; i >= 0; i--)
-        if (i < m->memory->fields_count && m->memory->fields[i]->vpset == vpset)
-            field_destroy(m, m->memory->fields[i]);
+        if (i < m->memory->fields_count && m->memory->fields[i]->vpset == vpset) {
+            struct field *f = m->memory->fields[i];
+            if (f->root && f->root->newest == f)
+                alias_settle(m, f->root); /* what cannot be had is gone with the set */
+            field_destroy(m, f);
+        }
     machine_begin(m);
     if (!slices_forget_set(m, vpset))
         return m->status;

@@ -3,7 +3,7 @@
 
 #include "alias/reshape.h"
 #include "base/errors.h"
-#include "run/replay.h"
+#include "run/notes.h"
 
 /* ---- who has the content ---- */
 

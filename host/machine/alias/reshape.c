@@ -8,8 +8,8 @@
 #include "base/scalar.h"
 #include "kernels.h"
 #include "memory/call_set.h"
-#include "ops/scan.h"
 #include "run/materialise.h"
+#include "run/roll.h"
 #include "run/run.h"
 #include "run/slices.h"
 #include "values/graph.h"
@@ -38,14 +38,14 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
             wanted[wanted_count++] = y[i].value;
     bool good = !wanted_count || run_evaluate(m, wanted, wanted_count, false) == MACHINE_OK;
     free(wanted);
-    struct machine_value *known = NULL, *in_memory = NULL; /* numbers come in long rows */
+    struct machine_value *known = NULL, *filled = NULL; /* numbers come in long rows */
     for (uint32_t i = 0; i < count && good; i++) {
         if (y[i].value != known) {
             known = y[i].value;
-            in_memory = materialise(m, set, known);
-            good = in_memory != NULL;
+            filled = materialise(m, set, known);
+            good = filled != NULL;
         }
-        y[i].value = in_memory;
+        y[i].value = filled;
     }
     return good;
 }
@@ -148,7 +148,7 @@ static struct machine_value *piece_of_each(struct machine *m, const struct facto
     for (uint32_t i = 0; i < f->k && !alike; i++)
         if (!(y[i] = machine_reinterpret(m, y[i], MACHINE_UINT(width))))
             return NULL;
-    if (!roll_lift(m, y, f->k, f->fine->vpset, &v))
+    if (!roll_lift(m, y, f->k, f->fine->vpset, RUN_LOOKED, &v))
         return NULL;
     if (v)
         return v;

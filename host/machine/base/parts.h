@@ -11,6 +11,7 @@ struct machine {
     enum machine_status status;
     char error[1024];
     pthread_t owner;
+    int inside; /* calls that build, launch or wait: see machine_leave() */
     struct settings settings;
     struct watch *watch; /* NULL: nobody looks */
     struct device *device;

@@ -36,7 +36,6 @@
 #include "build/compiler.h"
 #include "build/plans.h"
 #include "device/cache.h"
-#include "run/run.h"
 
 /* A program that ends so soon after it first wanted something compiled is better off without. A process that says nothing
  * for so long is not going to. */
@@ -261,7 +260,7 @@ static struct background *background_of(struct machine *m)
 
 bool background_on(struct machine *m)
 {
-    if (!m->settings.background || !m->settings.box_after || m->run->eager)
+    if (!m->settings.background || !m->settings.box_after || m->settings.eager)
         return false;
     struct background *b = background_of(m);
     return b && !b->lost && b->owner == getpid();

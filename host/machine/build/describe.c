@@ -5,45 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parts.h"
 #include "base/types.h"
-#include "memory/memory.h"
+#include "build/plans.h"
 
 void describe_nodes(struct machine *m, struct machine_value *const *nodes,
-                    struct machine_value *const *wanted, int wanted_count)
+                    struct machine_value *const *wanted, int wanted_count,
+                    describe_where *where)
 {
-    struct watch_sums *e = watch_sums(m);
-    e->nodes = nodes;
-    e->wanted = wanted;
-    e->wanted_count = wanted_count;
-    e->parts = 0;
+    m->plans->describing = (struct describing){
+        .nodes = nodes, .wanted = wanted, .wanted_count = wanted_count, .where = where};
 }
 
 void describe_split(struct machine *m)
 {
-    struct watch_sums *e = watch_sums(m);
-    e->parts += e->parts ? 1 : 2;
+    m->plans->describing.parts += m->plans->describing.parts ? 1 : 2;
 }
 
 void describe_improved(struct machine *m)
 {
     watch_sums(m)->facts.plans_improved++;
-}
-
-/* The field or flag that holds the value; "" if none does. */
-static void where_of(const struct machine *m, const struct machine_value *v, char *out,
-                     size_t size)
-{
-    static const char *const flags[] = {"context", "test", "overflow"};
-    *out = '\0';
-    for (int i = 1; i < m->values->sets_count; i++)
-        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
-            if (m->memory->flags[i].of[flag].value == v)
-                snprintf(out, size, "%s of VP set %d", flags[flag], i);
-    for (int i = 0; i < m->memory->fields_count && !*out; i++)
-        for (int k = 0; k < m->memory->fields[i]->slots_count && !*out; k++)
-            if (m->memory->fields[i]->slots[k].value == v)
-                snprintf(out, size, "field %u",
-                         m->memory->fields[i]->base + m->memory->fields[i]->slots[k].offset);
 }
 
 /* What was done last, under whatever context. */
@@ -56,7 +37,7 @@ static const char *operation_of(const struct plan_graph *g, int node)
     return n->leaf ? "copy" : n->constant ? "number" : node_ops[n->op].name;
 }
 
-static enum machine_cut why_of(const struct watch_sums *e, const struct plan_graph *g, int node)
+static enum machine_cut why_of(const struct describing *e, const struct plan_graph *g, int node)
 {
     for (int i = 0; i < e->wanted_count; i++)
         if (e->wanted[i] == e->nodes[node])
@@ -142,10 +123,10 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
                                     int stores_count, const struct kernel_text *k,
                                     const char *made)
 {
-    struct watch_sums *e = watch_sums(m);
+    struct describing *e = &m->plans->describing;
     int set = g->nodes[stores[0]].set;
     struct kernel_note *n = /* one that is not there yet is like no other */
-        sums_note(e, kernel, kernel ? NULL : "", set, m->values->sets[set].count);
+        sums_note(watch_sums(m), kernel, kernel ? NULL : "", set, m->values->sets[set].count);
     bool split = e->parts > 0;
     e->parts -= split;
     if (!n || n->facts.generated)
@@ -159,7 +140,7 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
                                                        g->strips && !g->nodes[stores[i]].target,
                                                    .type = g->nodes[stores[i]].type,
                                                    .operation = operation_of(g, stores[i])};
-        where_of(m, e->nodes[stores[i]], list[i].where, sizeof list[i].where);
+        e->where(m, e->nodes[stores[i]], list[i].where, sizeof list[i].where);
     }
     char *name = name_of(list, stores_count);
     if (name) {

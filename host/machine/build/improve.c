@@ -48,10 +48,9 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     plan_free(better);
 }
 
-void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
-                  const struct targets *t)
+void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q)
 {
-    struct plan *better = plan_make(m, r, t, plan_quality_after(m, p->worked), false);
+    struct plan *better = plan_make(m, q, plan_quality_after(m, p->worked), false);
     p->quality = BOXED; /* not again, unless it says so itself */
     if (better)
         plan_becomes(m, p, better);
@@ -86,12 +85,12 @@ void plans_see_to(struct machine *m)
     improve_give_up(m);
 }
 
-bool improve_begin(struct machine *m, struct plan *p, const struct reach *r,
-                   const struct targets *t, enum quality quality)
+bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
+                   enum quality quality)
 {
     if (!background_on(m) || background_busy(m))
         return false;
-    p->better = plan_make(m, r, t, quality, true);
+    p->better = plan_make(m, q, quality, true);
     if (p->better && background_begin(m)) {
         m->plans->improving = p;
         return true;

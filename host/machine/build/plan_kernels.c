@@ -137,10 +137,84 @@ static bool plan_text(const struct machine *m, const struct plan_graph *g, const
                                : strips_emit(g, stores, count, set, shape, k);
 }
 
+static void plan_dump_text(struct machine *m, const struct kernel_text *k)
+{
+    char said[sizeof k->options + 40];
+    int n = snprintf(said, sizeof said, "%s", k->options);
+    if (k->strip_bytes)
+        snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns", k->strip_columns);
+    if (k->group)
+        snprintf(said + n, sizeof said - (size_t)n, ", tiles of %d x %d", k->tile_width,
+                 k->tile_height);
+    dump_text(m, m->plans->dump_count++, ".cl", said, k->text);
+}
+
+/* Room for one more. False: no memory. */
+static bool launches_grow(struct plan *p)
+{
+    struct launch *launches =
+        realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
+    p->launches = launches ? launches : p->launches;
+    return launches != NULL;
+}
+
+/* Builds the kernel of that text, or asks the background for it. Its plan has room for it. False: it cannot be had; there may be
+ * an error. */
+static bool plan_build(struct machine *m, struct plan *p, const struct plan_graph *g,
+                       const int *stores, int stores_count, struct kernel_text *k)
+{
+    int set_id = g->nodes[stores[0]].set, number = -1;
+    const struct vpset *set = &m->values->sets[set_id];
+    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
+                                       k->wide ? kernel_wide_cl : "",
+                                       k->soft ? kernel_soft_cl : "",
+                                       k->formats ? kernel_formats_cl : "",
+                                       k->math ? kernel_math_tables_cl : "",
+                                       k->math ? kernel_math_cl : "",
+                                       k->text};
+    if (many_streams(m, set, k))
+        strcat(k->options, " -DAHEAD=128");
+    bool quick = p->quality == QUICK && !much_math(m, k, set) &&
+                 !device_kernel_at_hand(m, parts, k->options, "k");
+    if (quick)
+        strcat(k->options, " -cl-opt-disable");
+    cl_kernel kernel = NULL;
+    if (p->later || quick)
+        number = kernel_want(m, set, k, parts, p->later);
+    if (!p->later)
+        kernel = device_kernel(m, parts, k->options, "k");
+    if (kernel && k->group && !device_takes_group(m->device, kernel, k->group))
+        kernel = NULL; /* plan_make() does without */
+    p->could_be_optimised |= quick;
+    p->could_be_boxed |= k->has_boxes && !g->boxes;
+    p->work += set->count;
+    if (!kernel && number < 0)
+        return false;
+    const char *made = quick ? "quick" : g->boxes && k->has_boxes ? "boxed" : "optimised";
+    struct kernel_note *note =
+        m->watch ? describe_kernel(m, kernel, g, stores, stores_count, k, made) : NULL;
+    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
+                                                       .number = number,
+                                                       .note = note,
+                                                       .set = set_id,
+                                                       .vector = k->vector,
+                                                       .strip_bytes = k->strip_bytes,
+                                                       .strip_margin = k->strip_margin,
+                                                       .strip_columns = k->strip_columns,
+                                                       .group = k->group,
+                                                       .tile_width = k->tile_width,
+                                                       .tile_height = k->tile_height,
+                                                       .in_place = k->in_place,
+                                                       .arguments = k->arguments,
+                                                       .arguments_count = k->arguments_count};
+    k->arguments = NULL;
+    k->in_place.pairs = NULL;
+    return true;
+}
+
 static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_graph *g,
                         const int *stores, int stores_count)
 {
-    int set = g->nodes[stores[0]].set;
     struct kernel_text k;
     double start = watch_clock(m);
     if (!plan_text(m, g, stores, stores_count, &k)) {
@@ -161,75 +235,17 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
     }
     if (m->watch)
         watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
-    if (m->plans->dump_dir) {
-        char said[sizeof k.options + 40];
-        int n = snprintf(said, sizeof said, "%s", k.options);
-        if (k.strip_bytes)
-            snprintf(said + n, sizeof said - (size_t)n, ", strips of %d columns",
-                     k.strip_columns);
-        if (k.group)
-            snprintf(said + n, sizeof said - (size_t)n, ", tiles of %d x %d", k.tile_width,
-                     k.tile_height);
-        dump_text(m, m->plans->dump_count++, ".cl", said, k.text);
-    }
-    struct launch *launches =
-        realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
-    const char *parts[DEVICE_PARTS] = {kernel_prelude_cl,
-                                       k.wide ? kernel_wide_cl : "",
-                                       k.soft ? kernel_soft_cl : "",
-                                       k.formats ? kernel_formats_cl : "",
-                                       k.math ? kernel_math_tables_cl : "",
-                                       k.math ? kernel_math_cl : "",
-                                       k.text};
-    if (many_streams(m, &m->values->sets[set], &k))
-        strcat(k.options, " -DAHEAD=128");
-    bool quick = p->quality == QUICK && !much_math(m, &k, &m->values->sets[set]) &&
-                 !device_kernel_at_hand(m, parts, k.options, "k");
-    if (quick)
-        strcat(k.options, " -cl-opt-disable");
-    int number = -1;
-    cl_kernel kernel = NULL;
-    if (launches)
-        p->launches = launches;
-    if (launches && (p->later || quick))
-        number = kernel_want(m, &m->values->sets[set], &k, parts, p->later);
-    if (launches && !p->later)
-        kernel = device_kernel(m, parts, k.options, "k");
-    if (kernel && k.group && !device_takes_group(m->device, kernel, k.group))
-        kernel = NULL; /* plan_make() does without */
-    p->could_be_optimised |= quick;
-    p->could_be_boxed |= k.has_boxes && !g->boxes;
-    p->work += m->values->sets[set].count;
-    if (!kernel && number < 0) {
-        kernel_text_finish(&k);
-        return false;
-    }
-    const char *made = quick ? "quick" : g->boxes && k.has_boxes ? "boxed" : "optimised";
-    struct kernel_note *note =
-        m->watch ? describe_kernel(m, kernel, g, stores, stores_count, &k, made) : NULL;
-    p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
-                                                       .number = number,
-                                                       .note = note,
-                                                       .set = set,
-                                                       .vector = k.vector,
-                                                       .strip_bytes = k.strip_bytes,
-                                                       .strip_margin = k.strip_margin,
-                                                       .strip_columns = k.strip_columns,
-                                                       .group = k.group,
-                                                       .tile_width = k.tile_width,
-                                                       .tile_height = k.tile_height,
-                                                       .in_place = k.in_place,
-                                                       .arguments = k.arguments,
-                                                       .arguments_count = k.arguments_count};
-    k.arguments = NULL;
-    k.in_place.pairs = NULL;
+    if (m->plans->dump_dir)
+        plan_dump_text(m, &k);
+    bool good = launches_grow(p) && plan_build(m, p, g, stores, stores_count, &k);
     kernel_text_finish(&k);
-    return true;
+    return good;
 }
 
-static bool plan_graph_init(struct plan_graph *g, const struct reach *r,
-                            const struct targets *t)
+static bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
 {
+    const struct reach *r = q->reach;
+    const struct targets *t = q->targets;
     *g = (struct plan_graph){.nodes = calloc((size_t)r->count, sizeof *g->nodes),
                              .count = r->count};
     for (int i = 0; g->nodes && i < r->count; i++) {
@@ -316,19 +332,19 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
     return true;
 }
 
-static struct plan *plan_attempt(struct machine *m, const struct reach *r,
-                                 const struct targets *t, enum quality quality, bool later,
-                                 bool *strips)
+static struct plan *plan_attempt(struct machine *m, const struct plan_request *q,
+                                 enum quality quality, bool later, bool *strips)
 {
     struct plan_graph g;
     struct plan *p = calloc(1, sizeof *p);
-    int *stores = calloc((size_t)r->count, sizeof *stores);
-    bool good = plan_graph_init(&g, r, t) && p && stores;
+    size_t count = (size_t)q->reach->count;
+    int *stores = calloc(count, sizeof *stores);
+    bool good = plan_graph_init(&g, q) && p && stores;
     if (good) {
         p->quality = quality;
         p->later = later;
-        p->stored = calloc((size_t)r->count, sizeof *p->stored);
-        p->arrays = calloc((size_t)r->count, sizeof *p->arrays);
+        p->stored = calloc(count, sizeof *p->stored);
+        p->arrays = calloc(count, sizeof *p->arrays);
         good = p->stored && p->arrays;
     }
     if (good) {
@@ -337,7 +353,7 @@ static struct plan *plan_attempt(struct machine *m, const struct reach *r,
         double start = watch_clock(m);
         plan_choose(&g, m->values->sets, &m->device->shape);
         if (m->watch)
-            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", r->count);
+            watch_span(m, WATCH_PLAN, start, "\"nodes\":%d", q->reach->count);
         p->could_be_strips = g.no_strips && g.turns_most > 1;
         *strips = g.strips;
         p->turns_most = g.turns_most;
@@ -365,12 +381,12 @@ bool plan_is_one_kernel(const struct plan *p)
     return p->launches_count == 1 && (p->launches[0].strip_bytes || p->launches[0].group);
 }
 
-struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                       enum quality quality, bool later)
+struct plan *plan_make(struct machine *m, const struct plan_request *q, enum quality quality,
+                       bool later)
 {
     bool strips = quality == BOXED || m->device->shape.always_strips;
-    struct plan *p = plan_attempt(m, r, t, quality, later, &strips);
-    if (m->plans->rehearsing == REHEARSING_TURNS) {
+    struct plan *p = plan_attempt(m, q, quality, later, &strips);
+    if (q->use == PLAN_TO_REHEARSE_TURNS) {
         if (p && !plan_is_one_kernel(p)) {
             if (later)
                 plan_notes_settle(m, p);
@@ -386,7 +402,7 @@ struct plan *plan_make(struct machine *m, const struct reach *r, const struct ta
         if (later)
             background_drop(m);
         strips = false;
-        p = plan_attempt(m, r, t, quality, later, &strips);
+        p = plan_attempt(m, q, quality, later, &strips);
     }
     if (!p && later)
         background_drop(m);

@@ -1,9 +1,14 @@
 /* plan_run.c - plans run: buffers for what they store, and their kernels' launches. */
 #include <math.h>
 
+#include "build/background.h"
 #include "build/plans.h"
 #include "device/call.h"
 #include "kernels.h"
+
+/* Kernels in the queue. While better ones are being built there are no more than keep the device busy: they would all be of
+ * the old ones. */
+enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
 
 size_t plan_run_columns(const struct machine *m, int vector)
 {
@@ -244,7 +249,9 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
-    status = status ? status : device_pace(m);
+    status = status
+                 ? status
+                 : device_pace(m, background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD);
     for (int i = 0; i < p->stored_count && status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
         if (*b)

@@ -1,5 +1,5 @@
 /* plans.c - plans kept: found by signature, made when a graph is first seen, and made better when it has been seen often.
-
+ *
  * Numbers' values are no part of a signature. */
 #include "build/plans.h"
 
@@ -9,7 +9,6 @@
 #include "base/arrays.h"
 #include "base/errors.h"
 #include "build/background.h"
-#include "run/run.h"
 
 void plans_finish(struct machine *m)
 {
@@ -60,9 +59,11 @@ static struct plan *plan_find(const struct machine *m, const struct reach *r, ui
 }
 
 /* It is known from now on. False: no memory, and it is no more. */
-static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, uint64_t hash)
+static bool plan_keep(struct machine *m, struct plan *p, const struct plan_request *q,
+                      uint64_t hash)
 {
     struct plan **bucket = &m->plans->table[hash & (uint64_t)(m->plans->table_size - 1)];
+    const struct reach *r = q->reach;
     size_t bytes = r->length * sizeof *r->signature;
     m->plans->built++;
     p->signature = malloc(bytes);
@@ -80,20 +81,19 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct reach *r, 
 }
 
 /* A plan that has been rehearsed is wanted now. False: error set. */
-static bool plan_fill(struct machine *m, struct plan *p, const struct reach *r,
-                      const struct targets *t)
+static bool plan_fill(struct machine *m, struct plan *p, const struct plan_request *q)
 {
     if (m->plans->improving == p)
         improve_give_up(m);
-    struct plan *made = plan_make(m, r, t, BOXED, false);
+    struct plan *made = plan_make(m, q, BOXED, false);
     if (made)
         plan_becomes(m, p, made);
     return made != NULL;
 }
 
 /* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
-static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struct reach *r,
-                                  const struct targets *t, uint64_t hash)
+static struct plan *plan_rehearse(struct machine *m, struct plan *p,
+                                  const struct plan_request *q, uint64_t hash)
 {
     if (p)
         return p;
@@ -101,16 +101,16 @@ static struct plan *plan_rehearse(struct machine *m, struct plan *p, const struc
         return NULL;
     p->empty = true;
     p->quality = BOXED;
-    if (!plan_keep(m, p, r, hash))
+    if (!plan_keep(m, p, q, hash))
         return NULL;
-    bool made = background_on(m) ? improve_begin(m, p, r, t, BOXED) : plan_fill(m, p, r, t);
-    p->hopeless = !made && m->plans->rehearsing == REHEARSING_TURNS;
+    bool made = background_on(m) ? improve_begin(m, p, q, BOXED) : plan_fill(m, p, q);
+    p->hopeless = !made && q->use == PLAN_TO_REHEARSE_TURNS;
     return p;
 }
 
-struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t)
+struct plan *plan_get(struct machine *m, const struct plan_request *q)
 {
-    uint64_t hash = words_hash(r->signature, r->length);
+    uint64_t hash = words_hash(q->reach->signature, q->reach->length);
     if (!m->plans->table) {
         m->plans->table_size = 1024;
         m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
@@ -119,17 +119,17 @@ struct plan *plan_get(struct machine *m, const struct reach *r, const struct tar
             return NULL;
         }
     }
-    if (!m->plans->rehearsing)
+    if (plan_use_runs(q->use))
         plans_see_to(m);
-    struct plan *p = plan_find(m, r, hash);
-    if (m->plans->rehearsing)
-        return plan_rehearse(m, p, r, t, hash);
+    struct plan *p = plan_find(m, q->reach, hash);
+    if (!plan_use_runs(q->use))
+        return plan_rehearse(m, p, q, hash);
     if (p && p->empty)
-        return plan_fill(m, p, r, t) ? p : NULL;
-    if (p && plan_is_due(m, p) && !improve_begin(m, p, r, t, plan_quality_after(m, p->worked)))
-        plan_improve(m, p, r, t);
+        return plan_fill(m, p, q) ? p : NULL;
+    if (p && plan_is_due(m, p) && !improve_begin(m, p, q, plan_quality_after(m, p->worked)))
+        plan_improve(m, p, q);
     if (p)
         return p;
-    p = plan_make(m, r, t, m->run->building ? BOXED : plan_quality_after(m, 0), false);
-    return p && plan_keep(m, p, r, hash) ? p : NULL;
+    p = plan_make(m, q, q->use == PLAN_TO_RUN_OFTEN ? BOXED : plan_quality_after(m, 0), false);
+    return p && plan_keep(m, p, q, hash) ? p : NULL;
 }

@@ -2,6 +2,7 @@
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
+#include "build/describe.h"
 #include "codegen/codegen.h"
 #include "watch/sums.h"
 
@@ -58,8 +59,17 @@ size_t plan_tiles_across(const struct vpset *set, int tile_width);
 /* New values are to be written over old ones, where nobody wants those. */
 bool plan_in_place_wanted(const struct machine *m, const struct plan *p);
 struct background;
-/* A plan's kernels: of one turn of a loop; of many, which must be one kernel. */
-enum rehearsal { REHEARSING_NOTHING, REHEARSING_ONE, REHEARSING_TURNS };
+/* What a plan is wanted for. */
+enum plan_use {
+    PLAN_TO_RUN,
+    PLAN_TO_RUN_OFTEN, /* so its kernels are made as well as they can be */
+    PLAN_TO_REHEARSE, /* its kernels are seen to, in the background where there is one; none runs now */
+    PLAN_TO_REHEARSE_TURNS, /* likewise, of many turns of a loop, which must be one kernel */
+};
+static inline bool plan_use_runs(enum plan_use use)
+{
+    return use == PLAN_TO_RUN || use == PLAN_TO_RUN_OFTEN;
+}
 
 /* Plans kept, and their kernels. */
 struct plans {
@@ -67,10 +77,8 @@ struct plans {
     int table_size;
     struct background *background; /* background.c; NULL: nothing was wanted so far */
     struct plan *improving;        /* whose better kernels are being compiled there */
-    enum rehearsal rehearsing;     /* evaluations see to their plan's kernels, and run none */
-    bool silent; /* what calls do is told to nobody: they will be performed once more */
-    struct plan *rehearsed; /* by the last rehearsal; NULL: there was nothing to compute */
-    char *dump_dir;         /* NULL: nothing is dumped */
+    struct describing describing;
+    char *dump_dir; /* NULL: nothing is dumped */
     int dump_count;
     uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
     double predicted_s; /* of the plans that ran */
@@ -90,9 +98,15 @@ struct targets {
     struct machine_value **values;
     int count, capacity;
 };
+struct plan_request {
+    const struct reach *reach;
+    const struct targets *targets;
+    enum plan_use use;
+};
 
-/* The plan for them: a new one, or one seen before, with better kernels where those are due. NULL: error set. */
-struct plan *plan_get(struct machine *m, const struct reach *r, const struct targets *t);
+/* The plan for it: a new one, or one seen before, with better kernels where those are due. NULL: error set; or, of one that
+ * is not to run, that it cannot be. */
+struct plan *plan_get(struct machine *m, const struct plan_request *q);
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 /* Its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
@@ -127,21 +141,20 @@ void plan_free(struct plan *p);
 void plan_notes_settle(struct machine *m, struct plan *p);
 bool plan_is_one_kernel(const struct plan *p);
 /* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
-struct plan *plan_make(struct machine *m, const struct reach *r, const struct targets *t,
-                       enum quality quality, bool later);
+struct plan *plan_make(struct machine *m, const struct plan_request *q, enum quality quality,
+                       bool later);
 /* How well a plan that has run on so many processors is to be made. */
 enum quality plan_quality_after(const struct machine *m, uint64_t worked);
 /* Better kernels would be worth it by now, and can be seen to. */
 bool plan_is_due(const struct machine *m, const struct plan *p);
 void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
 /* The same plan with better kernels, now. What cannot be had is done without. */
-void plan_improve(struct machine *m, struct plan *p, const struct reach *r,
-                  const struct targets *t);
+void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q);
 /* What is being compiled in the background is not wanted any more. */
 void improve_give_up(struct machine *m);
 /* Better kernels for it are going to be compiled in the background. False: not so. */
-bool improve_begin(struct machine *m, struct plan *p, const struct reach *r,
-                   const struct targets *t, enum quality quality);
+bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
+                   enum quality quality);
 void dump_text(struct machine *m, int number, const char *suffix, const char *options,
                const char *text);
 void dump_graph(struct machine *m, int number, const struct plan_graph *g);

@@ -358,6 +358,107 @@ static bool emit_between(struct emitter *e, int node, int row, int dx, struct op
     return false;
 }
 
+/* Bits side by side. */
+static void spell_concat(char *out, size_t size, const char *type, const char *a,
+                         struct machine_type from, const char *b, struct machine_type to)
+{
+    char low[120], high[120];
+    spell_widened(low, sizeof low, a, from, type[1]);
+    spell_widened(high, sizeof high, b, to, type[1]);
+    if (type[1] == 'Q')
+        snprintf(out, size, "q_or(%s, q_shl(%s, %d))", low, high, from.width);
+    else
+        snprintf(out, size, "%s | (%s << %d%s)", low, high, from.width,
+                 type[1] == 'L' ? "UL" : "");
+}
+
+/* NOT or NEG of bits. */
+static void spell_bits_unary(char *out, size_t size, const struct plan_node *n,
+                             const char *type, const char *a)
+{
+    char raw[100];
+    if (type[1] == 'Q')
+        snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg", a);
+    else
+        snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+    if (type[1] == 'I')
+        snprintf(out, size, "%s", raw);
+    else
+        spell_cut(out, size, raw, n->type.width);
+}
+
+/* An operation of a native type, or of doubles, on operands that have been spelt. */
+static void spell_operation(struct emitter *e, char *out, size_t size,
+                            const struct plan_node *n, const struct operand in[3])
+{
+    struct machine_type from = e->g->nodes[n->in[0]].type;
+    const char *a = in[0].text, *b = in[1].text, *type = spell_container(n->type);
+    if (n->op == NODE_SELECT)
+        snprintf(out, size, "SEL_%c(%s, %s, %s)", type[1], a, b, in[2].text);
+    else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG)
+        spell_bits_unary(out, size, n, type, a);
+    else if (op_is_integer(n->op)) {
+        e->integers = true;
+        spell_integer(out, size, n->op, from, a, b);
+    } else if (n->op < MACHINE_FNEG)
+        spell_bits_binary(out, size, n->op, from, a, b);
+    else if (op_is_math(n->op)) {
+        spell_math(out, size, n->op, from, a, b);
+        e->math = true;
+    } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
+        spell_float(out, size, n->op, from, a, b);
+    else if (n->op >= NODE_OVERFLOW_UADD) {
+        spell_overflow(out, size, n->op, from, a, b);
+        e->wide = e->wide || from.width > 32;
+    } else if (n->op == NODE_CONCAT)
+        spell_concat(out, size, type, a, from, b, e->g->nodes[n->in[1]].type);
+    else
+        spell_conversion(out, size, n, from, a);
+}
+
+/* What a node computes of its operands. */
+static void emit_operation(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                           int row, int dx, bool canonical)
+{
+    struct operand in[3] = {{""}, {""}, {""}};
+    for (int i = 0; i < node_ops[n->op].inputs; i++) {
+        bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
+        in[i] = emit_value(e, plan_input(e->g, n, i, e->stage), row, dx, want);
+    }
+    struct machine_type from = e->g->nodes[n->in[0]].type;
+    e->ops++;
+    e->cost += node_cost(n->op, n->type);
+    e->wide = e->wide || spell_letter(from) == 'Q';
+    enum spell_soft soft = spell_soft(out, size, n, from, in[0].text, in[1].text);
+    bool spelt = soft != SPELL_SOFT_NOT;
+    if (e->lane < LANE_WIDE) {
+        narrow_spell(out, size, e->g, n, e->lane, in[0].text, in[1].text, in[2].text);
+        spelt = true;
+    } else if (!spelt) {
+        spell_operation(e, out, size, n, in);
+    }
+    if (!spelt)
+        soft = spell_soft_rounding(out, size, n);
+    e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
+    e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
+}
+
+/* What an array, or a row of a ring, has there. */
+static void emit_load(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                      int node, int row, int dx)
+{
+    int p = pointer_of(e, node, row);
+    if (e->failed)
+        return;
+    struct pointer *seen = &e->seen_pointers[p];
+    seen->low = dx < seen->low ? dx : seen->low;
+    seen->high = dx > seen->high ? dx : seen->high;
+    e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
+    snprintf(out, size, "LOAD_%s(p%d, %s(%d))", memory_kind(n->type), p,
+             e->near && !n->leaf ? "NEAR" : "AT", dx);
+    e->loads++;
+}
+
 struct operand emit_value(struct emitter *e, int node, int row, int dx, bool canonical)
 {
     const struct plan_node *n = &e->g->nodes[node];
@@ -368,7 +469,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         snprintf(result.text, sizeof result.text, "k%d", constant_of(e, node));
         return result;
     }
-    /* What another stage has in a variable is the form that it keeps, not one that it may have computed besides. */
+    /* Where another stage already has this value in a variable, that is reused as it was stored (NaNs canonical or not, as
+     * bits_matter says): never a second copy that was made canonical in another way. */
     bool loads = plan_loads(n, e->stage), kept = loads && in_variables(e, node, row);
     canonical = n->maybe_nan && (kept ? e->together->bits_matter[node] : canonical && !loads);
     int known = variable_find(e, node, row, dx, canonical);
@@ -381,16 +483,9 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         if (emit_between(e, node, row, dx, &result, expression, sizeof expression))
             return result;
     } else if (loads) {
-        int p = pointer_of(e, node, row);
+        emit_load(e, expression, sizeof expression, n, node, row, dx);
         if (e->failed)
             return named(0);
-        struct pointer *seen = &e->seen_pointers[p];
-        seen->low = dx < seen->low ? dx : seen->low;
-        seen->high = dx > seen->high ? dx : seen->high;
-        e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
-        snprintf(expression, sizeof expression, "LOAD_%s(p%d, %s(%d))", memory_kind(n->type), p,
-                 e->near && !n->leaf ? "NEAR" : "AT", dx);
-        e->loads++;
     } else if (n->op == NODE_SHIFT) {
         bool along_row = n->axis == e->set->rank - 1;
         int moved_row = along_row ? row : row_moved(e, row, n->axis, n->detail);
@@ -402,68 +497,7 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         emit_generated(e, expression, sizeof expression, n, node, row, dx);
         e->cost += node_cost(n->op, n->type);
     } else {
-        struct operand in[3] = {{""}, {""}, {""}};
-        for (int i = 0; i < node_ops[n->op].inputs; i++) {
-            bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
-            in[i] = emit_value(e, plan_input(e->g, n, i, e->stage), row, dx, want);
-        }
-        struct machine_type from = e->g->nodes[n->in[0]].type;
-        const char *a = in[0].text, *b = in[1].text;
-        e->ops++;
-        e->cost += node_cost(n->op, n->type);
-        e->wide = e->wide || spell_letter(from) == 'Q';
-        enum spell_soft soft = spell_soft(expression, sizeof expression, n, from, a, b);
-        bool spelt = soft != SPELL_SOFT_NOT;
-        if (e->lane < LANE_WIDE) {
-            narrow_spell(expression, sizeof expression, e->g, n, e->lane, a, b, in[2].text);
-            spelt = true;
-        } else if (spelt)
-            ; /* by that */
-        else if (n->op == NODE_SELECT)
-            snprintf(expression, sizeof expression, "SEL_%c(%s, %s, %s)", type[1], a, b,
-                     in[2].text);
-        else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG) {
-            char raw[100];
-            if (type[1] == 'Q')
-                snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg",
-                         a);
-            else
-                snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
-            if (type[1] == 'I')
-                snprintf(expression, sizeof expression, "%s", raw);
-            else
-                spell_cut(expression, sizeof expression, raw, n->type.width);
-        } else if (op_is_integer(n->op)) {
-            e->integers = true;
-            spell_integer(expression, sizeof expression, n->op, from, a, b);
-        } else if (n->op < MACHINE_FNEG)
-            spell_bits_binary(expression, sizeof expression, n->op, from, a, b);
-        else if (op_is_math(n->op)) {
-            spell_math(expression, sizeof expression, n->op, from, a, b);
-            e->math = true;
-        } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
-            spell_float(expression, sizeof expression, n->op, from, a, b);
-        else if (n->op >= NODE_OVERFLOW_UADD) {
-            spell_overflow(expression, sizeof expression, n->op, from, a, b);
-            e->wide = e->wide || from.width > 32;
-        } else if (n->op == NODE_CONCAT) {
-            char low[120], high[120];
-            struct machine_type to = e->g->nodes[n->in[1]].type;
-            spell_widened(low, sizeof low, a, from, type[1]);
-            spell_widened(high, sizeof high, b, to, type[1]);
-            if (type[1] == 'Q')
-                snprintf(expression, sizeof expression, "q_or(%s, q_shl(%s, %d))", low, high,
-                         from.width);
-            else
-                snprintf(expression, sizeof expression, "%s | (%s << %d%s)", low, high,
-                         from.width, type[1] == 'L' ? "UL" : "");
-        } else {
-            spell_conversion(expression, sizeof expression, n, from, a);
-        }
-        if (!spelt)
-            soft = spell_soft_rounding(expression, sizeof expression, n);
-        e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
-        e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
+        emit_operation(e, expression, sizeof expression, n, row, dx, canonical);
     }
     int name = variable_add(e, node, row, dx, canonical);
     bool box = !loads && note_box(e, n, row, dx);

@@ -1,5 +1,5 @@
 /* spell_soft.c - operations on floats of other formats than single and double.
-
+ *
  * Sums, products, quotients and roots are the double's, rounded again, where that can do no harm: if
  * s <= 24 a double has 2 (s + 1) + 2 bits and a second rounding never sees a tie that the first
  * one made; and if e <= 9 no result has been rounded as a subnormal double. Elsewhere they are

@@ -144,14 +144,11 @@ int strips_columns(const struct strips *s, const struct device_shape *shape);
  * of the text: of few numbers, so that sheets of many sizes have the same. */
 int strips_near_columns(const struct strips *s, int columns);
 
-/* ---- strips_text.c ---- */
+/* ---- strips_pass.c ---- */
 
 /* -1: it has none. */
 int strips_border_of(const struct strips *s, int node);
 bool strips_in_places(const struct strips *s, int output);
-
-/* ---- strips_pass.c ---- */
-
 bool strips_has_boxes(const struct strips *s, const struct emitter *e);
 void strips_pass_make(struct strips *s, int number);
 

@@ -6,6 +6,22 @@
 #include "codegen/spell.h"
 #include "codegen/strips.h"
 
+int strips_border_of(const struct strips *s, int node)
+{
+    for (int i = 0; i < s->in_place.leaves_count; i++)
+        if (s->in_place.leaves[i] == node)
+            return i;
+    return -1;
+}
+
+bool strips_in_places(const struct strips *s, int output)
+{
+    for (int i = 0; i < s->in_place.pairs_count; i++)
+        if (s->in_place.pairs[i].output == output)
+            return true;
+    return false;
+}
+
 static void output_add(struct pass *pass, struct output output)
 {
     pass->outputs[pass->outputs_count++] = output;
@@ -323,12 +339,11 @@ static void near_row(struct strips *s, struct pass *pass, struct text *t, const 
                  s->ring_at[node] - pass->ring_rows[row].first);
 }
 
-static void pass_text(struct strips *s, struct pass *pass)
+/* Its arguments: arrays' rows, rows of rings, numbers. rows: what the rings' rows are called in it. */
+static void pass_head(struct strips *s, struct pass *pass, struct text *rows)
 {
     struct emitter *e = &pass->e;
-    struct text *t = &pass->text, rows = {0};
-    bool boxes = strips_has_boxes(s, e);
-    carry(s, pass);
+    struct text *t = &pass->text;
     text_put(t, "(const int W, const int PITCH, const int PLOG2, const int RATIO, const int "
                 "D0, const int y,\n    const int top, const int bottom, const int first, "
                 "const int last, const int2 inside");
@@ -338,7 +353,7 @@ static void pass_text(struct strips *s, struct pass *pass)
             text_put(t, ",\n    const __global %s *%s p%d", memory_type(s->g->nodes[node].type),
                      strips_border_of(s, node) < 0 ? "restrict" : "", i);
         else
-            near_row(s, pass, &rows, "const ", 'p', i, node,
+            near_row(s, pass, rows, "const ", 'p', i, node,
                      emit_rows_down(e, &e->seen_pointers[i]));
     }
     for (int i = 0; i < pass->outputs_count; i++) {
@@ -347,18 +362,17 @@ static void pass_text(struct strips *s, struct pass *pass)
             text_put(t, ",\n    __global %s *%s q%d", memory_type(s->g->nodes[node].type),
                      !strips_in_places(s, node) ? "restrict" : "", i);
         else
-            near_row(s, pass, &rows, "", 'q', i, node, s->down[node]);
+            near_row(s, pass, rows, "", 'q', i, node, s->down[node]);
     }
     for (int i = 0; i < pass->ring_rows_count; i++)
         text_put(t, ",\n    __global uchar *n%d", i);
     emit_numbers(t, e);
-    text_put(t, ")\n{\n%s    const int row = wrap(y, D0), r0 = row;\n",
-             rows.data ? rows.data : "");
-    s->failed = s->failed || rows.failed;
-    free(rows.data);
-    emit_axes(e, t);
-    text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
-             e->constants.data ? e->constants.data : "");
+}
+
+/* Which of its outputs' rows are the strip's own. */
+static void own_rows_text(const struct strips *s, struct pass *pass)
+{
+    struct text *t = &pass->text;
     for (int i = 0; i < pass->outputs_count; i++) {
         int down = s->down[pass->outputs[i].node];
         if (pass->outputs[i].asks && pass->above <= down && pass->below <= -down)
@@ -367,12 +381,13 @@ static void pass_text(struct strips *s, struct pass *pass)
             text_put(t, "    const bool own%d = y + (%d) >= top && y + (%d) < bottom;\n", i,
                      down, down);
     }
-    carried_text(s, pass, t, true);
-    text_put(t, "    const int row_inside = 1%s;\n",
-             boxes && e->row_tests.data ? e->row_tests.data : "");
-    /* The next row of arrays is on its way to the caches while this one is computed: rows are shorter than what hardware
-     * needs to find out that they follow each other. */
-    struct text inside = {0}, fetch = {0};
+}
+
+/* The next row of arrays is on its way to the caches while this one is computed: rows are shorter than what hardware
+ * needs to find out that they follow each other. */
+static void pass_loops(struct strips *s, struct pass *pass)
+{
+    struct text *t = &pass->text, inside = {0}, fetch = {0};
     if (prefetch_arrays(s, pass) > ARRAYS_MANY)
         prefetch_rows(s, pass, t, &inside);
     else
@@ -385,14 +400,40 @@ static void pass_text(struct strips *s, struct pass *pass)
         loops_text(s, pass, inside.data ? inside.data : "", fetch.data);
     free(inside.data);
     free(fetch.data);
+}
+
+static void wraps_text(const struct strips *s, struct pass *pass)
+{
     for (int i = 0; i < pass->outputs_count; i++) {
         const struct output *o = &pass->outputs[i];
         const char *kind = memory_kind(s->g->nodes[o->node].type);
         if (!o->array && s->wraps[o->node] & WRAPS_RIGHT)
-            text_put(t, "    WRAP_RIGHT(%s, q%d);\n", kind, i);
+            text_put(&pass->text, "    WRAP_RIGHT(%s, q%d);\n", kind, i);
         if (!o->array && s->wraps[o->node] & WRAPS_LEFT)
-            text_put(t, "    WRAP_LEFT(%s, q%d);\n", kind, i);
+            text_put(&pass->text, "    WRAP_LEFT(%s, q%d);\n", kind, i);
     }
+}
+
+static void pass_text(struct strips *s, struct pass *pass)
+{
+    struct emitter *e = &pass->e;
+    struct text *t = &pass->text, rows = {0};
+    bool boxes = strips_has_boxes(s, e);
+    carry(s, pass);
+    pass_head(s, pass, &rows);
+    text_put(t, ")\n{\n%s    const int row = wrap(y, D0), r0 = row;\n",
+             rows.data ? rows.data : "");
+    s->failed = s->failed || rows.failed;
+    free(rows.data);
+    emit_axes(e, t);
+    text_put(t, "%s%s", e->rows.data ? e->rows.data : "",
+             e->constants.data ? e->constants.data : "");
+    own_rows_text(s, pass);
+    carried_text(s, pass, t, true);
+    text_put(t, "    const int row_inside = 1%s;\n",
+             boxes && e->row_tests.data ? e->row_tests.data : "");
+    pass_loops(s, pass);
+    wraps_text(s, pass);
     text_put(t, "}\n");
     s->failed = s->failed || t->failed || e->failed || e->body.failed || e->rows.failed ||
                 e->constants.failed || e->row_tests.failed || e->column_tests.failed;

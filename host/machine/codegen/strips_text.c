@@ -8,22 +8,6 @@
 #include "kernels.h"
 #include "plan/lanes.h"
 
-int strips_border_of(const struct strips *s, int node)
-{
-    for (int i = 0; i < s->in_place.leaves_count; i++)
-        if (s->in_place.leaves[i] == node)
-            return i;
-    return -1;
-}
-
-bool strips_in_places(const struct strips *s, int output)
-{
-    for (int i = 0; i < s->in_place.pairs_count; i++)
-        if (s->in_place.pairs[i].output == output)
-            return true;
-    return false;
-}
-
 /* ---- the kernel ---- */
 
 static void collect_arguments(struct strips *s)

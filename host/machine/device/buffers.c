@@ -1,5 +1,5 @@
 /* buffers.c - device memory.
-
+ *
  * Versions of values come and go at every step, so released buffers are kept in a pool by size. The queue is in
  * order: a buffer may be used again as soon as nobody refers to it. Arrays that begin at the same offset from a
  * page disturb each other in the caches (1.5 to 2 times slower sweeps over large sheets), so each begins at another
@@ -110,9 +110,9 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     cl_int error = CL_OUT_OF_HOST_MEMORY;
     cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     if (error && d->pool_count) {
-        m->device->inside++;
+        m->inside++;
         clFinish(d->queue);
-        m->device->inside--;
+        m->inside--;
         device_pool_empty(d);
         parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
     }

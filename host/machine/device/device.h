@@ -42,7 +42,6 @@ struct device {
     struct program_entry *programs; /* hash table by text: see programs.c */
     uint64_t kernels_built, kernels_built_background, kernels_run;
     double busy_s;        /* waiting for it */
-    int inside;           /* calls that build, launch or wait: see machine_leave() */
     cl_kernel *unstarted; /* built, and not run yet */
     int unstarted_count, unstarted_capacity;
     const char *options;
@@ -120,9 +119,9 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
                                 const struct device_buffer *to, size_t bytes, const char *what);
 void device_flush(struct machine *m); /* what is in the queue begins */
 
-/* After kernels were started: waits where the front end is hundreds of them ahead of the device,
- * for each that waits in the queue takes memory. */
-enum machine_status device_pace(struct machine *m);
+/* After kernels were started: waits where the front end is so many of them ahead of the device, for each that waits in the
+ * queue takes memory. */
+enum machine_status device_pace(struct machine *m, uint64_t ahead);
 /* It has never been started. */
 
 void device_unstarted_add(struct device *d, cl_kernel kernel);

@@ -41,8 +41,7 @@ static enum machine_status no_device_on(struct machine *m, cl_platform_id platfo
         name);
 }
 
-static enum machine_status choose_and_open(struct machine *m,
-                                           const struct machine_config *config)
+static enum machine_status choose(struct machine *m, const struct machine_config *config)
 {
     struct device *d = m->device;
     struct opencl_device *all = calloc(OPENCL_DEVICES_MAX, sizeof *all);
@@ -70,6 +69,13 @@ static enum machine_status choose_and_open(struct machine *m,
     snprintf(d->name, sizeof d->name, "%s", all[chosen].name);
     snprintf(d->platform_name, sizeof d->platform_name, "%s", all[chosen].platform_name);
     free(all);
+    return MACHINE_OK;
+}
+
+/* What the driver tells of the device. */
+static enum machine_status ask(struct machine *m)
+{
+    struct device *d = m->device;
     cl_device_type type = 0;
     cl_uint units = 0;
     cl_ulong memory = 0, max_alloc = 0;
@@ -94,6 +100,17 @@ static enum machine_status choose_and_open(struct machine *m,
     d->options = singles & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT
                      ? "-cl-fp32-correctly-rounded-divide-sqrt"
                      : "";
+    return MACHINE_OK;
+}
+
+static enum machine_status choose_and_open(struct machine *m,
+                                           const struct machine_config *config)
+{
+    struct device *d = m->device;
+    enum machine_status status = choose(m, config);
+    status = status ? status : ask(m);
+    if (status)
+        return status;
     tuning_apply(m, config);
     d->shape = shape_of(d, &m->settings);
     cl_int error;

@@ -196,10 +196,10 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
     }
     struct program_entry *entry = calloc(1, sizeof *entry), *bucket = program_bucket(d, key);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    m->device->inside++;
+    m->inside++;
     if (entry && (entry->program = build(m, parts, options, key)))
         entry->kernel = clCreateKernel(entry->program, name, &error);
-    m->device->inside--;
+    m->inside--;
     if (entry && entry->program) {
         if (!error) {
             entry->key = key;

@@ -1,20 +1,19 @@
 /* queue.c - commands: started, waited for, and kept from running too far ahead. */
 #include <stdlib.h>
 
-#include "build/background.h"
 #include "device/device.h"
 #include "watch/watch.h"
 
 double device_wait_begin(struct machine *m)
 {
-    m->device->inside++;
+    m->inside++;
     return clock_s();
 }
 
 enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
                                     const char *what)
 {
-    m->device->inside--;
+    m->inside--;
     m->device->busy_s += clock_s() - start;
     if (m->watch)
         watch_waited(m, start, what);
@@ -24,11 +23,11 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
-    m->device->inside++;
+    m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, pattern, pattern_bytes, 0,
                                        b->bytes, 0, NULL, done);
-    m->device->inside--;
+    m->inside--;
     if (done)
         watch_moves(m, error, "fill", b->bytes);
     return device_check(m, error, what);
@@ -37,11 +36,11 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
-    m->device->inside++;
+    m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     cl_int error =
         clEnqueueCopyBuffer(m->device->queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
-    m->device->inside--;
+    m->inside--;
     if (done)
         watch_moves(m, error, "copy", 2 * bytes);
     return device_check(m, error, what);
@@ -49,20 +48,15 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
 
 void device_flush(struct machine *m)
 {
-    m->device->inside++;
+    m->inside++;
     clFlush(m->device->queue);
-    m->device->inside--;
+    m->inside--;
 }
 
-/* While better kernels are being built no more are put into the queue than keep the device busy: they would all be of
- * the old ones. */
-enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
-
 /* A fence is put behind so many kernels, and the one before it waited for. */
-enum machine_status device_pace(struct machine *m)
+enum machine_status device_pace(struct machine *m, uint64_t ahead)
 {
     struct device *d = m->device;
-    uint64_t ahead = background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD;
     if (d->kernels_run - d->fence_kernels < ahead)
         return MACHINE_OK;
     cl_event reached = d->fence;
@@ -97,7 +91,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
 {
     static const size_t one[3] = {1, 1, 1};
     struct device *d = m->device;
-    m->device->inside++;
+    m->inside++;
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
     if (!error)
@@ -117,6 +111,6 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
                 watch_span(m, WATCH_BUILD_FIRST, start, NULL);
             break;
         }
-    m->device->inside--;
+    m->inside--;
     return device_check(m, error, what);
 }

@@ -1,5 +1,5 @@
 /* copies.c - how fast the device copies as many bytes as a kernel reads and writes.
-
+ *
  * It is measured by the same clock on arrays of that size when the explanation is asked for: small arrays stay in the
  * caches, and starting takes its time, for a copy too. */
 #include "explain/copies.h"
@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "device/device.h"
 #include "kernels.h"
 #include "watch/watch_struct.h"
 
@@ -21,7 +22,7 @@ void copies_ready(struct machine *m, struct watch_sums *e)
 {
     struct watch *watch = m->watch;
     m->watch = NULL; /* none of this is the program's */
-    m->device->inside++;
+    m->inside++;
     for (int streams = 0; streams < 2; streams++) {
         char options[64];
         size_t one = 1;
@@ -42,7 +43,7 @@ void copies_ready(struct machine *m, struct watch_sums *e)
         if (b)
             device_buffer_unref(m, b);
     }
-    m->device->inside--;
+    m->inside--;
     m->watch = watch;
     machine_error_clear(m); /* then there is nothing to compare with */
 }
@@ -124,7 +125,7 @@ void copies_measure(struct machine *m, struct watch_sums *e)
     enum machine_status status = m->status;
     f->copy_bytes = 0;
     f->copy_bytes_per_s = 0;
-    m->device->inside++;
+    m->inside++;
     for (int i = 0; i < f->kernels_count && i < MEASURED_MOST; i++) {
         struct machine_explained_kernel *k = &e->kernels[i];
         uint64_t bytes = k->runs ? k->bytes / k->runs : 0;
@@ -140,7 +141,7 @@ void copies_measure(struct machine *m, struct watch_sums *e)
             f->copy_bytes_per_s = (double)bytes / k->copy_s;
         }
     }
-    m->device->inside--;
+    m->inside--;
     if (!status) /* no memory for a copy is nobody's failure */
         machine_error_clear(m);
 }

@@ -78,10 +78,14 @@ static void gather_rows(const struct machine *m, struct watch_sums *e)
     add(f->reasons, &f->reasons_count, "overflow that nobody looked at", v->overflows);
     add(f->reasons, &f->reasons_count, "temporary left an expression at an evaluation",
         v->expressions);
-    add(f->evaluations, &f->evaluations_count, "somebody looked", e->looked);
-    add(f->evaluations, &f->evaluations_count, "much was waiting", e->alone);
-    add(f->evaluations, &f->evaluations_count, "asked to, by a flush", e->flushed);
-    add(f->evaluations, &f->evaluations_count, "each store at once", e->eager);
+    add(f->evaluations, &f->evaluations_count, "somebody looked",
+        e->evaluations[WATCH_LOOKED_AT]);
+    add(f->evaluations, &f->evaluations_count, "much was waiting",
+        e->evaluations[WATCH_MUCH_WAITED]);
+    add(f->evaluations, &f->evaluations_count, "asked to, by a flush",
+        e->evaluations[WATCH_ASKED_TO]);
+    add(f->evaluations, &f->evaluations_count, "each store at once",
+        e->evaluations[WATCH_AT_ONCE]);
     for (int i = 0; i < WATCH_PHASES_COUNT; i++)
         if (e->phases[i].count) {
             f->phases[f->phases_count] = e->phases[i];
@@ -92,8 +96,7 @@ static void gather_rows(const struct machine *m, struct watch_sums *e)
 const struct machine_explained *machine_explain(struct machine *m, bool wish_measured)
 {
     struct watch_sums *e = watch_explain(m);
-    if (!e || !m->device->queue || m->device->inside ||
-        !pthread_equal(m->owner, pthread_self()))
+    if (!e || !m->device->queue || m->inside || !pthread_equal(m->owner, pthread_self()))
         return NULL;
     watch_settle(m);
     struct machine_explained *f = &e->facts;

@@ -1,12 +1,12 @@
 /* fields.c - fields: allocated, found, released.
-
+ *
  * A field is a row of bits in each processor. Ids are addresses in a space of 2^31 bits that is not used again until
  * it has been gone through, so an id that has died stays dead for long. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "alias/alias.h"
 #include "base/errors.h"
+#include "memory/memory.h"
 #include "values/graph.h"
 
 #define ID_SPACE 0x7fff0000u
@@ -37,8 +37,6 @@ void field_release(struct machine *m, int index)
 {
     struct field *f = m->memory->fields[index];
     if (f->root) {
-        if (f->root->newest == f)
-            alias_settle(m, f->root);
         f->root->newest = f->root->newest == f ? NULL : f->root->newest;
         field_unlink_alias(f);
     }

@@ -1,6 +1,5 @@
 /* flags.c - flags, and overflows that nobody has looked at yet. */
 #include "memory/memory.h"
-#include "run/replay.h"
 #include "values/graph.h"
 #include "values/make.h"
 
@@ -8,7 +7,7 @@ void flag_overflow_clear(struct machine *m, struct lazy_overflow *o)
 {
     if (!o->op)
         return;
-    states_before_change(m);
+    values_before_change(m);
     graph_unref(m, o->a);
     if (o->b)
         graph_unref(m, o->b);

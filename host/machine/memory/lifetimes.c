@@ -1,17 +1,23 @@
-/* lifetimes.c - how long what fields hold is wanted. */
+/* lifetimes.c - see lifetimes.h. */
 #include "memory/lifetimes.h"
 
-#include "run/replay.h"
+#include "memory/memory.h"
+
+void lifetimes_call(struct machine *m)
+{
+    struct lifetimes *l = &m->memory->lifetimes;
+    l->dead[++l->calls % LIFETIMES] = 0;
+}
 
 void lifetimes_accessed(struct machine *m, struct slot *slot, bool overwrites)
 {
-    struct history *h = m->run->replay ? &m->run->replay->history : NULL;
-    if (!h)
+    struct lifetimes *l = &m->memory->lifetimes;
+    if (!l->noted)
         return;
-    if (overwrites && slot->call_accessed && h->count - slot->call_accessed < HISTORY) {
+    if (overwrites && slot->call_accessed && l->calls - slot->call_accessed < LIFETIMES) {
         int32_t bytes = (int32_t)(slot->bits + 7) / 8;
-        h->dead[slot->call_accessed % HISTORY] += bytes;
-        h->dead[h->count % HISTORY] -= bytes;
+        l->dead[slot->call_accessed % LIFETIMES] += bytes;
+        l->dead[l->calls % LIFETIMES] -= bytes;
     }
-    slot->call_accessed = h->count;
+    slot->call_accessed = l->calls;
 }

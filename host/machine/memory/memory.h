@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_MEMORY_H
 
 #include "base/parts.h"
+#include "memory/lifetimes.h"
 #include "values/values.h"
 
 /* Held by fields and flags. */
@@ -57,6 +58,7 @@ struct memory {
     int last_found; /* index of a field */
     uint32_t next_base;
     uint64_t serial;
+    struct lifetimes lifetimes;
 };
 
 /* Of a VP set that has an id. */
@@ -75,7 +77,7 @@ struct field *field_exact(struct machine *m, uint32_t id);
 bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
 void field_unlink_alias(struct field *alias);
 void field_destroy(struct machine *m, struct field *f);
-/* An alias leaves what it holds to its root; with a root its aliases go. */
+/* With a root its aliases go. What an alias holds is lost: whoever wants it calls alias_settle() before. */
 void field_release(struct machine *m, int index);
 int field_exact_index(struct machine *m, uint32_t id, enum machine_region region);
 
@@ -96,6 +98,9 @@ struct machine_value *slot_zero(struct machine *m, int width);
 /* The first slot that ends beyond offset. */
 int slot_at(const struct field *f, uint32_t offset);
 void slot_accessed(struct machine *m, struct slot *slot, bool overwrites);
+/* Writes to out which field or flag holds the value; "" if none does. */
+void memory_where(const struct machine *m, const struct machine_value *v, char *out,
+                  size_t size);
 struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits);
 
 /* ---- flags.c ---- */

@@ -1,21 +1,24 @@
 /* slots.c - what is stored in a field.
-
+ *
  * It is kept as slots, each the bits [offset, offset + bits) with one value; bits in no slot are 0. An access of just
  * a slot's bits gives its value; any other is put together from pieces. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/errors.h"
 #include "memory/lifetimes.h"
-#include "run/replay.h"
+#include "memory/memory.h"
 #include "values/graph.h"
+#include "watch/watch.h"
 
 void slot_set(struct machine *m, struct slot *slot, struct machine_value *v)
 {
     graph_ref(v);
-    states_before_change(m);
-    if (slot->value && m->watch)
-        watch_overwritten(m, slot->value, v);
+    values_before_change(m);
+    if (slot->value && m->watch && slot->value != v && !node_is_leaf(slot->value) &&
+        !node_is_cheap(slot->value))
+        watch_overwritten(m);
     if (slot->value)
         graph_unref(m, slot->value);
     slot->value = v;
@@ -95,7 +98,7 @@ struct machine_value *field_content(struct machine *m, struct field *f, uint32_t
 static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t offset,
                                 uint32_t bits)
 {
-    states_before_change(m);
+    values_before_change(m);
     if (f->slots_count == f->slots_capacity) {
         int capacity = f->slots_capacity ? 2 * f->slots_capacity : 2;
         struct slot *slots = realloc(f->slots, (size_t)capacity * sizeof *slots);
@@ -121,7 +124,7 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
         last++;
     if (first == last)
         return;
-    states_before_change(m);
+    values_before_change(m);
     struct slot low = f->slots[first], high = f->slots[last - 1];
     struct machine_value *below =
         low.offset < offset ? machine_extract(m, low.value, 0, (int)(offset - low.offset))
@@ -146,7 +149,7 @@ static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t 
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count)
 {
-    states_before_change(m);
+    values_before_change(m);
     if (to > from)
         carve(m, f, from, to - from);
     while (f->slots_count + count > f->slots_capacity) {
@@ -176,4 +179,20 @@ enum machine_status field_replace(struct machine *m, struct field *f, uint32_t o
     }
     slot_set(m, slot, v);
     return MACHINE_OK;
+}
+
+void memory_where(const struct machine *m, const struct machine_value *v, char *out,
+                  size_t size)
+{
+    static const char *const flags[] = {"context", "test", "overflow"};
+    *out = '\0';
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (m->memory->flags[i].of[flag].value == v)
+                snprintf(out, size, "%s of VP set %d", flags[flag], i);
+    for (int i = 0; i < m->memory->fields_count && !*out; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count && !*out; k++)
+            if (m->memory->fields[i]->slots[k].value == v)
+                snprintf(out, size, "field %u",
+                         m->memory->fields[i]->base + m->memory->fields[i]->slots[k].offset);
 }

@@ -1,5 +1,5 @@
 /* vpsets.c - VP sets: kept, released.
-
+ *
  * A VP set's id is the lowest one that is free; generation tells those apart that had the same one. */
 #include <stdlib.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "access/settle.h"
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
@@ -11,7 +12,7 @@
 #include "memory/call_set.h"
 #include "memory/memory.h"
 #include "run/materialise.h"
-#include "run/replay.h"
+#include "run/notes.h"
 #include "values/graph.h"
 
 enum {
@@ -21,7 +22,7 @@ enum {
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
                           uint32_t *offset)
 {
-    notes_settle(m);
+    settle(m);
     struct field *f = field_find(m, id, offset);
     int bits = machine_type_bits(type);
     if (f && *offset + (uint32_t)bits > f->bits) {

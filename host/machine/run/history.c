@@ -1,5 +1,5 @@
 /* history.c - calls that repeat.
-
+ *
  * Until the calls of a loop are known as an edge they are performed one by one. Where the last few were met
  * before, by hash, tells a period; a whole period more tells that it is one. From then on evaluations come
  * after whole turns, always at the same call, so that they lead from a state to itself. Where a turn begins
@@ -7,6 +7,7 @@
  * a rule, for there its temporaries are overwritten before they are read.
  *
  * Short turns are evaluated several at a time, unless that has been seen to take no fewer kernels. */
+#include "memory/memory.h"
 #include "run/replay.h"
 
 /* A window's hash is a polynomial in it; what leaves the window has been multiplied WINDOW times. */
@@ -35,7 +36,7 @@ void history_call(struct machine *m, const struct machine_call *call)
         h->match++;
     else
         loop_forget(h);
-    h->dead[h->count % HISTORY] = 0;
+    lifetimes_call(m);
     uint64_t old = at >= WINDOW ? h->hashes[(at - WINDOW) % HISTORY] : 0;
     h->window = h->window * WINDOW_FACTOR + hash - old * WINDOW_LEAVES;
     h->hashes[at % HISTORY] = hash;
@@ -55,13 +56,13 @@ bool history_in_loop(const struct machine *m)
 
 /* Of the turn before the last one, for what is going to be overwritten is known there: after which call most is dead;
  * where it makes no difference, where whole turns have gone since the last evaluation. */
-static uint32_t turn_at(const struct history *h, uint32_t since)
+static uint32_t turn_at(const struct history *h, const int32_t *dead_then, uint32_t since)
 {
     uint32_t from = h->count - 2 * h->period + 1, usual = h->count - since % h->period,
              best = usual;
     int64_t dead = 0, most = INT64_MIN, here = 0;
     for (uint32_t at = from; at != from + h->period; at++) {
-        dead += h->dead[at % HISTORY];
+        dead += dead_then[at % LIFETIMES];
         if ((usual - at) % h->period == 0)
             here = dead;
         if (dead > most) {
@@ -74,8 +75,9 @@ static uint32_t turn_at(const struct history *h, uint32_t since)
 
 /* Turns end after calls that are whole turns away from there. Whoever has looked once in the loop is expected to do so
  * again, after the same call. */
-static uint32_t turns_end(struct replay *p)
+static uint32_t turns_end(const struct machine *m)
 {
+    struct replay *p = m->run->replay;
     struct history *h = &p->history;
     uint32_t in_loop = h->period + h->match;
     if (p->since <= in_loop && p->looked)
@@ -85,7 +87,7 @@ static uint32_t turns_end(struct replay *p)
     if (h->match < h->period || 2 * h->period > HISTORY) /* what is kept where is not known */
         return h->count - p->since;
     if (!h->turn_at)
-        h->turn_at = turn_at(h, p->since);
+        h->turn_at = turn_at(h, m->memory->lifetimes.dead, p->since);
     return h->turn_at;
 }
 
@@ -116,13 +118,13 @@ bool history_turn_ends(const struct machine *m)
     struct history *h = &m->run->replay->history;
     if (m->values->pending < m->settings.flush_after / 8 && !is_one_by_one(h))
         return false;
-    return (h->count - turns_end(m->run->replay)) % h->period == 0;
+    return (h->count - turns_end(m)) % h->period == 0;
 }
 
-bool history_evaluates(struct machine *m, const struct plan *plan)
+bool history_evaluates(struct machine *m, const struct plan *plan, bool due)
 {
     struct history *h = &m->run->replay->history;
-    if (!m->run->flushing || m->run->building || !history_in_loop(m) || h->one_by_one)
+    if (!due || run_mode_builds(m->run->mode) || !history_in_loop(m) || h->one_by_one)
         return false;
     uint32_t turns = m->run->replay->since / h->period;
     h->one_by_one = turns > 1 && plan_saves_nothing(plan, (int)turns);

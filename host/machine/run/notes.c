@@ -1,4 +1,6 @@
 /* notes.c - calls that are foreseen are noted, and performed when somebody looks. */
+#include "run/notes.h"
+
 #include "run/replay.h"
 
 /* Another edge with the calls noted so far, and this one next (NULL: no more than those, for somebody is
@@ -22,7 +24,7 @@ void notes_perform(struct machine *m)
 {
     struct replay *p = m->run->replay;
     if (m->run->calls_noted > p->edge->calls_count && !turns_do(m)) {
-        perform_calls(m);
+        perform_calls(m, RUN_CATCHING_UP);
         return;
     }
     if (!m->run->calls_noted)
@@ -34,7 +36,7 @@ void notes_perform(struct machine *m)
         if (turns_do(m))
             return;
     }
-    perform_calls(m);
+    perform_calls(m, RUN_CATCHING_UP);
 }
 
 bool notes_take(struct machine *m, const struct machine_call *call)
@@ -47,7 +49,7 @@ bool notes_take(struct machine *m, const struct machine_call *call)
     if (++p->at == e->calls_count && e->alone) {
         p->at = 0;
         if (m->run->calls_noted >= turns_noted(m, e) * e->calls_count && !turns_do(m))
-            perform_calls(m);
+            perform_calls(m, RUN_CATCHING_UP);
     }
     return true;
 }
@@ -69,6 +71,7 @@ void notes_forget(struct machine *m)
 {
     if (!m->run->replay || !m->run->replay->states_count)
         return;
-    notes_settle(m);
+    if (m->run->calls_noted)
+        notes_perform(m);
     states_forget(m);
 }

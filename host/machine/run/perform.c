@@ -2,6 +2,8 @@
 #include <stdlib.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
+#include "memory/memory.h"
 #include "run/replay.h"
 #include "values/graph.h"
 
@@ -52,8 +54,9 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
     return true;
 }
 
-void perform_calls(struct machine *m)
+void perform_calls(struct machine *m, enum run_mode mode)
 {
+    INVARIANT(m->run->mode == RUN_FREE && run_mode_catches_up(mode));
     struct replay *p = m->run->replay;
     int count = m->run->calls_noted, set = m->values->set_current;
     struct machine_call *calls = array_zeroed((size_t)count, sizeof *calls);
@@ -61,13 +64,13 @@ void perform_calls(struct machine *m)
         calls[i] = p->edge->calls[i % p->edge->calls_count];
     m->run->calls_noted = p->at = 0;
     p->edge = NULL;
-    p->catching_up = true;
+    m->run->mode = mode;
     for (int i = 0; i < count; i++) {
         m->values->set_current = calls[i].vpset;
         calls[i].again(&calls[i]);
     }
     m->values->set_current = set;
-    p->catching_up = false;
+    m->run->mode = RUN_FREE;
     free(calls);
     if (p->active >= 0 && p->states[p->active].edges_count) {
         struct state *s = &p->states[p->active];

@@ -3,17 +3,20 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "memory/memory.h"
 #include "run/replay.h"
 #include "values/graph.h"
 
 bool record_init(struct machine *m)
 {
-    if (m->run->eager || !m->settings.replay)
+    if (m->settings.eager || !m->settings.replay)
         return true;
     m->run->replay = calloc(1, sizeof *m->run->replay);
     if (!m->run->replay)
         return false;
     m->run->replay->active = m->run->replay->from = -1;
+    m->memory->lifetimes.noted = true;
+    m->values->before_change = states_before_change;
     return true;
 }
 
@@ -28,6 +31,8 @@ void record_finish(struct machine *m)
     free(p->scratch);
     free(p);
     m->run->replay = NULL;
+    m->memory->lifetimes.noted = false;
+    m->values->before_change = NULL;
 }
 
 void record_impure(struct machine *m)
@@ -97,19 +102,19 @@ bool record_follows(const struct machine *m)
 }
 
 void record_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
-                      int count, struct device_buffer *const *buffers)
+                      int count, struct device_buffer *const *buffers, bool due)
 {
     struct replay *p = m->run->replay;
     if (!p)
         return;
-    p->forgets = history_evaluates(m, plan);
+    p->forgets = history_evaluates(m, plan, due);
     if (p->depth || p->forgets)
         states_from_forget(m);
     if (p->from < 0)
         return;
     struct edge e = {
         .calls_count = p->log_count,
-        .alone = m->run->flushing,
+        .alone = due,
         .deed = {.plan = plan,
                  .version = plan_version(m, plan),
                  .stores = m->run->stores - p->from_stores,
@@ -188,7 +193,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
 static bool turns_add(struct machine *m, struct state *s, int to)
 {
     struct replay *p = m->run->replay;
-    if (!m->run->building || s != &p->states[to])
+    if (!run_mode_builds(m->run->mode) || s != &p->states[to])
         return false;
     for (int i = 0; i < s->edges_count; i++) {
         struct edge *e = &s->edges[i];
@@ -226,14 +231,14 @@ static void edge_add(struct machine *m, struct state *s, const struct edge *e)
 }
 
 void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
-                      struct machine_value *const *wanted, int wanted_count)
+                      struct machine_value *const *wanted, int wanted_count, bool due)
 {
     struct replay *p = m->run->replay;
     if (!p)
         return;
     if (!p->depth) {
         p->since = 0;
-        p->looked = !m->run->flushing;
+        p->looked = !due;
     }
     if (p->forgets)
         states_forget(m);
@@ -253,7 +258,7 @@ void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
     int to = w.good ? state_find(m, &w) : -1;
     bool complete =
         to >= 0 && p->making && edge_complete(m, &w, to, buffers, wanted, wanted_count);
-    if (complete && !turns_add(m, &p->states[p->from], to) && !m->run->building) {
+    if (complete && !turns_add(m, &p->states[p->from], to) && !run_mode_builds(m->run->mode)) {
         edge_add(m, &p->states[p->from], &p->made);
         p->making = false;
     }

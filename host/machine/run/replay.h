@@ -1,5 +1,5 @@
 /* replay.h - calls seen before: taken note of, and performed all at once.
-
+ *
  * A program that repeats a step makes the same calls again, and they make the same graph again. So once
  * a step has been recorded and evaluated between two states of the machine that look alike, the next time
  * its calls are only compared with those expected; with the last one the plan that was made for them runs
@@ -34,6 +34,7 @@
 #define LUTETIA_MACHINE_REPLAY_H
 
 #include "build/plans.h"
+#include "memory/lifetimes.h"
 #include "run/run.h"
 
 enum { STATES_MOST = 16, EDGES_MOST = 8, CALLS_MOST = 8192, HASHES_SEEN = 64 };
@@ -95,14 +96,17 @@ struct state {
 
 /* The last calls that were performed one by one, by hash, to see that they repeat: those that the last few
  * were met with before tell a period, and a whole period more that it is one. */
-enum { HISTORY = 4096, WINDOW = 8, WINDOWS = 1024, LOOP_SURE = 128, LOOPS_ONE_BY_ONE = 16 };
+enum {
+    HISTORY = LIFETIMES,
+    WINDOW = 8,
+    WINDOWS = 1024,
+    LOOP_SURE = 128,
+    LOOPS_ONE_BY_ONE = 16
+};
 
 struct history {
     uint64_t hashes[HISTORY], window;
     uint32_t count, period, match;
-    /* Bytes of slots that are overwritten before they are read again, after so many calls: how many more than one
-     * call before. */
-    int32_t dead[HISTORY];
     /* Calls so far where a turn ends: when most are dead; when somebody first looked. 0: that is not known. */
     uint32_t turn_at, looked_at;
     /* Each turn is evaluated, however little it is: several together take no fewer kernels. Loops of which that is known, as
@@ -140,8 +144,7 @@ struct replay {
     struct device_buffer **from_buffers; /* referenced */
     int from_buffers_count;
     uint64_t from_stores;
-    int depth; /* calls being performed, one in another */
-    bool catching_up;
+    int depth;        /* calls being performed, one in another */
     struct edge made; /* by the evaluation under way */
     bool making;
     bool forgets; /* all states, after it: the loop was evaluated otherwise in them */
@@ -195,9 +198,9 @@ void states_before_change(struct machine *m);
 void history_call(struct machine *m, const struct machine_call *call);
 /* After a call: a turn of the loop is complete, or several if they are short. */
 bool history_turn_ends(const struct machine *m);
-/* What has been recorded since the last evaluation is going to be evaluated so. True: several turns of a loop, which are
+/* What has been recorded since the last evaluation is going to be evaluated so. due: nobody asked for it. True: several turns of a loop, which are
  * evaluated one by one from now on. */
-bool history_evaluates(struct machine *m, const struct plan *plan);
+bool history_evaluates(struct machine *m, const struct plan *plan, bool due);
 void history_looked(struct machine *m); /* somebody has, or something else begins */
 
 bool history_in_loop(const struct machine *m); /* then evaluations become due after calls */
@@ -211,11 +214,11 @@ void record_impure(struct machine *m);
 /* Calls are noted that lead from a state to the next evaluation. */
 bool record_follows(const struct machine *m);
 /* An evaluation is about to run the plan for these nodes; has run it (buffers: with those stored); or
- * could not. */
+ * could not. due: nobody asked for it. */
 void record_evaluates(struct machine *m, struct plan *plan, struct machine_value *const *nodes,
-                      int count, struct device_buffer *const *buffers);
+                      int count, struct device_buffer *const *buffers, bool due);
 void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
-                      struct machine_value *const *wanted, int wanted_count);
+                      struct machine_value *const *wanted, int wanted_count, bool due);
 void record_failed(struct machine *m);
 bool record_same_call(const struct machine_call *a, const struct machine_call *b);
 bool record_begins_alike(const struct edge *a, const struct edge *b, int count);
@@ -224,8 +227,8 @@ bool record_begins_alike(const struct edge *a, const struct edge *b, int count);
 
 /* False: that cannot be done now. */
 bool perform_deed(struct machine *m, const struct deed *d, int to);
-/* The calls noted are performed, one by one. */
-void perform_calls(struct machine *m);
+/* The calls noted are performed, one by one, in that mode; then the machine is free again. */
+void perform_calls(struct machine *m, enum run_mode mode);
 
 /* ---- turns.c ---- */
 
@@ -244,22 +247,5 @@ void turns_turned(struct machine *m, struct edge *e, bool many);
 /* All turns of the edge that have been noted, but for the last one that is not whole. False: it cannot be
  * done, and nothing of what is still noted has been. */
 bool turns_do(struct machine *m);
-
-/* ---- notes.c ---- */
-
-/* Calls noted are performed: before anything looks at what fields and flags hold, or changes it. */
-void notes_perform(struct machine *m);
-
-static inline void notes_settle(struct machine *m)
-{
-    if (m->run->calls_noted)
-        notes_perform(m);
-}
-
-/* Before fields die, or VP sets change their shape. */
-void notes_forget(struct machine *m);
-bool notes_take(struct machine *m, const struct machine_call *call);
-/* The call is not the next one of the edge: but perhaps that of another. */
-bool notes_take_elsewhere(struct machine *m, const struct machine_call *call);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "base/errors.h"
 #include "memory/memory.h"
-#include "run/run.h"
+#include "run/roll.h"
 #include "run/slices.h"
 #include "values/graph.h"
 
@@ -69,14 +69,12 @@ static struct machine_value *lift(struct machine *m, struct machine_value *const
 /* What k equal expressions have been rolled up into is computed, alone, and each of them is from now on a
  * slice of it: whoever else holds them need not compute them one by one. */
 static bool unroll(struct machine *m, struct machine_value *whole,
-                   struct machine_value *const *y, uint32_t k)
+                   struct machine_value *const *y, uint32_t k, enum run_why why)
 {
     if (node_is_leaf(whole) || node_is_cheap(whole) || whole == y[0])
         return true;
-    uint64_t evaluated = m->run->stores_evaluated;
-    m->run->stores_evaluated = m->run->stores; /* nobody else is looked at */
-    enum machine_status status = run_evaluate(m, &whole, 1, false);
-    m->run->stores_evaluated = evaluated;
+    const struct wish wish = {&whole, 1, WISH_VALUES};
+    enum machine_status status = evaluate(m, &wish, why);
     for (uint32_t i = 0; i < k && !status; i++) {
         struct machine_value key = {.op = NODE_SLICE,
                                     .type = y[i]->type,
@@ -91,11 +89,11 @@ static bool unroll(struct machine *m, struct machine_value *whole,
 }
 
 bool roll_lift(struct machine *m, struct machine_value *const *y, uint32_t k, int set,
-               struct machine_value **whole)
+               enum run_why why, struct machine_value **whole)
 {
     int budget = LIFT_NODES;
     *whole = lift(m, y, k, set, &budget);
-    return !*whole || unroll(m, *whole, y, k);
+    return !*whole || unroll(m, *whole, y, k, why);
 }
 
 static bool waits(const struct machine_value *v)
@@ -127,7 +125,7 @@ static bool same_shape(const struct machine_value *a, const struct machine_value
 /* k slots that a loop has gone through, or is going through: then those before the place where it is hold
  * what the others do as an operand. *partial: it has only begun. False: error set. */
 static bool roll_slots(struct machine *m, const struct slot *slots, uint32_t k, int set,
-                       bool *partial)
+                       enum run_why why, bool *partial)
 {
     struct machine_value **y = malloc(k * sizeof *y), *whole = NULL;
     const struct machine_value *last = slots[k - 1].value;
@@ -144,18 +142,17 @@ static bool roll_slots(struct machine *m, const struct slot *slots, uint32_t k, 
             y[i] = i < cut ? slots[i].value->in[n] : slots[i].value;
             there = y[i] && type_equal(y[i]->type, last->type);
         }
-        good = !there || roll_lift(m, y, k, set, &whole);
+        good = !there || roll_lift(m, y, k, set, why, &whole);
     }
     free(y);
     return good;
 }
 
-bool roll_waiting(struct machine *m, bool *partial)
+bool roll_waiting(struct machine *m, enum run_why why, bool *partial)
 {
     *partial = false;
-    if (!m->run->sliced || m->run->rolling)
+    if (!m->run->sliced)
         return true;
-    m->run->rolling = true;
     bool good = true;
     for (int i = 0; i < m->memory->fields_count && good; i++) {
         const struct field *f = m->memory->fields[i];
@@ -176,11 +173,10 @@ bool roll_waiting(struct machine *m, bool *partial)
             for (uint32_t n = 1; n < k && even; n++)
                 even = slots[n].bits == slots[0].bits;
             if (even)
-                good = roll_slots(m, slots, k, slice->in[0]->set, partial);
+                good = roll_slots(m, slots, k, slice->in[0]->set, why, partial);
             else
                 k = 1;
         }
     }
-    m->run->rolling = false;
     return good;
 }

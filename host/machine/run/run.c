@@ -1,16 +1,4 @@
-/* run.c - evaluation: what to compute, and when.
- *
- * An evaluation has targets: the values asked for, and the content of every live field and flag
- * that is not
- *  - in memory already, a number, or a cheap function of coordinates;
- *  - a temporary just now: a slot that was overwritten before it was read since the last
- * evaluation, whose present value is shallow and all new. It stays an expression; most are
- * overwritten again and never computed. If it, or something made of it, is still there at the
- * next evaluation it is computed then.
- *
- * Plans are kept by signature: a number for each node that is reached, in the order in which it
- * is reached; numbers' values are no part of it. A step seen before is a walk over its nodes, a
- * look-up, and its launches.
+/* run.c - when something is evaluated.
  *
  * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from
  * then on whenever the trace of stores comes to the same place as then: once for each turn of a
@@ -18,13 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/errors.h"
 #include "memory/memory.h"
 #include "run/replay.h"
-#include "run/slices.h"
+#include "run/roll.h"
 #include "values/graph.h"
+#include "watch/watch.h"
 
 #define TRACE_FACTOR                                                                           \
-    0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is machine.trace_power   \
+    0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is run.trace_power   \
                                           */
 
 /* ---- evaluation ---- */
@@ -42,9 +32,23 @@ static bool is_held(const struct machine *m, const struct machine_value *v)
     return false;
 }
 
-enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
-                                 bool all)
+/* Loops over slices first. */
+static enum machine_status evaluate_rolled(struct machine *m, const struct wish *wish,
+                                           enum run_why why)
 {
+    bool partial;
+    double start = watch_clock(m);
+    if (!roll_waiting(m, why, &partial))
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    if (m->watch && m->run->sliced)
+        watch_span(m, WATCH_ROLL, start, NULL);
+    return evaluate(m, wish, why);
+}
+
+static enum machine_status evaluate_now(struct machine *m, struct machine_value **wanted,
+                                        int count, bool all, enum run_why why)
+{
+    enum wish_what what = all ? WISH_ALL : WISH_LIVE;
     bool held = true;
     for (int i = 0; i < count; i++) {
         graph_borrow(m, wanted[i]); /* what it is a part of may let go of it */
@@ -53,11 +57,19 @@ enum machine_status run_evaluate(struct machine *m, struct machine_value **wante
     /* What only the one who looks has, say a count, is evaluated apart: the calls before lead from state to state then,
      * and are foreseen. */
     if (!held && record_follows(m)) {
-        enum machine_status status = evaluate(m, NULL, 0, all);
+        const struct wish others = {.what = what};
+        enum machine_status status = evaluate_rolled(m, &others, why);
         if (status)
             return status;
     }
-    return evaluate(m, wanted, count, all);
+    const struct wish wish = {wanted, count, what};
+    return evaluate_rolled(m, &wish, why);
+}
+
+enum machine_status run_evaluate(struct machine *m, struct machine_value **wanted, int count,
+                                 bool all)
+{
+    return evaluate_now(m, wanted, count, all, RUN_LOOKED);
 }
 
 /* ---- when ---- */
@@ -72,9 +84,9 @@ void run_init(struct machine *m)
 enum machine_status run_after_store(struct machine *m, const struct machine_value *v)
 {
     m->run->stores++;
-    if (m->run->eager)
+    if (m->settings.eager)
         return run_evaluate(m, NULL, 0, true);
-    if (m->run->hold_flush && v->height < HEIGHT_MOST)
+    if (run_mode_holds(m->run->mode) && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->run->flush_status) {
         enum machine_status status = m->run->flush_status;
@@ -104,7 +116,7 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
         bool partial;
         if (m->values->pending < m->run->roll_after)
             return MACHINE_OK;
-        if (!roll_waiting(m, &partial))
+        if (!roll_waiting(m, RUN_LOOKED, &partial))
             return m->status;
         m->run->roll_after = 0;
         if (partial && m->values->pending < PENDING_LOOP)
@@ -126,30 +138,6 @@ void run_flush_due(struct machine *m)
     if (!m->run->flush_due)
         return;
     m->run->flush_due = false;
-    m->run->flushing = true;
-    m->run->flush_status = run_evaluate(m, NULL, 0, false);
-    m->run->flushing = false;
+    m->run->flush_status = evaluate_now(m, NULL, 0, false, RUN_DUE);
     m->run->flush_hash = m->run->flush_place;
-}
-
-bool run_in_call(const struct machine *m)
-{
-    return m->run->replay && m->run->replay->depth;
-}
-
-bool run_thorough(const struct machine *m)
-{
-    return m->run->replay && m->run->replay->thorough;
-}
-
-void run_resolve(struct machine *m)
-{
-    struct replay *p = m->run->replay;
-    if (!run_thorough(m))
-        return;
-    p->depth++; /* it belongs to the calls before */
-    for (int i = 1; i < m->values->sets_count; i++)
-        if (m->values->sets[i].used)
-            flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
-    p->depth--;
 }

@@ -25,15 +25,8 @@ static inline struct kernel_call slices_call(struct machine *m, struct machine_t
 /* Value i of the k that fine (in memory) is cut into, in the VP set. */
 struct machine_value *slice_make(struct machine *m, struct machine_value *fine, int set,
                                  uint32_t k, uint32_t i);
-/* The one value of the finer set whose k slices these are, computed; NULL: there is none to be had for
- * nothing. False: error set. */
-bool roll_lift(struct machine *m, struct machine_value *const *y, uint32_t k, int set,
-               struct machine_value **whole);
 /* Gives a slice its buffer; others that are found on the way too. */
 bool slice_unpack(struct machine *m, struct machine_value *slice);
-/* Finds loops over the elements of a processor among what waits in fields, and computes each as one value.
- * *partial: there are some that have only begun. */
-bool roll_waiting(struct machine *m, bool *partial);
 /* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
  * and a buffer. */
 bool slices_forget_set(struct machine *m, int set);

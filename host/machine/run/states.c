@@ -276,7 +276,8 @@ void state_activate(struct machine *m, int index, struct device_buffer *const *b
     for (int i = 1; i < m->values->sets_count; i++)
         m->memory->flags[i].overflow.op = s->overflows[i];
     p->active = index;
-    p->edge = s->edges_count && !p->catching_up ? &s->edges[s->edge_last] : NULL;
+    p->edge =
+        s->edges_count && !run_mode_catches_up(m->run->mode) ? &s->edges[s->edge_last] : NULL;
     p->at = m->run->calls_noted = 0;
 }
 

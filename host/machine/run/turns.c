@@ -1,5 +1,5 @@
 /* turns.c - many turns of a loop at once.
-
+ *
  * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
  * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
  * (they leave nothing to compute) while such loops run. */
@@ -112,7 +112,7 @@ static void turns_in_vain(struct machine *m)
 
 /* All that is noted is performed, and evaluated but for running the plan; then the state is entered again, and it is as if
  * nothing had been. False: it cannot be entered, and all has been performed. */
-static bool rehearse(struct machine *m, enum rehearsal what)
+static bool rehearse(struct machine *m, enum run_mode what)
 {
     struct replay *p = m->run->replay;
     int active = p->active, edge = (int)(p->edge - p->states[active].edges);
@@ -120,15 +120,15 @@ static bool rehearse(struct machine *m, enum rehearsal what)
     uint64_t stores = m->run->stores, flush_hash = m->run->flush_hash,
              flushes = m->run->flushes;
     struct vanished vanished = m->values->vanished;
-    m->plans->silent = m->run->hold_flush = true;
-    perform_calls(m);
-    m->run->hold_flush = false;
+    if (m->watch)
+        watch_silent(m, true);
+    perform_calls(m, RUN_REHEARSING_CALLS);
     bool back = p->from == active && m->run->flushes == flushes;
     if (back) {
-        m->plans->rehearsing = what;
-        m->plans->rehearsed = NULL;
+        m->run->mode = what;
+        m->run->rehearsed = NULL;
         run_evaluate(m, NULL, 0, false);
-        m->plans->rehearsing = REHEARSING_NOTHING;
+        m->run->mode = RUN_FREE;
         machine_error_clear(m); /* it will be said when it matters */
         graph_give_back(m);
         state_activate(m, active, p->from_buffers);
@@ -142,16 +142,17 @@ static bool rehearse(struct machine *m, enum rehearsal what)
         p->at = at;
         m->run->calls_noted = noted;
     }
-    m->plans->silent = false;
+    if (m->watch)
+        watch_silent(m, false);
     return back;
 }
 
 /* False: all has been performed, and is in memory. *plan: whose kernels are seen to; NULL: there is nothing to compute. */
-static bool rehearse_or_perform(struct machine *m, enum rehearsal what, struct plan **plan)
+static bool rehearse_or_perform(struct machine *m, enum run_mode what, struct plan **plan)
 {
     bool back = rehearse(m, what);
     if (back) {
-        *plan = m->plans->rehearsed;
+        *plan = m->run->rehearsed;
     } else {
         m->run->flush_due = true;
         run_flush_due(m);
@@ -169,7 +170,7 @@ bool turns_thorough_see_to(struct machine *m)
         return true;
     e->wants_thorough = false;
     p->thorough = true;
-    bool back = rehearse_or_perform(m, REHEARSING_ONE, &e->rehearsed_thorough);
+    bool back = rehearse_or_perform(m, RUN_REHEARSING, &e->rehearsed_thorough);
     p->thorough = false;
     if (back && !e->rehearsed_thorough)
         p->not_before = m->run->flushes + TRY_AGAIN;
@@ -181,7 +182,7 @@ enum loop_turns turns_see_to(struct machine *m)
     struct replay *p = m->run->replay;
     struct edge *e = p->edge;
     if (!e->rehearsed && !background_busy(m)) {
-        if (!rehearse_or_perform(m, REHEARSING_TURNS, &e->rehearsed))
+        if (!rehearse_or_perform(m, RUN_REHEARSING_TURNS, &e->rehearsed))
             return TURNS_PERFORMED;
         if (!e->rehearsed)
             return TURNS_AT_HAND;
@@ -204,13 +205,12 @@ void turns_build(struct machine *m)
 {
     struct replay *p = m->run->replay;
     int active = p->active, at = (int)(p->edge - p->states[active].edges);
-    m->run->building = m->run->hold_flush = true;
     p->building_calls = m->run->calls_noted;
-    perform_calls(m);
-    m->run->hold_flush = false;
+    perform_calls(m, RUN_BUILDING_CALLS);
+    m->run->mode = RUN_BUILDING;
     m->run->flush_due = true;
     run_flush_due(m);
-    m->run->building = false;
+    m->run->mode = RUN_FREE;
     bool back = p->active == active && p->states[active].edges_count > at;
     if (back && p->states[active].edges[at].turns.plan)
         return;
@@ -236,7 +236,8 @@ bool turns_do(struct machine *m)
         m->run->turns_in_row += turns;
         m->run->calls_foreseen += (uint64_t)turns * (uint64_t)e->calls_count;
         if (m->watch)
-            watch_replayed(m, start, e->calls, e->calls_count, turns, e->alone);
+            watch_replayed(m, start, e->calls, e->calls_count, turns, e->alone,
+                           m->run->calls_noted > 0);
         whole -= turns;
         turns_turned(m, e, true);
     }
@@ -252,7 +253,8 @@ bool turns_do(struct machine *m)
         m->run->calls_noted = left;
         m->run->turns_in_row++;
         if (m->watch)
-            watch_replayed(m, start, e->calls, e->calls_count, 1, e->alone);
+            watch_replayed(m, start, e->calls, e->calls_count, 1, e->alone,
+                           m->run->calls_noted > 0);
         s->edge_last = (int)(e - s->edges);
         e->runs++;
     }

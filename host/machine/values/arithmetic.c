@@ -146,5 +146,5 @@ struct machine_value *machine_binary(struct machine *m, enum machine_op op,
 {
     struct machine_value *v = binary(m, op, a, b);
     m->values->vanished.numbers += v && value_is_number(v);
-    return v;
+    return make_handed(m, v);
 }

@@ -1,5 +1,5 @@
 /* geometry.c - see geometry.h.
-
+ *
  * Rows run along the last axis, with columns of padding on both sides where vectors are used. */
 #include <string.h>
 

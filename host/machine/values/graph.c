@@ -12,7 +12,7 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
-#include "run/replay.h"
+#include "watch/watch.h"
 
 enum { NODES_IN_BLOCK = 512, TABLE_FIRST = 4096 };
 
@@ -25,7 +25,7 @@ bool graph_init(struct machine *m)
 
 void graph_finish(struct machine *m)
 {
-    machine_begin(m);
+    graph_give_back(m);
     for (int i = 0; i < m->values->blocks_count; i++)
         free(m->values->blocks[i]);
     free(m->values->blocks);
@@ -294,8 +294,9 @@ void graph_unref(struct machine *m, struct machine_value *v)
     m->values->release_count = 0;
     for (;;) {
         if (v->interned) {
-            if (m->watch)
-                watch_released(m, v);
+            if (m->watch && !v->told && !v->buffer && v->op != NODE_CONSTANT &&
+                v->op != NODE_SLICE)
+                watch_vanished(m, v->op);
             table_remove(m, v);
             if (is_pending(v) && !v->buffer && !v->kept)
                 m->values->pending--;
@@ -330,7 +331,7 @@ void graph_keep(struct machine *m, struct machine_value *v, bool kept)
 static void let_go(struct machine *m, const struct machine_value *v)
 {
     if (v->kept)
-        states_before_change(m);
+        values_before_change(m);
     INVARIANT(!v->kept);
 }
 

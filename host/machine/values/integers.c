@@ -10,6 +10,7 @@
 #include "base/parts.h"
 #include "base/scalar.h"
 #include "values/make.h"
+#include "values/rules.h"
 
 typedef unsigned __int128 number;
 
@@ -188,7 +189,7 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     if (width > 1)
         return make_operation(m, op, type, a, b);
     if (gives_bit) { /* 0 and 1 to the power fit; -1 (a signed 1) does unless it becomes 1 */
-        struct machine_value *even = machine_unary(m, MACHINE_NOT, b);
+        struct machine_value *even = rules_not(m, b);
         return op == MACHINE_SPOW_BEYOND
                    ? even
                    : machine_constant(m, type, (struct machine_scalar){0, 0});
@@ -212,8 +213,10 @@ static struct machine_value *count_bounded(struct machine *m, struct machine_val
 {
     int width = count->type.width;
     if (width > 8) {
-        count = machine_binary(m, MACHINE_SMIN, count, small(m, width, 128));
-        count = machine_binary(m, MACHINE_SMAX, count, small(m, width, -128));
+        struct machine_type type = count->type;
+        count = make_operation(m, MACHINE_SMIN, type, count, small(m, width, 128));
+        count =
+            count ? make_operation(m, MACHINE_SMAX, type, count, small(m, width, -128)) : NULL;
     }
     return machine_resize(m, count, 32, true);
 }
@@ -225,7 +228,7 @@ static struct machine_value *count_round(struct machine *m, struct machine_value
     if (count->type.width < 32)
         count = machine_resize(m, count, 32, true);
     struct machine_value *modulus = count ? small(m, count->type.width, width) : NULL;
-    count = machine_binary(m, MACHINE_SMOD, count, modulus);
+    count = integer_value(m, MACHINE_SMOD, count, modulus);
     return machine_resize(m, count, 32, false);
 }
 

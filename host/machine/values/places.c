@@ -1,7 +1,9 @@
 /* places.c - values that follow from where a processor is: its neighbours' (shifts), its coordinates and addresses, and
  * what is drawn for it at random. */
+#include "values/places.h"
+
 #include "base/errors.h"
-#include "run/replay.h"
+#include "base/parts.h"
 #include "values/graph.h"
 
 static struct machine_value *bad(struct machine *m, const char *what)
@@ -95,16 +97,15 @@ void machine_random_seed(struct machine *m, uint64_t seed)
     m->values->random_draws = 0;
 }
 
-struct machine_value *machine_random(struct machine *m, int width, uint64_t limit)
+struct machine_value *places_random(struct machine *m, int width, uint64_t limit)
 {
     if (width > 64) {
-        struct machine_value *low = machine_random(m, 64, limit);
+        struct machine_value *low = places_random(m, 64, limit);
         struct machine_value *high =
             limit ? machine_constant(m, MACHINE_UINT(width - 64), (struct machine_scalar){0, 0})
-                  : machine_random(m, width - 64, 0);
+                  : places_random(m, width - 64, 0);
         return machine_concat(m, low, high);
     }
-    record_impure(m);
     uint64_t key =
         mix(mix(m->values->random_seed) + ++m->values->random_draws * 0x9e3779b97f4a7c15u);
     int fits32 = limit != 0 && limit <= UINT32_MAX;

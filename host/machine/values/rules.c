@@ -1,5 +1,5 @@
 /* rules.c - the rules that keep the graph small.
-
+ *
  * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never rearranged. No rule looks at the
  * value of a number other than a bit's 0 or 1, and whether a float is 0, or a factor 1 or more (widths of 128 at most, and
  * transcendental functions, fold where all operands are numbers), so that a program with other constants has the same

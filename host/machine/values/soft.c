@@ -1,5 +1,5 @@
 /* soft.c - floats of other formats than single and double: the nodes that bring them into fields and out.
-
+ *
  * Their values are doubles that the format has (see machine_float_type()), so that whatever is
  * exact in double needs no more: comparisons, min, max, negation, whole parts that fit. */
 #include "values/soft.h"

@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_VALUES_H
 
 #include "base/node_ops.h"
+#include "base/parts.h"
 #include "values/geometry.h"
 
 struct machine_value {
@@ -55,11 +56,20 @@ struct values {
     uint32_t mark;       /* of the walk under way */
     struct vanished vanished;
 
+    /* Before what fields and flags hold changes, or a node that is kept: those who keep states of it leave. NULL: none do. */
+    void (*before_change)(struct machine *m);
+
     struct vpset *sets; /* 1 .. sets_count - 1; sets[0] is none */
     int sets_count, set_current;
     int processors_count, processors_log2; /* physical ones */
     uint64_t random_seed, random_draws;
 };
+
+static inline void values_before_change(struct machine *m)
+{
+    if (m->values->before_change)
+        m->values->before_change(m);
+}
 
 static inline bool node_is_leaf(const struct machine_value *v)
 {

@@ -1,5 +1,5 @@
 /* commands.c - the device's own times of its commands.
-
+ *
  * An event is asked for with each command, and read when it has ended, in the order of the queue.
  * The device's clock is its own. That it put a command down as queued happened while we queued it:
  *
@@ -10,7 +10,6 @@
  * moves only as far as the newest command's bounds ask, which follows clocks that run apart, too. */
 #include <stdio.h>
 
-#include "explain/copies.h"
 #include "watch/trace.h"
 #include "watch/watch_struct.h"
 
@@ -147,36 +146,30 @@ static void command_end(struct machine *m, const struct command *c)
 }
 
 /* The clocks, on commands that do nothing: the first kernels take long to be queued, for they are compiled. */
-static void clocks_begin(struct machine *m)
+static void clocks_begin(struct watch *w, cl_mem scratch)
 {
-    struct device_buffer *b = device_buffer_get(m, 64);
-    m->device->inside++;
-    for (int i = 0; b && i < 8; i++) {
+    for (int i = 0; i < 8; i++) {
         struct times t;
         cl_event done = NULL;
         cl_uint zero = 0;
         double before = clock_s();
-        cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, &zero, sizeof zero, 0, 64,
-                                           0, NULL, &done);
+        cl_int error =
+            clEnqueueFillBuffer(w->queue, scratch, &zero, sizeof zero, 0, 64, 0, NULL, &done);
         double after = clock_s();
         if (!error && !clWaitForEvents(1, &done) && times_of(done, &t))
-            clocks_compare(m->watch, &t, before, after);
+            clocks_compare(w, &t, before, after);
         if (done)
             clReleaseEvent(done);
     }
-    m->device->inside--;
-    if (b)
-        device_buffer_unref(m, b);
-    machine_error_clear(m); /* then later commands must do */
 }
 
 void commands_settle(struct machine *m, bool wait)
 {
     struct watch *w = m->watch;
     if (wait && w->commands_count) {
-        m->device->inside++;
-        clFinish(m->device->queue);
-        m->device->inside--;
+        m->inside++;
+        clFinish(w->queue);
+        m->inside--;
     }
     while (w->commands_count) {
         struct command *c = &w->commands[w->commands_first];
@@ -197,21 +190,21 @@ void watch_settle(struct machine *m)
     commands_settle(m, true);
 }
 
-void watch_ready(struct machine *m)
+void watch_ready(struct machine *m, cl_command_queue queue, cl_mem scratch, const char *title)
 {
-    char text[400];
-    snprintf(text, sizeof text, "%d processors on %s", m->values->processors_count,
-             m->device->name);
-    clocks_begin(m);
-    if (m->watch->machine)
-        trace_title(m->watch->machine, text);
-    if (m->watch->explains)
-        copies_ready(m, m->watch->explain);
+    struct watch *w = m->watch;
+    w->queue = queue;
+    m->inside++;
+    if (scratch)
+        clocks_begin(w, scratch);
+    m->inside--;
+    if (w->machine)
+        trace_title(w->machine, title);
 }
 
 void watch_leave(struct machine *m)
 {
-    if (!m->watch || !m->device->queue)
+    if (!m->watch || !m->watch->queue)
         return;
     commands_settle(m, true);
     if (m->watch->machine)

@@ -1,12 +1,12 @@
 /* sums.c - adds up what watch.c is told.
-
+ *
  * What became of each value that a program made is told once: it was computed, in the first evaluation that reached
  * it, or it was let go of before any did. Calls that are foreseen make no values; the kernels that they run are
  * counted like all others. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/plans.h"
+#include "watch/sums.h"
 
 struct watch_sums *sums_create(void)
 {
@@ -51,34 +51,6 @@ void sums_call(struct watch_sums *e, const char *name, int foreseen, double time
     row->count += !foreseen;
     row->bytes += (uint64_t)foreseen;
     row->time_s += time_s;
-}
-
-void watch_released(struct machine *m, const struct machine_value *v)
-{
-    struct watch_sums *e = watch_sums(m);
-    if (m->plans->silent || v->told || v->buffer || v->op == NODE_CONSTANT ||
-        v->op == NODE_SLICE)
-        return;
-    e->facts.values_vanished++;
-    e->vanished[v->op]++;
-}
-
-void watch_overwritten(struct machine *m, const struct machine_value *old,
-                       const struct machine_value *new)
-{
-    if (!m->plans->silent && old != new && !node_is_leaf(old) && !node_is_cheap(old))
-        watch_sums(m)->overwritten++;
-}
-
-void watch_reached(struct machine *m, struct machine_value *const *nodes, int count, int stored)
-{
-    struct machine_explained *f = &watch_sums(m)->facts;
-    for (int i = 0; i < count; i++)
-        if (!nodes[i]->told && !node_is_leaf(nodes[i])) {
-            nodes[i]->told = true;
-            f->values_computed++;
-        }
-    f->values_stored += (uint64_t)stored;
 }
 
 struct kernel_note *sums_note(struct watch_sums *e, cl_kernel kernel, const char *name,

@@ -2,7 +2,7 @@
 #ifndef LUTETIA_MACHINE_SUMS_H
 #define LUTETIA_MACHINE_SUMS_H
 
-#include "values/values.h"
+#include "base/node_ops.h"
 #include "watch/watch.h"
 
 struct kernel_note {
@@ -20,11 +20,8 @@ struct watch_sums {
     struct machine_explained_row calls[CALL_NAMES_MOST];
     int16_t calls_hashed[CALL_NAMES_SIZE]; /* + 1 */
     uint64_t vanished[NODE_OP_COUNT];
-    uint64_t overwritten; /* never in memory when it was */
-    uint64_t looked, flushed, alone, eager;
-    int parts; /* of a kernel that was split, still to come */
-    struct machine_value *const *nodes, *const *wanted; /* of the plan that is made now */
-    int wanted_count;
+    uint64_t overwritten;                     /* never in memory when it was */
+    uint64_t evaluations[WATCH_ASKED_TO + 1]; /* by enum watch_why */
     struct machine_explained_row phases[WATCH_PHASES_COUNT];
     struct machine_explained_kernel *kernels; /* as last told */
     cl_kernel copies[2];                      /* see copies.c; NULL: there is none */
@@ -39,11 +36,5 @@ void sums_call(struct watch_sums *e, const char *name, int foreseen, double time
 /* The kernel's note, made if there is none of it: its name, by hand, and of which VP set (0: none). */
 struct kernel_note *sums_note(struct watch_sums *e, cl_kernel kernel, const char *name,
                               int vpset, uint64_t processors);
-/* Values: one is let go of; one in a field or flag gives way to another; some are going to be computed. */
-void watch_released(struct machine *m, const struct machine_value *v);
-void watch_overwritten(struct machine *m, const struct machine_value *old,
-                       const struct machine_value *new);
-void watch_reached(struct machine *m, struct machine_value *const *nodes, int count,
-                   int stored);
 
 #endif

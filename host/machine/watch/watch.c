@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/plans.h"
-#include "run/run.h"
 #include "watch/trace.h"
 #include "watch/watch_struct.h"
 
@@ -120,18 +118,26 @@ void watch_background(struct machine *m, double start, double end, const char *o
 
 /* ---- calls ---- */
 
-void watch_call(struct machine *m, const char *name, bool foreseen)
+/* False: nobody is told. */
+static bool between_calls(const struct watch *w)
+{
+    if (!w->silent && !w->depth && w->explain->between)
+        w->explain->between();
+    return !w->silent;
+}
+
+void watch_noted(struct machine *m, bool first)
 {
     struct watch *w = m->watch;
-    if (m->plans->silent)
+    if (between_calls(w) && first)
+        w->noted_start = clock_s();
+}
+
+void watch_call(struct machine *m, const char *name)
+{
+    struct watch *w = m->watch;
+    if (!between_calls(w))
         return;
-    if (!w->depth && w->explain->between)
-        w->explain->between();
-    if (foreseen) {
-        if (m->run->calls_noted == 1)
-            w->noted_start = clock_s();
-        return;
-    }
     if (w->depth++)
         return;
     w->noted_start = 0;
@@ -162,39 +168,76 @@ void machine_explain_between(struct machine *m, void (*between)(void))
 }
 
 void watch_replayed(struct machine *m, double start, const struct machine_call *calls,
-                    int count, int turns, bool alone)
+                    int count, int turns, bool alone, bool more)
 {
     struct watch *w = m->watch;
     char text[60];
     for (int i = 0; i < count && w->explains; i++)
         sums_call(w->explain, calls[i].name, turns, 0);
-    *(alone ? &w->explain->alone : &w->explain->looked) += 1;
+    w->explain->evaluations[alone ? WATCH_MUCH_WAITED : WATCH_LOOKED_AT]++;
     snprintf(text, sizeof text, "\"calls\":%d,\"turns\":%d", count * turns, turns);
     if (w->noted_start > 0)
         watch_span_named(m, WATCH_NOTE, watch_phase_names[WATCH_NOTE], w->noted_start, start,
                          text);
     watch_span(m, WATCH_REPLAY, start, "%s", text);
-    w->noted_start = m->run->calls_noted ? clock_s() : 0; /* those that are left */
+    w->noted_start = more ? clock_s() : 0;
     commands_settle(m, false);
     if (w->machine)
         trace_flush();
 }
 
-/* ---- evaluations ---- */
-
-void watch_evaluated(struct machine *m, double start, bool wanted, int targets)
+void watch_instruction(struct machine *m, const char *name)
 {
     struct watch *w = m->watch;
-    struct watch_sums *e = w->explain;
-    const char *why = wanted             ? "looked at"
-                      : m->run->flushing ? "much was waiting"
-                      : m->run->eager    ? "at once"
-                                         : "asked to";
-    *(wanted             ? &e->looked
-      : m->run->flushing ? &e->alone
-      : m->run->eager    ? &e->eager
-                         : &e->flushed) += 1;
-    watch_span(m, WATCH_EVALUATE, start, "\"why\":\"%s\",\"targets\":%d", why, targets);
+    if (!w->depth) {
+        sums_call(w->explain, name, 0, 0);
+        if (w->machine)
+            trace_event(w->machine, TRACE_FRONT_END, name, "record", clock_s(), 0, NULL);
+    }
+    if (w->explain->between)
+        w->explain->between();
+}
+
+void watch_silent(struct machine *m, bool silent)
+{
+    m->watch->silent = silent;
+}
+
+/* ---- values ---- */
+
+void watch_vanished(struct machine *m, int op)
+{
+    struct watch_sums *e = watch_sums(m);
+    if (m->watch->silent)
+        return;
+    e->facts.values_vanished++;
+    e->vanished[op]++;
+}
+
+void watch_overwritten(struct machine *m)
+{
+    if (!m->watch->silent)
+        watch_sums(m)->overwritten++;
+}
+
+void watch_computed(struct machine *m, int count, int stored)
+{
+    struct machine_explained *f = &watch_sums(m)->facts;
+    f->values_computed += (uint64_t)count;
+    f->values_stored += (uint64_t)stored;
+}
+
+/* ---- evaluations ---- */
+
+void watch_evaluated(struct machine *m, double start, enum watch_why why, int targets)
+{
+    static const char *const names[] = {[WATCH_LOOKED_AT] = "looked at",
+                                        [WATCH_MUCH_WAITED] = "much was waiting",
+                                        [WATCH_AT_ONCE] = "at once",
+                                        [WATCH_ASKED_TO] = "asked to"};
+    struct watch *w = m->watch;
+    w->explain->evaluations[why]++;
+    watch_span(m, WATCH_EVALUATE, start, "\"why\":\"%s\",\"targets\":%d", names[why], targets);
     commands_settle(m, false);
     if (w->machine)
         trace_flush();

@@ -27,6 +27,7 @@
 
 #include "base/clock.h"
 #include "base/parts.h"
+#include "machine_explained.h"
 
 struct watch_sums;
 
@@ -52,8 +53,8 @@ enum watch_phase {
 /* A kernel as those who watch know it: sums.h. */
 struct kernel_note;
 bool watch_open(struct machine *m, const struct machine_config *config);
-/* The machine has its device. */
-void watch_ready(struct machine *m);
+/* The machine has its device: its queue; 64 bytes of its memory, which are written to; a name for the trace. */
+void watch_ready(struct machine *m, cl_command_queue queue, cl_mem scratch, const char *title);
 /* The device is at rest: what it did is known now. */
 void watch_leave(struct machine *m);
 void watch_close(struct machine *m);
@@ -69,14 +70,26 @@ static inline double watch_clock(const struct machine *m)
 /* From start to now. details: JSON members for the trace; NULL: none. */
 void watch_span(struct machine *m, enum watch_phase phase, double start, const char *details,
                 ...) __attribute__((format(printf, 4, 5)));
-/* Calls: one that is foreseen, or is now going to be performed; a performed one's end. So many turns of some that were
- * noted have been performed. */
-void watch_call(struct machine *m, const char *name, bool foreseen);
+/* Calls: one is noted (first: none was before it); one is now going to be performed; a performed one's end. So many turns of
+ * some that were noted have been performed (more: others are still noted). An instruction that is no call. */
+void watch_noted(struct machine *m, bool first);
+void watch_call(struct machine *m, const char *name);
 void watch_performed(struct machine *m);
 void watch_call_failed(struct machine *m);
 void watch_replayed(struct machine *m, double start, const struct machine_call *calls,
-                    int count, int turns, bool alone);
-void watch_evaluated(struct machine *m, double start, bool wanted, int targets);
+                    int count, int turns, bool alone, bool more);
+void watch_instruction(struct machine *m, const char *name);
+/* From now on: what calls do is told to nobody, for they will be performed once more; or it is. */
+void watch_silent(struct machine *m, bool silent);
+
+enum watch_why { WATCH_LOOKED_AT, WATCH_MUCH_WAITED, WATCH_AT_ONCE, WATCH_ASKED_TO };
+void watch_evaluated(struct machine *m, double start, enum watch_why why, int targets);
+
+/* Values: one that nobody has computed is let go of; one in a field or flag, not computed yet, gives way to another; so many
+ * are going to be computed, so many of them stored. */
+void watch_vanished(struct machine *m, int op);
+void watch_overwritten(struct machine *m);
+void watch_computed(struct machine *m, int count, int stored);
 void watch_background(struct machine *m, double start, double end, const char *options);
 /* Commands. Which kernel the next device_launch() starts: a generated one, or one by hand that was given so
  * many bytes of arrays. Then where its event goes, and what it was; after an error, nothing. */

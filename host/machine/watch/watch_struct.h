@@ -2,7 +2,6 @@
 #ifndef LUTETIA_MACHINE_WATCH_STRUCT_H
 #define LUTETIA_MACHINE_WATCH_STRUCT_H
 
-#include "device/call.h"
 #include "watch/sums.h"
 
 /* Commands whose times are not known yet, beyond which they are waited for. */
@@ -18,8 +17,10 @@ struct command {
 struct watch {
     int machine; /* in the trace; 0: none is written */
     struct watch_sums *explain;
-    bool explains;   /* asked for; a trace wants the kernels' names alone */
-    bool background; /* it has that track */
+    bool explains;          /* asked for; a trace wants the kernels' names alone */
+    bool background;        /* it has that track */
+    bool silent;            /* nobody is told: see watch_silent() */
+    cl_command_queue queue; /* NULL: there is no device yet */
 
     int depth;        /* calls being performed, one in another */
     const char *call; /* the outermost */
@@ -35,9 +36,9 @@ struct watch {
     uint64_t waited_bytes;
 };
 
+/* Takes the times of commands that have ended. wait: of all, when they have. */
 void commands_settle(struct machine *m, bool wait);
 void watch_span_named(struct machine *m, enum watch_phase phase, const char *name, double start,
                       double end, const char *details);
-void commands_settle(struct machine *m, bool wait);
 
 #endif

@@ -1,0 +1,230 @@
+/* evaluation.c - an evaluation's two halves: see evaluation.h.
+ *
+ * An evaluation has targets: the values asked for, and the content of every live field and flag
+ * that is not
+ *  - in memory already, a number, or a cheap function of coordinates;
+ *  - a temporary just now: a slot that was overwritten before it was read since the last
+ * evaluation, whose present value is shallow and all new. It stays an expression; most are
+ * overwritten again and never computed. If it, or something made of it, is still there at the
+ * next evaluation it is computed then.
+ *
+ * Plans are kept by signature: a number for each node that is reached, in the order in which it
+ * is reached; numbers' values are no part of it. A step seen before is a walk over its nodes, a
+ * look-up, and its launches. */
+#include "run/evaluation.h"
+
+#include <stdlib.h>
+
+#include <stdlib.h>
+
+#include "base/arrays.h"
+#include "base/errors.h"
+#include "build/describe.h"
+#include "memory/memory.h"
+#include "run/replay.h"
+#include "run/slices.h"
+#include "values/graph.h"
+
+/* ---- the nodes that are reached ---- */
+
+static bool reach_room(struct reach *r)
+{
+    bool failed = false;
+    if (r->count == r->capacity)
+        r->nodes = array_more(r->nodes, &r->capacity, sizeof *r->nodes, &failed);
+    if (!failed && r->length + 9 > (uint32_t)r->signature_capacity)
+        r->signature =
+            array_more(r->signature, &r->signature_capacity, sizeof *r->signature, &failed);
+    return !failed;
+}
+
+/* Depth first; HEIGHT_MOST bounds the recursion. */
+static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
+{
+    if (v->mark == m->values->mark)
+        return true;
+    v->mark = m->values->mark;
+    if (v->op == NODE_SLICE && !v->buffer && !slice_unpack(m, v))
+        return false;
+    int inputs = v->buffer ? 0 : node_ops[v->op].inputs;
+    for (int i = 0; i < inputs; i++)
+        if (!reach_from(m, r, v->in[i]))
+            return false;
+    if (!reach_room(r))
+        return false;
+    v->local = (uint32_t)r->count;
+    r->nodes[r->count++] = v;
+    uint32_t *s = r->signature;
+    s[r->length++] = (uint32_t)(v->buffer ? NODE_BUFFER : v->op) | (uint32_t)v->type.kind << 8 |
+                     (uint32_t)v->type.width << 16 | (uint32_t)v->axis << 24;
+    if (v->type.s) {
+        s[r->length - 1] |= 0x8000;
+        s[r->length++] = v->type.s | (uint32_t)v->type.e << 8;
+    }
+    if (v->op != NODE_CONSTANT)
+        s[r->length++] = v->set | (uint32_t)m->values->sets[v->set].generation << 16;
+    if (!v->buffer) {
+        s[r->length++] = (uint32_t)v->detail;
+        for (int i = 0; i < inputs; i++)
+            s[r->length++] = v->in[i]->local;
+    }
+    /* min and max with a number: whether that is a NaN is decided at recording */
+    s[r->length++] = v->maybe_nan;
+    return true;
+}
+
+/* ---- targets ---- */
+
+static bool targets_add(struct targets *t, struct machine_value *v)
+{
+    bool failed = false;
+    if (t->count == t->capacity)
+        t->values = array_more(t->values, &t->capacity, sizeof *t->values, &failed);
+    if (!failed)
+        t->values[t->count++] = v;
+    return !failed;
+}
+
+static bool slot_wants(struct machine *m, const struct slot *slot, bool all)
+{
+    const struct machine_value *v = slot->value;
+    if (node_is_leaf(v) || node_is_cheap(v) || v->op == NODE_SLICE)
+        return false;
+    if (all || v->height > HEIGHT_DEFERRED)
+        return true;
+    bool waits = slot->overwritten_first && v->birth == m->values->epoch;
+    m->values->vanished.expressions += waits;
+    return !waits;
+}
+
+static bool targets_collect(struct machine *m, struct targets *t, bool all)
+{
+    for (int i = 1; i < m->values->sets_count; i++)
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (slot_wants(m, &m->memory->flags[i].of[flag], all) &&
+                !targets_add(t, m->memory->flags[i].of[flag].value))
+                return false;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count; k++)
+            if (slot_wants(m, &m->memory->fields[i]->slots[k], all) &&
+                !targets_add(t, m->memory->fields[i]->slots[k].value))
+                return false;
+    return true;
+}
+
+/* What was asked for, and what else there is to compute. */
+static bool find_targets(struct machine *m, struct targets *t, const struct wish *w)
+{
+    bool good = true;
+    for (int i = 0; i < w->count && good; i++)
+        if (w->values[i]->op == NODE_SLICE && !w->values[i]->buffer)
+            good = slice_unpack(m, w->values[i]);
+        else if (!node_is_leaf(w->values[i]))
+            good = targets_add(t, w->values[i]);
+    /* Reading one thing after another is one look: nothing has become older in between. */
+    if (w->what == WISH_ALL ||
+        (w->what == WISH_LIVE && m->run->stores != m->run->stores_evaluated))
+        good = good && targets_collect(m, t, w->what == WISH_ALL);
+    return good;
+}
+
+static bool find_reach(struct machine *m, struct reach *r, const struct targets *t)
+{
+    bool good = true;
+    m->values->mark++;
+    for (int i = 0; i < t->count && good; i++)
+        good = reach_from(m, r, t->values[i]);
+    for (int i = 0; i < t->count && good; i++) {
+        good = reach_room(r);
+        if (good)
+            r->signature[r->length++] = UINT32_C(0x80000000) | t->values[i]->local;
+    }
+    return good;
+}
+
+/* ---- the two halves ---- */
+
+enum machine_status evaluation_prepare(struct machine *m, struct evaluation *e,
+                                       const struct wish *wish, enum plan_use use)
+{
+    *e = (struct evaluation){.start = watch_clock(m)};
+    double from = e->start;
+    bool good = find_targets(m, &e->targets, wish);
+    if (good && e->targets.count == 0)
+        return MACHINE_OK;
+    if (m->watch)
+        watch_span(m, WATCH_TARGETS, from, "\"targets\":%d", e->targets.count);
+    from = watch_clock(m);
+    good = good && find_reach(m, &e->reach, &e->targets);
+    if (m->watch) {
+        watch_span(m, WATCH_SIGNATURE, from, "\"nodes\":%d", e->reach.count);
+        describe_nodes(m, e->reach.nodes, wish->values, wish->count, memory_where);
+    }
+    if (!good)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    from = watch_clock(m);
+    uint64_t built = m->plans->built;
+    const struct plan_request request = {&e->reach, &e->targets, use};
+    e->plan = plan_get(m, &request);
+    if (m->watch)
+        watch_span(m, WATCH_LOOKUP, from, "\"found\":%s",
+                   m->plans->built == built ? "true" : "false");
+    if (!e->plan)
+        return plan_use_runs(use) ? m->status : MACHINE_OK;
+    e->buffers = calloc((size_t)e->reach.count, sizeof(struct device_buffer *));
+    if (!e->buffers)
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to run a plan");
+    for (int i = 0; i < e->reach.count; i++)
+        e->buffers[i] = e->reach.nodes[i]->buffer;
+    return MACHINE_OK;
+}
+
+/* Those that watch are told what became of values. */
+static void tell_computed(struct machine *m, const struct evaluation *e)
+{
+    int computed = 0, stored;
+    for (int i = 0; i < e->reach.count; i++) {
+        struct machine_value *v = e->reach.nodes[i];
+        computed += !v->told && !node_is_leaf(v);
+        v->told = v->told || !node_is_leaf(v);
+    }
+    plan_stored(e->plan, &stored);
+    watch_computed(m, computed, stored);
+}
+
+enum machine_status evaluation_perform(struct machine *m, struct evaluation *e)
+{
+    int count;
+    struct machine_value *const *nodes = e->reach.nodes;
+    struct device_buffer *const *buffers = e->buffers;
+    if (m->watch)
+        tell_computed(m, e);
+    enum machine_status status = plan_run(m, e->plan, e->buffers, nodes, NULL);
+    const int *stored = plan_stored(e->plan, &count);
+    if (status)
+        return status;
+    e->stored = true;
+    /* Users first: a node whose inputs are let go may be the last to hold them. */
+    for (int i = count - 1; i >= 0; i--) {
+        graph_ref(nodes[stored[i]]);
+        device_buffer_ref(buffers[stored[i]]);
+    }
+    for (int i = count - 1; i >= 0; i--)
+        graph_materialised(m, nodes[stored[i]], buffers[stored[i]]);
+    for (int i = count - 1; i >= 0; i--)
+        graph_unref(m, nodes[stored[i]]);
+    m->values->epoch++;
+    return MACHINE_OK;
+}
+
+void evaluation_finish(struct machine *m, struct evaluation *e)
+{
+    int count = 0;
+    const int *stored = e->stored ? plan_stored(e->plan, &count) : NULL;
+    for (int i = count - 1; i >= 0; i--)
+        device_buffer_unref(m, e->buffers[stored[i]]);
+    free(e->buffers);
+    free(e->targets.values);
+    free(e->reach.nodes);
+    free(e->reach.signature);
+}
