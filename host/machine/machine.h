@@ -25,8 +25,8 @@
  * Types. Bits of width 1..128 (signedness belongs to the operations), IEEE single and double,
  * and floats of other formats (see machine_float_type()). Reading a field with another type or
  * width than it was written with reinterprets its bits; bit 0 is the lowest. Every float
- * operation that gives a NaN gives the quiet NaN with sign 0 and payload 0; moves keep NaNs'
- * bits.
+ * operation that gives a NaN gives the quiet NaN with its sign set and payload 0 (0xffc00000,
+ * 0xfff8000000000000); moves keep NaNs' bits.
  *
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
@@ -329,10 +329,9 @@ bool machine_value_is_zero(const struct machine_value *v);
 /* Constants: bits above the width are ignored. */
 struct machine_value *machine_constant(struct machine *m, struct machine_type type,
                                        struct machine_scalar bits);
-/* Rounded to the type. */
-/* A front-end number as a float of 32 or 64 bits, rounded; every NaN is the one that operations give, 0xffc00000 or
- * 0xfff8000000000000. */
+/* A front-end number as a float of 32 or 64 bits, rounded; every NaN is the one that operations give. */
 struct machine_scalar machine_float_bits(struct machine_type type, double x);
+/* Rounded to the type. */
 struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
                                              double x);
 

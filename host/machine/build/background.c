@@ -30,12 +30,12 @@
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <user_folder.h>
 
 #include "base/arrays.h"
 #include "build/compiler.h"
 #include "build/plans.h"
 #include "device/cache.h"
+#include "user_folder.h"
 
 /* A program that ends so soon after it first wanted something compiled is better off without. A process that says nothing
  * for so long is not going to. */

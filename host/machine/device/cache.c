@@ -1,23 +1,22 @@
 /* cache.c - what is kept on disk from run to run: compiled programs, and what `lutetia tune` found (tuning.c).
  *
- * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if that is this user's alone (user_folder.h). A program's is named by a hash of text, options,
- * device and driver, which it begins with, to be compared as a whole:
+ * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if that is this user's alone (user_folder.h). A program's is named by a
+ * hash of its key, with which it begins, to be compared as a whole:
  *
- *     two lengths, 8 bytes each | driver, device, options, text | binary
+ *     two lengths, 8 bytes each | platform, device, driver, options, text | binary
  *
  * Each appears under its name only when it is complete. What cannot be read or written is done without. An empty file,
  * named in the same way, is a mark: background.c notes what the driver has in a cache of its own. */
 #include "device/cache.h"
 
 #include <fcntl.h>
-#include <output_file.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <user_folder.h>
 
 #include "output_file.h"
+#include "user_folder.h"
 
 uint64_t cache_hash(uint64_t h, const char *s)
 {
@@ -61,10 +60,11 @@ static bool path_of(char *out, size_t size, const struct device *d, const char *
 
 static char *whole_key(const struct device *d, const char *key)
 {
-    size_t size = strlen(d->name) + strlen(d->driver) + strlen(key) + 3;
+    size_t size =
+        strlen(d->platform_name) + strlen(d->name) + strlen(d->driver) + strlen(key) + 4;
     char *whole = malloc(size);
     if (whole)
-        snprintf(whole, size, "%s\n%s\n%s", d->name, d->driver, key);
+        snprintf(whole, size, "%s\n%s\n%s\n%s", d->platform_name, d->name, d->driver, key);
     return whole;
 }
 

@@ -17,7 +17,6 @@
 #include "device/tuning.h"
 
 #include <errno.h>
-#include <output_file.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
