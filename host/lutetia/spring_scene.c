@@ -1,8 +1,141 @@
 /* spring_scene.c - see spring_scene.h. */
 #include "spring_scene.h"
 
+#include <clamps.h>
 #include <network_file.h>
 #include <springs.h>
+#include <word.h>
+
+#include <math.h>
+#include <string.h>
+
+/* Points of a circle, and how long a straight baseline's path is, in ems. */
+enum { CIRCLE_POINTS = 721 };
+static const double line_length = 10000;
+
+struct spring_scene_def spring_scene_def_default(void)
+{
+    return (struct spring_scene_def){.font = "DejaVuSans", .theme = "light", .at = {0, 2}};
+}
+
+static enum stage_status fail_dyn(enum dyn_status status)
+{
+    return stage_fail(status == DYN_BAD_ARGUMENT ? STAGE_BAD_ARGUMENT
+                      : status == DYN_NO_MEMORY  ? STAGE_NO_MEMORY
+                                                 : STAGE_BAD_FILE,
+                      "%s", dyn_error());
+}
+
+/* ---- controls of a word's style, which are set before the word is made ---- */
+
+/* The row that NAME=VALUE is about; NULL: it is none of the style's. */
+static const struct dyn_control *style_row(const char *assignment)
+{
+    size_t length = strcspn(assignment, "=");
+    for (int i = 0; i < dyn_word_controls_count; i++)
+        if (strlen(dyn_word_controls[i].name) == length &&
+            strncmp(dyn_word_controls[i].name, assignment, length) == 0)
+            return &dyn_word_controls[i];
+    return NULL;
+}
+
+static enum stage_status style_set(const struct spring_scene_def *def,
+                                   struct dyn_word_style *style)
+{
+    for (int i = 0; i < def->sets_count; i++) {
+        const struct dyn_control *row = style_row(def->sets[i]);
+        const char *equals = strchr(def->sets[i], '=');
+        double value;
+        if (!row || !equals)
+            continue;
+        enum dyn_status status = dyn_control_parse(row, equals + 1, &value);
+        if (status == DYN_OK)
+            status = dyn_control_write(row, style, value);
+        if (status != DYN_OK)
+            return fail_dyn(status);
+    }
+    return STAGE_OK;
+}
+
+/* ---- words ---- */
+
+static enum stage_status font_open(const struct spring_scene_def *def, struct spring_scene *out)
+{
+    if (font_face_open(def->font, 0, &out->face) != FONT_OK ||
+        font_shaper_create(out->face, &out->shaper) != FONT_OK)
+        return stage_fail(STAGE_FAILED, "%s", font_error());
+    return STAGE_OK;
+}
+
+static enum stage_status word_put(const struct spring_scene_def *def,
+                                  const struct spring_scene *scene,
+                                  struct stage_springs_def *springs)
+{
+    double path[CIRCLE_POINTS][2] = {{def->at[0], def->at[1]}};
+    struct dyn_word_def word = dyn_word_def_usual();
+    struct dyn_world world = *dyn_network_world(springs->network);
+    word.text = def->text;
+    word.shaper = scene->shaper;
+    word.x = def->at[0];
+    word.y = def->at[1];
+    word.width = def->column;
+    if (def->circle > 0) {
+        dyn_path_circle(def->at[0], def->at[1], def->circle, 90 + def->turn, path,
+                        CIRCLE_POINTS);
+        word.path_count = CIRCLE_POINTS;
+    } else if (def->turn != 0) {
+        double angle = def->turn * M_PI / 180;
+        path[1][0] = def->at[0] + line_length * cos(angle);
+        path[1][1] = def->at[1] + line_length * sin(angle);
+        word.path_count = 2;
+    }
+    word.path = word.path_count ? (const double(*)[2])path : NULL;
+    enum dyn_status status = DYN_OK;
+    if (def->preset)
+        status = dyn_preset_apply(def->preset, &word.style, &world);
+    if (status == DYN_OK)
+        status = dyn_network_world_set(springs->network, &world);
+    enum stage_status set = status == DYN_OK ? style_set(def, &word.style) : fail_dyn(status);
+    if (set != STAGE_OK)
+        return set;
+    springs->style = word.style;
+    status = dyn_word_create(springs->network, &word, &springs->word);
+    return status == DYN_OK ? STAGE_OK : fail_dyn(status);
+}
+
+/* ---- a scene ---- */
+
+static enum stage_status springs_make(const struct spring_scene_def *def,
+                                      struct spring_scene *scene,
+                                      struct stage_springs_def *springs)
+{
+    if (def->network) {
+        enum dyn_status status = dyn_network_read(def->network, &springs->network);
+        if (status != DYN_OK)
+            return fail_dyn(status);
+    } else {
+        enum dyn_status status = dyn_network_create(&springs->network);
+        if (status != DYN_OK)
+            return fail_dyn(status);
+        enum stage_status made = font_open(def, scene);
+        if (made == STAGE_OK)
+            made = word_put(def, scene, springs);
+        if (made != STAGE_OK)
+            return made;
+    }
+    enum dyn_status status =
+        def->script ? dyn_clamps_read(def->script, &springs->clamps) : DYN_OK;
+    return status == DYN_OK ? STAGE_OK : fail_dyn(status);
+}
+
+static enum stage_status sets_do(const struct spring_scene_def *def, struct stage *stage)
+{
+    for (int i = 0; i < def->sets_count; i++)
+        if ((def->network || !style_row(def->sets[i])) &&
+            stage_set(stage, def->sets[i]) != STAGE_OK)
+            return STAGE_BAD_ARGUMENT;
+    return STAGE_OK;
+}
 
 enum stage_status spring_scene_make(const struct spring_scene_def *def,
                                     struct spring_scene *out)
@@ -12,14 +145,27 @@ enum stage_status spring_scene_make(const struct spring_scene_def *def,
     *out = (struct spring_scene){0};
     stage.theme = def->theme;
     springs.extent = (struct font_box){def->view[0], def->view[1], def->view[2], def->view[3]};
-    if (dyn_network_read(def->network, &springs.network) != DYN_OK)
-        return stage_fail(STAGE_BAD_FILE, "%s", dyn_error());
-    enum stage_status status = stage_springs_create(&springs, &stage.actor);
-    return status == STAGE_OK ? stage_create(&stage, &out->stage) : status;
+    enum stage_status status = springs_make(def, out, &springs);
+    if (status == STAGE_OK) {
+        status = stage_springs_create(&springs, &stage.actor);
+    } else {
+        dyn_clamps_destroy(springs.clamps);
+        dyn_word_destroy(springs.word);
+        dyn_network_destroy(springs.network);
+    }
+    if (status == STAGE_OK)
+        status = stage_create(&stage, &out->stage);
+    if (status == STAGE_OK)
+        status = sets_do(def, out->stage);
+    if (status != STAGE_OK)
+        spring_scene_finish(out);
+    return status;
 }
 
 void spring_scene_finish(struct spring_scene *scene)
 {
     stage_destroy(scene->stage);
+    font_shaper_destroy(scene->shaper);
+    font_face_close(scene->face);
     *scene = (struct spring_scene){0};
 }

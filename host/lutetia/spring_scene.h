@@ -1,21 +1,47 @@
-/* spring_scene.h - what `lutetia spring` puts on its stage: a network from a file. */
+/* spring_scene.h - what `lutetia spring` puts on its stage: a word, or a network from a file.
+ *
+ *     struct spring_scene_def def = spring_scene_def_default();
+ *     def.text = "breakdown";
+ *     def.preset = "breakdown";
+ *     struct spring_scene scene;
+ *     if (spring_scene_make(&def, &scene) != STAGE_OK)
+ *         die(stage_error());
+ *     ...scene.stage...
+ *     spring_scene_finish(&scene); */
 #ifndef LUTETIA_SPRING_SCENE_H
 #define LUTETIA_SPRING_SCENE_H
 
+#include <face.h>
 #include <stage.h>
+#include <text.h>
 
 struct spring_scene_def {
+    const char *text;    /* UTF-8; or */
     const char *network; /* a file of masses and springs */
+    const char *font;    /* as font_face_open() has it */
+    const char *preset;  /* NULL: none */
+    const char *script;  /* a file of clamps that lead masses; NULL: none */
     const char *theme;
+    const char *const *
+        sets; /* NAME=VALUE: controls of the stage, the word's style, the world; after the preset */
+    int sets_count;
+    double at[2];  /* where the baseline begins, in ems; the floor is at 0 */
+    double turn;   /* degrees, to the left, round there */
+    double column; /* lines are broken for so many ems; 0: only where the text has line ends */
+    double
+        circle; /* the baseline goes round a circle of that radius, over the place; 0: it is straight */
     double view
         [4]; /* x0, y0, x1, y1: the part of the world that is seen; zeros: around what there is */
 };
+struct spring_scene_def spring_scene_def_default(void);
 
 struct spring_scene {
     struct stage *stage;
+    struct font_face *face;
+    struct font_shaper *shaper;
 };
 
-/* Errors: those of what it is made of; *out is then zeros. */
+/* Errors: BAD_ARGUMENT (a preset, a control or a number that cannot be), those of fonts and files; *out is then zeros. */
 enum stage_status spring_scene_make(const struct spring_scene_def *def,
                                     struct spring_scene *out);
 void spring_scene_finish(struct spring_scene *scene);

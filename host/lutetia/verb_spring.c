@@ -6,6 +6,7 @@
 
 #include <stage_film.h>
 #include <stage_window.h>
+#include <word.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -58,6 +59,10 @@ static int spring_check(struct spring *s, const struct option_words *words)
     const double *v = s->scene.view;
     if ((v[0] != 0 || v[1] != 0 || v[2] != 0 || v[3] != 0) && !(v[2] > v[0] && v[3] > v[1]))
         return fail_usage("spring", "--view must be X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+    if (words->count)
+        s->scene.text = words->words[0];
+    if (s->scene.network && s->scene.preset)
+        return fail_usage("spring", "--preset is for a word");
     s->film.width_px = s->window.width_px = s->size[0];
     s->film.height_px = s->window.height_px = s->size[1];
     if (s->film.video && (s->size[0] % 2 || s->size[1] % 2))
@@ -77,15 +82,41 @@ static void usage(const struct option_row *rows)
     options_help(rows);
 }
 
+/* "NAME" of every preset, for the help. */
+static const char *presets_text(char *text, size_t room)
+{
+    text[0] = '\0';
+    for (int i = 0; i < dyn_presets_count; i++) {
+        size_t used = strlen(text);
+        snprintf(text + used, room - used, "%s%s", i ? ", " : "", dyn_presets[i].name);
+    }
+    return text;
+}
+
 static int spring_options(struct spring *s, int argc, char **argv, bool *help)
 {
+    char names[200];
+    const char *presets = presets_text(names, sizeof names);
     const struct option_row rows[] = {
+        {"preset", 'p', OPTION_TEXT, "NAME", presets, &s->scene.preset, 0, 0, 0},
         {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control, as often as wanted", &s->sets, 0,
          0, 0},
         {"controls", 0, OPTION_FLAG, NULL, "print the table of controls", &s->controls, 0, 0,
          0},
         {"network", 0, OPTION_TEXT, "FILE", "masses and springs from a file, not a word",
          &s->scene.network, 0, 0, 0},
+        {"font", 0, OPTION_TEXT, "FONT", "a file, its name, or a family (DejaVuSans)",
+         &s->scene.font, 0, 0, 0},
+        {"at", 0, OPTION_NUMBERS, "X,Y", "where the baseline begins, in ems (0,2); floor: 0",
+         s->scene.at, -1000, 1000, 2},
+        {"turn", 0, OPTION_NUMBER, "DEGREES", "the baseline goes up to the right",
+         &s->scene.turn, -360, 360, 0},
+        {"column", 0, OPTION_NUMBER, "EMS", "lines are broken to be that long",
+         &s->scene.column, 0, 1000, 0},
+        {"circle", 0, OPTION_NUMBER, "RADIUS", "the baseline goes round a circle",
+         &s->scene.circle, 0, 1000, 0},
+        {"script", 0, OPTION_TEXT, "FILE", "clamps that lead masses", &s->scene.script, 0, 0,
+         0},
         {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths", &s->scene.theme, 0,
          0, 0},
         {"size", 0, OPTION_SIZE, "WxH", "pixels of the window or the picture (1280x720)",
@@ -207,9 +238,6 @@ static int window_run(struct spring *s, struct stage *stage)
 
 static int spring_run(struct spring *s, struct stage *stage)
 {
-    for (int i = 0; i < s->sets.count; i++)
-        if (stage_set(stage, s->sets.texts[i]) != STAGE_OK)
-            return fail_usage("spring", "--set: %s", stage_error());
     if (s->controls)
         return controls_print(stage);
     interrupt_catch();
@@ -227,7 +255,7 @@ int verb_spring(int argc, char **argv)
     bool help = false;
     s = (struct spring){.film = stage_film_def_default(),
                         .window = stage_window_def_default(),
-                        .scene = {.theme = "light"},
+                        .scene = spring_scene_def_default(),
                         .way = "exact",
                         .size = {1280, 720}};
     s.window.title = "springs";
@@ -235,7 +263,12 @@ int verb_spring(int argc, char **argv)
     int status = spring_options(&s, argc, argv, &help);
     if (status != EXIT_SUCCESS || help)
         return status;
-    if (spring_scene_make(&s.scene, &scene) != STAGE_OK)
+    s.scene.sets = s.sets.texts;
+    s.scene.sets_count = s.sets.count;
+    enum stage_status made = spring_scene_make(&s.scene, &scene);
+    if (made == STAGE_BAD_ARGUMENT)
+        return fail_usage("spring", "%s", stage_error());
+    if (made != STAGE_OK)
         return fail_stage();
     status = spring_run(&s, scene.stage);
     spring_scene_finish(&scene);

@@ -1,6 +1,7 @@
 /* springs.c - see springs.h. springs_hand.c is what hands do, springs_draw.c how it looks. */
 #include "springs.h"
 
+#include <collide.h>
 #include <events.h>
 #include <hand.h>
 #include <step.h>
@@ -11,7 +12,10 @@
 
 #include "springs_internal.h"
 
-enum { OWN_ROWS = 5 };
+enum { OWN_ROWS = 7 };
+
+/* Of a plane in which letters have their boxes. */
+static const double plane_size = 100;
 
 struct stage_springs_def stage_springs_def_default(void)
 {
@@ -38,8 +42,10 @@ static enum stage_status world_write(void *actor, int index, double value)
 
 static double *own_setting(struct springs *s, int index)
 {
-    double *const settings[OWN_ROWS] = {&s->shown.hand, &s->shown.masses, &s->shown.springs,
-                                        &s->shown.letters, &s->shown.full_strain};
+    struct springs_settings *set = &s->set;
+    double *const settings[OWN_ROWS] = {
+        &set->hand,        &set->show_masses, &set->show_springs, &set->show_letters,
+        &set->full_strain, &set->collide,     &set->record_hand};
     return settings[index];
 }
 
@@ -63,25 +69,69 @@ static const struct stage_control own_rows[OWN_ROWS] = {
     {"show_letters", "", 0, 1, 1, STAGE_SWITCH, NULL, "letters are seen", own_read, own_write,
      3},
     {"full_strain", "", 0.001, 10, 0.25, STAGE_LOGARITHMIC, NULL,
-     "the strain at which a spring has all of its colour", own_read, own_write, 4}};
+     "the strain at which a spring has all of its colour", own_read, own_write, 4},
+    {"collide", "", 0, 1, 0, STAGE_SWITCH, NULL, "letters push each other apart", own_read,
+     own_write, 5},
+    {"record_hand", "", 0, 1, 0, STAGE_SWITCH, NULL,
+     "what a hand holds becomes a script of clamps, saved beside the rest", own_read, own_write,
+     6}};
 
-static enum stage_status rows_make(struct springs *s)
+/* Of the word's style. */
+static double style_read(void *actor, int index)
+{
+    const struct springs *s = actor;
+    return dyn_control_read(&dyn_word_controls[index], &s->set.style);
+}
+
+static enum stage_status style_write(void *actor, int index, double value)
+{
+    struct springs *s = actor;
+    struct dyn_word_style style = s->set.style;
+    enum dyn_status status = dyn_control_write(&dyn_word_controls[index], &style, value);
+    if (status == DYN_OK)
+        status = dyn_word_style_set(s->word, s->network, &style);
+    if (status != DYN_OK)
+        return springs_fail(status);
+    s->set.style = style;
+    return STAGE_OK;
+}
+
+static struct stage_control
+row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int index),
+       enum stage_status (*write)(void *actor, int index, double value))
 {
     static const enum stage_curve curves[] = {[DYN_LINEAR] = STAGE_LINEAR,
                                               [DYN_LOGARITHMIC] = STAGE_LOGARITHMIC,
                                               [DYN_SWITCH] = STAGE_SWITCH,
                                               [DYN_CHOICE] = STAGE_CHOICE};
-    s->rows_count = OWN_ROWS + dyn_controls_count;
-    s->rows = calloc((size_t)s->rows_count, sizeof *s->rows);
+    return (struct stage_control){.name = c->name,
+                                  .unit = c->unit,
+                                  .least = c->least,
+                                  .most = c->most,
+                                  .usual = c->usual,
+                                  .curve = curves[c->curve],
+                                  .choices = c->choices,
+                                  .does = c->does,
+                                  .read = read,
+                                  .write = write,
+                                  .index = index};
+}
+
+/* A style's choices (its box, its tacks) are made when the word is: they are no rows. */
+static enum stage_status rows_make(struct springs *s)
+{
+    int most = OWN_ROWS + dyn_controls_count + (s->word ? dyn_word_controls_count : 0);
+    s->rows = calloc((size_t)most, sizeof *s->rows);
     if (!s->rows)
         return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
     memcpy(s->rows, own_rows, sizeof own_rows);
-    for (int i = 0; i < dyn_controls_count; i++) {
-        const struct dyn_control *c = &dyn_controls[i];
-        s->rows[OWN_ROWS + i] = (struct stage_control){
-            c->name,    c->unit, c->least,   c->most,     c->usual, curves[c->curve],
-            c->choices, c->does, world_read, world_write, i};
-    }
+    s->rows_count = OWN_ROWS;
+    for (int i = 0; s->word && i < dyn_word_controls_count; i++)
+        if (dyn_word_controls[i].curve != DYN_CHOICE)
+            s->rows[s->rows_count++] =
+                row_of(&dyn_word_controls[i], i, style_read, style_write);
+    for (int i = 0; i < dyn_controls_count; i++)
+        s->rows[s->rows_count++] = row_of(&dyn_controls[i], i, world_read, world_write);
     return STAGE_OK;
 }
 
@@ -97,7 +147,13 @@ static const struct stage_control *springs_controls(void *actor, int *count)
 static enum stage_status springs_step(void *actor, double dt_s)
 {
     struct springs *s = actor;
-    enum dyn_status status = dyn_network_step(s->network, dt_s, 1);
+    enum dyn_status status = s->clamps ? dyn_clamps_step(s->clamps, s->network, dt_s, 1)
+                                       : dyn_network_step(s->network, dt_s, 1);
+    const struct dyn_word *const word = s->word;
+    if (status == DYN_OK && word && s->set.collide != 0)
+        status = dyn_words_collide(s->network, &word, 1, NULL);
+    if (status == DYN_OK && s->set.record_hand != 0)
+        status = springs_record(s);
     return status == DYN_OK ? STAGE_OK : springs_fail(status);
 }
 
@@ -119,7 +175,7 @@ static int springs_heard(void *actor, struct stage_sound *out, int most)
 
 struct kept {
     struct dyn_network *network;
-    struct springs_shown shown;
+    struct springs_settings set;
 };
 
 static void springs_forget(void *state)
@@ -137,7 +193,7 @@ static enum stage_status springs_keep(void *actor, void **state)
     *state = NULL;
     if (!kept)
         return stage_fail(STAGE_NO_MEMORY, "no memory to keep springs as they are");
-    kept->shown = s->shown;
+    kept->set = s->set;
     enum dyn_status status = dyn_network_create(&kept->network);
     if (status == DYN_OK)
         status = dyn_network_copy(kept->network, s->network);
@@ -156,7 +212,7 @@ static enum stage_status springs_restore(void *actor, const void *state)
     enum dyn_status status = dyn_network_copy(s->network, kept->network);
     if (status != DYN_OK)
         return springs_fail(status);
-    s->shown = kept->shown;
+    s->set = kept->set;
     s->hand = (struct springs_hand){0};
     return STAGE_OK;
 }
@@ -189,6 +245,9 @@ static struct font_box springs_extent(void *actor)
 static void springs_destroy(void *actor)
 {
     struct springs *s = actor;
+    dyn_clamps_destroy(s->clamps);
+    dyn_clamps_destroy(s->recorded);
+    dyn_word_destroy(s->word);
     dyn_network_destroy(s->network);
     free(s->letters);
     free(s->rows);
@@ -209,22 +268,33 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .heard = springs_heard,
                                                      .destroy = springs_destroy};
 
-static enum stage_status letters_copy(struct springs *s, const struct stage_springs_def *def)
+/* A letter of a word, whose box is given from its origin upwards, corners from the lower left one on. */
+static struct stage_springs_letter letter_of(const struct dyn_letter *l)
 {
-    for (int i = 0; i < def->letters_count; i++)
+    double scale = plane_size / l->size;
+    return (struct stage_springs_letter){
+        .letter = {l->face, l->glyph, plane_size, scale * l->x0, -scale * l->y1, scale * l->x1,
+                   -scale * l->y0},
+        .masses = {l->mass[3], l->mass[2], l->mass[1], l->mass[0]}};
+}
+
+static enum stage_status letters_make(struct springs *s, const struct stage_springs_def *def)
+{
+    int own = def->letters_count, of_word = s->word ? dyn_word_letters_count(s->word) : 0;
+    for (int i = 0; i < own; i++)
         for (int k = 0; k < 4; k++)
             if (def->letters[i].masses[k] < 0 ||
                 def->letters[i].masses[k] >= dyn_masses_count(def->network))
                 return stage_fail(STAGE_BAD_ARGUMENT,
                                   "letter %d stands on mass %d; there are %d", i,
                                   def->letters[i].masses[k], dyn_masses_count(def->network));
-    size_t bytes = (size_t)def->letters_count * sizeof *s->letters;
-    s->letters = malloc(bytes ? bytes : 1);
+    s->letters = calloc((size_t)(own + of_word) + 1, sizeof *s->letters);
     if (!s->letters)
         return stage_fail(STAGE_NO_MEMORY, "no memory for letters");
-    if (bytes)
-        memcpy(s->letters, def->letters, bytes);
-    s->letters_count = def->letters_count;
+    for (int i = 0; i < own; i++)
+        s->letters[s->letters_count++] = def->letters[i];
+    for (int i = 0; i < of_word; i++)
+        s->letters[s->letters_count++] = letter_of(dyn_word_letter(s->word, i));
     return STAGE_OK;
 }
 
@@ -234,16 +304,21 @@ enum stage_status stage_springs_create(const struct stage_springs_def *def,
     *out = (struct stage_actor){0};
     struct springs *s = calloc(1, sizeof *s);
     if (!s) {
+        dyn_clamps_destroy(def->clamps);
+        dyn_word_destroy(def->word);
         dyn_network_destroy(def->network);
         return stage_fail(STAGE_NO_MEMORY, "no memory for springs");
     }
     s->network = def->network;
+    s->word = def->word;
+    s->clamps = def->clamps;
     s->extent = def->extent;
     for (int i = 0; i < OWN_ROWS; i++)
         *own_setting(s, i) = own_rows[i].usual;
-    s->shown.masses = def->show_masses;
-    s->shown.springs = def->show_springs;
-    enum stage_status status = letters_copy(s, def);
+    s->set.show_masses = def->show_masses;
+    s->set.show_springs = def->show_springs;
+    s->set.style = def->style;
+    enum stage_status status = letters_make(s, def);
     if (status == STAGE_OK)
         status = rows_make(s);
     if (status != STAGE_OK) {

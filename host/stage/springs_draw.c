@@ -34,7 +34,7 @@ static struct stage_color strain_color(const struct springs *s, const struct sta
                                        int spring)
 {
     const struct stage_color *c = look->theme->colors;
-    double strain = dyn_spring_strain(s->network, spring) / s->shown.full_strain;
+    double strain = dyn_spring_strain(s->network, spring) / s->set.full_strain;
     return stage_color_mix(
         c[STAGE_COLOR_SPRING],
         c[strain > 0 ? STAGE_COLOR_SPRING_STRETCHED : STAGE_COLOR_SPRING_SQUEEZED],
@@ -79,7 +79,7 @@ static void masses_draw(const struct springs *s, const struct stage_look *look, 
             stage_draw_disc(list, at.x, at.y, 1.6 * radius, c[STAGE_COLOR_MASS_HELD]);
         else if (held & DYN_STUCK)
             stage_draw_disc(list, at.x, at.y, 1.6 * radius, c[STAGE_COLOR_MASS_STUCK]);
-        else if (s->shown.masses != 0)
+        else if (s->set.show_masses != 0)
             stage_draw_disc(list, at.x, at.y, radius, c[STAGE_COLOR_MASS]);
     }
 }
@@ -108,9 +108,9 @@ void springs_draw(void *actor, const struct stage_look *look, struct stage_draw_
     const struct springs *s = actor;
     double ahead_s = look->fraction * look->step_s;
     sides_draw(s, look, list);
-    if (s->shown.springs != 0)
+    if (s->set.show_springs != 0)
         strings_draw(s, look, ahead_s, list);
-    if (s->shown.letters != 0)
+    if (s->set.show_letters != 0)
         letters_draw(s, look, ahead_s, list);
     masses_draw(s, look, ahead_s, list);
     hand_draw(s, look, ahead_s, list);

@@ -2,6 +2,7 @@
 #include "springs_internal.h"
 
 #include <network_file.h>
+#include <stdio.h>
 
 enum stage_status springs_fail(enum dyn_status status)
 {
@@ -16,6 +17,10 @@ enum stage_status springs_save(void *actor, const char *path)
 {
     const struct springs *s = actor;
     enum dyn_status status = dyn_network_write(s->network, path);
+    char beside[4096];
+    int length = snprintf(beside, sizeof beside, "%s.clamps", path);
+    if (status == DYN_OK && s->recorded && length > 0 && (size_t)length < sizeof beside)
+        status = dyn_clamps_write(s->recorded, beside);
     return status == DYN_OK ? STAGE_OK : springs_fail(status);
 }
 

@@ -64,7 +64,7 @@ static bool mass_take(struct springs *s, int mass, const struct stage_event *e)
         return true;
     }
     h->mode = SPRINGS_PULL;
-    return dyn_pull_begin(s->network, mass, e->x, e->y, s->shown.hand) == DYN_OK;
+    return dyn_pull_begin(s->network, mass, e->x, e->y, s->set.hand) == DYN_OK;
 }
 
 /* Its masses are pulled to where they are now; a fourth of the hand's stiffness each. */
@@ -75,7 +75,7 @@ static bool letter_take(struct springs *s, int letter, const struct stage_event 
     for (int k = 0; k < 4; k++) {
         struct font_point at = springs_place(s, s->letters[letter].masses[k], 0);
         int mass = s->letters[letter].masses[k];
-        if (dyn_pull_begin(s->network, mass, at.x, at.y, s->shown.hand / 4) != DYN_OK)
+        if (dyn_pull_begin(s->network, mass, at.x, at.y, s->set.hand / 4) != DYN_OK)
             continue;
         h->away_x[h->masses_count] = at.x - e->x;
         h->away_y[h->masses_count] = at.y - e->y;
@@ -140,6 +140,36 @@ static void move(struct springs *s, const struct stage_event *e)
     }
 }
 
+/* ---- the hand as a script ---- */
+
+enum { KEYS_PER_S = 30 };
+
+enum dyn_status springs_record(struct springs *s)
+{
+    double now_s = dyn_network_time_s(s->network);
+    bool late = now_s >= s->recorded_s + 1.0 / KEYS_PER_S || now_s < s->recorded_s;
+    if (s->hand.mode != SPRINGS_HOLD || (s->recorded && !late))
+        return DYN_OK;
+    enum dyn_status status = s->recorded ? DYN_OK : dyn_clamps_create(&s->recorded);
+    s->recorded_s = now_s;
+    if (status == DYN_OK)
+        status = dyn_clamps_key(s->recorded, s->hand.masses[0], now_s, s->hand.x, s->hand.y);
+    return status;
+}
+
+/* The last key of a mass that was held: where it stays, or from where it goes free. */
+static void record_end(struct springs *s)
+{
+    const struct springs_hand *h = &s->hand;
+    double now_s = dyn_network_time_s(s->network);
+    if (s->set.record_hand == 0 || !s->recorded)
+        return;
+    if (dyn_mass_get(s->network, h->masses[0]).hold & DYN_STUCK)
+        dyn_clamps_key(s->recorded, h->masses[0], now_s, h->x, h->y);
+    else
+        dyn_clamps_free(s->recorded, h->masses[0], now_s);
+}
+
 static void let_go(struct springs *s, bool tacking)
 {
     struct springs_hand *h = &s->hand;
@@ -153,6 +183,7 @@ static void let_go(struct springs *s, bool tacking)
         else if (tacking)
             dyn_mass_tack(s->network, h->masses[0]);
         dyn_mass_release(s->network, h->masses[0]);
+        record_end(s);
     }
     *h = (struct springs_hand){0};
 }

@@ -23,9 +23,10 @@ struct springs_hand {
     bool moved, untack;          /* further than a touch; if not, the tack is taken out */
 };
 
-/* What can be adjusted; doubles all, for the table's sake. */
-struct springs_shown {
-    double hand, masses, springs, letters, full_strain;
+/* What can be adjusted besides the network's world; doubles all, for the tables' sake. */
+struct springs_settings {
+    double hand, show_masses, show_springs, show_letters, full_strain, collide, record_hand;
+    struct dyn_word_style style;
 };
 
 struct springs {
@@ -35,7 +36,11 @@ struct springs {
     struct stage_control *rows;
     int rows_count;
     struct font_box extent;
-    struct springs_shown shown;
+    struct dyn_word *word;
+    struct dyn_clamps *clamps;
+    struct dyn_clamps *recorded; /* what hands held while that was recorded; NULL: nothing */
+    double recorded_s;           /* the last key's time */
+    struct springs_settings set;
     struct springs_hand hand;
 };
 
@@ -46,6 +51,9 @@ void springs_draw(void *actor, const struct stage_look *look, struct stage_draw_
 
 /* Where a mass is, so many seconds ahead of the last step. */
 struct font_point springs_place(const struct springs *s, int mass, double ahead_s);
+
+/* After a step: a key of what the hand holds, thirty a second. */
+enum dyn_status springs_record(struct springs *s);
 
 /* Remembers what the simulation said. */
 enum stage_status springs_fail(enum dyn_status status);

@@ -386,6 +386,8 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
         status = stage_renderer_window(w->window, &w->renderer);
     if (status == STAGE_OK)
         status = stage_panel_create(def->font, &w->panel);
+    if (status == STAGE_OK) /* hands may come at once: they must find a view */
+        status = frame_draw(w, input_now_s());
     if (status == STAGE_OK)
         *out = w;
     else

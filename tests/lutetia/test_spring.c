@@ -60,8 +60,8 @@ static void stills_agree(void **state)
     struct display_image images[3];
     for (int i = 0; i < 3; i++) {
         const char *path = scratch_path("still.png");
-        RUN(0, "--network", collision, "--still", path, "--seconds", "0.9", "--size", "400x300",
-            "--way", ways[i]);
+        RUN(0, "breakdown", "--preset", "breakdown", "--still", path, "--seconds", "1.3",
+            "--size", "400x300", "--set", "shadow=on", "--set", "grid=on", "--way", ways[i]);
         images[i] = picture(path);
         assert_true(images[i].width_px == 400 && images[i].height_px == 300);
     }
@@ -73,6 +73,57 @@ static void stills_agree(void **state)
     }
     for (int i = 0; i < 3; i++)
         display_image_destroy(&images[i]);
+}
+
+static double moment_weight(const char *set, const char *turn)
+{
+    static const uint8_t background[3] = {0xf6, 0xf4, 0xef};
+    const char *path = scratch_path("moment.png");
+    RUN(0, "Jelly", "--preset", "jelly", "--still", path, "--seconds", "0.8", "--size",
+        "300x200", "--view", "-1,-0.5,4,3.5", "--turn", turn, "--set", set, "--set",
+        "show_springs=off", "--set", "show_masses=off", "--set", "floor_on=off", "--set",
+        "gravity=0");
+    struct display_image image = picture(path);
+    double weight = ink_weight(&image, background);
+    display_image_destroy(&image);
+    return weight;
+}
+
+/* A style's choices are made before the word is, controls of the world and the stage after; a turned word weighs the same. */
+static void sets_reach_style_world_and_stage(void **state)
+{
+    (void)state;
+    double plain = moment_weight("collide=on", "0");
+    assert_true(plain > 100);
+    double turned = moment_weight("box=ink", "20");
+    if (fabs(turned / plain - 1) > 0.02)
+        fail_msg("%.1f turned for %.1f", turned, plain);
+    assert_true(moment_weight("show_letters=off", "0") == 0);
+    struct child child = RUN(0, "a", "--preset", "jelly", "--set", "side=77", "--controls");
+    assert_non_null(strstr(child.output, "\nside          77 "));
+    assert_non_null(strstr(child.output, "\nlink          160 "));
+    assert_non_null(strstr(child.output, "\nfriction      0.6 "));
+    assert_null(strstr(child.output, "\nbox "));
+}
+
+/* A script of clamps leads a word's mass; without it the mass is elsewhere. */
+static void scripts_lead_masses(void **state)
+{
+    (void)state;
+    const char *script = scratch_path("lead.clamps"), *end = scratch_path("end.springs");
+    const char *still = scratch_path("led.png");
+    FILE *file = fopen(script, "w");
+    fputs("clamps 1\nkey 3 0 0 3\nkey 3 0.5 2.5 3.75\nend\n", file);
+    fclose(file);
+    RUN(0, "led", "--script", script, "--still", still, "--save", end, "--seconds", "0.75",
+        "--size", "64x64");
+    char text[8192] = "";
+    file = fopen(end, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    if (!strstr(text, "mass x=2.5 y=3.75 "))
+        fail_msg("%s", text);
 }
 
 /* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
@@ -179,6 +230,17 @@ static void what_is_wrong_is_said_in_a_line(void **state)
         {{"--network", collision, "--still", still, "--view", "1,0,0,1"}, 2, "X0 < X1"},
         {{"--network", collision, "--strip", "2x2"}, 2, "--strip is for a --still"},
         {{"--network", collision, "--still", still, "--filter", "soft"}, 1, "soft"},
+        {{"a", "--network", collision, "--still", still}, 2, "not both"},
+        {{"a", "--still", still, "--font", "NoSuchFont-Ever.ttf"}, 1, "NoSuchFont-Ever"},
+        {{"a", "--still", still, "--preset", "marble"},
+         2,
+         "there is no preset 'marble'; there are"},
+        {{"--network", collision, "--still", still, "--preset", "jelly"},
+         2,
+         "--preset is for a word"},
+        {{" ", "--still", still}, 2, "ink"},
+        {{"a", "--still", still, "--set", "box=round"}, 2, "box"},
+        {{"a", "--still", still, "--script", bad}, 1, "bad.springs:1: "},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct child child = run(wrong[i].arguments, wrong[i].status);
@@ -208,6 +270,8 @@ int main(void)
         cmocka_unit_test(stills_agree),
         cmocka_unit_test(films_stills_and_strips_are_of_one_run),
         cmocka_unit_test(runs_are_saved_and_gone_on_with),
+        cmocka_unit_test(sets_reach_style_world_and_stage),
+        cmocka_unit_test(scripts_lead_masses),
         cmocka_unit_test(controls_are_listed),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
         cmocka_unit_test(films_are_interrupted),

@@ -1,0 +1,166 @@
+/* test_spring_window.c - `lutetia spring` in a window on an Xvfb, a hand at it: what it saves is what the hand did. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <clamps.h>
+#include <errno.h>
+#include <network_file.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "../display/scratch.h"
+#include "clock.h"
+#include "xtest.h"
+
+#include <X11/keysym.h>
+
+static const char *lutetia;
+
+static pid_t start(const char *const *arguments)
+{
+    pid_t pid = fork();
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        char *all[24] = {strdup(lutetia), strdup("spring")};
+        for (int i = 0; arguments[i]; i++)
+            all[2 + i] = strdup(arguments[i]);
+        execv(lutetia, all);
+        _exit(127);
+    }
+    return pid;
+}
+
+static void ends_with(pid_t pid, int wanted)
+{
+    int status = -1;
+    for (double until_s = clock_now_s() + 20; clock_now_s() < until_s; usleep(5000))
+        if (waitpid(pid, &status, WNOHANG) == pid) {
+            assert_true(WIFEXITED(status));
+            assert_int_equal(WEXITSTATUS(status), wanted);
+            return;
+        }
+    kill(pid, SIGKILL);
+    fail_msg("it does not end");
+}
+
+/* Waits for a file to be there. */
+static void file_wait(const char *path)
+{
+    for (double until_s = clock_now_s() + 20; access(path, R_OK) != 0; usleep(5000))
+        if (clock_now_s() > until_s)
+            fail_msg("there is no %s", path);
+}
+
+/* The window shows so much of the world that an em is 60 pixels: 10 ems by 6.25, the floor half an em above its edge. */
+static const char *const scene[] = {"--size", "600x375", "--view", "-2,-0.5,8,5.75", NULL};
+
+static void at(Window window, double x, double y)
+{
+    xtest_move(window, (int)(60 * (x + 2)), (int)(375 - 60 * (y + 0.5)));
+}
+
+/* The window, when the light theme's paper is seen in it. */
+static Window window_of(void)
+{
+    Window window = screen_window("springs", 20);
+    int seen = 0;
+    if (!window)
+        fail_msg("there is no window");
+    for (double until_s = clock_now_s() + 20; seen != 0xf6 && clock_now_s() < until_s;) {
+        struct display_image image;
+        usleep(10000);
+        screen_read(window, &image);
+        seen = image.pixels ? image.pixels[3 * 10] : 0;
+        display_image_destroy(&image);
+    }
+    if (seen != 0xf6)
+        fail_msg("there is no picture in the window");
+    return window;
+}
+
+/* The first letter's upper left mass is led up and tacked; the script of it and the masses are saved. */
+static void hands_are_saved_as_scripts(void **state)
+{
+    (void)state;
+    const char *saved = scratch_path("word.springs"),
+               *script = scratch_path("word.springs.clamps");
+    const char *arguments[20] = {"wo",    "--at",           "0,2",    "--set", "gravity=0",
+                                 "--set", "record_hand=on", "--save", saved};
+    memcpy(arguments + 9, scene, sizeof scene);
+    struct dyn_network *network = NULL;
+    struct dyn_clamps *clamps = NULL;
+    pid_t pid = start(arguments);
+    Window window = window_of();
+    double top = 2.729; /* DejaVu's capital M is so high */
+    xtest_key(XK_Shift_L, true);
+    at(window, 0.06, top); /* where a w begins: its margin */
+    xtest_button(1, true);
+    for (int i = 0; i <= 20; i++) {
+        at(window, 0.05 * i, top + 0.1 * i);
+        usleep(20000);
+    }
+    xtest_button(1, false);
+    xtest_key(XK_Shift_L, false);
+    usleep(50000);
+    xtest_key(XK_Control_L, true);
+    xtest_type(XK_s);
+    xtest_key(XK_Control_L, false);
+    file_wait(saved);
+    file_wait(script);
+    xtest_type(XK_Escape);
+    ends_with(pid, 0);
+
+    if (dyn_network_read(saved, &network) != DYN_OK ||
+        dyn_clamps_read(script, &clamps) != DYN_OK)
+        fail_msg("%s", dyn_error());
+    int stuck = -1;
+    for (int i = 0; i < dyn_masses_count(network); i++)
+        if (dyn_mass_get(network, i).hold & DYN_STUCK)
+            stuck = i;
+    assert_int_equal(stuck, 3); /* lower left, lower right, upper right, upper left */
+    struct dyn_mass mass = dyn_mass_get(network, stuck);
+    assert_true(mass.x > 0.98 && mass.x < 1.02 && mass.y > top + 1.97 && mass.y < top + 2.03);
+    double x, y;
+    assert_in_range(dyn_clamps_count(clamps), 4, 1000);
+    assert_true(dyn_clamps_at(clamps, stuck, 1e6, &x, &y));
+    assert_true(x > 0.98 && x < 1.02 && y > top + 1.97 && y < top + 2.03);
+    dyn_clamps_destroy(clamps);
+    dyn_network_destroy(network);
+}
+
+/* The window's cross, Ctrl-C. */
+static void windows_end(void **state)
+{
+    (void)state;
+    const char *arguments[8] = {"end"};
+    memcpy(arguments + 1, scene, sizeof scene);
+    pid_t pid = start(arguments);
+    screen_close(window_of());
+    ends_with(pid, 0);
+    pid = start(arguments);
+    window_of();
+    kill(pid, SIGINT);
+    ends_with(pid, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hands_are_saved_as_scripts),
+        cmocka_unit_test(windows_end),
+    };
+    lutetia = getenv("LUTETIA");
+    if (!lutetia || !screen_start("800x600"))
+        return 77;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    screen_end();
+    return failed;
+}
