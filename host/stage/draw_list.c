@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { ITEMS_MAX = 1 << 22 };
-static const double place_most_px = 1e6;
+static const double place_most_px = 1e6, letter_most_px = STAGE_LETTER_MAX_PX;
 
 void stage_draw_finish(struct stage_draw_list *list)
 {
@@ -141,7 +141,8 @@ void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *
         return;
     for (int i = 0; i < 4; i++) {
         stage_view_to_px(list->view, corners[i].x, corners[i].y, &px[i].x, &px[i].y);
-        if (!is_near(px[i].x, px[i].y))
+        if (!is_near(px[i].x, px[i].y) || !(fabs(px[i].x - px[0].x) <= letter_most_px) ||
+            !(fabs(px[i].y - px[0].y) <= letter_most_px))
             return;
     }
     if (font_map_corners(FONT_SMOOTH, letter->x0, letter->y0, letter->x1, letter->y1, px,

@@ -89,6 +89,9 @@ struct stage_letter {
     double x0, y0, x1, y1; /* the box that is spread between the corners */
 };
 
+/* A letter whose corners are further apart, along x or y, is left out: nobody sees more than a stroke of it. */
+enum { STAGE_LETTER_MAX_PX = 8192 };
+
 /* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places. The map is projective where
  * they go well round a shape without a dent, bilinear where they do not, and continuous between (font_map_corners()). */
 void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *letter,

@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { TYPED_MAX = 40, MESSAGE_MAX = 160 };
+static const double slider_range_max = 1e5;
 
 struct stage_panel {
     struct font_face *face;
@@ -81,9 +82,17 @@ double stage_panel_text(struct stage_panel *p, struct stage_draw_list *list, con
 
 /* ---- places ---- */
 
+/* Changes with a click. */
+static bool is_clicked(const struct stage_control *row)
+{
+    return row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
+}
+
+/* Of places in a world without end a slider hits none: they are typed. */
 static bool has_slider(const struct stage_control *row)
 {
-    return row->curve == STAGE_LINEAR || row->curve == STAGE_LOGARITHMIC;
+    return !is_clicked(row) &&
+           (row->curve == STAGE_LOGARITHMIC || row->most - row->least < slider_range_max);
 }
 
 static double row_top(const struct stage_panel *p, int row)
@@ -210,11 +219,11 @@ static void press(struct stage_panel *p, struct stage *stage, const struct input
         return;
     const struct stage_control *row = &rows[number];
     struct font_box slider = slider_box(p, number), value = value_box(p, number);
-    if (!has_slider(row)) {
+    if (is_clicked(row)) {
         double next = stage_control_read(row, stage) + 1;
         stage_mark(stage);
         value_set(p, stage, row, next > row->most ? row->least : next);
-    } else if (inside(&slider, e)) {
+    } else if (has_slider(row) && inside(&slider, e)) {
         stage_mark(stage);
         p->dragged = number;
         drag(p, stage, e->x_px);

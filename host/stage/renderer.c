@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pages of glyphs: a large one where the picture is large, for a glyph must fit a page. */
-enum { RUN = 512, PAGE_SMALL = 2048, PAGE_LARGE = 4096, LARGE_FROM_PX = 1400, PLACES = 8 };
+/* A glyph must fit a page of glyphs: pages are twice as large as the picture, within these. */
+enum { RUN = 512, PAGE_MIN = 2048, PAGE_MAX = 8192, PLACES = 8 };
 
 struct stage_renderer {
     struct window *window;          /* or */
@@ -37,8 +37,9 @@ static enum stage_status fail_display(enum display_status status)
 static enum display_status type_make(struct stage_renderer *r)
 {
     struct gl_type_def def = gl_type_def_default();
-    bool large = r->width_px > LARGE_FROM_PX || r->height_px > LARGE_FROM_PX;
-    int page_px = large ? PAGE_LARGE : PAGE_SMALL;
+    int page_px = PAGE_MIN;
+    while (page_px < PAGE_MAX && (page_px < 2 * r->width_px || page_px < 2 * r->height_px))
+        page_px *= 2;
     if (r->type && page_px <= r->page_px)
         return DISPLAY_OK;
     gl_type_destroy(r->type);
@@ -46,7 +47,14 @@ static enum display_status type_make(struct stage_renderer *r)
     def.atlas.width_px = def.atlas.height_px = r->page_px = page_px;
     def.atlas.pages_max = 2;
     def.atlas.places_x = def.atlas.places_y = PLACES;
-    return gl_type_create(&def, &r->type);
+    enum display_status status = gl_type_create(&def, &r->type);
+    while (status == DISPLAY_BAD_ARGUMENT &&
+           page_px > PAGE_MIN / 2) { /* a small graphics card */
+        page_px /= 2;
+        def.atlas.width_px = def.atlas.height_px = page_px;
+        status = gl_type_create(&def, &r->type);
+    }
+    return status;
 }
 
 static enum stage_status tools_make(struct stage_renderer *r)

@@ -316,6 +316,22 @@ static void help_draw(struct stage_window *w, double px)
     }
 }
 
+/* Beside the panel: how often pictures come. */
+static void frames_draw(struct stage_window *w, int width, double px)
+{
+    const struct stage_theme *theme = stage_theme(w->stage);
+    const struct frame_clock *clock = stage_clock(w->stage);
+    const double text = px * theme->sizes[STAGE_SIZE_PANEL_TEXT_SIZE];
+    char line[80];
+    if (!(clock->frame_s > 0))
+        return;
+    snprintf(line, sizeof line, "%.0f pictures a second, %.1f s", 1 / clock->frame_s,
+             frame_clock_time_s(clock));
+    stage_panel_text(w->panel, &w->list, line,
+                     width - px * theme->sizes[STAGE_SIZE_PANEL_WIDTH] - text, 1.6 * text, text,
+                     true, theme->colors[STAGE_COLOR_PANEL_TEXT]);
+}
+
 static void overlay_draw(struct stage_window *w, int width, int height, double px, double now_s)
 {
     const struct stage_color *colors = stage_theme(w->stage)->colors;
@@ -325,6 +341,8 @@ static void overlay_draw(struct stage_window *w, int width, int height, double p
         help_draw(w, px);
     stage_panel_draw(w->panel, w->stage, width, height, px, &w->list);
     stage_draw_view(&w->list, STAGE_VIEW_PIXELS);
+    if (stage_panel_shown(w->panel))
+        frames_draw(w, width, px);
     if (w->message[0] && now_s < w->message_s + MESSAGE_S)
         stage_panel_text(w->panel, &w->list, w->message, text, height - text, text, false,
                          colors[STAGE_COLOR_PANEL_TEXT]);

@@ -136,6 +136,35 @@ static void hands_are_saved_as_scripts(void **state)
     dyn_network_destroy(network);
 }
 
+/* Where a screen has twice as many pixels an inch the window has twice as many, and masses are as large as they look. */
+static void fine_screens_have_larger_windows(void **state)
+{
+    (void)state;
+    const char *const arguments[] = {
+        "w",      "--set",           "gravity=0", "--size",       "300x187",
+        "--view", "-2,-0.5,8,5.734", "--set",     "floor_on=off", NULL};
+    for (int fine = 0; fine < 2; fine++) {
+        struct display_image image;
+        screen_dpi(fine ? 192 : 0);
+        pid_t pid = start(arguments);
+        Window window = window_of();
+        screen_read(window, &image);
+        assert_int_equal(image.width_px, fine ? 600 : 300);
+        assert_int_equal(image.height_px, fine ? 374 : 187);
+        /* The upper left mass, at (0.098, 2.729): up and to the left of its middle, by more than its radius on a usual screen and by
+         * less on a fine one. */
+        int em = fine ? 60 : 30, x = (int)(em * 2.098) - 3;
+        int y = image.height_px - (int)(em * 3.229) - 3;
+        int seen = image.pixels[3 * (y * image.width_px + x)];
+        if (fine ? seen > 0x60 : seen < 0xe0)
+            fail_msg("%d is seen beside a mass, %s", seen, fine ? "fine" : "usual");
+        display_image_destroy(&image);
+        screen_close(window);
+        ends_with(pid, 0);
+    }
+    screen_dpi(0);
+}
+
 /* The window's cross, Ctrl-C. */
 static void windows_end(void **state)
 {
@@ -155,6 +184,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hands_are_saved_as_scripts),
+        cmocka_unit_test(fine_screens_have_larger_windows),
         cmocka_unit_test(windows_end),
     };
     lutetia = getenv("LUTETIA");

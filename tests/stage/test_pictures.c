@@ -268,6 +268,36 @@ static void lists_are_drawn_again(void **state)
     stage_draw_finish(&moved);
 }
 
+/* Letters larger than the picture are seen where it is; those that are too large are nothing. */
+static void large_letters_agree(void **state)
+{
+    (void)state;
+    struct stage_draw_list list = {0};
+    struct stage_renderer *renderer;
+    struct display_image image = {0};
+    struct stage_letter letter = {face, font_face_glyph(face, 'm'), 100, 0, -80, 100, 20};
+    const double far = STAGE_LETTER_MAX_PX * 1.1;
+    stage_draw_begin(&list, STAGE_VIEW_PIXELS);
+    stage_draw_letter(&list, &letter,
+                      (const struct font_point[]){{0, 0}, {far, 0}, {far, 9}, {0, 9}}, ink);
+    assert_int_equal(list.count, 0);
+    stage_draw_letter(
+        &list, &letter,
+        (const struct font_point[]){{-700, -900}, {1100, -800}, {1000, 700}, {-600, 600}}, ink);
+    assert_int_equal(list.count, 1);
+    struct display_image wanted = exact_picture(&list);
+    assert_int_equal(stage_renderer_offscreen(STAGE_BY_EGL, WIDTH, HEIGHT, &renderer),
+                     STAGE_OK);
+    assert_int_equal(stage_renderer_draw(renderer, &list, paper), STAGE_OK);
+    assert_int_equal(stage_renderer_read(renderer, &image), STAGE_OK);
+    assert_true(ink_weight(&wanted, paper_bytes) > 1000);
+    agrees(&image, &wanted, 0.98);
+    stage_renderer_destroy(renderer);
+    display_image_destroy(&image);
+    display_image_destroy(&wanted);
+    stage_draw_finish(&list);
+}
+
 static void windows_agree(void **state)
 {
     (void)state;
@@ -280,7 +310,8 @@ static void windows_agree(void **state)
     config.width_px = WIDTH;
     config.height_px = HEIGHT;
     config.drawn_by_caller = true;
-    assert_int_equal(window_create(&config, &window), DISPLAY_OK);
+    if (window_create(&config, &window) != DISPLAY_OK)
+        fail_msg("%s", display_error());
     if (stage_renderer_window(window, &renderer) != STAGE_OK)
         fail_msg("%s", stage_error());
     scene_make(&list);
@@ -309,6 +340,7 @@ int main(void)
         cmocka_unit_test(wrong_sizes_are_refused),
         cmocka_unit_test(what_cannot_be_drawn_is_left_out),
         cmocka_unit_test(lists_are_drawn_again),
+        cmocka_unit_test(large_letters_agree),
     };
     const struct CMUnitTest tests[] = {cmocka_unit_test(windows_agree)};
     if (font_face_open("DejaVuSans", 0, &face) != FONT_OK ||

@@ -288,7 +288,8 @@ static enum font_status glyphs_place(struct gl_type *t, const struct gl_type_gly
         struct font_atlas_slot slot;
         enum font_status status = font_atlas_get(t->atlas, g->face, g->glyph, g->size_px,
                                                  &g->map, g->x_px, g->y_px, &slot);
-        if (status == FONT_BAD_ARGUMENT && g->map.kind != FONT_AFFINE) {
+        if ((status == FONT_BAD_ARGUMENT && g->map.kind != FONT_AFFINE) ||
+            status == FONT_TOO_LARGE) {
             ++*left_out;
             continue;
         }

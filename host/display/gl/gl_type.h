@@ -56,7 +56,7 @@ struct gl_type_glyph {
     double x_px, y_px;   /* of the origin; 0 where the map is a distortion */
     float color[4]; /* 0..1, as numbers of sRGB; and how much it covers of what is behind it */
 };
-/* A glyph that a distortion sends beyond the horizon has no picture and is left out; *left_out counts them.
+/* A glyph that a distortion sends beyond the horizon, or that is larger than a page, is left out; *left_out counts them.
  * Errors: as gl_type_draw(). */
 enum display_status gl_type_glyphs(struct gl_type *type, const struct gl_type_glyph *glyphs,
                                    int count, int *left_out);
