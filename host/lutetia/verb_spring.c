@@ -18,7 +18,7 @@ struct spring {
     struct stage_film_def film;
     struct stage_window_def window;
     struct option_texts sets;
-    const char *way, *frames, *save, *sound_path;
+    const char *way, *frames, *save, *session, *replay, *sound_path;
     int size[2];
     bool controls;
     struct progress progress;
@@ -139,6 +139,10 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          "what is heard in the film: clanks, clicks, twangs", &s->sound_path, 0, 0, 0},
         {"save", 0, OPTION_TEXT, "FILE", "the masses and springs at the end; Control S",
          &s->save, 0, 0, 0},
+        {"session", 0, OPTION_TEXT, "FILE", "what is done in the window, written at its end",
+         &s->session, 0, 0, 0},
+        {"replay", 0, OPTION_TEXT, "FILE", "do a session again, in a window or a film",
+         &s->replay, 0, 0, 0},
         {"record", 0, OPTION_TEXT, "FILE", "where V in the window records (spring.mp4)",
          &s->window.record_path, 0, 0, 0},
         {0}};
@@ -240,10 +244,15 @@ static int spring_run(struct spring *s, struct stage *stage)
 {
     if (s->controls)
         return controls_print(stage);
+    if (s->replay && stage_session_replay(stage, s->replay) != STAGE_OK)
+        return fail_stage();
     interrupt_catch();
     bool film = s->film.still || s->film.video || s->frames;
     int status = film ? film_make(s, stage) : window_run(s, stage);
     if (status == EXIT_SUCCESS && film && s->save && stage_save(stage, s->save) != STAGE_OK)
+        status = fail_stage();
+    if (status == EXIT_SUCCESS && s->session &&
+        stage_session_save(stage, s->session) != STAGE_OK)
         status = fail_stage();
     return interrupt_report("spring", status, "what was written before is whole");
 }

@@ -1,5 +1,6 @@
 /* stage.c - see stage.h. */
 #include "stage.h"
+#include "session.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,11 +41,30 @@ struct stage {
     struct mark marks[STAGE_UNDO_MAX], beginning;
     int marks_count;
     bool handed; /* the actor took a press that is not released yet */
+    /* What was done; what is to be done again, and how much of that has been. */
+    struct stage_session session, replay;
+    int replayed_count;
 };
 
 struct stage_def stage_def_default(void)
 {
     return (struct stage_def){.theme = "light", .step_s = 1.0 / 240};
+}
+
+/* ---- the session ---- */
+
+/* Remembers what was done, from the first frame on. */
+static void deed_add(struct stage *s, struct stage_deed deed)
+{
+    deed.step = s->clock.steps_count;
+    if (s->began)
+        stage_session_add(&s->session, &deed);
+}
+
+static void deed_set_add(struct stage *s, int control, double value)
+{
+    deed_add(s,
+             (struct stage_deed){.kind = STAGE_DEED_SET, .control = control, .value = value});
 }
 
 /* ---- controls ---- */
@@ -73,6 +93,7 @@ static enum stage_status own_write(void *of, int index, double value)
     frame_clock_rate_set(&stage->clock, s->rate);
     if (values[index] == &s->skins || values[index] == &s->skin_every_s)
         skins_drop(stage);
+    deed_set_add(stage, index, value);
     return STAGE_OK;
 }
 
@@ -104,8 +125,11 @@ static double actors_read(void *stage, int index)
 
 static enum stage_status actors_write(void *stage, int index, double value)
 {
-    const struct stage *s = stage;
-    return stage_control_write(actors_row(s, index), s->actor.self, value);
+    struct stage *s = stage;
+    enum stage_status status = stage_control_write(actors_row(s, index), s->actor.self, value);
+    if (status == STAGE_OK)
+        deed_set_add(s, OWN_CONTROLS + index, value);
+    return status;
 }
 
 static enum stage_status controls_make(struct stage *s)
@@ -223,6 +247,52 @@ static void skin_take(struct stage *s)
     s->actor.kind->draw(s->actor.self, &look, &s->skins[s->skins_last]);
 }
 
+/* Hands the actor what a hand does in the world. */
+static bool hand_do(struct stage *s, const struct stage_event *event)
+{
+    if (!s->actor.kind->event || (event->kind != STAGE_POINTER_DOWN && !s->handed))
+        return false;
+    bool taken = s->actor.kind->event(s->actor.self, event);
+    if (taken || event->kind != STAGE_POINTER_DOWN)
+        deed_add(s, (struct stage_deed){.kind = STAGE_DEED_HAND, .event = *event});
+    if (event->kind == STAGE_POINTER_DOWN)
+        s->handed = taken;
+    else if (event->kind != STAGE_POINTER_MOVE)
+        s->handed = false;
+    return taken;
+}
+
+/* Does again what was done before the next step. */
+static void replay_do(struct stage *s)
+{
+    const struct stage_session *r = &s->replay;
+    for (; s->replayed_count < r->count; s->replayed_count++) {
+        const struct stage_deed *d = &r->deeds[s->replayed_count];
+        if (d->step > s->clock.steps_count)
+            return;
+        switch (d->kind) {
+        case STAGE_DEED_HAND:
+            hand_do(s, &d->event);
+            break;
+        case STAGE_DEED_SET:
+            stage_control_write(&s->controls[d->control], s, d->value);
+            break;
+        case STAGE_DEED_MARK:
+            stage_mark(s);
+            break;
+        case STAGE_DEED_DROP:
+            stage_mark_drop(s);
+            break;
+        case STAGE_DEED_UNDO:
+            stage_undo(s);
+            break;
+        case STAGE_DEED_RESET:
+            stage_reset(s);
+            break;
+        }
+    }
+}
+
 enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
 {
     enum stage_status status = beginning_keep(s);
@@ -236,6 +306,7 @@ enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
     int64_t last = s->clock.steps_count;
     for (int i = 0; i < due && status == STAGE_OK; i++) {
         s->clock.steps_count = last - due + i;
+        replay_do(s);
         skin_take(s);
         status = s->actor.kind->step(s->actor.self, s->clock.step_s);
     }
@@ -342,15 +413,20 @@ bool stage_hand(struct stage *s, enum stage_event_kind kind, double x_px, double
         return false;
     stage_view_to_world(s->view, x_px, y_px, &event.x, &event.y);
     event.near = near_px * s->px / s->view.scale;
-    bool taken = s->actor.kind->event(s->actor.self, &event);
-    if (kind == STAGE_POINTER_DOWN)
-        s->handed = taken;
-    else if (kind != STAGE_POINTER_MOVE)
-        s->handed = false;
-    return taken;
+    return hand_do(s, &event);
 }
 
 /* ---- going back ---- */
+
+static void mark_push(struct stage *s, struct mark mark)
+{
+    if (s->marks_count == STAGE_UNDO_MAX) {
+        mark_forget(s, &s->marks[0]);
+        memmove(s->marks, s->marks + 1, (STAGE_UNDO_MAX - 1) * sizeof *s->marks);
+        s->marks_count--;
+    }
+    s->marks[s->marks_count++] = mark;
+}
 
 enum stage_status stage_mark(struct stage *s)
 {
@@ -358,12 +434,8 @@ enum stage_status stage_mark(struct stage *s)
     enum stage_status status = mark_keep(s, &mark);
     if (status != STAGE_OK)
         return status;
-    if (s->marks_count == STAGE_UNDO_MAX) {
-        mark_forget(s, &s->marks[0]);
-        memmove(s->marks, s->marks + 1, (STAGE_UNDO_MAX - 1) * sizeof *s->marks);
-        s->marks_count--;
-    }
-    s->marks[s->marks_count++] = mark;
+    mark_push(s, mark);
+    deed_add(s, (struct stage_deed){.kind = STAGE_DEED_MARK});
     return STAGE_OK;
 }
 
@@ -372,6 +444,7 @@ bool stage_undo(struct stage *s)
     if (!s->marks_count)
         return false;
     struct mark mark = s->marks[--s->marks_count];
+    deed_add(s, (struct stage_deed){.kind = STAGE_DEED_UNDO});
     bool done = mark_restore(s, &mark) == STAGE_OK;
     mark_forget(s, &mark);
     return done;
@@ -379,16 +452,23 @@ bool stage_undo(struct stage *s)
 
 void stage_mark_drop(struct stage *s)
 {
-    if (s->marks_count)
-        mark_forget(s, &s->marks[--s->marks_count]);
+    if (!s->marks_count)
+        return;
+    mark_forget(s, &s->marks[--s->marks_count]);
+    deed_add(s, (struct stage_deed){.kind = STAGE_DEED_DROP});
 }
 
 enum stage_status stage_reset(struct stage *s)
 {
+    struct mark before;
     enum stage_status status = beginning_keep(s);
     if (status == STAGE_OK)
-        status = stage_mark(s);
-    return status == STAGE_OK ? mark_restore(s, &s->beginning) : status;
+        status = mark_keep(s, &before);
+    if (status != STAGE_OK)
+        return status;
+    mark_push(s, before);
+    deed_add(s, (struct stage_deed){.kind = STAGE_DEED_RESET});
+    return mark_restore(s, &s->beginning);
 }
 
 enum stage_status stage_save(struct stage *s, const char *path)
@@ -408,9 +488,28 @@ enum stage_status stage_load(struct stage *s, const char *path)
     status = s->actor.kind->load(s->actor.self, path);
     if (status != STAGE_OK)
         stage_mark_drop(s);
+    else
+        s->session.broken = "something was loaded";
     s->handed = false;
     skins_drop(s);
     return status;
+}
+
+enum stage_status stage_session_save(struct stage *s, const char *path)
+{
+    return stage_session_write(&s->session, s->controls, path);
+}
+
+enum stage_status stage_session_replay(struct stage *s, const char *path)
+{
+    struct stage_session read;
+    enum stage_status status = stage_session_read(path, s->controls, s->controls_count, &read);
+    if (status != STAGE_OK)
+        return status;
+    stage_session_finish(&s->replay);
+    s->replay = read;
+    s->replayed_count = 0;
+    return STAGE_OK;
 }
 
 /* ---- a stage ---- */
@@ -422,6 +521,8 @@ void stage_destroy(struct stage *s)
     for (int i = 0; i < s->marks_count; i++)
         mark_forget(s, &s->marks[i]);
     mark_forget(s, &s->beginning);
+    stage_session_finish(&s->session);
+    stage_session_finish(&s->replay);
     for (int i = 0; i < STAGE_SKINS_MAX; i++)
         stage_draw_finish(&s->skins[i]);
     stage_draw_finish(&s->own);

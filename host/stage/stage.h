@@ -85,4 +85,11 @@ enum stage_status stage_reset(struct stage *stage);
 enum stage_status stage_save(struct stage *stage, const char *path);
 enum stage_status stage_load(struct stage *stage, const char *path);
 
+/* ---- sessions: see session.h ---- */
+
+/* What was done since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: something was loaded, or it was too much. */
+enum stage_status stage_session_save(struct stage *stage, const char *path);
+/* Does what a session says, at its steps; before the first frame. Errors: BAD_FILE, NO_MEMORY. */
+enum stage_status stage_session_replay(struct stage *stage, const char *path);
+
 #endif

@@ -1,0 +1,239 @@
+/* test_session.c - sessions: what was done by chance is done again to the bit; texts that are none are refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <session.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../display/scratch.h"
+#include "scene_springs.h"
+
+static struct font_face *face;
+
+static struct stage *stage_make(void)
+{
+    struct stage_draw_list list = {0};
+    struct stage *stage = scene_springs("word", 1, face);
+    stage_picture(stage, 640, 480, 1, &list);
+    stage_draw_finish(&list);
+    assert_int_equal(stage_frame(stage, 0, NULL), STAGE_OK);
+    return stage;
+}
+
+static const struct dyn_state *states(struct stage *stage)
+{
+    struct stage_actor actor = stage_actor(stage);
+    return dyn_network_states(stage_springs_network(&actor));
+}
+
+static uint64_t chance_state;
+
+static uint32_t chance(uint32_t below)
+{
+    chance_state = chance_state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(chance_state >> 33) % below;
+}
+
+/* Something of everything that a person can do. */
+static void deed_by_chance(struct stage *stage)
+{
+    static const char *const sets[] = {"gravity=3", "gravity=-2.5", "stiffness=3", "rate=0.5",
+                                       "rate=1",    "hand=1000",    "floor_on=off"};
+    double x_px = chance(640), y_px = chance(480);
+    uint32_t what = chance(20);
+    if (what < 14)
+        stage_hand(stage, (enum stage_event_kind)chance(4), x_px, y_px, chance(5) / 4.0,
+                   (int)chance(2), chance(2));
+    else if (what < 16)
+        assert_int_equal(stage_set(stage, sets[chance(7)]), STAGE_OK);
+    else if (what < 18)
+        assert_int_equal(stage_mark(stage), STAGE_OK);
+    else if (what == 18)
+        stage_undo(stage);
+    else if (chance(4) == 0)
+        assert_int_equal(stage_reset(stage), STAGE_OK);
+    else
+        stage_mark_drop(stage);
+}
+
+/* Frames of one rate while it is played, of another while it is done again; written again it is the same text. */
+static void sessions_are_done_again_to_the_bit(void **state)
+{
+    (void)state;
+    for (int run = 0; run < 6; run++) {
+        const char *path = scratch_path("a.session"), *again = scratch_path("b.session");
+        struct stage *played = stage_make();
+        chance_state = (uint64_t)run;
+        double now_s = 0;
+        for (int i = 0; i < 400; i++) {
+            deed_by_chance(played);
+            now_s += chance(3) / 77.0;
+            assert_int_equal(stage_frame(played, now_s, NULL), STAGE_OK);
+        }
+        assert_int_equal(stage_set(played, "rate=1"), STAGE_OK);
+        assert_int_equal(stage_frame(played, now_s + 0.2, NULL), STAGE_OK);
+        int64_t steps = stage_clock(played)->steps_count;
+        if (stage_session_save(played, path) != STAGE_OK)
+            fail_msg("%s", stage_error());
+
+        struct stage *other = scene_springs("word", 1, face);
+        if (stage_session_replay(other, path) != STAGE_OK)
+            fail_msg("%s", stage_error());
+        for (int i = 0; stage_clock(other)->steps_count < steps; i++) {
+            struct frame_clock *clock = stage_clock(other);
+            clock->paused = true; /* steps one by one: frames are not the played ones */
+            frame_clock_single(clock);
+            assert_int_equal(stage_frame(other, i / 30.0, NULL), STAGE_OK);
+        }
+        assert_memory_equal(states(played), states(other), 16 * sizeof(struct dyn_state));
+        assert_int_equal(stage_session_save(other, again), STAGE_OK);
+        FILE *one = fopen(path, "rb"), *two = fopen(again, "rb");
+        long lines = 0;
+        for (int a = 0, b = 0; a != EOF; lines += a == '\n') {
+            a = fgetc(one);
+            b = fgetc(two);
+            if (a != b)
+                fail_msg("run %d: line %ld differs", run, lines + 1);
+        }
+        assert_in_range(lines, 60, 1000);
+        fclose(one);
+        fclose(two);
+        stage_destroy(played);
+        stage_destroy(other);
+    }
+}
+
+static const char good[] = "session 1\n# by hand\n0 mark\n0 hand down 0.5 1.5 0.2 0 0 1\n\n"
+                           "12 hand move 1 2 0.2 0.75 0 0\n13 hand up 1 2 0.2 0 0 0\n"
+                           "13 set gravity -3.5\n20 undo\n20 reset\n21 drop\nend\n";
+
+static enum stage_status parse(const char *text, size_t bytes, struct stage_session *session)
+{
+    static struct stage *stage;
+    if (!stage)
+        stage = stage_make();
+    int count;
+    const struct stage_control *rows = stage_controls(stage, &count);
+    enum stage_status status = stage_session_parse(text, bytes, "t", rows, count, session);
+    if (!bytes) {
+        stage_destroy(stage);
+        stage = NULL;
+    }
+    return status;
+}
+
+static void texts_are_read(void **state)
+{
+    (void)state;
+    struct stage_session s;
+    if (parse(good, sizeof good - 1, &s) != STAGE_OK)
+        fail_msg("%s", stage_error());
+    assert_int_equal(s.count, 8);
+    assert_int_equal(s.deeds[1].kind, STAGE_DEED_HAND);
+    assert_true(s.deeds[1].event.y == 1.5 && s.deeds[1].event.modifiers == 1);
+    assert_true(s.deeds[2].step == 12 && s.deeds[2].event.pressure == 0.75);
+    assert_true(s.deeds[4].value == -3.5);
+    stage_session_finish(&s);
+}
+
+static void wrong_texts_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *said;
+    } wrong[] = {
+        {"springs 1\n", "t:1: must be `session 1`"},
+        {"session 1\n0 mark\n", "t:3: must be `end`"},
+        {"session 1\n5 mark\n4 mark\nend\n", "t:3: must be STEP"},
+        {"session 1\n-1 mark\nend\n", "t:2: must be STEP"},
+        {"session 1\nmark\nend\n", "t:2: must be STEP"},
+        {"session 1\n0 jump\nend\n", "t:2: must be hand, set, mark"},
+        {"session 1\n0 mark it\nend\n", "t:2: must be hand, set, mark"},
+        {"session 1\n0 set gravita 3\nend\n", "t:2: must be a control that there is"},
+        {"session 1\n0 set gravity 1e9\nend\n", "t:2: must be a value within"},
+        {"session 1\n0 set gravity nan\nend\n", "t:2: must be a value within"},
+        {"session 1\n0 set gravity\nend\n", "t:2: must be `STEP set NAME VALUE`"},
+        {"session 1\n0 hand wave 0 0 0 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
+        {"session 1\n0 hand down 0 0 -1 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
+        {"session 1\n0 hand down 0 0 0 0 0 0 0\nend\n", "t:2: must be `STEP hand down|move"},
+        {"session 1\n99999999999999999999 mark\nend\n", "t:2: must be STEP"},
+    };
+    struct stage_session s;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(parse(wrong[i].text, strlen(wrong[i].text), &s), STAGE_BAD_FILE);
+        assert_null(s.deeds);
+        if (strncmp(stage_error(), wrong[i].said, strlen(wrong[i].said)) != 0)
+            fail_msg("%s", stage_error());
+    }
+    char *line = malloc(1000);
+    memset(line, 'x', 1000);
+    assert_int_equal(parse(line, 1000, &s), STAGE_BAD_FILE);
+    free(line);
+    struct stage *stage = stage_make();
+    assert_int_equal(stage_session_replay(stage, "/no/such"), STAGE_BAD_FILE);
+    assert_non_null(strstr(stage_error(), "/no/such: cannot be read: No such"));
+    assert_int_equal(stage_session_save(stage, "/no/folder/a"), STAGE_BAD_FILE);
+    stage_destroy(stage);
+}
+
+/* Bytes of a good text changed by chance: read, and then done without harm, or refused in one line. */
+static void bytes_by_chance_are_read_or_refused(void **state)
+{
+    (void)state;
+    int read = 0, runs = 20000;
+    chance_state = 3;
+    for (int i = 0; i < runs; i++) {
+        size_t length = chance(4) ? sizeof good - 1 : chance(sizeof good - 1);
+        char *bytes = malloc(length ? length : 1); /* ends with its memory: nothing reads on */
+        struct stage_session s;
+        memcpy(bytes, good, length);
+        for (uint32_t k = chance(4); length && k > 0; k--)
+            bytes[chance((uint32_t)length)] =
+                chance(2) ? "0123456789. \n-exa"[chance(17)] : (char)chance(256);
+        enum stage_status status = parse(bytes, length, &s);
+        assert_true(status == STAGE_OK || status == STAGE_BAD_FILE);
+        read += status == STAGE_OK;
+        assert_null(strchr(stage_error(), '\n'));
+        stage_session_finish(&s);
+        free(bytes);
+    }
+    assert_in_range(read, runs / 10, runs * 9 / 10);
+}
+
+static void what_loads_files_is_no_session(void **state)
+{
+    (void)state;
+    struct stage *stage = stage_make();
+    const char *path = scratch_path("word.springs"), *session = scratch_path("c.session");
+    assert_int_equal(stage_save(stage, path), STAGE_OK);
+    assert_int_equal(stage_load(stage, path), STAGE_OK);
+    assert_int_equal(stage_session_save(stage, session), STAGE_BAD_ARGUMENT);
+    assert_non_null(strstr(stage_error(), "something was loaded"));
+    stage_destroy(stage);
+    struct stage_session s;
+    parse("", 0, &s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sessions_are_done_again_to_the_bit),
+        cmocka_unit_test(texts_are_read),
+        cmocka_unit_test(wrong_texts_are_refused),
+        cmocka_unit_test(bytes_by_chance_are_read_or_refused),
+        cmocka_unit_test(what_loads_files_is_no_session),
+    };
+    if (font_face_open("DejaVuSans", 0, &face) != FONT_OK)
+        return 1;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    font_face_close(face);
+    return failed;
+}
