@@ -126,6 +126,37 @@ static void scripts_lead_masses(void **state)
         fail_msg("%s", text);
 }
 
+/* A session is done again while a film is made: a mass is led away and tacked, gravity is changed. Saved, it is the same. */
+static void sessions_are_replayed(void **state)
+{
+    (void)state;
+    const char *session = scratch_path("play.session"), *end = scratch_path("played.springs");
+    const char *still = scratch_path("played.png"), *again = scratch_path("again.session");
+    static const char played[] =
+        "session 1\n4 mark\n4 hand down 0 3.5 0.25 0 0 1\n"
+        "9 hand move -1.5 3 0.25 0 0 1\n20 hand up -1.5 3.25 0.25 0 0 1\n"
+        "30 set gravity 2.5\nend\n";
+    char text[8192] = "";
+    FILE *file = fopen(session, "w");
+    fputs(played, file);
+    fclose(file);
+    RUN(0, "--network", collision, "--replay", session, "--session", again, "--save", end,
+        "--still", still, "--seconds", "0.5", "--size", "64x64");
+    file = fopen(end, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    if (!strstr(text, "mass x=-1.5 y=3.25 ") || !strstr(text, " stuck") ||
+        !strstr(text, "control gravity 2.5"))
+        fail_msg("%s", text);
+    memset(text, 0, sizeof text);
+    file = fopen(again, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    assert_string_equal(text, played);
+}
+
 /* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
 static void films_stills_and_strips_are_of_one_run(void **state)
 {
@@ -241,6 +272,7 @@ static void what_is_wrong_is_said_in_a_line(void **state)
         {{" ", "--still", still}, 2, "ink"},
         {{"a", "--still", still, "--set", "box=round"}, 2, "box"},
         {{"a", "--still", still, "--script", bad}, 1, "bad.springs:1: "},
+        {{"a", "--still", still, "--replay", bad}, 1, "bad.springs:1: must be `session 1`"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct child child = run(wrong[i].arguments, wrong[i].status);
@@ -272,6 +304,7 @@ int main(void)
         cmocka_unit_test(runs_are_saved_and_gone_on_with),
         cmocka_unit_test(sets_reach_style_world_and_stage),
         cmocka_unit_test(scripts_lead_masses),
+        cmocka_unit_test(sessions_are_replayed),
         cmocka_unit_test(controls_are_listed),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
         cmocka_unit_test(films_are_interrupted),
