@@ -1,6 +1,8 @@
 /* draw_list.c - see draw_list.h. */
 #include "draw_list.h"
 
+#include <array.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,17 +44,10 @@ void stage_view_to_world(struct stage_view view, double x_px, double y_px, doubl
 static struct stage_item *item_add(struct stage_draw_list *list, enum stage_draw_kind kind,
                                    struct stage_color color)
 {
-    if (list->count == list->capacity) {
-        int capacity = list->capacity ? 2 * list->capacity : 256;
-        struct stage_item *items = list->capacity < ITEMS_MAX
-                                       ? realloc(list->items, (size_t)capacity * sizeof *items)
-                                       : NULL;
-        if (!items) {
-            list->incomplete = true;
-            return NULL;
-        }
-        list->items = items;
-        list->capacity = capacity;
+    if (list->count == ITEMS_MAX ||
+        !array_reserve(&list->items, &list->capacity, list->count + 1, sizeof *list->items)) {
+        list->incomplete = true;
+        return NULL;
     }
     struct stage_item *item = &list->items[list->count++];
     memset(item, 0, sizeof *item);

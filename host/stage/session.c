@@ -1,6 +1,8 @@
 /* session.c - see session.h. */
 #include "session.h"
 
+#include <array.h>
+#include <input_file.h>
 #include <output_file.h>
 
 #include <errno.h>
@@ -25,17 +27,10 @@ void stage_session_add(struct stage_session *s, const struct stage_deed *deed)
 {
     if (s->broken)
         return;
-    if (s->count == s->capacity) {
-        int capacity = s->capacity ? 2 * s->capacity : 256;
-        struct stage_deed *deeds = capacity <= STAGE_DEEDS_MAX
-                                       ? realloc(s->deeds, (size_t)capacity * sizeof *deeds)
-                                       : NULL;
-        if (!deeds) {
-            s->broken = "it is too long";
-            return;
-        }
-        s->deeds = deeds;
-        s->capacity = capacity;
+    if (s->count == STAGE_DEEDS_MAX ||
+        !array_reserve(&s->deeds, &s->capacity, s->count + 1, sizeof *s->deeds)) {
+        s->broken = "it is too long";
+        return;
     }
     s->deeds[s->count++] = *deed;
 }
@@ -230,14 +225,11 @@ enum stage_status stage_session_read(const char *path, const struct stage_contro
                                      int rows_count, struct stage_session *out)
 {
     *out = (struct stage_session){0};
-    FILE *file = fopen(path, "rb");
-    if (!file || fseek(file, 0, SEEK_END) != 0) {
-        stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-        if (file)
-            fclose(file);
-        return STAGE_BAD_FILE;
-    }
-    long bytes = ftell(file);
+    const char *why;
+    FILE *file = input_file_open(path, &why);
+    if (!file)
+        return stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s", path, why);
+    long bytes = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
     char *text = bytes >= 0 && bytes <= file_bytes_max ? malloc((size_t)bytes + 1) : NULL;
     rewind(file);
     size_t count = text ? fread(text, 1, (size_t)bytes, file) : 0;

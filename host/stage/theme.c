@@ -1,6 +1,7 @@
 /* theme.c - see theme.h. */
 #include "theme.h"
 
+#include <input_file.h>
 #include <themes.h>
 
 #include <errno.h>
@@ -137,19 +138,18 @@ enum stage_status stage_theme_read(const char *text, size_t bytes, const char *n
 static enum stage_status file_read(const char *path, struct stage_theme *theme)
 {
     static const char hint[] = "a theme is light, dark, or a file with lines `name = value`";
+    const char *why = "it is too long";
     char *text = malloc(FILE_BYTES_MAX + 1);
-    FILE *file = text ? fopen(path, "rb") : NULL;
-    int reason = errno;
+    FILE *file = text ? input_file_open(path, &why) : NULL;
     size_t count = file ? fread(text, 1, FILE_BYTES_MAX + 1, file) : 0;
-    bool wrong = file && ferror(file);
+    bool wrong = !file || ferror(file);
+    if (file && wrong)
+        why = strerror(errno);
     enum stage_status status = STAGE_OK;
     if (!text)
         status = stage_fail(STAGE_NO_MEMORY, "no memory for a theme");
-    else if (!file || wrong)
-        status = stage_fail(STAGE_BAD_FILE, "%s: %s: %s", path, strerror(file ? errno : reason),
-                            hint);
-    else if (count > FILE_BYTES_MAX)
-        status = stage_fail(STAGE_BAD_FILE, "%s: too long: %s", path, hint);
+    else if (wrong || count > FILE_BYTES_MAX)
+        status = stage_fail(STAGE_BAD_FILE, "%s: cannot be read: %s: %s", path, why, hint);
     else
         status = stage_theme_read(text, count, path, theme);
     if (file)

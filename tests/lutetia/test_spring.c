@@ -281,6 +281,25 @@ static void what_is_wrong_is_said_in_a_line(void **state)
     }
 }
 
+/* Where EGL finds no driver that is said; OSMesa needs none. */
+static void without_egl_osmesa_draws(void **state)
+{
+    (void)state;
+    for (int osmesa = 0; osmesa < 2; osmesa++) {
+        static struct child child;
+        const char *still = scratch_path("alone.png");
+        child = (struct child){.arguments = {lutetia, "spring", "--network", collision,
+                                             "--still", still, "--seconds", "0.1", "--size",
+                                             "64x48", "--way", osmesa ? "osmesa" : "egl"},
+                               .variables = {"DISPLAY=", "__EGL_VENDOR_LIBRARY_DIRS=/no/folder",
+                                             "LIBGL_DRIVERS_PATH=/no/folder"}};
+        child_run(&child);
+        assert_int_equal(child.status, osmesa ? 0 : 1);
+        if (!osmesa)
+            one_line(&child, "no OpenGL");
+    }
+}
+
 /* Ctrl-C: the film is whole until then, and nothing else is left. */
 static void films_are_interrupted(void **state)
 {
@@ -307,6 +326,7 @@ int main(void)
         cmocka_unit_test(sessions_are_replayed),
         cmocka_unit_test(controls_are_listed),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
+        cmocka_unit_test(without_egl_osmesa_draws),
         cmocka_unit_test(films_are_interrupted),
     };
     lutetia = getenv("LUTETIA");

@@ -80,7 +80,7 @@ static void wrong_files_are_refused(void **state)
         assert_memory_equal(&theme, &before, sizeof theme);
     }
     assert_int_equal(stage_theme_open("/no/such/theme", &theme), STAGE_BAD_FILE);
-    assert_non_null(strstr(stage_error(), "/no/such/theme: No such file"));
+    assert_non_null(strstr(stage_error(), "/no/such/theme: cannot be read: No such file"));
     assert_int_equal(stage_theme_open("/", &theme), STAGE_BAD_FILE);
 }
 
