@@ -14,213 +14,8 @@
 
 #include "device.h"
 #include "oracle_scan.h"
-
-struct call {
-    CM_field_id_t dest, source, sbit;
-    unsigned int axis, len, s, e, direction, inclusion, smode, to, from, mask;
-};
-
-struct row {
-    char letter;
-    const char *op;
-    void (*scan)(const struct call *), (*spread)(const struct call *),
-        (*multispread)(const struct call *), (*reduce)(const struct call *);
-};
-
-#define LEN_u c->len
-#define LEN_s c->len
-#define LEN_b c->len
-#define LEN_f c->s, c->e
-#define SCAN_CALL(name, ...)                                                                   \
-    static void scan_##name(const struct call *c)                                              \
-    {                                                                                          \
-        CM_scan_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->direction,       \
-                                 c->inclusion, c->smode, c->sbit);                             \
-    }
-#define CALLS(name, ...)                                                                       \
-    SCAN_CALL(name, __VA_ARGS__)                                                               \
-    static void spread_##name(const struct call *c)                                            \
-    {                                                                                          \
-        CM_spread_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__);                  \
-    }                                                                                          \
-    static void multispread_##name(const struct call *c)                                       \
-    {                                                                                          \
-        CM_multispread_with_##name##_1L(c->dest, c->source, c->mask, __VA_ARGS__);             \
-    }                                                                                          \
-    static void reduce_##name(const struct call *c)                                            \
-    {                                                                                          \
-        CM_reduce_with_##name##_1L(c->dest, c->source, c->axis, __VA_ARGS__, c->to);           \
-    }
-CALLS(u_add, LEN_u)
-CALLS(u_min, LEN_u)
-CALLS(u_max, LEN_u)
-CALLS(s_add, LEN_s)
-CALLS(s_min, LEN_s)
-CALLS(s_max, LEN_s)
-CALLS(logand, LEN_b)
-CALLS(logior, LEN_b)
-CALLS(logxor, LEN_b)
-CALLS(f_add, LEN_f)
-CALLS(f_multiply, LEN_f)
-CALLS(f_min, LEN_f)
-CALLS(f_max, LEN_f)
-SCAN_CALL(copy, LEN_b)
-static void spread_copy(const struct call *c)
-{
-    CM_spread_with_copy_1L(c->dest, c->source, c->axis, c->len, c->from);
-}
-static void reduce_copy(const struct call *c)
-{
-    CM_reduce_with_copy_1L(c->dest, c->source, c->axis, c->len, c->to, c->from);
-}
-
-#define ROW(letter, op, name)                                                                  \
-    {                                                                                          \
-        letter, op, scan_##name, spread_##name, multispread_##name, reduce_##name              \
-    }
-static const struct row rows[] = {
-    ROW('u', "add", u_add),           ROW('u', "min", u_min),
-    ROW('u', "max", u_max),           ROW('s', "add", s_add),
-    ROW('s', "min", s_min),           ROW('s', "max", s_max),
-    ROW('b', "logand", logand),       ROW('b', "logior", logior),
-    ROW('b', "logxor", logxor),       ROW('f', "add", f_add),
-    ROW('f', "multiply", f_multiply), ROW('f', "min", f_min),
-    ROW('f', "max", f_max),           {'b', "copy", scan_copy, spread_copy, NULL, reduce_copy},
-};
-enum { ROWS_COUNT = sizeof rows / sizeof *rows };
-
-/* ---- a VP set with numbers ---- */
-
-struct set {
-    struct scan_grid grid;
-    CM_vp_set_id_t id;
-    CM_field_id_t context, sbit, source, dest;
-    number *context_bits, *sbits, *numbers, *old, *got;
-};
-
-static number *numbers_new(int count)
-{
-    number *n = calloc((size_t)count, sizeof *n);
-    assert_non_null(n);
-    return n;
-}
-
-static struct machine_type type_of(char letter, int width)
-{
-    return letter != 'f' ? MACHINE_UINT(width) : width == 32 ? MACHINE_F32 : MACHINE_F64;
-}
-
-static void put(const struct set *s, CM_field_id_t field, char letter, int width,
-                const number *n)
-{
-    size_t bytes = machine_element_bytes(MACHINE_UINT(width));
-    unsigned char *dense = calloc((size_t)s->grid.count, bytes);
-    for (int i = 0; i < s->grid.count; i++)
-        memcpy(dense + (size_t)i * bytes, &n[i], bytes);
-    assert_int_equal(
-        machine_field_upload(paris_machine(), field, type_of(letter, width), dense),
-        MACHINE_OK);
-    free(dense);
-}
-
-static void get(const struct set *s, CM_field_id_t field, char letter, int width, number *n)
-{
-    size_t bytes = machine_element_bytes(MACHINE_UINT(width));
-    unsigned char *dense = calloc((size_t)s->grid.count, bytes);
-    if (machine_field_download(paris_machine(), field, type_of(letter, width), dense) !=
-        MACHINE_OK)
-        fail_msg("%s", machine_error(paris_machine()));
-    memset(n, 0, (size_t)s->grid.count * sizeof *n);
-    for (int i = 0; i < s->grid.count; i++)
-        memcpy(&n[i], dense + (size_t)i * bytes, bytes);
-    free(dense);
-}
-
-static struct set set_new(int rank, const int *dimensions)
-{
-    struct set s = {.grid = {.rank = rank, .count = 1}};
-    for (int i = 0; i < rank; i++) {
-        s.grid.dimensions[i] = dimensions[i];
-        s.grid.count *= dimensions[i];
-    }
-    s.id = CM_allocate_vp_set(
-        CM_create_geometry((CM_vector_t){.ints = dimensions}, (unsigned int)rank));
-    CM_set_vp_set(s.id);
-    s.context = CM_allocate_heap_field(1);
-    s.sbit = CM_allocate_heap_field(1);
-    s.context_bits = numbers_new(s.grid.count);
-    s.sbits = numbers_new(s.grid.count);
-    s.numbers = numbers_new(s.grid.count);
-    s.old = numbers_new(s.grid.count);
-    s.got = numbers_new(s.grid.count);
-    return s;
-}
-
-/* For numbers of that width and nothing else: a field that held others before would be cut up. */
-static void fields_new(struct set *s, int width)
-{
-    if (s->source)
-        CM_deallocate_stack_through(s->source);
-    s->source = CM_allocate_stack_field((unsigned)width);
-    s->dest = CM_allocate_stack_field((unsigned)width);
-}
-
-static void set_free(struct set *s)
-{
-    if (s->source)
-        CM_deallocate_stack_through(s->source);
-    CM_set_context();
-    CM_deallocate_vp_set(s->id);
-    free(s->context_bits);
-    free(s->sbits);
-    free(s->numbers);
-    free(s->old);
-    free(s->got);
-}
-
-/* COUNT numbers at a time. */
-static void numbers_random(number *n, int count, int width, bool floats)
-{
-    number some[COUNT];
-    for (int i = 0; i < count; i++) {
-        if (i % COUNT == 0 && floats)
-            device_floats(some, width);
-        else if (i % COUNT == 0)
-            device_integers(some, width);
-        n[i] = some[i % COUNT];
-        /* sums of which the first NaN or infinity leaves nothing to see */
-        if (floats && device_random() % 8)
-            n[i] = oracle_float_bits(width, (double)(int64_t)device_random() / 3e18);
-    }
-}
-
-/* Who takes part (0 few, 1 all, 2 most) and where segments begin (one in `length`). */
-static void set_masks(struct set *s, int who, int length)
-{
-    for (int i = 0; i < s->grid.count; i++) {
-        s->context_bits[i] = who == 1 || (device_random() >> 20) % 4 < (who ? 3u : 1u);
-        s->sbits[i] = (device_random() >> 20) % (unsigned)length == 0;
-    }
-    put(s, s->sbit, 'b', 1, s->sbits);
-    put(s, s->context, 'b', 1, s->context_bits);
-    CM_set_context();
-    if (who != 1)
-        CM_load_context(s->context);
-}
-
-static void compare(const struct set *s, const char *what, const struct scan_case *c)
-{
-    get(s, s->dest, c->letter, c->width, s->got);
-    for (int i = 0; i < s->grid.count; i++)
-        if (s->got[i] != s->old[i])
-            fail_msg("%s_%c_%s, %d bits, axis %d of %d (%d %d %d), direction %d, inclusion %d, "
-                     "smode %d: processor %d: got %016llx%016llx, wanted %016llx%016llx",
-                     what, c->letter, c->op, c->width, c->axis, s->grid.rank,
-                     s->grid.dimensions[0], s->grid.dimensions[1], s->grid.dimensions[2],
-                     c->direction, c->inclusion, c->smode, i,
-                     (unsigned long long)(s->got[i] >> 64), (unsigned long long)s->got[i],
-                     (unsigned long long)(s->old[i] >> 64), (unsigned long long)s->old[i]);
-}
+#include "scan_calls.h"
+#include "scan_set.h"
 
 static unsigned int below(unsigned int n)
 {
@@ -541,10 +336,11 @@ static void enumeration_counts_the_active(void **unused)
 }
 
 /* Long bit fields, complex numbers, one processor's field, the longest integer. */
-static void long_fields_and_complex_numbers_go_in_parts(void **unused)
+/* The third part is no whole word. */
+static void long_fields_go_in_parts(void **unused)
 {
     (void)unused;
-    static const int shape[3] = {3, 5, 21};
+    static const int shape[3] = {3, 5, 21}, parts[] = {64, 64, 17};
     struct set s = set_new(3, shape);
     set_masks(&s, 2, 5);
     struct scan_case c = {.letter = 'b',
@@ -554,7 +350,6 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
                           .smode = CM_segment_bit,
                           .context = s.context_bits,
                           .sbit = s.sbits};
-    static const int parts[] = {64, 64, 17};
     number *halves[3], *olds[3];
     fields_new(&s, 145);
     for (int i = 0, offset = 0; i < 3; offset += parts[i++]) {
@@ -586,15 +381,31 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
                 s.dest, (unsigned)machine_send_address(paris_machine(), s.id, 37), s.source,
                 145);
     }
-    c = (struct scan_case){.letter = 'f',
-                           .op = "add",
-                           .width = 64,
-                           .axis = 1,
-                           .inclusion = CM_exclusive,
-                           .context = s.context_bits,
-                           .sbit = s.sbits};
+    for (int i = 0; i < 3; i++) {
+        free(halves[i]);
+        free(olds[i]);
+    }
+    set_free(&s);
+}
+
+static void sums_of_complex_numbers_are_of_their_parts(void **unused)
+{
+    (void)unused;
+    static const int shape[3] = {3, 5, 21};
+    struct set s = set_new(3, shape);
+    set_masks(&s, 2, 5);
+    struct scan_case c = {.letter = 'f',
+                          .op = "add",
+                          .width = 64,
+                          .axis = 1,
+                          .inclusion = CM_exclusive,
+                          .context = s.context_bits,
+                          .sbit = s.sbits};
+    number *halves[2], *olds[2];
     fields_new(&s, 128);
     for (int i = 0; i < 2; i++) {
+        halves[i] = numbers_new(s.grid.count);
+        olds[i] = numbers_new(s.grid.count);
         numbers_random(halves[i], s.grid.count, 64, true);
         numbers_random(olds[i], s.grid.count, 64, true);
         put(&s, s.source + 64u * (unsigned)i, 'f', 64, halves[i]);
@@ -609,10 +420,21 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
         piece.dest += 64u * (unsigned)i;
         piece.old = olds[i];
         compare(&piece, "complex", &c);
+        free(halves[i]);
+        free(olds[i]);
     }
+    set_free(&s);
+}
+
+static void the_longest_number_is_found(void **unused)
+{
+    (void)unused;
+    static const int shape[3] = {3, 5, 21};
+    struct set s = set_new(3, shape);
+    set_masks(&s, 2, 5);
     unsigned int longest = 0, longest_signed = 0;
-    numbers_random(s.numbers, s.grid.count, 70, false);
     fields_new(&s, 70);
+    numbers_random(s.numbers, s.grid.count, 70, false);
     put(&s, s.source, 'u', 70, s.numbers);
     for (int n = 0; n < s.grid.count; n++) {
         number x = s.numbers[n], y = x >> 69 ? ~x & oracle_mask(70) : x;
@@ -627,10 +449,6 @@ static void long_fields_and_complex_numbers_go_in_parts(void **unused)
     CM_u_move_zero_1L(s.source, 70);
     assert_int_equal(CM_global_u_max_u_intlen(s.source, 70), 0);
     assert_int_equal(CM_global_u_max_s_intlen(s.source, 70), 0);
-    for (int i = 0; i < 3; i++) {
-        free(halves[i]);
-        free(olds[i]);
-    }
     set_free(&s);
 }
 
@@ -738,7 +556,9 @@ int main(void)
         cmocka_unit_test(ranks_of_a_very_long_line_are_right),
         cmocka_unit_test(enumeration_counts_the_active),
         cmocka_unit_test(multispread_copy_takes_one_position),
-        cmocka_unit_test(long_fields_and_complex_numbers_go_in_parts),
+        cmocka_unit_test(long_fields_go_in_parts),
+        cmocka_unit_test(sums_of_complex_numbers_are_of_their_parts),
+        cmocka_unit_test(the_longest_number_is_found),
         cmocka_unit_test(what_is_wrong_is_said),
     };
     return cmocka_run_group_tests(tests, start, NULL);
