@@ -178,6 +178,44 @@ static void masters_are_cut_the_better_way(void **state)
     font_rectangles_finish(&r);
 }
 
+/* Merged, and one moved by hand. */
+static void rectangles_edit(struct font_levels *l)
+{
+    const struct font_gray *gray;
+    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
+    int gone;
+    const struct font_rectangles *r;
+    assert_font(font_levels_rectangles(l, &r));
+    int before = r->count;
+    assert_font(font_levels_rectangles_merge(l, 1, &gone));
+    assert_true(gone > before / 4 && r->count == before - gone);
+    struct font_gray retouched = gray_copy(gray);
+    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
+    assert_true(gray_difference(gray, &retouched) <= 6);
+    struct font_rectangle moved = r->items[0];
+    moved.x1 += 300;
+    moved.y1 += 60;
+    assert_font(font_levels_rectangle_set(l, 0, moved));
+    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
+    assert_true(gray_difference(gray, &retouched) > 50);
+    assert_int_equal(font_levels_rectangle_set(l, 1 << 20, moved), FONT_BAD_ARGUMENT);
+    free(retouched.pixels);
+}
+
+static void refusals_change_nothing(struct font_levels *l)
+{
+    const struct font_gray *gray;
+    struct font_levels_made made, after;
+    font_levels_made_get(l, &made);
+    assert_int_equal(font_levels_filter_set(l, "no such"), FONT_BAD_ARGUMENT);
+    assert_int_equal(font_levels_size_set(l, NAN), FONT_BAD_ARGUMENT);
+    assert_int_equal(font_levels_size_set(l, -3), FONT_BAD_ARGUMENT);
+    assert_int_equal(font_levels_master_em_set(l, 0), FONT_BAD_ARGUMENT);
+    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
+    font_levels_made_get(l, &after);
+    assert_memory_equal(&made, &after, sizeof made);
+}
+
 static void edits_flow_down_and_no_further(void **state)
 {
     (void)state;
@@ -234,43 +272,17 @@ static void edits_flow_down_and_no_further(void **state)
     font_levels_made_get(l, &made);
     assert_true(made.masters == 1 && made.rectangles == 2);
 
-    /* Rectangles: merged, and one moved by hand. */
-    int gone;
-    const struct font_rectangles *r;
-    assert_font(font_levels_rectangles(l, &r));
-    int before = r->count;
-    assert_font(font_levels_rectangles_merge(l, 1, &gone));
-    assert_true(gone > before / 4 && r->count == before - gone);
-    struct font_gray retouched = gray_copy(gray);
-    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
-    assert_true(gray_difference(gray, &retouched) <= 6);
-    struct font_rectangle moved = r->items[0];
-    moved.x1 += 300;
-    moved.y1 += 60;
-    assert_font(font_levels_rectangle_set(l, 0, moved));
-    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
-    assert_true(gray_difference(gray, &retouched) > 50);
-    assert_int_equal(font_levels_rectangle_set(l, 1 << 20, moved), FONT_BAD_ARGUMENT);
+    rectangles_edit(l);
 
     /* The outline again: edits are forgotten. */
     assert_font(font_levels_outline_set(l, &o));
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &exact) == 0);
 
-    /* What is refused changes nothing. */
-    font_levels_made_get(l, &made);
-    assert_int_equal(font_levels_filter_set(l, "no such"), FONT_BAD_ARGUMENT);
-    assert_int_equal(font_levels_size_set(l, NAN), FONT_BAD_ARGUMENT);
-    assert_int_equal(font_levels_size_set(l, -3), FONT_BAD_ARGUMENT);
-    assert_int_equal(font_levels_master_em_set(l, 0), FONT_BAD_ARGUMENT);
-    assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
-    struct font_levels_made after;
-    font_levels_made_get(l, &after);
-    assert_memory_equal(&made, &after, sizeof made);
+    refusals_change_nothing(l);
 
     free(exact.pixels);
     free(from_master.pixels);
-    free(retouched.pixels);
     font_levels_destroy(l);
     font_outline_finish(&o);
 }

@@ -348,6 +348,23 @@ static void collections_have_faces(void **state)
     free(ttc);
 }
 
+/* The table of one axis, `wght`. */
+static void axis_make(uint8_t *fvar)
+{
+    put32(fvar, 0x00010000);
+    put16(fvar + 4, 16);
+    put16(fvar + 6, 2);
+    put16(fvar + 8, 1);
+    put16(fvar + 10, 20);
+    put16(fvar + 12, 0);
+    put16(fvar + 14, 8);
+    memcpy(fvar + 16, "wght", 4);
+    put32(fvar + 20, 100u << 16);
+    put32(fvar + 24, 400u << 16);
+    put32(fvar + 28, 900u << 16);
+    put16(fvar + 34, 256);
+}
+
 /* DejaVu Sans with an axis `wght` 100..900, 400 usual, along which the advance grows and all glyphs stay but
  * 'l', whose first four points move right by 100 units at 900. */
 static uint8_t *variable_make(const uint8_t *font, size_t count, unsigned glyph,
@@ -371,19 +388,7 @@ static uint8_t *variable_make(const uint8_t *font, size_t count, unsigned glyph,
     memcpy(entry, "fvar", 4);
     put32(entry + 8, (uint32_t)at);
     put32(entry + 12, (uint32_t)fvar_bytes);
-    uint8_t *fvar = out + at;
-    put32(fvar, 0x00010000);
-    put16(fvar + 4, 16);
-    put16(fvar + 6, 2);
-    put16(fvar + 8, 1);
-    put16(fvar + 10, 20);
-    put16(fvar + 12, 0);
-    put16(fvar + 14, 8);
-    memcpy(fvar + 16, "wght", 4);
-    put32(fvar + 20, 100u << 16);
-    put32(fvar + 24, 400u << 16);
-    put32(fvar + 28, 900u << 16);
-    put16(fvar + 34, 256);
+    axis_make(out + at);
     at += fvar_bytes;
     entry += 16;
     memcpy(entry, "gvar", 4);

@@ -270,12 +270,53 @@ static void compare (what, n)
         }
 }
 
+/* Those that are flagged go to the sum of flags before them. */
+static void exercise_pack (a, b, c, f, n)
+    vector a, b, c, f;
+    int n;
+{
+    int i, total = 0;
+
+    transfer (f, out, n, FLAG, 0);
+    for (i = 0; i < n; i++) {
+        index_of[i] = out[i] ? total : n - 1 - (i - total);
+        right[index_of[i]] = in[i];
+        total += out[i];
+    }
+    transfer (b, index_of, n, INTEGER, 1);
+    permute_integers (c, a, b, n, n, 0);
+    transfer (c, out, n, INTEGER, 0);
+    compare ("pack", n);
+}
+
+/* Lengths of segments, as sends to their starts: other ratios on both sides. */
+static void exercise_segments (b, n)
+    vector b;
+    int n;
+{
+    vector c;
+    int i, m = n / 9 + 1;
+
+    for (i = 0; i < n; i++)
+        index_of[i] = i * 11 % m;
+    for (i = 0; i < m; i++)
+        right[i] = 0;
+    for (i = 0; i < n; i++)
+        right[index_of[i]]++;
+    transfer (b, index_of, n, INTEGER, 1);
+    c = new_vector (m, INTEGER);
+    histogram (c, b, n, m);
+    transfer (c, out, m, INTEGER, 0);
+    compare ("lengths of segments", m);
+    CM_deallocate_heap_field (c);
+}
+
 static void exercise (n)
     int n;
 {
     vector a = new_vector (n, INTEGER), b = new_vector (n, INTEGER), c = new_vector (n, INTEGER);
     vector f = new_vector (n, FLAG), g = new_vector (n, FLAG);
-    int i, m = 0, total = 0;
+    int i;
 
     for (i = 0; i < n; i++) {
         in[i] = i * 40503 + 7;
@@ -316,18 +357,7 @@ static void exercise (n)
     transfer (g, out, n, FLAG, 0);
     compare ("permuted flags", n);
 
-    /* Pack: those that are flagged go to the sum of flags before them. */
-    transfer (f, out, n, FLAG, 0);
-    for (i = 0; i < n; i++) {
-        index_of[i] = out[i] ? total : n - 1 - (i - total);
-        right[index_of[i]] = in[i];
-        total += out[i];
-    }
-    transfer (b, index_of, n, INTEGER, 1);
-    permute_integers (c, a, b, n, n, 0);
-    transfer (c, out, n, INTEGER, 0);
-    compare ("pack", n);
-
+    exercise_pack (a, b, c, f, n);
     count_up (c, n);
     replace (c, n / 2, -12345, n);
     for (i = 0; i < n; i++)
@@ -337,21 +367,7 @@ static void exercise (n)
     if (extract (c, n / 2, n) != -12345 || extract (c, n - 1, n) != right[n - 1])
         failures++;
 
-    /* Lengths of segments, as sends to their starts: other ratios on both sides. */
-    m = n / 9 + 1;
-    for (i = 0; i < n; i++)
-        index_of[i] = i * 11 % m;
-    for (i = 0; i < m; i++)
-        right[i] = 0;
-    for (i = 0; i < n; i++)
-        right[index_of[i]]++;
-    transfer (b, index_of, n, INTEGER, 1);
-    CM_deallocate_heap_field (c);
-    c = new_vector (m, INTEGER);
-    histogram (c, b, n, m);
-    transfer (c, out, m, INTEGER, 0);
-    compare ("lengths of segments", m);
-
+    exercise_segments (b, n);
     CM_deallocate_heap_field (a);
     CM_deallocate_heap_field (b);
     CM_deallocate_heap_field (c);
