@@ -94,18 +94,16 @@ struct paper_air {     /* what may change at any time */
     double gravity[2]; /* pull on the surface along x and along y, -1..1 */
     double seep[2];    /* the same in the fibers, -1..1 */
     double spread;     /* how fast surface water levels out, 0..1 */
-    double
-        tension; /* how strongly it holds together, 0..0.1; its ten neighbours are looked at */
+    double tension;    /* surface tension of the water, over ten neighbours, 0..0.1 */
     double relief;     /* how much of the paper's height the water feels, 0..1 */
     double film;       /* thinner water flows slower, 0.001..1 */
-    double pinning;    /* water that it takes to enter dry fibers, 0..2; 0: flows anywhere */
-    double damp;       /* infused water from which fibers count as wet, 0..1 */
+    double pinning; /* depth from which water enters dry fibers, 0..2; 0: it flows anywhere */
+    double damp;    /* infused water from which fibers count as wet, 0..1 */
     double absorption; /* surface water that sinks in, times absorbency, 0..4 */
-    double
-        carry; /* part of the pigment's movement in fibers that is with the flow, not along its own
-                                     gradient, 0..1 */
+    double carry; /* part of a pigment's flow in fibers that follows the water; the rest follows
+                          the pigment's own gradient, 0..1 */
     double humidity;   /* water that dries in a step, 0..1 */
-    double edge;       /* how many times faster the edge of a wet area dries, 0..200 */
+    double edge;       /* how many times faster a wet area dries at its edge, 0..200 */
     double edge_width; /* fibers, 1..32 */
     double settling;   /* factor on density and lifting, 0..10 */
     struct paper_weather thesis; /* without parts */
@@ -132,7 +130,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
 void paper_sheet_destroy(struct paper_sheet *sheet); /* NULL is fine */
 const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet *sheet);
 
-/* What a sheet is made of, and what is in it. Those that have one for each pigment are numbered by it. */
+/* The numbers of a sheet's fibers: what the paper is made of, and what it holds. The last three layers exist once for each pigment. */
 enum paper_layer {
     PAPER_LAYER_HEIGHT,     /* 0..1 */
     PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
@@ -160,8 +158,8 @@ enum paper_status paper_sheet_layer_write(struct paper_sheet *sheet, enum paper_
 enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_layer layer,
                                          int pigment, float *values);
 
-/* All water that the sheet holds (substance 0), of a pigment (1 + its number), or what has dried (-1), in units;
- * exact with parts. Errors: NO_MEMORY, MACHINE_FAILED. */
+/* The total over the sheet, in units: of water (substance 0), of a pigment (1 + its number), or of the water that has dried (-1).
+ * Exact on sheets with parts. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, double *total);
 
 /* Adds amount[0] of water and amount[1 + i] of pigment i (each -4..4) through a screen whose upper left corner is at x,
@@ -170,8 +168,8 @@ enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, do
 enum paper_status paper_sheet_put(struct paper_sheet *sheet, const struct paper_screen *screen,
                                   int x, int y, const double *amount);
 
-/* Takes a part (0..1) of the water and of what moves with it from surface and fibers, and `lift` (0..1) of what is
- * fixed. Errors: as paper_sheet_put(). */
+/* Removes the fraction `part` (0..1) of the water and of the pigments that move with it, on the surface and in the fibers, and the
+ * fraction `lift` (0..1) of the fixed pigments. Errors: as paper_sheet_put(). */
 enum paper_status paper_sheet_blot(struct paper_sheet *sheet, const struct paper_screen *screen,
                                    int x, int y, double part, double lift);
 
@@ -184,13 +182,13 @@ enum paper_status paper_sheet_dry(struct paper_sheet *sheet);
 /* Dries everything and seals the pigments under a varnish: they become part of the paper's colour. */
 enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
 
-/* One step of time. Nothing is computed before it is looked at; see paper_sheet_finish(). The air is checked when it is set.
+/* Sets the air; goes one step of time. A step is computed when something of the sheet is read, or by paper_sheet_finish().
  * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_air(struct paper_sheet *sheet, const struct paper_air *air);
 const struct paper_air *paper_sheet_get_air(const struct paper_sheet *sheet);
 enum paper_status paper_sheet_step(struct paper_sheet *sheet);
 enum paper_status paper_sheet_finish(struct paper_sheet *sheet);
-/* Steps that the sheet as it is has gone through, also in the midst of a stroke. */
+/* The number of steps that the sheet has gone through; during a stroke, those of the stroke so far, too. */
 long paper_sheet_now(const struct paper_sheet *sheet);
 
 /* ---- looking ---- */

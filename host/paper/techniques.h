@@ -34,7 +34,7 @@ struct paper_print {
 };
 enum paper_status paper_sheet_print(struct paper_sheet *sheet, const struct paper_print *print);
 
-/* Drops by chance about a place: many small ones, few large; thrown in a direction they fly further and are longer. */
+/* Throws drops at random about a place: many small drops and few large ones. Drops thrown in a direction fly further and are longer. */
 struct paper_splatter {
     double x, y, radius; /* most fall within it */
     double toward;       /* radians from x towards y */
@@ -47,20 +47,22 @@ struct paper_splatter {
 enum paper_status paper_sheet_splatter(struct paper_sheet *sheet,
                                        const struct paper_splatter *splatter);
 
-/* Grains of salt within a radius, of those only what falls on the place. In water they dissolve; brine spreads, draws surface
- * water and pushes pigments away, until the paper is dried, when they are brushed off. */
+/* Strews grains of salt within a radius; grains that fall outside the place's screen are left out. Grains dissolve in water. The
+ * brine spreads, draws surface water in and pushes pigments away. When the paper is dried the grains are brushed off. */
 struct paper_salt {
     struct paper_place place;
     double x, y, radius;
     int grains;      /* 1..100000 */
     double size[2];  /* radii, least and most, 0.1..50 */
     double strength; /* 0..4 */
-    double reach;    /* how far brine goes, fibers, 1..100; of all salt on a sheet the last */
+    double
+        reach; /* how far brine goes, fibers, 1..100; the last salt's holds for all on the sheet */
     uint64_t seed;
 };
 enum paper_status paper_sheet_salt(struct paper_sheet *sheet, const struct paper_salt *salt);
 
-/* Rubs with a damp sponge: takes `part` (0..1) of what is not fixed, and of what is the more the less it stains. */
+/* Rubs with a damp sponge: removes the fraction `part` (0..1) of the pigment that is not fixed, and some of the fixed pigment too:
+ * the more, the lower its `staining`. */
 struct paper_lift {
     struct paper_place place;
     double part;
@@ -70,7 +72,7 @@ enum paper_status paper_sheet_lift(struct paper_sheet *sheet, const struct paper
 /* Clear gloss on top: colours are deeper under it and light shows its edges. It stays when the paper is sealed. */
 struct paper_varnish {
     struct paper_place place;
-    double amount; /* 0..1; a fiber has the most that it was given */
+    double amount; /* 0..1; a fiber keeps the largest amount that it was ever given */
 };
 enum paper_status paper_sheet_varnish(struct paper_sheet *sheet,
                                       const struct paper_varnish *varnish);
