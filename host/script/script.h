@@ -33,10 +33,11 @@ struct script_config {
     const char *out_folder; /* of those that it writes */
     bool trusted;           /* no sandbox: all of Lua's library, names of files as they come */
     double timeout_s;       /* 0: any */
-    double grace_s;         /* until overdue() is called where the script should have stopped */
-    int papers_max;         /* most that are open at a time; 0: any */
-    size_t memory_bytes;    /* most that papers, masks and Lua take together */
-    uint64_t seed;          /* of papers and of math.random */
+    double
+        grace_s; /* from when the script should have stopped to overdue(); 30 times that while papers are at work */
+    int papers_max;           /* most that are open at a time; 0: any */
+    size_t memory_bytes;      /* most that papers, masks and Lua take together */
+    uint64_t seed;            /* of papers and of math.random */
     const char *const *words; /* key=value, for param(); of the same key the last one counts */
     int words_count;          /* up to SCRIPT_WORDS_MAX */
     struct paper_state *resumed; /* papers that were saved by the same script; NULL: none */
