@@ -132,7 +132,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 #ifndef LUTETIA_FUZZ_LIBFUZZER
 #include "../sample.h"
 
-enum { SEEDS = 45, BYTES = 500 };
+enum { SEEDS = 35, BYTES = 500 };
 
 static void bytes_make(uint64_t seed, uint8_t bytes[BYTES])
 {
