@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 
@@ -21,6 +22,7 @@ struct keys_work {
     const char *poster, *sheet, *still, *frames, *video, *sound;
     double size_px[2], second_px, at_s;
     int picture[2], fps;
+    bool silent;
     struct keys_def def;
     struct keys_type_def type;
     /* made */
@@ -43,7 +45,9 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
         {"still", 0, OPTION_TEXT, "FILE", "the moment --at, PNG", &w->still, 0, 0, 0},
         {"at", 0, OPTION_NUMBER, "S", "of --still (0)", &w->at_s, 0, 36000, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "all moments, as numbered PNG", &w->frames, 0, 0, 0},
-        {"video", 0, OPTION_TEXT, "FILE", "a film (.mp4, .webm, ...)", &w->video, 0, 0, 0},
+        {"video", 0, OPTION_TEXT, "FILE", "a film with its sound in it (.mp4, .webm, ...)",
+         &w->video, 0, 0, 0},
+        {"silent", 0, OPTION_FLAG, NULL, "no sound in the film", &w->silent, 0, 0, 0},
         {"sound", 0, OPTION_TEXT, "FILE.wav", "the song as sound, as long as the film",
          &w->sound, 0, 0, 0},
         {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
@@ -262,6 +266,26 @@ static int moment_keep(const struct keys_work *w, struct video *video, int numbe
     return type_image_write("keys", path, image);
 }
 
+/* Where sound cannot be made, or the film can have none, that is said, and the film is silent. */
+static int film_begin(const struct keys_work *w, double seconds, struct video **out)
+{
+    struct sound_def def = sound_def_default();
+    int sound = -1;
+    def.room = true;
+    if (!w->silent && sound_render_open(&def, w->song, seconds, &sound) != MIDI_OK)
+        fprintf(stderr, "lutetia keys: the film is silent: %s\n", midi_error());
+    const enum display_status status =
+        video_create_with_sound(w->video, w->picture[0], w->picture[1], w->fps, sound, out);
+    if (sound >= 0)
+        close(sound);
+    if (status != DISPLAY_OK)
+        return fail("keys", "%s", display_error());
+    if (sound >= 0 && !video_sounds(*out) && !w->sound)
+        fprintf(stderr, "lutetia keys: %s has no sound in it; --sound FILE.wav writes that\n",
+                video_path(*out));
+    return EXIT_SUCCESS;
+}
+
 static int film_write(const struct keys_work *w)
 {
     struct keys_type *type = NULL;
@@ -273,9 +297,8 @@ static int film_write(const struct keys_work *w)
         status = type_make(w, 1, &type);
     if (status == EXIT_SUCCESS)
         status = type_image_create("keys", w->picture[0], w->picture[1], &image);
-    if (status == EXIT_SUCCESS && w->video &&
-        video_create(w->video, w->picture[0], w->picture[1], w->fps, &video) != DISPLAY_OK)
-        status = fail("keys", "%s", display_error());
+    if (status == EXIT_SUCCESS && w->video)
+        status = film_begin(w, (double)count / w->fps, &video);
     struct font_picture picture = type_picture(&image);
     struct progress progress = progress_begin("keys", count);
     for (int i = 0; i < count && status == EXIT_SUCCESS; i++) {

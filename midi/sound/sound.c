@@ -6,6 +6,8 @@
 
 #include <output_file.h>
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -235,5 +237,24 @@ enum midi_status sound_render(const struct sound_def *def, struct midi_song *son
         output_file_abandon(&out);
     else if (!output_file_commit(&out))
         status = midi_fail(MIDI_IO_FAILED, "%s: cannot write: %s", path, out.why);
+    return status;
+}
+
+enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
+                                   double seconds, int *file)
+{
+    char folder[] = "/tmp/lutetia-sound-XXXXXX", path[64];
+    *file = -1;
+    if (!mkdtemp(folder))
+        return midi_fail(MIDI_IO_FAILED, "no folder can be made in /tmp: %s", strerror(errno));
+    snprintf(path, sizeof path, "%s/sound.wav", folder);
+    enum midi_status status = sound_render(def, song, seconds, path);
+    if (status == MIDI_OK) {
+        *file = open(path, O_RDONLY | O_CLOEXEC);
+        if (*file < 0)
+            status = midi_fail(MIDI_IO_FAILED, "%s: %s", path, strerror(errno));
+    }
+    unlink(path);
+    rmdir(folder);
     return status;
 }

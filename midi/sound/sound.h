@@ -46,6 +46,10 @@ void sound_message(struct sound *sound, const struct midi_message *m);
 enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
                               double seconds, const char *path);
 
+/* The same as a file without a name, open for reading from its beginning: for what goes into a film. Owns: the caller closes *file. */
+enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
+                                   double seconds, int *file);
+
 /* The SoundFont that is taken: the given one, or the first that is there. Errors: NO_DEVICE. */
 enum midi_status sound_font_find(const char *font, const char **found);
 

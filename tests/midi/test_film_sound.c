@@ -120,6 +120,64 @@ static void songs_are_rendered(void **unused)
     free(w.samples);
 }
 
+/* The first picture with ink in it; -1: none. */
+static int first_inked(const char *raw, int width, int height)
+{
+    FILE *file = fopen(raw, "rb");
+    uint8_t *gray = malloc((size_t)width * (size_t)height);
+    int found = -1;
+    assert_non_null(file);
+    assert_non_null(gray);
+    for (int i = 0;
+         found < 0 && fread(gray, (size_t)width, (size_t)height, file) == (size_t)height; i++)
+        for (int k = 0; k < width * height && found < 0; k++)
+            found = gray[k] < 100 ? i : -1;
+    free(gray);
+    fclose(file);
+    return found;
+}
+
+/* As a player would find them in the film: the key's letter, and its sound. */
+static void letters_and_sound_come_together(void **unused)
+{
+    (void)unused;
+    enum { FPS = 30, WIDTH = 96, HEIGHT = 48 };
+    double heard_s[8];
+    if (!able() || system("command -v ffmpeg >/dev/null") != 0)
+        skip();
+    char song_path[300], film[300], raw[300], sound[300], command[1400];
+    snprintf(song_path, sizeof song_path, "%s", scratch_path("keys.mid"));
+    snprintf(film, sizeof film, "%s", scratch_path("keys.mp4"));
+    snprintf(raw, sizeof raw, "%s", scratch_path("keys.raw"));
+    snprintf(sound, sizeof sound, "%s", scratch_path("keys.wav"));
+    const struct midi_song_def def = midi_song_def_default();
+    struct midi_song *song;
+    assert_int_equal(midi_song_create(&def, &song), MIDI_OK);
+    for (int i = 0; i < 2; i++) {
+        struct midi_message m =
+            midi_message_make((uint64_t)(500 + 300 * i) * 1000000, i ? 0x89 : 0x99, 37, 120);
+        assert_int_equal(midi_song_record(song, 0, &m, 0), MIDI_OK);
+    }
+    assert_int_equal(midi_song_write(song, song_path), MIDI_OK);
+    midi_song_destroy(song);
+    struct child child = {.arguments = {lutetia, "keys", song_path, "--video", film,
+                                        "--picture", "96x48", "--text", "O", "--font",
+                                        "DejaVuSans", "--attack", "0"}};
+    must_run(&child);
+    assert_string_equal(child.errors, "");
+    snprintf(command, sizeof command,
+             "ffmpeg -v error -i '%s' -f rawvideo -pix_fmt gray '%s' && "
+             "ffmpeg -v error -i '%s' -ac 2 -ar 44100 '%s'",
+             film, raw, film, sound);
+    assert_int_equal(system(command), 0);
+    struct wav w = wav_read(sound);
+    assert_int_equal(wav_onsets(&w, heard_s, 8), 1);
+    const int inked = first_inked(raw, WIDTH, HEIGHT);
+    if (inked < 0 || fabs(heard_s[0] - (double)inked / FPS) > 1.0 / FPS)
+        fail_msg("heard at %g, seen in picture %d", heard_s[0], inked);
+    free(w.samples);
+}
+
 static void a_device_sounds(void **unused)
 {
     (void)unused;
@@ -148,6 +206,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(films_sound_when_letters_hit),
         cmocka_unit_test(songs_are_rendered),
+        cmocka_unit_test(letters_and_sound_come_together),
         cmocka_unit_test(a_device_sounds),
     };
     return lutetia && network ? cmocka_run_group_tests_name("film sound", tests, NULL, NULL)
