@@ -286,7 +286,8 @@ static enum midi_status reply_wait(struct midi_client *c, const bool *done, cons
         if (wait_for(c, POLLIN, until_ns))
             input_take(c);
     if (c->refused)
-        return midi_fail(MIDI_REFUSED, "%.300s", text);
+        return midi_fail(MIDI_REFUSED, "%.300s",
+                         text[0] ? text : "the server refuses, and does not say why");
     if (*done)
         return MIDI_OK;
     return midi_fail(MIDI_NO_SERVER,
