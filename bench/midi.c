@@ -3,7 +3,8 @@
  * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16 programs that listen. A thousand notes a
  * second, five rounds of a thousand; each delivery counts, from before the write at the instrument's end to after the read in the
  * program. Idle; beside as many busy processes as there are processors; and so again with real-time priority for the server, the programs
- * and the player, where that is allowed. That nothing is lost or altered is checked.
+ * and the player, where that is allowed. That nothing is lost or altered is checked. Then the same from a program in place of the
+ * instrument: the terminal's bytes go through a worker of the kernel's, which has no such priority.
  *
  * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone (midi_soak.c). */
 #include "bench.h"
@@ -76,8 +77,8 @@ static bool round_measure(struct midi_scene *s, uint32_t from, double *p50_us, d
     return true;
 }
 
-static bool case_measure(struct bench_report *r, const char *name, bool loaded, bool real_time,
-                         int rounds)
+static bool case_measure(struct bench_report *r, enum midi_player player, bool loaded,
+                         bool real_time, int rounds)
 {
     struct midi_scene scene;
     struct busy busy = {.count = 0};
@@ -86,20 +87,21 @@ static bool case_measure(struct bench_report *r, const char *name, bool loaded, 
         return bench_fail("no memory for %d rounds", rounds);
     if (loaded)
         busy_begin(&busy);
-    bool ok = midi_scene_begin(&scene, real_time) && midi_scene_listeners(&scene, LISTENERS, 0);
+    bool ok = midi_scene_begin(&scene, player, real_time) &&
+              midi_scene_listeners(&scene, LISTENERS, 0);
     double ignored;
     ok = ok && round_measure(&scene, 0, &ignored, &ignored); /* warm */
     for (int i = 0; ok && i < rounds; i++)
         ok = round_measure(&scene, (uint32_t)(i + 1) * NOTES, &p50[i], &p99[i]);
     midi_scene_end(&scene);
     busy_end(&busy);
-    char row[2][32];
-    snprintf(row[0], sizeof row[0], "%s p50%s", loaded ? "loaded" : "idle",
-             real_time ? ", real time" : "");
-    snprintf(row[1], sizeof row[1], "%s", name);
-    if (ok) {
-        bench_report_add(r, "server", row[0], bench_sample_of(p50, rounds), 1, "us");
-        bench_report_add(r, "server", row[1], bench_sample_of(p99, rounds), 1, "us");
+    static const char *const whats[] = {"server", "server, from a program"};
+    for (int part = 0; part < 2 && ok; part++) {
+        char row[32];
+        snprintf(row, sizeof row, "%s p%s%s", loaded ? "loaded" : "idle", part ? "99" : "50",
+                 real_time ? ", real time" : "");
+        bench_report_add(r, whats[player], row, bench_sample_of(part ? p99 : p50, rounds), 1,
+                         "us");
     }
     free(p50);
     return ok;
@@ -156,11 +158,12 @@ int bench_midi_main(int argc, char **argv)
         ok = soak_add(&report, soak_s);
         return bench_options_finish(&options, &report, "server", ok);
     }
-    ok = case_measure(&report, "idle p99", false, false, options.repeat_count) &&
-         case_measure(&report, "loaded p99", true, false, options.repeat_count);
-    if (ok && midi_real_time_allowed())
-        ok = case_measure(&report, "loaded p99, real time", true, true, options.repeat_count);
-    else if (ok)
+    const bool real_time = midi_real_time_allowed();
+    for (int player = MIDI_FROM_INSTRUMENT; ok && player <= MIDI_FROM_PROGRAM; player++)
+        for (int way = 0; ok && way < 2 + real_time; way++)
+            ok = case_measure(&report, (enum midi_player)player, way > 0, way > 1,
+                              options.repeat_count);
+    if (!real_time)
         fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
                         "rows are missing\n");
     if (ok && options.thorough)

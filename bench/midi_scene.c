@@ -77,7 +77,10 @@ static void serve(const struct midi_scene *s, bool real_time)
 {
     char device[128];
     const char *devices[] = {device};
-    snprintf(device, sizeof device, "keys=serial:%s", s->link);
+    if (s->player == MIDI_FROM_INSTRUMENT)
+        snprintf(device, sizeof device, "keys=serial:%s", s->link);
+    else
+        snprintf(device, sizeof device, "keys=loop");
     const struct midi_server_def def = {
         .path = s->path, .devices = devices, .devices_count = 1, .real_time = real_time};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -151,9 +154,10 @@ static bool server_ready(const struct midi_scene *s)
     return strstr(text, " up") || bench_fail("the server's device did not come: %s", text);
 }
 
-bool midi_scene_begin(struct midi_scene *s, bool real_time)
+bool midi_scene_begin(struct midi_scene *s, enum midi_player player, bool real_time)
 {
-    *s = (struct midi_scene){.port = -1, .server = -1, .encoder = {.running_status = true}};
+    *s = (struct midi_scene){
+        .player = player, .port = -1, .server = -1, .encoder = {.running_status = true}};
     snprintf(s->folder, sizeof s->folder, "/tmp/lutetia-midi-XXXXXX");
     if (!mkdtemp(s->folder))
         return bench_fail("no folder can be made in /tmp");
@@ -171,7 +175,12 @@ bool midi_scene_begin(struct midi_scene *s, bool real_time)
     s->server = fork();
     if (s->server == 0)
         serve(s, real_time);
-    return s->server > 0 ? server_ready(s) : bench_fail("no process: %s", strerror(errno));
+    if (s->server < 0)
+        return bench_fail("no process: %s", strerror(errno));
+    const struct midi_client_def def = {.name = "player", .address = s->path};
+    return server_ready(s) &&
+           (player == MIDI_FROM_INSTRUMENT || midi_client_open(&def, &s->client) == MIDI_OK ||
+            bench_fail("%s", midi_error()));
 }
 
 bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from)
@@ -201,6 +210,8 @@ size_t midi_scene_play(struct midi_scene *s, uint32_t i)
     const struct midi_message m = midi_scene_message(i);
     const size_t count = midi_encoder_put(&s->encoder, &m, bytes);
     s->shared->sent_ns[i % MIDI_TIMES] = midi_now_ns();
+    if (s->client)
+        return midi_client_send(s->client, 0, &m) == MIDI_OK ? count : 0;
     return write(s->port, bytes, count) == (ssize_t)count ? count : 0;
 }
 
@@ -245,6 +256,7 @@ void midi_scene_end(struct midi_scene *s)
     real_time_set(false);
     for (int i = 0; i < s->listeners_count; i++)
         process_end(s->listeners[i], SIGKILL);
+    midi_client_close(s->client);
     process_end(s->server, SIGTERM);
     if (s->port >= 0)
         close(s->port);

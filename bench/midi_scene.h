@@ -1,7 +1,7 @@
 /* midi_scene.h - a MIDI server as a process of its own, an instrument on a pseudo-terminal, and programs that listen.
  *
  *     struct midi_scene scene;
- *     if (midi_scene_begin(&scene, real_time) && midi_scene_listeners(&scene, 16)) {
+ *     if (midi_scene_begin(&scene, MIDI_FROM_INSTRUMENT, real_time) && midi_scene_listeners(&scene, 16, 0)) {
  *         for (uint32_t i = 0; i < 5000; i++)
  *             midi_scene_play(&scene, i);
  *         ok = midi_scene_wait(&scene, 5000);
@@ -34,7 +34,14 @@ struct midi_shared {
     struct midi_listener listeners[MIDI_LISTENERS_MAX];
 };
 
+/* Who plays: the other end of a pseudo-terminal, or a program, through the server's loop. */
+enum midi_player { MIDI_FROM_INSTRUMENT, MIDI_FROM_PROGRAM };
+
+struct midi_client;
+
 struct midi_scene {
+    enum midi_player player;
+    struct midi_client *client; /* the program that plays */
     char folder[64], link[96], path[96];
     pid_t server, listeners[MIDI_LISTENERS_MAX];
     int listeners_count, port; /* port: the instrument's end */
@@ -43,7 +50,7 @@ struct midi_scene {
 };
 
 /* Starts the server; real_time: SCHED_FIFO for it, the listeners and whoever calls, where that is allowed. Errors: false. */
-bool midi_scene_begin(struct midi_scene *s, bool real_time);
+bool midi_scene_begin(struct midi_scene *s, enum midi_player player, bool real_time);
 /* That many processes that listen, from message `from` on. Errors: false. */
 bool midi_scene_listeners(struct midi_scene *s, int count, uint32_t from);
 /* Writes message i; returns how many bytes that took, 0: it cannot be written. */
