@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-enum { CHILD_ARGUMENTS_MAX = 32, CHILD_TEXT_MAX = 1 << 16 };
+enum { CHILD_ARGUMENTS_MAX = 48, CHILD_TEXT_MAX = 1 << 16 };
 
 struct child {
     const char *arguments[CHILD_ARGUMENTS_MAX]; /* NULL ends them */

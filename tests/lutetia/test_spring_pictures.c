@@ -1,0 +1,142 @@
+/* test_spring_pictures.c - the pictures in docs/stage.md and the README, made again by the commands that stand there: by
+ * similarity, for fonts differ a little from version to version. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <display.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../display/scratch.h"
+#include "../stage/likeness.h"
+#include "child.h"
+
+static const char *lutetia, *source;
+
+/* A picture is found by its name in the document; the command is the one before it whose --still is that name. */
+static const struct {
+    const char *document, *still, *image;
+} pictures[] = {
+    {"README.md", "breakdown.png", "springs-breakdown.png"},
+    {"docs/stage.md", "word.png", "springs-word.png"},
+    {"docs/stage.md", "skins.png", "springs-skins.png"},
+    {"docs/stage.md", "falling.png", "springs-falling.png"},
+    {"docs/stage.md", "collision.png", "springs-collision.png"},
+    {"docs/stage.md", "network.png", "springs-network.png"},
+};
+
+static char *text_read(const char *name)
+{
+    char path[4096];
+    static char text[1 << 17];
+    snprintf(path, sizeof path, "%s/%s", source, name);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail_msg("%s", path);
+    size_t count = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[count] = '\0';
+    return text;
+}
+
+/* The last `lutetia spring` before "--still NAME" in the document, up to its line's end, lines joined at backslashes. */
+static char *command_find(const char *document, const char *still)
+{
+    char wanted[100], *text = text_read(document), *begin = NULL;
+    snprintf(wanted, sizeof wanted, "--still %s", still);
+    char *at = strstr(text, wanted);
+    if (!at)
+        fail_msg("%s has no %s", document, wanted);
+    for (char *next = text; (next = strstr(next, "lutetia spring ")) && next < at; next++)
+        begin = next;
+    assert_non_null(begin);
+    char *end = begin;
+    while (*end && (*end != '\n' || end[-1] == '\\'))
+        end++;
+    *end = '\0';
+    for (char *c = begin; *c; c++)
+        if (*c == '\n' || *c == '\\')
+            *c = ' ';
+    return begin;
+}
+
+/* Words between blanks, or within double quotes. */
+static int words_split(char *text, const char **words, int most)
+{
+    int count = 0;
+    for (char *c = text; *c;) {
+        while (*c == ' ')
+            *c++ = '\0';
+        char stop = *c == '"' ? '"' : ' ';
+        c += stop == '"';
+        if (!*c)
+            break;
+        assert_true(count < most);
+        words[count++] = c;
+        while (*c && *c != stop)
+            c++;
+        if (*c)
+            *c++ = '\0';
+    }
+    return count;
+}
+
+static struct display_image picture(const char *path)
+{
+    struct display_image image;
+    if (display_png_read_rgb(path, &image) != DISPLAY_OK)
+        fail_msg("%s", display_error());
+    return image;
+}
+
+static void pictures_are_as_documented(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures; i++) {
+        static struct child child;
+        static char paths[CHILD_ARGUMENTS_MAX][4096];
+        const char *words[40], *still = scratch_path("again.png");
+        int count =
+            words_split(command_find(pictures[i].document, pictures[i].still), words, 40);
+        child = (struct child){.variables = {"DISPLAY=", "WAYLAND_DISPLAY="}};
+        assert_true(count < CHILD_ARGUMENTS_MAX);
+        for (int k = 0; k < count; k++) {
+            child.arguments[k] = words[k];
+            if (strcmp(words[k], pictures[i].still) == 0)
+                child.arguments[k] = still;
+            if (strncmp(words[k], "examples/", 9) == 0) {
+                snprintf(paths[k], sizeof paths[k], "%s/%s", source, words[k]);
+                child.arguments[k] = paths[k];
+            }
+        }
+        child.arguments[0] = lutetia;
+        child_run(&child);
+        if (child.status != 0)
+            fail_msg("%s: %s", pictures[i].image, child.errors);
+        char path[4096];
+        snprintf(path, sizeof path, "%s/docs/images/%s", source, pictures[i].image);
+        struct display_image now = picture(still), then = picture(path);
+        assert_true(now.width_px == then.width_px && now.height_px == then.height_px);
+        double alike = likeness(&now, &then);
+        if (alike < 0.97)
+            fail_msg("%s: likeness %.4f", pictures[i].image, alike);
+        display_image_destroy(&now);
+        display_image_destroy(&then);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pictures_are_as_documented)};
+    lutetia = getenv("LUTETIA");
+    source = getenv("SPRINGS_SOURCE");
+    if (!lutetia || !source)
+        return 77;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
