@@ -57,6 +57,12 @@ struct member {
     double least, most; /* what is scaled stays within them; 0, 0: any */
     const char *unit;   /* NULL: a plain number */
     const struct member_form *form;
+    /* What scripts and the documentation say of it. */
+    const char *field; /* its name there; NULL: no script sets it so */
+    int element; /* of that field's list, from 1: rows of one field follow each other; 0: the field is the member */
+    double per_unit;   /* the script's numbers for one of ours, 180/pi for degrees; 0: 1 */
+    const char *usual; /* its default, in words */
+    const char *help;  /* of a field's first row */
 };
 
 struct members {

@@ -2,6 +2,7 @@
 #include "script_brush.h"
 
 #include <brush.h>
+#include <describe.h>
 #include <history.h>
 
 #include <math.h>
@@ -62,13 +63,10 @@ static const struct kind *kind_find(lua_State *L, const char *name)
 /* paper:brush{...} */
 static int paper_brush(lua_State *L)
 {
-    static const char *const keys[] = {"kind",      "width",    "depth",  "bristles", "angle",
-                                       "follows",   "point",    "uneven", "splay",    "bend",
-                                       "thickness", "reach",    "load",   "flow",     "mixing",
-                                       "seed",      "mirrored", "number", NULL};
+    static const char *const besides[] = {"kind", "seed", "number", NULL};
     struct script_paper *paper = script_paper_begin(L, 2);
     struct paper_sheet *sheet = paper->sheet;
-    script_arg_options(L, 2, "brush", keys);
+    script_fields_options(L, 2, "brush", &paper_brush_members, besides);
     const struct kind *kind = kind_find(L, script_arg_text(L, 2, "brush", "kind"));
     struct paper_brush b = paper_brush_default();
     int free_one = 0;
@@ -79,28 +77,21 @@ static int paper_brush(lua_State *L)
     if (b.number == PAPER_BRUSHES_MAX)
         luaL_error(L, "a paper has up to %d brushes; number = 1 replaces the first",
                    PAPER_BRUSHES_MAX);
-    b.width = script_arg_number(L, 2, "brush", "width", 20, 1, 1000);
-    b.depth =
-        script_arg_number(L, 2, "brush", "depth", fmax(1, kind->depth * b.width), 1, 1000);
-    b.bristles =
-        script_arg_integer(L, 2, "brush", "bristles",
-                           (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width)), 1,
-                           PAPER_BRISTLES_MAX);
-    b.angle = script_arg_number(L, 2, "brush", "angle", 0, -36000, 36000) * PI / 180;
-    b.follows = script_arg_boolean(L, 2, "brush", "follows", false);
     b.flat = kind->flat;
-    b.point = script_arg_number(L, 2, "brush", "point", kind->point, 0, 1);
-    b.uneven = script_arg_number(L, 2, "brush", "uneven", kind->uneven, 0, 1);
-    b.splay = script_arg_number(L, 2, "brush", "splay", kind->splay, 0, 2);
-    b.bend = script_arg_number(L, 2, "brush", "bend", kind->bend, 0, 2);
-    b.thickness = script_arg_number(L, 2, "brush", "thickness",
-                                    fmax(1.2, kind->thickness * b.width), 0, 100);
-    b.reach = script_arg_number(L, 2, "brush", "reach", kind->reach * b.width, 1, 1e6);
-    b.load = script_arg_number(L, 2, "brush", "load", kind->load, 0.01, 2);
-    b.flow = script_arg_number(L, 2, "brush", "flow", b.flow, 0, 1e6);
-    b.mixing = script_arg_number(L, 2, "brush", "mixing", kind->mixing, 0, 1);
+    b.point = kind->point;
+    b.uneven = kind->uneven;
+    b.splay = kind->splay;
+    b.bend = kind->bend;
+    b.load = kind->load;
+    b.mixing = kind->mixing;
+    script_fields_read(L, 2, "brush", &paper_brush_members, &b);
+    /* what the width says, where the script does not */
+    b.depth = fmax(1, kind->depth * b.width);
+    b.bristles = (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width));
+    b.thickness = fmax(1.2, kind->thickness * b.width);
+    b.reach = kind->reach * b.width;
+    script_fields_read(L, 2, "brush", &paper_brush_members, &b);
     b.seed = (uint64_t)script_arg_integer(L, 2, "brush", "seed", b.number + 1, 0, 2147483647);
-    b.mirrored = script_arg_boolean(L, 2, "brush", "mirrored", false);
 
     struct script_brush *own = lua_newuserdatauv(L, sizeof *own, 1);
     *own = (struct script_brush){.number = b.number, .width = b.width};
@@ -128,13 +119,11 @@ static struct paper_dip dip_of(lua_State *L)
 /* brush:dip({water = 1, ["burnt umber"] = 0.5} [, {part =, side = {from, to}}]) */
 static int brush_dip(lua_State *L)
 {
-    static const char *const keys[] = {"part", "side", NULL};
     struct script_paper *paper = brush_begin(L, 3);
     struct paper_dip d = dip_of(L);
     script_paper_amounts(L, 2, paper->sheet, d.amount);
-    script_arg_options(L, 3, "dip", keys);
-    d.part = script_arg_number(L, 3, "dip", "part", 1, 0, 1);
-    script_arg_numbers(L, 3, "dip", "side", d.side, 2, -1, 1);
+    script_fields_options(L, 3, "dip", &paper_dip_members, NULL);
+    script_fields_read(L, 3, "dip", &paper_dip_members, &d);
     script_paper_check(L, paper_sheet_dip(paper->sheet, &d));
     return 0;
 }

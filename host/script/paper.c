@@ -2,6 +2,7 @@
 #include "script_paper.h"
 
 #include <brush.h>
+#include <describe.h>
 #include <history.h>
 
 #include <math.h>
@@ -24,9 +25,7 @@ static const struct paper_sheet_config *config_of(const struct script_paper *pap
 /* Fills a pigment from the text or table on the top; pops it. */
 static void pigment_read(lua_State *L, struct paper_pigment *pigment)
 {
-    static const char *const keys[] = {"name",     "like",        "weight", "density",
-                                       "staining", "granulation", "K",      "S",
-                                       "white",    "black",       "takes",  NULL};
+    static const char *const besides[] = {"name", "like", "white", "black", NULL};
     if (lua_type(L, -1) == LUA_TSTRING) {
         const struct paper_pigment *known = paper_pigment_find(lua_tostring(L, -1));
         if (!known)
@@ -38,7 +37,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     if (lua_type(L, -1) != LUA_TTABLE)
         luaL_error(L, "a pigment must be a name or a table (got a %s)", luaL_typename(L, -1));
     int t = lua_gettop(L);
-    script_arg_options(L, t, "pigment", keys);
+    script_fields_options(L, t, "pigment", &paper_pigment_members, besides);
     const char *like = script_arg_text(L, t, "pigment", "like"),
                *name = script_arg_text(L, t, "pigment", "name");
     const struct paper_pigment *known = paper_pigment_find(like ? like : "cyan");
@@ -49,12 +48,6 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
         luaL_error(L, "a pigment's name must have 1..%d characters", PAPER_NAME_MAX - 1);
     if (name)
         snprintf(pigment->name, sizeof pigment->name, "%s", name);
-    script_arg_numbers(L, t, "pigment", "weight", pigment->weight, 2, 0, 1);
-    pigment->density = script_arg_number(L, t, "pigment", "density", pigment->density, 0, 1);
-    pigment->staining =
-        script_arg_number(L, t, "pigment", "staining", pigment->staining, 0.5, 100);
-    pigment->granulation =
-        script_arg_number(L, t, "pigment", "granulation", pigment->granulation, 0, 1);
     double white[3], black[3];
     bool has_white = script_arg_color(L, t, "pigment", "white", white);
     bool has_black = script_arg_color(L, t, "pigment", "black", black);
@@ -67,9 +60,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
         }
         script_paper_check(L, paper_pigment_colors(pigment, white, black));
     }
-    script_arg_numbers(L, t, "pigment", "K", pigment->k, 3, 0, 100);
-    script_arg_numbers(L, t, "pigment", "S", pigment->s, 3, 0, 100);
-    script_arg_numbers(L, t, "pigment", "takes", pigment->takes, 3, -1, 1);
+    script_fields_read(L, t, "pigment", &paper_pigment_members, pigment);
     lua_pop(L, 1);
 }
 
@@ -132,50 +123,20 @@ static void stock_read(lua_State *L, struct paper_stock *stock)
         *stock = *known;
     }
     script_arg_color(L, 1, "paper", "color", stock->color);
-    double length[2] = {stock->fiber_length[0], stock->fiber_length[1]};
-    stock->color_variation =
-        script_arg_number(L, 1, "paper", "color_variation", stock->color_variation, 0, 1);
-    stock->absorbency = script_arg_number(L, 1, "paper", "absorbency", stock->absorbency, 0,
-                                          PAPER_ABSORBENCY_MAX);
-    stock->absorbency_variation = script_arg_number(L, 1, "paper", "absorbency_variation",
-                                                    stock->absorbency_variation, 0, 1);
-    script_arg_numbers(L, 1, "paper", "absorbency_along", stock->absorbency_along, 2, 0, 1);
-    script_arg_numbers(L, 1, "paper", "capacity", stock->capacity, 2, 0.01, 1);
-    stock->roughness = script_arg_number(L, 1, "paper", "roughness", stock->roughness, 0, 1);
-    stock->grain_px = script_arg_number(L, 1, "paper", "grain", stock->grain_px, 1, 64);
-    script_arg_numbers(L, 1, "paper", "fibers", length, 2, 1, 64);
-    stock->fiber_length[0] = (int)length[0];
-    stock->fiber_length[1] = (int)length[1];
+    script_fields_read(L, 1, "paper", &paper_stock_members, stock);
 }
 
 static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL};
 
 static int make_paper(lua_State *L)
 {
-    static const char *const keys[] = {"width",
-                                       "height",
-                                       "torus",
-                                       "model",
-                                       "rule",
-                                       "stock",
-                                       "seed",
-                                       "pigments",
-                                       "color",
-                                       "color_variation",
-                                       "absorbency",
-                                       "absorbency_variation",
-                                       "absorbency_along",
-                                       "capacity",
-                                       "roughness",
-                                       "grain",
-                                       "fibers",
-                                       "history",
-                                       "undo",
-                                       NULL};
+    static const char *const besides[] = {"width", "height",  "torus", "model",
+                                          "rule",  "stock",   "seed",  "pigments",
+                                          "color", "history", "undo",  NULL};
     lua_remove(L, 1); /* the table `paper`, which is called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);
-    script_arg_options(L, 1, "paper", keys);
+    script_fields_options(L, 1, "paper", &paper_stock_members, besides);
     struct script *script = script_of(L);
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width =
@@ -327,37 +288,24 @@ static int paper_seal(lua_State *L)
 
 static int paper_air(lua_State *L)
 {
-    static const char *const keys[] = {"gravity",    "seep",     "spread",   "tension",
-                                       "relief",     "film",     "pinning",  "damp",
-                                       "absorption", "carry",    "humidity", "edge",
-                                       "edge_width", "settling", NULL};
     struct script_paper *paper = script_paper_begin(L, 2);
     luaL_checktype(L, 2, LUA_TTABLE);
-    script_arg_options(L, 2, "air", keys);
+    script_fields_options(L, 2, "air", &paper_air_members, NULL);
     struct paper_air air = *paper_sheet_get_air(paper->sheet);
-    const struct {
-        const char *name;
-        double *value, high;
-    } rows[] = {{"spread", &air.spread, 1},          {"tension", &air.tension, 0.1},
-                {"relief", &air.relief, 1},          {"film", &air.film, 1},
-                {"pinning", &air.pinning, 2},        {"damp", &air.damp, 1},
-                {"absorption", &air.absorption, 4},  {"carry", &air.carry, 1},
-                {"humidity", &air.humidity, 1},      {"edge", &air.edge, 200},
-                {"edge_width", &air.edge_width, 32}, {"settling", &air.settling, 10}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        *rows[i].value =
-            script_arg_number(L, 2, "air", rows[i].name, *rows[i].value, 0, rows[i].high);
-    bool thesis = config_of(paper)->parts == 0;
-    if (thesis) { /* its gravity is a factor, 1 for none */
+    struct members members = paper_air_members;
+    if (config_of(paper)->parts == 0) { /* the thesis's gravity is a factor, 1 for none */
         double gravity[2] = {air.thesis.gravity_x, air.thesis.gravity_y};
         script_arg_numbers(L, 2, "air", "gravity", gravity, 2, 0.5, PAPER_GRAVITY_MAX);
         air.thesis.gravity_x = gravity[0];
         air.thesis.gravity_y = gravity[1];
-        air.thesis.humidity = air.humidity;
-    } else {
-        script_arg_numbers(L, 2, "air", "gravity", air.gravity, 2, -1, 1);
-        script_arg_numbers(L, 2, "air", "seep", air.seep, 2, -1, 1);
+        while (members.first->element) { /* the pulls come first */
+            members.first++;
+            members.count--;
+        }
     }
+    script_fields_read(L, 2, "air", &members, &air);
+    if (config_of(paper)->parts == 0)
+        air.thesis.humidity = air.humidity;
     script_paper_check(L, paper_sheet_air(paper->sheet, &air));
     return 0;
 }

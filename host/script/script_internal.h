@@ -11,6 +11,7 @@
 
 #include <lauxlib.h>
 #include <lua.h>
+#include <members.h>
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -117,6 +118,12 @@ int script_arg_choice(lua_State *L, const char *what, const char *text,
  * where there is none. Every key must be among the names (NULL-terminated). The functions above are for such copies: what they
  * hold stays as it is, and a text lasts as long as the copy is on the stack. */
 void script_arg_options(lua_State *L, int index, const char *what, const char *const *names);
+/* The same for what rows describe: keys are the rows' fields, and the names besides (NULL-terminated; NULL: none). */
+void script_fields_options(lua_State *L, int index, const char *what,
+                           const struct members *members, const char *const *besides);
+/* Reads the rows' fields of such a copy into the struct, each within its row's range; what is missing stays as it is. */
+void script_fields_read(lua_State *L, int index, const char *what,
+                        const struct members *members, void *of);
 /* The whole number at an argument's index within bounds; missing is fallback. */
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
                       long high);

@@ -1,6 +1,7 @@
 /* technique.c - washes, splatter, salt, lifting and varnish in scripts. */
 #include "script_paper.h"
 
+#include <describe.h>
 #include <techniques.h>
 
 #include <math.h>
@@ -86,9 +87,8 @@ static int paper_varnish(lua_State *L)
 }
 
 /* size = {least, most}, or one for both */
-static void size_read(lua_State *L, const char *what, double size[2], double least, double most)
+static void size_check(lua_State *L, const char *what, const double size[2])
 {
-    script_arg_numbers(L, 2, what, "size", size, 2, least, most);
     if (size[1] < size[0])
         luaL_error(L, "%s size must be {least, most} (got {%f, %f})", what, size[0], size[1]);
 }
@@ -96,22 +96,18 @@ static void size_read(lua_State *L, const char *what, double size[2], double lea
 /* paper:splatter({x =, y =, radius =, drops =, size =, angle =, thrown =, seed =}, {water =, ...}) */
 static int paper_splatter(lua_State *L)
 {
-    static const char *const keys[] = {"x",     "y",      "radius", "drops", "size",
-                                       "angle", "thrown", "seed",   NULL};
+    static const char *const besides[] = {"seed", NULL};
     struct paper_sheet *sheet = script_paper_begin(L, 3)->sheet;
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     luaL_checktype(L, 2, LUA_TTABLE);
-    script_arg_options(L, 2, "splatter", keys);
-    struct paper_splatter s = {.size = {0.6, 4}};
-    s.x = script_arg_number(L, 2, "splatter", "x", config->width / 2.0, -SCRIPT_PLACE_MAX,
-                            SCRIPT_PLACE_MAX);
-    s.y = script_arg_number(L, 2, "splatter", "y", config->height / 2.0, -SCRIPT_PLACE_MAX,
-                            SCRIPT_PLACE_MAX);
-    s.radius = script_arg_number(L, 2, "splatter", "radius", 80, 0, SCRIPT_PLACE_MAX);
-    s.drops = script_arg_integer(L, 2, "splatter", "drops", 60, 1, 100000);
-    s.toward = script_arg_number(L, 2, "splatter", "angle", 0, -36000, 36000) * PI / 180;
-    s.thrown = script_arg_number(L, 2, "splatter", "thrown", 0, 0, 4);
-    size_read(L, "splatter", s.size, 0.1, 500);
+    script_fields_options(L, 2, "splatter", &paper_splatter_members, besides);
+    struct paper_splatter s = {.x = config->width / 2.0,
+                               .y = config->height / 2.0,
+                               .radius = 80,
+                               .drops = 60,
+                               .size = {0.6, 4}};
+    script_fields_read(L, 2, "splatter", &paper_splatter_members, &s);
+    size_check(L, "splatter", s.size);
     s.seed = seed_read(L, 2, "splatter");
     script_paper_amounts(L, 3, sheet, s.amount);
     script_paper_check(L, paper_sheet_splatter(sheet, &s));
@@ -122,23 +118,20 @@ static int paper_splatter(lua_State *L)
 /* paper:salt{x =, y =, radius =, grains =, size =, strength =, reach =, mask =, seed =} */
 static int paper_salt(lua_State *L)
 {
-    static const char *const keys[] = {"x",        "y",     "radius", "grains", "size",
-                                       "strength", "reach", "mask",   "seed",   NULL};
+    static const char *const besides[] = {"mask", "seed", NULL};
     struct paper_sheet *sheet = script_paper_begin(L, 2)->sheet;
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     struct paper_screen screen;
-    script_arg_options(L, 2, "salt", keys);
-    struct paper_salt s = {.size = {0.7, 1.6}};
-    s.x = script_arg_number(L, 2, "salt", "x", config->width / 2.0, -SCRIPT_PLACE_MAX,
-                            SCRIPT_PLACE_MAX);
-    s.y = script_arg_number(L, 2, "salt", "y", config->height / 2.0, -SCRIPT_PLACE_MAX,
-                            SCRIPT_PLACE_MAX);
-    s.radius = script_arg_number(L, 2, "salt", "radius",
-                                 hypot(config->width, config->height) / 2, 0, SCRIPT_PLACE_MAX);
-    s.grains = script_arg_integer(L, 2, "salt", "grains", 100, 1, 100000);
-    size_read(L, "salt", s.size, 0.1, 50);
-    s.strength = script_arg_number(L, 2, "salt", "strength", 1, 0, 4);
-    s.reach = script_arg_number(L, 2, "salt", "reach", 10, 1, 100);
+    script_fields_options(L, 2, "salt", &paper_salt_members, besides);
+    struct paper_salt s = {.x = config->width / 2.0,
+                           .y = config->height / 2.0,
+                           .radius = hypot(config->width, config->height) / 2,
+                           .grains = 100,
+                           .size = {0.7, 1.6},
+                           .strength = 1,
+                           .reach = 10};
+    script_fields_read(L, 2, "salt", &paper_salt_members, &s);
+    size_check(L, "salt", s.size);
     s.seed = seed_read(L, 2, "salt");
     if (script_mask_place(L, 2, sheet, &screen, &s.place))
         script_paper_check(L, paper_sheet_salt(sheet, &s));

@@ -75,7 +75,8 @@ static void memory_is_limited(void **state)
     pid_t parent = getpid(), child = fork();
     if (child == 0) {
         confine_resources(parent, 10, 64 << 20);
-        void *volatile some = malloc(32 << 20); /* volatile: compilers may leave out what nobody reads */
+        void *volatile some =
+            malloc(32 << 20); /* volatile: compilers may leave out what nobody reads */
         void *volatile more = malloc(128 << 20);
         _exit(some && !more ? 0 : 1);
     }

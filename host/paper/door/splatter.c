@@ -8,18 +8,6 @@
 
 #define PI 3.14159265358979323846
 
-static const struct member rows[] = {
-    MEMBER(paper_splatter, x, DOUBLE, 1, NOT, "x", -1e6, 1e6),
-    MEMBER(paper_splatter, y, DOUBLE, 1, NOT, "y", -1e6, 1e6),
-    MEMBER(paper_splatter, radius, DOUBLE, 1, NOT, "radius", 0, 1e5),
-    MEMBER(paper_splatter, toward, DOUBLE, 1, NOT, "direction", -1000, 1000),
-    MEMBER(paper_splatter, thrown, DOUBLE, 1, NOT, "throw", 0, 4),
-    MEMBER(paper_splatter, drops, INT, 1, NOT, "drops", 1, 100000),
-    MEMBER(paper_splatter, size[0], DOUBLE, 1, NOT, "least size", 0.1, 500),
-    MEMBER(paper_splatter, size[1], DOUBLE, 1, NOT, "most size", 0.1, 500),
-};
-static const struct members members = MEMBERS_OF(rows);
-
 struct drop {
     double x, y, radius, length; /* radius across; length: how much longer along */
     double c, s;                 /* the direction along */
@@ -74,7 +62,8 @@ static void drop_draw(const struct drop *d, struct paper_screen *screen)
 
 enum paper_status paper_sheet_splatter(struct paper_sheet *p, const struct paper_splatter *s)
 {
-    enum paper_status status = paper_members_check(&members, s, "splatter's ", "");
+    enum paper_status status =
+        paper_members_check(&paper_splatter_members, s, "splatter's ", "");
     if (status == PAPER_OK && !(s->size[1] >= s->size[0]))
         status = paper_fail(PAPER_BAD_ARGUMENT,
                             "splatter's most size must be %g or more, its least (got %g)",
