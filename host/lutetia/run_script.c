@@ -110,6 +110,8 @@ static enum script_status save(struct run *run, const struct paper_state_sheet *
     for (int i = 0; i < count && kept_count < PAPER_STATE_SHEETS_MAX; i++)
         if (paper_history_has(papers[i].sheet))
             kept[kept_count++] = papers[i];
+    if (kept_count == 0 && status != SCRIPT_OK) /* what an earlier run has saved stays */
+        return status;
     if (paper_state_save(run->save, kept, kept_count) != PAPER_OK) {
         fail("run", "%s", paper_error());
         return SCRIPT_FAILED;

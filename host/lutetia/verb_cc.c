@@ -2,13 +2,22 @@
  *
  * A program of 1990 was compiled by `cc prog.c -lparis`; this adds the two folders, the library, and -std=gnu89
  * unless a -std is given.  In the build tree the library there is taken, else the one this command was installed
- * with.  All other arguments are the compiler's. */
+ * with.  All other arguments are the compiler's.
+ *
+ * A program is linked into a part file, which gets its name when it is whole: linkers write over what is there. The compiler is given the
+ * part file's descriptor as its output, /proc/self/fd/N. Where it would make other files' names of that one (dependencies,
+ * profiles, ...) or links nothing, it runs alone. */
 #include "lutetia.h"
 
+#include <output_file.h>
+
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 struct compiler_line {
@@ -80,6 +89,120 @@ static bool any_is(int argc, char **argv, const char *argument)
     return false;
 }
 
+/* ---- the program, whole under its name ---- */
+
+/* Where the line says what the program is called: "-o" alone, with the name behind it, or "-oNAME"; -1: nowhere. */
+static int output_find(const struct compiler_line *line)
+{
+    int found = -1;
+    for (int i = 1; i < line->count; i++)
+        if (strncmp(line->arguments[i], "-o", 2) == 0 &&
+            (line->arguments[i][2] || i + 1 < line->count)) {
+            found = i;
+            i += !line->arguments[i][2];
+        }
+    return found;
+}
+
+/* The compiler makes other files' names of its output's. */
+static bool makes_more(int argc, char **argv)
+{
+    static const char *const starts[] = {"-M",
+                                         "-save-temps",
+                                         "--save-temps",
+                                         "--coverage",
+                                         "-fprofile",
+                                         "-flto",
+                                         "-ftest-coverage",
+                                         "-gsplit",
+                                         "-dump",
+                                         "-Wp,",
+                                         "@",
+                                         "-###",
+                                         "-fdump",
+                                         "-ftime-trace"};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
+        if (any_starts_with(argc, argv, starts[i]))
+            return true;
+    return false;
+}
+
+_Noreturn static void compiler_become(const struct compiler_line *line)
+{
+    execvp(line->arguments[0], line->arguments);
+    fail("cc", "%s: %s; install a C compiler or name one in CC", line->arguments[0],
+         strerror(errno));
+    _exit(EXIT_FAILED);
+}
+
+/* The compiler's exit status; what the terminal interrupts is the compiler, and this process waits for it. */
+static int compiler_run(const struct compiler_line *line)
+{
+    int status = 0;
+    struct sigaction ignore = {.sa_handler = SIG_IGN}, before[2];
+    sigaction(SIGINT, &ignore, &before[0]);
+    sigaction(SIGQUIT, &ignore, &before[1]);
+    pid_t pid = fork();
+    if (pid == 0) {
+        sigaction(SIGINT, &before[0], NULL);
+        sigaction(SIGQUIT, &before[1], NULL);
+        compiler_become(line);
+    }
+    if (pid < 0)
+        return fail("cc", "cannot start %s: %s", line->arguments[0], strerror(errno));
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    sigaction(SIGINT, &before[0], NULL);
+    sigaction(SIGQUIT, &before[1], NULL);
+    if (WIFSIGNALED(status))
+        return fail("cc", "%s: ended by signal %d (%s)", line->arguments[0], WTERMSIG(status),
+                    strsignal(WTERMSIG(status)));
+    return WEXITSTATUS(status);
+}
+
+static int program_link(struct compiler_line *line)
+{
+    static char flag[] = "-o";
+    char descriptor[40];
+    int at = output_find(line);
+    const char *name = at < 0                   ? "a.out"
+                       : line->arguments[at][2] ? line->arguments[at] + 2
+                                                : line->arguments[at + 1];
+    struct output_file out;
+    if (!output_file_open(&out, name))
+        return fail("cc", "%s: cannot write: %s", name, out.why);
+    int program = dup(fileno(out.stream)); /* which the compiler inherits */
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", program);
+    if (at >= 0 && line->arguments[at][2]) { /* -oNAME: its place is for the flag */
+        line->arguments[at] = flag;
+        memmove(&line->arguments[at + 2], &line->arguments[at + 1],
+                (size_t)(line->count - at - 1) * sizeof *line->arguments);
+        line->count++;
+    } else if (at < 0) {
+        at = line->count;
+        line_add(line, flag);
+        line->count++;
+    }
+    line->arguments[at + 1] = descriptor;
+    fflush(NULL);
+    int status = program < 0 ? fail("cc", "%s: cannot write: %s", name, strerror(errno))
+                             : compiler_run(line);
+    struct stat made;
+    mode_t mask = umask(0);
+    umask(mask);
+    if (status == EXIT_SUCCESS && (fstat(program, &made) != 0 || made.st_size == 0))
+        status = fail("cc", "%s made no program", line->arguments[0]);
+    if (program >= 0)
+        close(program);
+    if (status != EXIT_SUCCESS) {
+        output_file_abandon(&out);
+        return status;
+    }
+    fchmod(fileno(out.stream), 0777 & ~mask);
+    return output_file_commit(&out) ? EXIT_SUCCESS
+                                    : fail("cc", "%s: cannot write: %s", name, out.why);
+}
+
 int verb_cc(int argc, char **argv)
 {
     if (argc < 2 || any_is(argc, argv, "--help") || any_is(argc, argv, "-h")) {
@@ -96,7 +219,7 @@ int verb_cc(int argc, char **argv)
     char *slash = strrchr(home, '/');
     if (slash)
         *slash = '\0';
-    char *include, *library;
+    char *include = NULL, *library = NULL;
     if (!slash || !folders_find(home, &include, &library))
         return fail("cc",
                     "<cm/paris.h> and libparis.so are not where this command is (%s); "
@@ -104,7 +227,7 @@ int verb_cc(int argc, char **argv)
                     home);
 
     char *include_flag, *library_flag, *runtime_flag;
-    struct compiler_line line = {calloc((size_t)argc + 8, sizeof(char *)), 0};
+    struct compiler_line line = {calloc((size_t)argc + 12, sizeof(char *)), 0};
     if (!line.arguments || asprintf(&include_flag, "-I%s", include) < 0 ||
         asprintf(&library_flag, "-L%s", library) < 0 ||
         asprintf(&runtime_flag, "-Wl,-rpath,%s", library) < 0)
@@ -117,16 +240,21 @@ int verb_cc(int argc, char **argv)
     line_add(&line, include_flag);
     for (int i = 1; i < argc; i++)
         line_add(&line, argv[i]);
-    if (!any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") && !any_is(argc, argv, "-E")) {
+    bool links = !any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") &&
+                 !any_is(argc, argv, "-E") && !any_is(argc, argv, "-fsyntax-only") &&
+                 !any_is(argc, argv, "-v") && !any_starts_with(argc, argv, "--version") &&
+                 !any_starts_with(argc, argv, "-print") &&
+                 !any_starts_with(argc, argv, "-dump");
+    if (links) {
         line_add(&line, library_flag);
         line_add(&line, runtime_flag);
         line_add(&line, paris);
         line_add(&line, math);
     }
     fflush(NULL);
-    execvp(line.arguments[0], line.arguments);
-    int status = fail("cc", "%s: %s; install a C compiler or name one in CC", line.arguments[0],
-                      strerror(errno));
+    if (!links || makes_more(argc, argv))
+        compiler_become(&line);
+    int status = program_link(&line);
     free(include_flag);
     free(library_flag);
     free(runtime_flag);

@@ -1,4 +1,4 @@
-/* test_confine.c - a confined process reads and writes what it has open, and can do nothing else. */
+/* test_confine.c - a confined process reads and writes what it has open, and can do nothing else. (security.md 8) */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>

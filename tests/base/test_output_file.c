@@ -1,4 +1,4 @@
-/* test_output_file.c - files appear whole under their name, or not at all; whatever else has the name is refused. */
+/* test_output_file.c - files appear whole under their name, or not at all; whatever else has the name is refused. (security.md 11, 12, 13) */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-/* test_user_folder.c - caches are where nobody else can put a file, or private to the process. */
+/* test_user_folder.c - caches are where nobody else can put a file, or private to the process. (security.md 15) */
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>

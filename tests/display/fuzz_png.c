@@ -1,7 +1,7 @@
 /* fuzz_png.c - damaged PNGs: each is read or refused, with a reason, and nothing worse.
  *
  * Mutations are of a valid file: bytes changed, runs cut out, doubled, or the end missing.  Half of them get their
- * chunks' checksums put right again, so that they are not all refused at the door. */
+ * chunks' checksums put right again, so that they are not all refused at the door. (security.md 7) */
 #include <display.h>
 
 #include <setjmp.h>

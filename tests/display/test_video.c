@@ -1,4 +1,4 @@
-/* test_video.c - videos: what is in them, and encoders that fail, are killed, or are not there. ffmpeg is a script of the test's. */
+/* test_video.c - videos: what is in them, and encoders that fail, are killed, or are not there. ffmpeg is a script of the test's. (security.md 14) */
 #include "scratch.h"
 
 #include <display.h>

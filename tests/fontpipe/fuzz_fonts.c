@@ -1,5 +1,5 @@
 /* fuzz_fonts.c - a thousand damaged font files, ten thousand random outlines, random text: each is drawn or refused. The
- * same seeds each time. */
+ * same seeds each time. (security.md 7) */
 #include "fuzz_outline.h"
 #include "support.h"
 

@@ -5,7 +5,7 @@
  *     fuzz_states [SECONDS]              seeds, always the same; or new ones for so long
  *
  * Bytes say what is changed, so libFuzzer can look for more. Most states are given to the decoder itself; every sixteenth goes through
- * a file, HDF5 and the confined reader. */
+ * a file, HDF5 and the confined reader. (security.md 7, 10) */
 #include "state_pieces.h"
 
 #include "../plain/state_sample.h"

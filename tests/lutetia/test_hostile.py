@@ -1,7 +1,7 @@
 """test_hostile.py LUTETIA: the command where somebody or something means harm.
 
 Closed and full streams, pipes and devices where files should be, names and texts with escapes, links and folders in the place of
-what is written. Whatever it is: one clear line, a status that says so, in time, and nothing lost or replaced.
+what is written. Whatever it is: one clear line, a status that says so, in time, and nothing lost or replaced. (security.md 2, 5, 6, 12, 17, 18)
 """
 import os
 import pathlib
@@ -32,14 +32,15 @@ class Hostile(unittest.TestCase):
         (self.at / name).write_text(text)
         return name
 
-    def run_it(self, *arguments, close=(), full=False):
+    def run_it(self, *arguments, close=(), full=False, **variables):
         """The command, with those of its streams closed, or its output on a full disk."""
         def streams():
             for number in close:
                 os.close(number)
         output = open("/dev/full", "wb") if full else subprocess.PIPE
         done = subprocess.run([LUTETIA, *arguments], cwd=self.at, stdin=subprocess.DEVNULL, stdout=output,
-                              stderr=subprocess.PIPE, timeout=SECONDS, preexec_fn=streams, check=False)
+                              stderr=subprocess.PIPE, timeout=SECONDS, preexec_fn=streams, check=False,
+                              env=dict(os.environ, **variables))
         if full:
             output.close()
         done.words = done.stderr.decode("utf-8", "replace")
@@ -74,6 +75,25 @@ class Hostile(unittest.TestCase):
                           ("tune", "--help")):
             with self.subTest(arguments=arguments):
                 self.refused(self.run_it(*arguments, full=True), "standard output")
+
+    def test_a_full_disk_is_named(self):
+        """Where kernels are compiled: PoCL would end the process, and what was to be saved with it."""
+        small = self.at / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=100k", "none", small], capture_output=True, check=False).returncode:
+            self.skipTest("only root may mount a small disk")
+        try:
+            self.refused(self.run_it("run", "sheet.lua", "-q", XDG_CACHE_HOME=str(small), POCL_CACHE_DIR=str(small / "pocl")),
+                         "the disk is full", str(small))
+        finally:
+            subprocess.run(["umount", small], check=True)
+
+    def test_failed_runs_keep_what_was_saved(self):
+        self.script("early.lua", "error('early')")
+        self.assertEqual(self.run_it("run", "sheet.lua", "-q", "--save", "all.h5").returncode, 0)
+        before = (self.at / "all.h5").read_bytes()
+        self.refused(self.run_it("run", "early.lua", "-q", "--save", "all.h5"), "early")
+        self.assertEqual((self.at / "all.h5").read_bytes(), before)
 
     # ---- what is read ----
 

@@ -1,8 +1,8 @@
-"""test_kills.py LUTETIA PROGRAM.c [MOMENTS [SEED]]: the command killed at moments by chance, and on disks that are full.
+"""test_kills.py LUTETIA [MOMENTS [SEED]]: the command killed at moments by chance, and on disks that are full.
 
 Saves, paints, films, compiles, measures (with many moments), begins with empty caches; SIGKILL somewhere on the way, or the disk is
 full from some byte on. Whatever there was must be as it was, or as a whole run leaves it: each task writes one of two known
-versions, by turns. After the next start no part file is left, and what it makes is right.
+versions, by turns. After the next start no part file is left, and what it makes is right. (security.md 11, 13, 16)
 """
 import os
 import pathlib
@@ -17,9 +17,11 @@ import time
 
 SCRIPT = """
 local p = paper{width = 24, height = 24, seed = param("version", 1)}
-for i = 1, 6 do
+for i = 1, 4 do
   p:put(ellipse(12, 12, 3 + i), {water = 0.4})
   p:step(4)
+end
+for i = 1, 6 do
   p:frame("frame.png")
   p:save("sheet.h5")
 end
@@ -37,28 +39,36 @@ class Task:
         self.seconds = 0.1
 
 
-def tasks_of(program):
+PROGRAM = """
+#include <cm/paris.h>
+#include <stdio.h>
+int main() { printf("%d\\n", VERSION); return 0; }
+"""
+
+
+def tasks_of():
     sheet = ["run", "script.lua", "-q"]
     return [
         Task("save", ["out/frame.png", "out/sheet.h5", "all.h5"],
              lambda v: [*sheet, "-o", "out", "--save", "all.h5", "version=%d" % v]),
-        Task("film", ["film.y4m", "frames/color-000003.png", "frames/water-000006.png"],
+        Task("film", ["film.y4m", "frames/color-000003.png", "frames/water-000004.png"],
              lambda v: [*sheet, "-o", "filmed", "--video", "film.y4m", "--frames", "frames", "version=%d" % v]),
         Task("type", ["type.png"], lambda v: ["type", "Kills %d" % v, "-o", "type.png", "--size", "200"]),
         Task("paint", ["paint.png"], lambda v: ["paint", "k", "--paper", "64x64", "--steps", "8", "--seed", str(v), "-o", "paint.png"]),
-        Task("compile", ["prog"], lambda v: ["cc", program, "-DVERSION=%d" % v, "-o", "prog"]),
+        Task("compile", ["prog"], lambda v: ["cc", "prog.c", "-DVERSION=%d" % v, "-o", "prog"]),
     ]
 
 
 class Place:
     """A folder with the tasks' files, and caches of its own."""
 
-    def __init__(self, lutetia, program):
+    def __init__(self, lutetia):
         self.lutetia = lutetia
         self.holder = tempfile.TemporaryDirectory(prefix="lutetia-kills-")
         self.at = pathlib.Path(self.holder.name)
         (self.at / "script.lua").write_text(SCRIPT)
-        self.tasks = tasks_of(program)
+        (self.at / "prog.c").write_text(PROGRAM)
+        self.tasks = tasks_of()
         self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.at / "cache"), LUTETIA_BACKGROUND="1")
         self.environment.pop("POCL_CACHE_DIR", None)
 
@@ -87,14 +97,24 @@ class Place:
             for name in task.files:
                 assert task.whole[name, 1] != task.whole[name, 2] or "water" in name or "sheet" in name, name
 
-    def check(self, task, what):
+    def versions(self, task, name):
+        return [whole for (file, _), whole in task.whole.items() if file == name]
+
+    def is_saved(self, name):
+        """A state that a run left that failed on the way: what was done until then, whole."""
+        (self.at / "nothing.lua").write_text("")
+        child = self.begin(["run", "nothing.lua", "-q", "--resume", name])
+        child.communicate(timeout=SECONDS)
+        return child.returncode == 0
+
+    def check(self, what, failed=False):
         for other in self.tasks:
             for name in other.files:
                 found = (self.at / name).read_bytes()
-                assert found in (other.whole[name, 1], other.whole[name, 2]), \
-                    "%s: %s is damaged (%d bytes)" % (what, name, len(found))
-            if other is not task:
-                continue
+                good = found in self.versions(other, name) or (failed and name == "all.h5" and self.is_saved(name))
+                assert good, "%s: %s is damaged (%d bytes)" % (what, name, len(found))
+                if failed and found not in self.versions(other, name):
+                    (self.at / name).write_bytes(other.whole[name, 1])
 
     def parts(self):
         return [str(path) for path in self.at.rglob(".*.part")]
@@ -126,8 +146,8 @@ def killed(place, chance, moment, empty):
         except ProcessLookupError:
             pass
     child.communicate(timeout=SECONDS)
-    place.check(task, "moment %d, %s killed after %.3f s" % (moment, task.name, after))
-    return task, version, alive
+    place.check("moment %d, %s killed after %.3f s" % (moment, task.name, after))
+    return alive
 
 
 def full(place, chance, moment):
@@ -139,8 +159,7 @@ def full(place, chance, moment):
     what = "moment %d, %s with files up to %d bytes" % (moment, task.name, limit)
     assert child.returncode in (0, 1), (what, child.returncode, words)
     assert child.returncode == 0 or words, what
-    place.check(task, what)
-    return task, version
+    place.check(what, child.returncode != 0)
 
 
 def tuned(place, chance, moment):
@@ -158,10 +177,9 @@ def tuned(place, chance, moment):
 
 
 def main():
-    lutetia, program = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-    moments = int(sys.argv[3]) if len(sys.argv) > 3 else 30
-    chance = random.Random(int(sys.argv[4]) if len(sys.argv) > 4 else 17)
-    place = Place(lutetia, program)
+    moments = int(sys.argv[2]) if len(sys.argv) > 2 else 30
+    chance = random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else 17)
+    place = Place(os.path.abspath(sys.argv[1]))
     place.learn()
     in_time = fulls = empties = tunes = 0
     for moment in range(moments):
@@ -170,16 +188,16 @@ def main():
             tunes += 1
             continue
         if moment % 4 == 3:
-            task, version = full(place, chance, moment)
+            full(place, chance, moment)
             fulls += 1
         else:
             empty = moment % 16 == 5
-            task, version, alive = killed(place, chance, moment, empty)
+            alive = killed(place, chance, moment, empty)
             in_time += alive
             empties += empty
         if moment % 8 == 7 or moment == moments - 1:
             for task in place.tasks:
-                place.next_start(task, version, "moment %d" % moment)
+                place.next_start(task, 1 + moment // 8 % 2, "moment %d" % moment)
             assert not place.parts(), "moment %d: part files stay: %s" % (moment, place.parts())
     print("%d moments: %d killed on the way, %d with full disks, %d with empty caches, %d while tuning; nothing damaged" %
           (moments, in_time, fulls, empties, tunes))

@@ -1,4 +1,5 @@
-/* test_run.c - `lutetia run` as a user meets it: what a script makes, and one clear line for what it may not or cannot do. */
+/* test_run.c - `lutetia run` as a user meets it: what a script makes, and one clear line for what it may not or cannot do.
+ * (security.md 1, 3, 4) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

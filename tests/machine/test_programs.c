@@ -1,5 +1,5 @@
 /* test_programs.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged;
- * and those that need what functions.cl does not declare. */
+ * and those that need what functions.cl does not declare. (security.md 16) */
 #include "machine_explained.h"
 #include "support.h"
 

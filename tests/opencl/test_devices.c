@@ -1,5 +1,5 @@
 /* Devices: one is chosen by number or by part of a name; PoCL's threads each have a processor unless somebody said
- * otherwise. */
+ * otherwise. (security.md 15) */
 #include "devices.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* test_state_forged.c - saved states that somebody made to do harm: HDF5 files with a header that is right, whose content reaches for
- * other files, is of types and filters that are not ours, or says what no sheet can. All are refused, in words. */
+ * other files, is of types and filters that are not ours, or says what no sheet can. All are refused, in words. (security.md 8, 9, 10) */
 #include "state_sample.h"
 
 #include "../display/scratch.h"

@@ -10,6 +10,7 @@
 #include "device/cache.h"
 
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -25,9 +26,25 @@ uint64_t cache_hash(uint64_t h, const char *s)
     return (h ^ 0xff) * 0x100000001b3u;
 }
 
+/* What dead processes have left half written goes when a process first looks there. */
+static void sweep_once(const char *path)
+{
+    static atomic_flag swept = ATOMIC_FLAG_INIT;
+    if (atomic_flag_test_and_set(&swept))
+        return;
+    int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+    if (folder < 0)
+        return;
+    output_file_sweep(folder);
+    close(folder);
+}
+
 bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char **why)
 {
-    return user_cache_folder("lutetia", out, why);
+    bool there = user_cache_folder("lutetia", out, why);
+    if (there)
+        sweep_once(out);
+    return there;
 }
 
 FILE *cache_file_read(const char *path)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/statvfs.h>
 
 #include "base/errors.h"
 #include "device/cache.h"
@@ -9,6 +10,7 @@
 #include "watch/watch.h"
 
 enum { PROGRAMS_SIZE = 1024 };
+#define KERNEL_ROOM_BYTES 1e6 /* what a kernel takes on disk at most while it is compiled */
 
 struct program_entry {
     char *key; /* options, then text */
@@ -79,6 +81,17 @@ static cl_program build_without_header(const struct device *d,
     return NULL;
 }
 
+/* PoCL's compiler writes to its cache, and ends the process where it cannot. The folder if there is no room for a kernel. */
+static const char *full_folder(const struct device *d)
+{
+    struct statvfs room;
+    const char *folder = d->is_pocl ? getenv("POCL_CACHE_DIR") : NULL;
+    return folder && statvfs(folder, &room) == 0 &&
+                   (double)room.f_bavail * (double)room.f_frsize < KERNEL_ROOM_BYTES
+               ? folder
+               : NULL;
+}
+
 static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *own_options, const char *key)
 {
@@ -103,6 +116,14 @@ static cl_program build(struct machine *m, const char *const parts[DEVICE_PARTS]
         }
         if (program)
             clReleaseProgram(program);
+    }
+    const char *full = full_folder(d);
+    if (full) {
+        machine_fail(m, MACHINE_BUILD_FAILED,
+                     "the disk is full: there is no room to compile a kernel in %s; free some "
+                     "space, or name a folder elsewhere in POCL_CACHE_DIR",
+                     full);
+        return NULL;
     }
     if (d->is_pocl && (program = build_without_header(d, parts, own_options)))
         goto built;
