@@ -161,7 +161,7 @@ static bool mapped_at(const struct font_map *map, const struct font_segment *s, 
 
 static enum font_status mapped_build(struct font_edges *e, const struct font_filter *f,
                                      const struct font_segment *s, const struct font_map *map,
-                                     int orientation, double side)
+                                     int orientation, double side, bool nodes)
 {
     enum { SAMPLES = 8 };
     double across = 0, down = 0, longest = 0;
@@ -182,7 +182,7 @@ static enum font_status mapped_build(struct font_edges *e, const struct font_fil
     if (!(all < 4e6))
         return font_fail(FONT_TOO_LARGE, "a distorted glyph is too large");
     enum font_status status;
-    if (!f->use_nodes) {
+    if (!nodes) {
         int n = (int)ceil(1.1 * all / f->step_px) + 1;
         status = font_lines_reserve(e, n);
         if (status != FONT_OK || !mapped_at(map, s, 0, orientation, &before))
@@ -280,9 +280,10 @@ static enum font_status segments_build(struct font_edges *e, const struct font_o
     const double *m = map->m;
     double side = outline->turn * -orientation;
     enum font_status status = FONT_OK;
-    if (f->way != FONT_BY_TABLES && !tabled)
+    bool nodes = f->use_nodes || (f->way == FONT_BY_PATCHES && !tabled);
+    if ((f->way == FONT_BY_AREAS || f->way == FONT_BY_DISCS) && !tabled)
         return font_arcs_build(e, outline, map, f, orientation, (float)side);
-    if (map->kind == FONT_AFFINE && f->use_nodes) {
+    if (map->kind == FONT_AFFINE && nodes) {
         struct font_edges_job job = {e, outline, f, {0}, (float)side};
         for (int i = 0; i < 6; i++)
             job.m[i] = (float)m[i];
@@ -291,7 +292,7 @@ static enum font_status segments_build(struct font_edges *e, const struct font_o
     for (int i = 0; i < outline->segments_count && status == FONT_OK; i++) {
         const struct font_segment *from = &outline->segments[i];
         if (map->kind != FONT_AFFINE) {
-            status = mapped_build(e, f, from, map, orientation, side);
+            status = mapped_build(e, f, from, map, orientation, side, nodes);
             continue;
         }
         struct font_segment to = {.degree = from->degree};

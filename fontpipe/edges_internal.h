@@ -51,7 +51,7 @@ static inline int font_nodes_needed(const struct font_filter *f, float length, f
         l = l < 0 ? 0 : l > FONT_LENGTHS - 1 ? FONT_LENGTHS - 1 : l;
         const float *error = f->node_error[s][l];
         /* The pieces' errors add up where they lie above each other, but not all with one sign. */
-        float allowed = (float)FONT_PIECE_TOLERANCE * (n > 1 ? sqrtf((float)n) : 1);
+        float allowed = f->piece_tolerance * (n > 1 ? sqrtf((float)n) : 1);
         int m = 1;
         for (int k = 0; k < FONT_NODES_MAX;
              k++) /* errors fall: as many as are too large, and one */
@@ -115,6 +115,30 @@ static inline void font_nodes_put(struct font_edges *e, const struct font_cubic 
         font_range_add(range, &x, &y);
     }
     e->nodes_count = count;
+}
+
+/* count nodes, evenly spaced. There is room for eight more; those are at t = 1. */
+static inline void font_nodes_even(struct font_edges *e, const struct font_cubic *c, int count,
+                                   float side, struct font_range *range)
+{
+    const eight lanes = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f}, one = lanes * 0 + 1;
+    float part = 1 / (float)count, *weights = e->node_weight + e->nodes_count;
+    for (int k = 0; k < count; k += 8) {
+        eight t = (lanes + (float)k) * part;
+        t = FONT_CHOSEN(t, one, t < one);
+        eight x = c->x + t * (c->cx + t * (c->bx + t * c->ax));
+        eight y = c->y + t * (c->cy + t * (c->by + t * c->ay));
+        *(eight_loose *)(e->node_x + e->nodes_count + k) = x;
+        *(eight_loose *)(e->node_y + e->nodes_count + k) = y;
+        *(eight_loose *)(weights + k) =
+            (c->cx + t * (2 * c->bx + t * (3 * c->ax))) * (part * side);
+        font_range_add(range, &x, &y);
+    }
+    for (int k = 0; k < 3; k++) {
+        weights[k] *= font_even_weight[k];
+        weights[count - 1 - k] *= font_even_weight[k];
+    }
+    e->nodes_count += count;
 }
 
 #endif

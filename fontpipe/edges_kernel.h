@@ -43,7 +43,8 @@ INLINE vector root(vector v)
 struct measured {
     float x[LANES], y[LANES], cx[LANES], cy[LANES], bx[LANES], by[LANES], ax[LANES], ay[LANES];
     float across[LANES], down[LANES], length[LANES], flat[LANES], bend[LANES];
-    int row[LANES]; /* of the table of errors */
+    int row[LANES];   /* of the table of errors */
+    int slant[LANES]; /* where it is flattest */
 };
 
 INLINE void put(float *to, vector v)
@@ -82,14 +83,17 @@ INLINE void measure(struct measured *out, const struct font_edges_job *job, int 
     vector flat = down / (across + tiny), f0 = dy0 / (dx0 + tiny), f1 = dy1 / (dx1 + tiny);
     vector f2 = dy2 / (dx2 + tiny);
     vector flattest = -larger(larger(-f0, -f1), -f2);
-    ints cubic = (Ax * Ax + Ay * Ay) > across * 0; /* quadratics bend little */
-    flat = (vector)(((ints)flattest & cubic) | ((ints)flat & ~cubic));
+    /* Short quadratics bend little. */
+    ints bends = ((Ax * Ax + Ay * Ay) > across * 0) | (length > 3.0f);
+    flat = (vector)(((ints)flattest & bends) | ((ints)flat & ~bends));
     vector quarters = length * 4, power = quarters * quarters * quarters * quarters;
     ints l = ((ints)power >> 23) - 126, above = l > 0;
     l &= above;
     above = l < FONT_LENGTHS - 1;
     l = (l & above) | ((FONT_LENGTHS - 1) & ~above);
     ints s = -((flat > 0.2f) + (flat > 0.5f) + (flat > 1.0f) + (flat > 2.0f) + (flat > 5.0f));
+    *(ints *)out->slant = -((flattest > 0.2f) + (flattest > 0.5f) + (flattest > 1.0f) +
+                            (flattest > 2.0f) + (flattest > 5.0f));
     put(out->across, across);
     put(out->down, down);
     put(out->length, length);
@@ -130,9 +134,11 @@ enum font_status KERNEL(const struct font_edges_job *job)
                 font_range_add(&range, &xs, &ys);
                 continue;
             }
+            struct font_cubic c = {q.x[k], q.cx[k], q.bx[k], q.ax[k],
+                                   q.y[k], q.cy[k], q.by[k], q.ay[k]};
             const float *error = errors + q.row[k];
             eight_ints large =
-                *(const eight_loose *)error * across > (eight){0} + (float)FONT_PIECE_TOLERANCE;
+                *(const eight_loose *)error * across > (eight){0} + f->piece_tolerance;
             int m = 1;
             for (int i = 0; i < 8; i++)
                 m -= large[i];
@@ -146,13 +152,20 @@ enum font_status KERNEL(const struct font_edges_job *job)
                         : length < FONT_SPECK_PX ? 2
                                                  : 3;
             m = m < least ? least : m;
+            float spacing = f->spacing_px[q.slant[k]];
+            if (length > FONT_EVEN_LEAST * spacing && length < (float)(m * pieces) * spacing) {
+                int even = (int)(length / spacing) + 1;
+                status = font_nodes_reserve(e, even + LANES * FONT_NODES_MAX);
+                if (status != FONT_OK)
+                    return status;
+                font_nodes_even(e, &c, even, job->side, &range);
+                continue;
+            }
             if (pieces > 1) {
                 status = font_nodes_reserve(e, m * pieces + LANES * FONT_NODES_MAX);
                 if (status != FONT_OK)
                     return status;
             }
-            struct font_cubic c = {q.x[k], q.cx[k], q.bx[k], q.ax[k],
-                                   q.y[k], q.cy[k], q.by[k], q.ay[k]};
             font_nodes_put(e, &c, m, pieces, job->side, &range);
         }
     }

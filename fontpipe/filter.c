@@ -39,6 +39,8 @@ const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX] = {
      0.181341891689181, 0.15685332293894369, 0.11119051722668723, 0.050614268145188088},
 };
 
+const float font_even_weight[3] = {13 / 12.0f, 7 / 8.0f, 25 / 24.0f};
+
 enum { KNOTS = 2048 }; /* of a product's profile */
 
 struct font_filter_def font_filter_def_default(enum font_filter_kind kind)
@@ -342,12 +344,18 @@ enum font_status font_filter_create(const struct font_filter_def *def, struct fo
         f->way = FONT_BY_DISCS;
         f->arc_span_px = (float)fmax(3.98 - 2 * f->radius, 1.5); /* a block of gray_disc.h */
         f->arc_bend_px = FONT_DISC_BEND * (float)f->radius;
+    } else if (f->def.kind == FONT_CONE && f->taps <= FONT_PATCH_TAPS) {
+        f->way = FONT_BY_PATCHES;
     }
+    f->piece_tolerance =
+        (float)(f->way == FONT_BY_PATCHES ? FONT_PATCH_TOLERANCE : FONT_PIECE_TOLERANCE);
     f->scale = 1;
     if (status == FONT_OK)
         status = f->round ? font_filter_decompose(f) : product_make(f);
     if (status == FONT_OK)
         status = tables_make(f);
+    if (status == FONT_OK && f->way == FONT_BY_PATCHES)
+        status = font_patches_make(f);
     if (status == FONT_OK) {
         font_filter_measure(f);
         *out = f;
@@ -367,6 +375,7 @@ void font_filter_destroy(struct font_filter *f)
     }
     free(f->samples);
     free(f->tables);
+    free(f->patches);
     free(f);
 }
 

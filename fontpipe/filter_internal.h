@@ -35,8 +35,13 @@ struct font_filter_term {
     double *integral, *density;
 };
 
-/* How pictures are made: by the tables from nodes and lines, or from arcs. */
-enum font_filter_way { FONT_BY_TABLES, FONT_BY_AREAS, FONT_BY_DISCS };
+/* How pictures are made: by the tables or by patches from nodes and lines, or from arcs. */
+enum font_filter_way {
+    FONT_BY_TABLES,
+    FONT_BY_AREAS,
+    FONT_BY_DISCS,
+    FONT_BY_PATCHES /* nodes by patches, lines by tables */
+};
 
 struct font_filter {
     char name[64];
@@ -51,8 +56,11 @@ struct font_filter {
     /* Of an edge of unit dx: what m nodes on a length are wrong by at most, by its slant: |dy| up to
      * font_slants[s] of |dx|. */
     float node_error[FONT_SLANTS][FONT_LENGTHS][FONT_NODES_MAX]; /* [m - 1] */
-    bool use_nodes; /* else steps, where it is drawn by tables */
+    float spacing_px[FONT_SLANTS]; /* of evenly spaced nodes on a long edge */
+    bool use_nodes;                /* else steps, where it is drawn by tables */
     enum font_filter_way way;
+    float piece_tolerance; /* of nodes: FONT_PIECE_TOLERANCE, or what patches allow */
+    float *patches;        /* see gray_patch.h; NULL but for FONT_BY_PATCHES */
     float arc_span_px,
         arc_bend_px; /* how far an arc may go along x and y, and beside its chord */
     double step_px;
@@ -89,9 +97,27 @@ enum font_status font_filter_decompose(struct font_filter *f);
 extern const double font_gauss_at[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 extern const double font_gauss_weight[FONT_NODES_MAX + 1][FONT_NODES_MAX];
 
+/* Evenly spaced nodes on 0..1, in the middles of as many parts: weights of the first three and, turned around, of the last,
+ * over the others'. The middles' rule is wrong by h^2 / 24 of the slope at the ends, which is what three values say it is. */
+enum { FONT_EVEN_LEAST = 6 };
+extern const float font_even_weight[3];
+
 /* What an edge may be wrong by for each of its pieces: a tenth of a 255th at nodes, half of that in steps, of which there
  * are more. */
 #define FONT_PIECE_TOLERANCE 4e-4
 #define FONT_STEP_TOLERANCE 2e-4
+#define FONT_PATCH_TOLERANCE 2e-4
+
+/* Patches are for FONT_PATCH_PHASES places of a node between two pixels each way, and the end; a patch is four rows of four
+ * values between as many zeros. */
+enum {
+    FONT_PATCH_PHASES = 16,
+    FONT_PATCH_TAPS = 3,
+    FONT_PATCH_ROW = 12,
+    FONT_PATCH_FLOATS = (FONT_PATCH_TAPS + 1) * FONT_PATCH_ROW
+};
+
+/* filter_patch.c: errors: NO_MEMORY. */
+enum font_status font_patches_make(struct font_filter *f);
 
 #endif

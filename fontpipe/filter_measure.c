@@ -70,6 +70,18 @@ static void trial_nodes(struct trial *t, const struct font_filter *f, int count,
                       sum);
 }
 
+static void trial_even(struct trial *t, const struct font_filter *f, int count,
+                       double (*sum)[GRID_MAX])
+{
+    memset(sum, 0, sizeof t->exact);
+    for (int term = 0; term < f->terms_count; term++)
+        for (int k = 0; k < count; k++) {
+            int end = k < count - 1 - k ? k : count - 1 - k;
+            double weight = end < 3 ? (double)font_even_weight[end] : 1, at = (k + 0.5) / count;
+            trial_add(t, f, term, t->dx * at, t->dy * at, 0, t->dx * weight / count, sum);
+        }
+}
+
 static double trial_error(const struct trial *t)
 {
     double worst = 0;
@@ -103,15 +115,32 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
             for (int m = 1; m <= FONT_NODES_MAX; m++) {
                 trial_nodes(t, f, m, t->sum);
                 error[m] = (float)(trial_error(t) / t->dx);
-                if (m > 1 && error[m] * t->dx < FONT_PIECE_TOLERANCE / 8) {
+                if (m > 1 && error[m] * t->dx < (double)f->piece_tolerance / 8) {
                     while (++m <= FONT_NODES_MAX) /* more are as good */
                         error[m] = error[m - 1];
                 }
             }
-            if (l == 4 && s == 0 && error[4] * t->dx > FONT_PIECE_TOLERANCE)
+            if (f->way != FONT_BY_PATCHES && l == 4 && s == 0 &&
+                error[4] * t->dx > (double)f->piece_tolerance)
                 return; /* half a pixel needs more than four: steps, 16 a pixel, are as few */
         }
     f->use_nodes = true;
+}
+
+/* How far apart nodes on a long edge may be. */
+static void spacing_measure(struct font_filter *f, struct trial *t)
+{
+    const double length = 6;
+    for (int s = 0; s < FONT_SLANTS; s++) {
+        int count = FONT_EVEN_LEAST;
+        trial_begin(t, f, length, font_slants[s]);
+        for (; count < 80; count++) {
+            trial_even(t, f, count, t->sum);
+            if (trial_error(t) <= 0.7 * (double)f->piece_tolerance)
+                break;
+        }
+        f->spacing_px[s] = (float)(length / count);
+    }
 }
 
 static void steps_measure(struct font_filter *f, struct trial *t)
@@ -180,12 +209,15 @@ void font_filter_measure(struct font_filter *f)
     f->step_px = 1.0 / 16;
     if (t) { /* without memory for the trial: the finest steps */
         nodes_measure(f, t);
+        if (f->use_nodes)
+            spacing_measure(f, t);
+        f->use_nodes &= f->way != FONT_BY_PATCHES; /* tables alone take steps */
         if (!f->use_nodes)
             steps_measure(f, t);
     }
     free(t);
-    info->nodes = f->use_nodes;
-    info->step_px = f->use_nodes ? 0 : f->step_px;
+    info->nodes = f->use_nodes || f->way == FONT_BY_PATCHES;
+    info->step_px = info->nodes ? 0 : f->step_px;
 }
 
 /* ---- choosing ---- */

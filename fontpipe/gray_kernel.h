@@ -311,14 +311,19 @@ INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bo
 
 #include "gray_area.h"
 #include "gray_disc.h"
+#include "gray_patch.h"
 
 /* ---- by the number of taps: loops of a known length ---- */
 
 INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, bool banded)
 {
     rows_clear(job, stride);
+    bool patches = job->filter->way == FONT_BY_PATCHES;
+    if (patches)
+        patches_add(job, stride, banded);
     for (int term = 0; term < job->filter->terms_count; term++) {
-        nodes_add(job, term, stride, taps, banded);
+        if (!patches)
+            nodes_add(job, term, stride, taps, banded);
         lines_add(job, term, stride, taps);
     }
 }

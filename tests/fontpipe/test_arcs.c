@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const filters[] = {"box", "pillbox", "pillbox:1.3", "pillbox:2.4"};
+static const char *const filters[] = {"box",         "pillbox", "pillbox:1.3",
+                                      "pillbox:2.4", "cone",    "cone:0.8"};
 static const char *const faces[] = {"DejaVuSans", "EBGaramond12-Italic", "C059-Roman.otf"};
 enum { FILTERS = sizeof filters / sizeof *filters, FACES = 3, LETTERS = 94 };
 
