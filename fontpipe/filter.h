@@ -29,34 +29,11 @@
 
 struct font_filter;
 
-enum font_filter_kind {
-    FONT_BOX,
-    FONT_PILLBOX,
-    FONT_CONE,
-    FONT_GAUSSIAN,
-    FONT_MITCHELL,
-    FONT_LANCZOS,
-    FONT_SAMPLES,      /* of h, from the centre outwards: a product */
-    FONT_ROUND_SAMPLES /* of f along a radius */
-};
-
 enum { FONT_FILTER_RADIUS_MAX = 4, FONT_FILTER_SAMPLES_MAX = 256 };
 
-struct font_filter_def {
-    enum font_filter_kind kind;
-    double radius_px; /* 0.25..4; 0: the kind's usual one */
-    double sigma_px;  /* of a Gaussian; 0: a quarter of the radius */
-    double b, c;      /* of Mitchell */
-    const double *samples;
-    int samples_count; /* 2..256, the first in the centre, the last at the radius */
-};
-struct font_filter_def font_filter_def_default(enum font_filter_kind kind);
-
-/* Errors: BAD_ARGUMENT, NO_MEMORY. A filter whose integral is not positive is refused. */
-enum font_status font_filter_create(const struct font_filter_def *def,
-                                    struct font_filter **out);
-/* box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, each with `:radius` if wanted;
- * gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,... and round:RADIUS,S0,S1,... from the centre outwards. */
+/* One of font_filter_names(), with `:RADIUS` (0.25..4 pixels) if wanted; gaussian:SIGMA,RADIUS; samples:RADIUS,S0,S1,... (of h:
+ * a product) and round:RADIUS,S0,S1,... (of f along a radius), 2..256 samples from the centre outwards.
+ * Errors: BAD_ARGUMENT, NO_MEMORY. A filter whose integral is not positive is refused. */
 enum font_status font_filter_create_named(const char *name, struct font_filter **out);
 const char *const *font_filter_names(void);           /* the simple ones; NULL ends them */
 void font_filter_destroy(struct font_filter *filter); /* NULL is fine */
@@ -74,8 +51,8 @@ struct font_filter_info {
     double undershoot; /* how far beyond 0 and 1 the picture of an edge goes */
     double response_nyquist; /* of a wave of two pixels; 1 is all of it */
     double response_pixel;   /* of a wave of one pixel: what turns into moire */
-    bool nodes;              /* edges are integrated at Gauss's nodes, not in steps */
-    double step_px;          /* the steps otherwise */
+    const char *drawn;       /* how edges are integrated, in words */
+    double step_px;          /* in steps; else 0 */
     size_t bytes;            /* of the tables */
 };
 void font_filter_describe(const struct font_filter *filter, struct font_filter_info *out);

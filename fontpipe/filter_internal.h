@@ -43,6 +43,36 @@ enum font_filter_way {
     FONT_BY_PATCHES /* nodes by patches, lines by tables */
 };
 
+/* A kind of filter: a row of the table in filter_kinds.c is all there is of it. */
+struct font_filter_kind {
+    const char *name;
+    enum { FONT_TAKES_RADIUS, FONT_TAKES_SIGMA_RADIUS, FONT_TAKES_SAMPLES } takes;
+    bool round; /* f along a radius is its profile; else h, and f is a product */
+    double radius_px, sigma_px; /* its usual ones */
+    /* At a distance from the centre within the radius. */
+    double (*profile)(const struct font_filter *f, double v);
+    /* Of round ones, where there are closed forms: the profile's integral along the chord at a distance v from the centre,
+     * from its beginning at -half up to `to`; and over the disc of radius 1. Else NULL and 0. */
+    double (*chord)(const struct font_filter *f, double v, double half, double to);
+    double volume;
+    /* The fast way, of radii from the least to the most, or tables. */
+    enum font_filter_way way;
+    double way_least_px, way_most_px;
+};
+extern const struct font_filter_kind font_filter_kinds[];
+extern const int font_filter_kinds_count;
+
+/* What a filter is made of. */
+struct font_filter_def {
+    const struct font_filter_kind *kind;
+    double radius_px; /* 0.25..4 */
+    double sigma_px;  /* of a Gaussian */
+    const double *samples;
+    int samples_count; /* 2..256, the first in the centre, the last at the radius */
+};
+enum font_status font_filter_create(const struct font_filter_def *def,
+                                    struct font_filter **out);
+
 struct font_filter {
     char name[64];
     struct font_filter_def def;
@@ -82,6 +112,8 @@ static inline const float *font_filter_y(const struct font_filter *f, int term)
     return font_filter_h(f, term) + FONT_PHASES * 2 * FONT_H_ROW;
 }
 
+/* filter_profile.c: the profile, 0 beyond the radius. */
+double font_filter_profile(const struct font_filter *f, double v);
 /* A term's density and integral at v, in double precision. */
 double font_term_density(const struct font_filter *f, int term, double v);
 double font_term_integral(const struct font_filter *f, int term, double v);

@@ -21,19 +21,6 @@ struct round_work {
     double rest[CELLS][CELLS];
 };
 
-static double radial(const struct font_filter *f, double q)
-{
-    if (q > 1)
-        return 0;
-    if (f->def.kind == FONT_PILLBOX)
-        return 1;
-    if (f->def.kind == FONT_CONE)
-        return 1 - q;
-    double at = q * (f->def.samples_count - 1);
-    int i = (int)fmin(floor(at), f->def.samples_count - 2);
-    return f->samples[i] + (at - i) * (f->samples[i + 1] - f->samples[i]);
-}
-
 /* Cells' mean values, of a quarter of f; returns the integral over all of it in cells. */
 static double cells_fill(const struct font_filter *f, struct round_work *w)
 {
@@ -43,8 +30,9 @@ static double cells_fill(const struct font_filter *f, struct round_work *w)
             double mean = 0;
             for (int a = 0; a < FINER; a++)
                 for (int b = 0; b < FINER; b++)
-                    mean +=
-                        radial(f, hypot(i + (a + 0.5) / FINER, j + (b + 0.5) / FINER) / CELLS);
+                    mean += font_filter_profile(
+                        f, f->radius / CELLS *
+                               hypot(i + (a + 0.5) / FINER, j + (b + 0.5) / FINER));
             mean /= FINER * FINER;
             w->a[i][j] = w->a[j][i] = mean;
             sum += i == j ? mean : 2 * mean;
@@ -162,10 +150,8 @@ enum font_status font_filter_decompose(struct font_filter *f)
                          f->name);
     }
     f->scale = 1 / (whole * cell * cell);
-    if (f->def.kind == FONT_PILLBOX)
-        f->scale = 1 / (M_PI * f->radius * f->radius);
-    if (f->def.kind == FONT_CONE)
-        f->scale = 3 / (M_PI * f->radius * f->radius);
+    if (f->def.kind->volume != 0)
+        f->scale = 1 / (f->def.kind->volume * f->radius * f->radius);
     for (int i = 0; i < CELLS; i++)
         for (int j = 0; j < CELLS; j++)
             w->a[i][j] /= whole;

@@ -470,10 +470,10 @@ static void filter_print(const struct font_filter_info *f)
         100 * f->ripple, 100 * f->undershoot);
     printf("of waves of two pixels %.1f%% are left, of waves of one %.1f%%\n",
            100 * f->response_nyquist, 100 * f->response_pixel);
-    if (f->nodes)
-        puts("edges are integrated at Gauss's nodes");
-    else
+    if (f->step_px > 0)
         printf("edges are integrated in steps of 1/%g pixel\n", 1 / f->step_px);
+    else
+        printf("edges are integrated %s\n", f->drawn);
 }
 
 static int filter_show(const struct font_verb *v)

@@ -93,9 +93,10 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     if (words.help) {
         puts("usage: lutetia type \"Text\" [options]\n");
         options_help(rows);
-        puts("\nFilters: box, pillbox, cone, gaussian-slow, gaussian-fast, mitchell, lanczos, "
-             "each "
-             "with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
+        fputs("\nFilters: ", stdout);
+        for (const char *const *name = font_filter_names(); *name; name++)
+            printf("%s, ", *name);
+        puts("each with :radius;\ngaussian:sigma,radius; samples:radius,s0,s1,.. and "
              "round:radius,s0,s1,.. from the centre outwards; @FILE reads such words from a "
              "file.\n--corners: where the text's "
              "upper "
