@@ -42,7 +42,10 @@ bool font_utf8_next(const char **text, const char *end, uint32_t *character)
     return true;
 }
 
-/* ---- faces for HarfBuzz ---- */
+/* ---- faces for HarfBuzz ----
+ *
+ * HarfBuzz reads OpenType's tables itself: characters, advances, kerning and extents take no outline. Type 1 fonts have no such
+ * tables; FreeType answers for them. */
 
 static hb_bool_t glyph_nominal(hb_font_t *font, void *data, hb_codepoint_t character,
                                hb_codepoint_t *glyph, void *user)
@@ -99,6 +102,20 @@ static hb_font_funcs_t *funcs_make(void)
     return funcs;
 }
 
+/* Whether the file has OpenType's tables of characters and advances. */
+static bool has_tables(hb_face_t *face)
+{
+    const hb_tag_t tags[] = {HB_TAG('c', 'm', 'a', 'p'), HB_TAG('h', 'm', 't', 'x'),
+                             HB_TAG('h', 'h', 'e', 'a')};
+    bool has = true;
+    for (int i = 0; i < 3; i++) {
+        hb_blob_t *blob = hb_face_reference_table(face, tags[i]);
+        has = has && hb_blob_get_length(blob) > 0;
+        hb_blob_destroy(blob);
+    }
+    return has;
+}
+
 /* Makes the HarfBuzz font, again if the face's axes were set since. */
 void font_shaped_refresh(struct font_shaped_face *f)
 {
@@ -114,8 +131,13 @@ void font_shaped_refresh(struct font_shaped_face *f)
     hb_face_t *face = hb_face_create(blob, (unsigned)info.index);
     hb_face_set_upem(face, (unsigned)info.units_per_em);
     f->hb = hb_font_create(face);
-    hb_font_funcs_t *funcs = funcs_make();
-    hb_font_set_funcs(f->hb, funcs, f->face, NULL);
+    if (has_tables(face)) {
+        hb_ot_font_set_funcs(f->hb);
+    } else {
+        hb_font_funcs_t *funcs = funcs_make();
+        hb_font_set_funcs(f->hb, funcs, f->face, NULL);
+        hb_font_funcs_destroy(funcs);
+    }
     hb_font_set_scale(f->hb, (int)info.units_per_em, (int)info.units_per_em);
     hb_variation_t variations[64];
     int n = 0;
@@ -127,7 +149,6 @@ void font_shaped_refresh(struct font_shaped_face *f)
     }
     if (n)
         hb_font_set_variations(f->hb, variations, (unsigned)n);
-    hb_font_funcs_destroy(funcs);
     hb_face_destroy(face);
     hb_blob_destroy(blob);
     f->units_per_em = info.units_per_em;

@@ -22,6 +22,7 @@ static const struct {
     {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
+    {"text", bench_text_main, "justified lines, beside Pango"},
     {"model", bench_model_main,
      "what the engine's cost model prefers, beside what it could have had"},
     {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},

@@ -100,6 +100,44 @@ static void type_1_fonts_kern_too(void **state)
 }
 
 /* Hebrew between Latin: seen in reverse, at its place. */
+/* HarfBuzz reads advances from OpenType's tables itself; FreeType must say the same, and of Type 1 it is asked. */
+static void advances_are_the_glyphs(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "DejaVuSans", "DejaVuSansMono", "EBGaramond12-Italic", "C059-Roman.otf",
+        "/usr/share/fonts/type1/urw-base35/NimbusSans-Regular.t1"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        struct font_face *face = face_open(names[n]);
+        struct font_face_info info;
+        struct font_shaper *s = shaper_make(face);
+        struct font_text_options alone = {.no_fallback = true};
+        font_face_describe(face, &info);
+        int seen = 0;
+        for (uint32_t c = 0x21; c < 0x500; c++) {
+            const char text[3] = {(char)(c < 0x80 ? c : 0xc0 | c >> 6),
+                                  (char)(c < 0x80 ? 0 : 0x80 | (c & 0x3f)), 0};
+            double advance;
+            /* Not marks, which move nothing once they are shaped. */
+            if ((c >= 0x300 && c < 0x370) || (c >= 0x483 && c < 0x48a) || c == 0xad ||
+                !font_face_glyph(face, c))
+                continue;
+            struct font_layout l = layout_make(s, text, &alone);
+            assert_int_equal(l.glyphs_count, 1);
+            assert_font(font_face_advance(face, l.glyphs[0].glyph, &advance));
+            bool mark = l.lines[0].width_px == 0; /* the font says so of some letters */
+            if (!mark && fabs(l.lines[0].width_px - advance * 20 / info.units_per_em) > 1e-6)
+                fail_msg("%s, U+%04X: %g px, not %g units", names[n], (unsigned)c,
+                         l.lines[0].width_px, advance);
+            font_layout_finish(&l);
+            seen += !mark;
+        }
+        assert_true(seen > 150);
+        font_shaper_destroy(s);
+        font_face_close(face);
+    }
+}
+
 static void right_to_left_is_turned(void **state)
 {
     (void)state;
@@ -362,6 +400,7 @@ int main(void)
         cmocka_unit_test(utf8_is_read_or_replaced),
         cmocka_unit_test(letters_kern_and_join),
         cmocka_unit_test(type_1_fonts_kern_too),
+        cmocka_unit_test(advances_are_the_glyphs),
         cmocka_unit_test(right_to_left_is_turned),
         cmocka_unit_test(what_the_face_has_not_is_found_or_said),
         cmocka_unit_test(nonsense_is_refused),

@@ -1,0 +1,19 @@
+/* text_pango.h - the same text set by Pango, for `lutetia bench text`; where Pango was there when this was built.
+ *
+ *     struct peer_pango *p = peer_pango_create("DejaVu Sans", 12, 400);
+ *     int lines = peer_pango_layout(p, text, bytes);     // set anew each time
+ *     peer_pango_destroy(p);
+ */
+#ifndef LUTETIA_BENCH_TEXT_PANGO_H
+#define LUTETIA_BENCH_TEXT_PANGO_H
+
+#include <stddef.h>
+
+struct peer_pango;
+/* NULL: no memory, or no Pango. */
+struct peer_pango *peer_pango_create(const char *family, double size_px, double width_px);
+void peer_pango_destroy(struct peer_pango *p); /* NULL is fine */
+/* Justified lines; returns how many. */
+int peer_pango_layout(struct peer_pango *p, const char *text, size_t bytes);
+
+#endif
