@@ -12,87 +12,14 @@
  * Spans come in pairs in every strip, whatever the outline: damaged ones cannot spill. If the winding number is
  * never but 0 or 1 (or never but 0 or -1) the outline covers nothing twice and stays as it is. Otherwise the parts
  * of pieces that are boundary are put together to parts of the curves they came from, and what differs between the
- * spans below a level and those above becomes a horizontal line. */
-#include "internal.h"
-#include "outline.h"
+ * spans below a level and those above becomes a horizontal line. What is put together so is first cut where its curves, not
+ * their pieces, cross (fill_cut.c): its corners are right at any size. */
+#include "fill_internal.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { PIECES_MAX = 400000, PAIRS_MAX = 20000000, PIECES_OF_SEGMENT_MAX = 64 };
-
-struct piece {
-    double x0, y0, x1, y1; /* y0 < y1 */
-    double t0, t1;         /* of the segment, at y0 and y1 */
-    int segment;
-    int direction; /* +1: the outline rises along it */
-};
-
-/* Part of a piece that is boundary, as the result runs through it. */
-struct portion {
-    double ta, tb;
-    struct font_point a, b;
-    int segment;
-};
-
-struct span_end {
-    double x;
-    int change;
-};
-
-/* A piece of a strip across which the filling changes. */
-struct bound {
-    const struct piece *piece;
-    bool entering;
-};
-
-struct work {
-    struct piece *pieces;
-    double *levels;
-    struct portion *portions;
-    struct font_segment *flat; /* horizontal lines */
-    struct span_end *ends;
-    int *active;
-    double *middles; /* of the active ones */
-    struct bound *bounds;
-    int pieces_count, pieces_capacity, levels_count, levels_capacity;
-    int portions_count, portions_capacity, flat_count, flat_capacity;
-    int ends_count, ends_capacity, active_capacity, middles_capacity, bounds_capacity;
-    int crossings;
-    double grid; /* heights are multiples of it, so that what is all but equal is equal */
-};
-
-static double height(const struct work *w, double y)
-{
-    return rint(y / w->grid) * w->grid;
-}
-
-/* What changes evenly along a piece, `low` at y0 and `high` at y1. */
-static double piece_between(const struct piece *p, double y, double low, double high)
-{
-    if (y <= p->y0)
-        return low;
-    if (y >= p->y1)
-        return high;
-    return low + (high - low) * ((y - p->y0) / (p->y1 - p->y0));
-}
-
-static double piece_x(const struct piece *p, double y)
-{
-    return piece_between(p, y, p->x0, p->x1);
-}
-
-static double piece_t(const struct piece *p, double y)
-{
-    return piece_between(p, y, p->t0, p->t1);
-}
-
-static enum font_status no_memory(void)
-{
-    return font_fail(FONT_NO_MEMORY, "no memory to fill an outline");
-}
 
 static int pieces_of(const struct font_segment *s, double tolerance)
 {
@@ -103,11 +30,11 @@ static int pieces_of(const struct font_segment *s, double tolerance)
     /* A curve leaves the chord by at most |second derivative| / 8 over n squared. */
     double second = s->degree == 3 ? 6 : 2;
     double n = ceil(sqrt(second * bend / 8 / tolerance));
-    return (int)fmax(1, fmin(n, PIECES_OF_SEGMENT_MAX));
+    return (int)fmax(1, fmin(n, FILL_PIECES_OF_SEGMENT_MAX));
 }
 
 /* fineness: curves leave their pieces by at most the outline's extent over that. */
-static enum font_status pieces_make(struct work *w, const struct font_outline *o,
+static enum font_status pieces_make(struct fill_work *w, const struct font_outline *o,
                                     double fineness)
 {
     struct font_box box = font_outline_box(o);
@@ -118,23 +45,23 @@ static enum font_status pieces_make(struct work *w, const struct font_outline *o
     for (int i = 0; i < o->segments_count; i++) {
         const struct font_segment *s = &o->segments[i];
         int n = s->degree == 1 ? 1 : pieces_of(s, tolerance);
-        if (w->pieces_count + n > PIECES_MAX)
+        if (w->pieces_count + n > FILL_PIECES_MAX)
             return font_fail(FONT_TOO_LARGE, "an outline has too many curves to fill");
         if (!array_reserve(&w->pieces, &w->pieces_capacity, w->pieces_count + n,
                            sizeof *w->pieces) ||
             !array_reserve(&w->levels, &w->levels_capacity, w->levels_count + 2 * n,
                            sizeof *w->levels))
-            return no_memory();
-        struct font_point a = {s->p[0].x, height(w, s->p[0].y)};
+            return fill_no_memory();
+        struct font_point a = {s->p[0].x, fill_height(w, s->p[0].y)};
         for (int k = 1; k <= n; k++) {
             double ta = (double)(k - 1) / n, tb = (double)k / n;
             struct font_point b = k == n ? s->p[s->degree] : font_segment_at(s, tb, NULL);
-            b.y = height(w, b.y);
+            b.y = fill_height(w, b.y);
             if (a.y != b.y) {
                 bool up = b.y > a.y;
                 w->pieces[w->pieces_count++] =
-                    up ? (struct piece){a.x, a.y, b.x, b.y, ta, tb, i, 1}
-                       : (struct piece){b.x, b.y, a.x, a.y, tb, ta, i, -1};
+                    up ? (struct fill_piece){a.x, a.y, b.x, b.y, ta, tb, i, 1}
+                       : (struct fill_piece){b.x, b.y, a.x, a.y, tb, ta, i, -1};
                 w->levels[w->levels_count++] = a.y;
                 w->levels[w->levels_count++] = b.y;
             }
@@ -144,39 +71,35 @@ static enum font_status pieces_make(struct work *w, const struct font_outline *o
     return FONT_OK;
 }
 
-static int pieces_compare(const void *a, const void *b)
-{
-    const struct piece *p = a, *q = b;
-    return (p->y0 > q->y0) - (p->y0 < q->y0);
-}
-
 static int levels_compare(const void *a, const void *b)
 {
     double p = *(const double *)a, q = *(const double *)b;
     return (p > q) - (p < q);
 }
 
-/* Where two pieces cross, as functions x(y). */
-static enum font_status crossing_find(struct work *w, const struct piece *p,
-                                      const struct piece *q)
+/* Where two pieces cross, as functions x(y). o: cuts are wanted; else levels. */
+static enum font_status crossing_find(struct fill_work *w, const struct font_outline *o,
+                                      const struct fill_piece *p, const struct fill_piece *q)
 {
     double low = fmax(p->y0, q->y0), high = fmin(p->y1, q->y1);
     if (high <= low)
         return FONT_OK;
-    double before = piece_x(p, low) - piece_x(q, low);
-    double after = piece_x(p, high) - piece_x(q, high);
+    double before = fill_piece_x(p, low) - fill_piece_x(q, low);
+    double after = fill_piece_x(p, high) - fill_piece_x(q, high);
     if (!(before * after < 0))
         return FONT_OK;
     w->crossings++;
-    if (!array_reserve(&w->levels, &w->levels_capacity, w->levels_count + 1, sizeof *w->levels))
-        return no_memory();
     double y = low + (high - low) * (before / (before - after));
-    w->levels[w->levels_count++] = height(w, fmin(fmax(y, low), high));
+    if (o)
+        return fill_crossing_cut(w, o, p, q, y);
+    if (!array_reserve(&w->levels, &w->levels_capacity, w->levels_count + 1, sizeof *w->levels))
+        return fill_no_memory();
+    w->levels[w->levels_count++] = fill_height(w, fmin(fmax(y, low), high));
     return FONT_OK;
 }
 
 /* Pieces are sorted by y0. active holds those that reach beyond the present one's y0. */
-static enum font_status crossings_find(struct work *w)
+static enum font_status crossings_find(struct fill_work *w, const struct font_outline *o)
 {
     int active_count = 0;
     int64_t pairs = 0;
@@ -185,24 +108,24 @@ static enum font_status crossings_find(struct work *w)
         !array_reserve(&w->middles, &w->middles_capacity, w->pieces_count + 1,
                        sizeof *w->middles) ||
         !array_reserve(&w->bounds, &w->bounds_capacity, w->pieces_count + 1, sizeof *w->bounds))
-        return no_memory();
+        return fill_no_memory();
     for (int i = 0; i < w->pieces_count; i++) {
-        const struct piece *p = &w->pieces[i];
+        const struct fill_piece *p = &w->pieces[i];
         double left = fmin(p->x0, p->x1), right = fmax(p->x0, p->x1);
         int kept = 0;
         for (int k = 0; k < active_count; k++) {
-            const struct piece *q = &w->pieces[w->active[k]];
+            const struct fill_piece *q = &w->pieces[w->active[k]];
             if (q->y1 <= p->y0)
                 continue;
             w->active[kept++] = w->active[k];
             if (fmax(q->x0, q->x1) < left || fmin(q->x0, q->x1) > right)
                 continue;
-            enum font_status status = crossing_find(w, p, q);
+            enum font_status status = crossing_find(w, o, p, q);
             if (status != FONT_OK)
                 return status;
         }
         pairs += kept;
-        if (pairs > PAIRS_MAX)
+        if (pairs > FILL_PAIRS_MAX)
             return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
         w->active[kept] = i;
         active_count = kept + 1;
@@ -215,38 +138,38 @@ static bool filled(int winding, enum font_fill rule)
     return rule == FONT_EVEN_ODD ? (winding & 1) != 0 : winding != 0;
 }
 
-static enum font_status portion_add(struct work *w, const struct piece *p, double low,
+static enum font_status portion_add(struct fill_work *w, const struct fill_piece *p, double low,
                                     double high, bool entering)
 {
     if (!array_reserve(&w->portions, &w->portions_capacity, w->portions_count + 1,
                        sizeof *w->portions))
-        return no_memory();
+        return fill_no_memory();
     /* The inside is on the right: up where it is entered, down where it is left. */
     double from = entering ? low : high, to = entering ? high : low;
-    w->portions[w->portions_count++] = (struct portion){piece_t(p, from),
-                                                        piece_t(p, to),
-                                                        {piece_x(p, from), from},
-                                                        {piece_x(p, to), to},
-                                                        p->segment};
+    w->portions[w->portions_count++] = (struct fill_portion){fill_piece_t(p, from),
+                                                             fill_piece_t(p, to),
+                                                             {fill_piece_x(p, from), from},
+                                                             {fill_piece_x(p, to), to},
+                                                             p->segment};
     return FONT_OK;
 }
 
-static enum font_status end_add(struct work *w, double x, int change)
+static enum font_status end_add(struct fill_work *w, double x, int change)
 {
     if (!array_reserve(&w->ends, &w->ends_capacity, w->ends_count + 1, sizeof *w->ends))
-        return no_memory();
+        return fill_no_memory();
     int at = w->ends_count++; /* nearly sorted as it comes */
     while (at > 0 && w->ends[at - 1].x > x) {
         w->ends[at] = w->ends[at - 1];
         at--;
     }
-    w->ends[at] = (struct span_end){x, change};
+    w->ends[at] = (struct fill_end){x, change};
     return FONT_OK;
 }
 
 /* The ends at a level are +1 and -1 for spans below it, the reverse for those above: where they do not cancel there
  * is a horizontal boundary. */
-static enum font_status level_close(struct work *w, double y)
+static enum font_status level_close(struct fill_work *w, double y)
 {
     int inside = 0;
     for (int i = 0; i + 1 < w->ends_count; i++) {
@@ -255,7 +178,7 @@ static enum font_status level_close(struct work *w, double y)
         /* More than one where a strip of no height has its pieces out of order: the boundary is closed all the same. */
         int times = to > from ? abs(inside) : 0;
         if (!array_reserve(&w->flat, &w->flat_capacity, w->flat_count + times, sizeof *w->flat))
-            return no_memory();
+            return fill_no_memory();
         struct font_segment line = {.degree = 1, .p = {{from, y}, {to, y}}};
         if (inside < 0) {
             line.p[0].x = to;
@@ -269,12 +192,12 @@ static enum font_status level_close(struct work *w, double y)
 }
 
 /* Sorts the active pieces by their middles. */
-static void strip_sort(struct work *w, int active_count, double low, double high)
+static void strip_sort(struct fill_work *w, int active_count, double low, double high)
 {
     double middle = low + (high - low) / 2;
     for (int i = 0; i < active_count; i++) {
         int piece = w->active[i];
-        double x = piece_x(&w->pieces[piece], middle);
+        double x = fill_piece_x(&w->pieces[piece], middle);
         int at = i;
         while (at > 0 && w->middles[at - 1] > x) {
             w->middles[at] = w->middles[at - 1];
@@ -287,34 +210,34 @@ static void strip_sort(struct work *w, int active_count, double low, double high
 }
 
 /* Closes the level at the strip's foot, and keeps what bounds it: portions, and the spans' ends at its head. */
-static enum font_status strip_bound(struct work *w, int active_count, double low, double high,
-                                    enum font_fill rule)
+static enum font_status strip_bound(struct fill_work *w, int active_count, double low,
+                                    double high, enum font_fill rule)
 {
     int winding = 0, bounds_count = 0;
     enum font_status status = FONT_OK;
     for (int i = 0; i < active_count && status == FONT_OK; i++) {
-        const struct piece *p = &w->pieces[w->active[i]];
+        const struct fill_piece *p = &w->pieces[w->active[i]];
         bool before = filled(winding, rule), after;
         winding += p->direction;
         after = filled(winding, rule);
         if (before == after)
             continue;
-        w->bounds[bounds_count++] = (struct bound){p, after};
-        status = end_add(w, piece_x(p, low), after ? -1 : 1);
+        w->bounds[bounds_count++] = (struct fill_bound){p, after};
+        status = end_add(w, fill_piece_x(p, low), after ? -1 : 1);
     }
     if (status == FONT_OK)
         status = level_close(w, low);
     for (int i = 0; i < bounds_count && status == FONT_OK; i++) {
-        const struct bound *b = &w->bounds[i];
+        const struct fill_bound *b = &w->bounds[i];
         status = portion_add(w, b->piece, low, high, b->entering);
         if (status == FONT_OK)
-            status = end_add(w, piece_x(b->piece, high), b->entering ? 1 : -1);
+            status = end_add(w, fill_piece_x(b->piece, high), b->entering ? 1 : -1);
     }
     return status;
 }
 
 /* Goes through the strips: the windings met, and with `boundary` portions and horizontal lines. */
-static enum font_status strips_pass(struct work *w, enum font_fill rule, bool boundary,
+static enum font_status strips_pass(struct fill_work *w, enum font_fill rule, bool boundary,
                                     int *least, int *most)
 {
     int active_count = 0, next = 0;
@@ -334,7 +257,7 @@ static enum font_status strips_pass(struct work *w, enum font_fill rule, bool bo
             return boundary ? level_close(w, low) : FONT_OK;
         double high = w->levels[k + 1];
         visits += active_count;
-        if (visits > PAIRS_MAX)
+        if (visits > FILL_PAIRS_MAX)
             return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
         strip_sort(w, active_count, low, high);
         if (boundary) {
@@ -353,7 +276,7 @@ static enum font_status strips_pass(struct work *w, enum font_fill rule, bool bo
 
 static int portions_compare(const void *a, const void *b)
 {
-    const struct portion *p = a, *q = b;
+    const struct fill_portion *p = a, *q = b;
     if (p->segment != q->segment)
         return p->segment < q->segment ? -1 : 1;
     bool p_back = p->tb < p->ta, q_back = q->tb < q->ta;
@@ -363,14 +286,15 @@ static int portions_compare(const void *a, const void *b)
 }
 
 /* Puts portions that follow each other on one curve together, and turns them into curves. */
-static enum font_status result_make(struct work *w, const struct font_outline *o,
+static enum font_status result_make(struct fill_work *w, const struct font_outline *o,
                                     struct font_outline *out)
 {
     if (w->portions_count)
         qsort(w->portions, (size_t)w->portions_count, sizeof *w->portions, portions_compare);
     int joined = 0;
     for (int i = 0; i < w->portions_count; i++) {
-        struct portion *p = &w->portions[i], *last = joined ? &w->portions[joined - 1] : NULL;
+        struct fill_portion *p = &w->portions[i],
+                            *last = joined ? &w->portions[joined - 1] : NULL;
         if (last && last->segment == p->segment && last->tb == p->ta &&
             (last->tb > last->ta) == (p->tb > p->ta) && last->ta != last->tb) {
             last->tb = p->tb;
@@ -383,9 +307,9 @@ static enum font_status result_make(struct work *w, const struct font_outline *o
     if (count > FONT_SEGMENTS_MAX)
         return font_fail(FONT_TOO_LARGE, "an outline is too tangled to fill");
     if (!array_reserve(&out->segments, &out->segments_capacity, count, sizeof *out->segments))
-        return no_memory();
+        return fill_no_memory();
     for (int i = 0; i < joined; i++) {
-        const struct portion *p = &w->portions[i];
+        const struct fill_portion *p = &w->portions[i];
         struct font_segment part = font_segment_part(&o->segments[p->segment], p->ta, p->tb);
         part.p[0] = p->a; /* where the pieces met: so that the boundary is closed */
         part.p[part.degree] = p->b;
@@ -399,7 +323,7 @@ static enum font_status result_make(struct work *w, const struct font_outline *o
     return FONT_OK;
 }
 
-static void levels_unique(struct work *w)
+static void levels_unique(struct fill_work *w)
 {
     qsort(w->levels, (size_t)w->levels_count, sizeof *w->levels, levels_compare);
     int kept = 0;
@@ -420,7 +344,7 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     if (o->prepared)
         return FONT_OK;
     enum font_status status = font_outline_close(o);
-    struct work w = {0};
+    struct fill_work w = {0};
     struct font_outline out = {0};
     int least = 0, most = 0;
     /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline is not seen, here or in
@@ -433,8 +357,18 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
         status = pieces_make(&w, o, fineness[pass]);
         if (status != FONT_OK || !w.pieces_count)
             break;
-        qsort(w.pieces, (size_t)w.pieces_count, sizeof *w.pieces, pieces_compare);
-        status = crossings_find(&w);
+        qsort(w.pieces, (size_t)w.pieces_count, sizeof *w.pieces, fill_pieces_compare);
+        /* What is rebuilt is cut where its curves cross; the cuts' own pieces may cross again. */
+        for (int n = 0; pass == 1 && n < FILL_CUTS_TIMES && status == FONT_OK; n++) {
+            w.cuts_count = 0;
+            status = crossings_find(&w, o);
+            if (status != FONT_OK || !w.cuts_count)
+                break;
+            status = fill_pieces_cut(&w);
+        }
+        w.crossings = 0;
+        if (status == FONT_OK)
+            status = crossings_find(&w, NULL);
         if (status != FONT_OK)
             break;
         levels_unique(&w);
@@ -472,5 +406,6 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     free(w.active);
     free(w.middles);
     free(w.bounds);
+    free(w.cuts);
     return status;
 }

@@ -466,9 +466,53 @@ static void axes_move_outlines(void **state)
     free(variable);
 }
 
+/* Two circles that are mirrored at x = 600 cross there: as exactly as doubles say, not as their pieces do. */
+static void corners_are_where_curves_cross(void **state)
+{
+    (void)state;
+    const double k = 0.5523 * 1000, r = 1000;
+    struct font_outline o = {0};
+    for (int side = 0; side < 2; side++) {
+        double x = side ? 1200 : 0, m = side ? -1 : 1; /* turned the same way */
+        assert_font(font_outline_move(&o, x + m * r, 0));
+        assert_font(font_outline_cubic(&o, x + m * r, k * m, x + m * k, r * m, x, r * m));
+        assert_font(font_outline_cubic(&o, x - m * k, r * m, x - m * r, k * m, x - m * r, 0));
+        assert_font(font_outline_cubic(&o, x - m * r, -k * m, x - m * k, -r * m, x, -r * m));
+        assert_font(font_outline_cubic(&o, x + m * k, -r * m, x + m * r, -k * m, x + m * r, 0));
+        assert_font(font_outline_close(&o));
+    }
+    o.units_per_em = 1000;
+    assert_font(font_outline_prepare(&o, FONT_NONZERO));
+    assert_true(o.rebuilt);
+    /* Where the left one's first quarter is there. */
+    const struct font_segment quarter = {3, 0, {{r, 0}, {r, k}, {k, r}, {0, r}}};
+    double low = 0, high = 1, y;
+    for (int n = 0; n < 60; n++) {
+        double middle = 0.5 * (low + high);
+        if (font_segment_at(&quarter, middle, NULL).x > 600)
+            low = middle;
+        else
+            high = middle;
+    }
+    y = font_segment_at(&quarter, low, NULL).y;
+    int corners = 0;
+    for (int i = 0; i < o.segments_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const struct font_segment *s = &o.segments[i];
+            struct font_point at = s->p[end ? s->degree : 0];
+            if (fabs(at.x - 600) > 1 || fabs(at.y) < 10)
+                continue;
+            assert_true(fabs(at.x - 600) < 1e-6 && fabs(fabs(at.y) - y) < 1e-6);
+            corners++;
+        }
+    assert_true(corners >= 4);
+    font_outline_finish(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(corners_are_where_curves_cross),
         cmocka_unit_test(simple_shapes_stay_as_they_are),
         cmocka_unit_test(overlaps_are_covered_once),
         cmocka_unit_test(nested_contours_of_one_turn_are_one),

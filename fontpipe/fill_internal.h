@@ -1,0 +1,104 @@
+/* fill_internal.h - what fill.c and fill_cut.c share. */
+#ifndef LUTETIA_FONT_FILL_INTERNAL_H
+#define LUTETIA_FONT_FILL_INTERNAL_H
+
+#include "internal.h"
+#include "outline.h"
+
+#include <math.h>
+
+enum {
+    FILL_CUTS_TIMES = 6,
+    FILL_PIECES_MAX = 400000,
+    FILL_PAIRS_MAX = 20000000,
+    FILL_PIECES_OF_SEGMENT_MAX = 64
+};
+
+struct fill_piece {
+    double x0, y0, x1, y1; /* y0 < y1 */
+    double t0, t1;         /* of the segment, at y0 and y1 */
+    int segment;
+    int direction; /* +1: the outline rises along it */
+};
+
+/* Part of a piece that is boundary, as the result runs through it. */
+struct fill_portion {
+    double ta, tb;
+    struct font_point a, b;
+    int segment;
+};
+
+struct fill_end {
+    double x;
+    int change;
+};
+
+/* Where a piece is to be cut: a point of its curve. */
+struct fill_cut {
+    int piece;
+    double t, x, y;
+};
+
+/* A piece of a strip across which the filling changes. */
+struct fill_bound {
+    const struct fill_piece *piece;
+    bool entering;
+};
+
+struct fill_work {
+    struct fill_piece *pieces;
+    double *levels;
+    struct fill_portion *portions;
+    struct font_segment *flat; /* horizontal lines */
+    struct fill_end *ends;
+    int *active;
+    double *middles; /* of the active ones */
+    struct fill_bound *bounds;
+    struct fill_cut *cuts;
+    int cuts_count, cuts_capacity;
+    int pieces_count, pieces_capacity, levels_count, levels_capacity;
+    int portions_count, portions_capacity, flat_count, flat_capacity;
+    int ends_count, ends_capacity, active_capacity, middles_capacity, bounds_capacity;
+    int crossings;
+    double grid; /* heights are multiples of it, so that what is all but equal is equal */
+};
+
+static inline double fill_height(const struct fill_work *w, double y)
+{
+    return rint(y / w->grid) * w->grid;
+}
+
+/* What changes evenly along a piece, `low` at y0 and `high` at y1. */
+static inline double fill_piece_between(const struct fill_piece *p, double y, double low,
+                                        double high)
+{
+    if (y <= p->y0)
+        return low;
+    if (y >= p->y1)
+        return high;
+    return low + (high - low) * ((y - p->y0) / (p->y1 - p->y0));
+}
+
+static inline double fill_piece_x(const struct fill_piece *p, double y)
+{
+    return fill_piece_between(p, y, p->x0, p->x1);
+}
+
+static inline double fill_piece_t(const struct fill_piece *p, double y)
+{
+    return fill_piece_between(p, y, p->t0, p->t1);
+}
+
+enum font_status fill_no_memory(void);
+/* For qsort: by y0. */
+int fill_pieces_compare(const void *a, const void *b);
+
+/* Notes that both pieces are cut where their curves cross, so that they meet there in one point; where that is on another piece,
+ * that both are halved, to be looked at again. y: where the pieces cross. Errors: NO_MEMORY. */
+enum font_status fill_crossing_cut(struct fill_work *w, const struct font_outline *o,
+                                   const struct fill_piece *p, const struct fill_piece *q,
+                                   double y);
+/* Cuts the pieces as noted, and begins the levels anew. Errors: TOO_LARGE, NO_MEMORY. */
+enum font_status fill_pieces_cut(struct fill_work *w);
+
+#endif
