@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define AT(member) offsetof(struct dyn_world, member)
-#define FAR_AWAY 1e6
+#define FAR_AWAY 1e5 /* of sides: well within the edges of the plane */
 
 const struct dyn_control dyn_controls[] = {
     {"gravity", "units/s2", -100, 100, 9.81, DYN_LINEAR, NULL, "pulls masses down",

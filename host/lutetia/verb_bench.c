@@ -23,6 +23,8 @@ static const struct {
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
     {"text", bench_text_main, "justified lines, beside Pango"},
+    {"springs", bench_springs_main,
+     "masses and springs, beside plain C, Chipmunk and Box2D"},
     {"model", bench_model_main,
      "what the engine's cost model prefers, beside what it could have had"},
     {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},

@@ -1,0 +1,166 @@
+/* test_bounds.c - no setting makes a network explode: every control by chance over all of its range, and its ends, 1,000 steps each.
+ *
+ *     test_springs_bounds                 some, as part of the tests
+ *     test_springs_bounds FIRST COUNT     settings FIRST to FIRST + COUNT - 1: all are different
+ *
+ * What is asserted, at every hundredth step:
+ *   - all places and speeds are finite; places are within the plane's edges, speeds within the speed limit along each axis;
+ *   - speeds are within GROWTH times (√(2 E / m) + g t + w), with E the energy that motion and springs had at first, m the
+ *     least mass, g the greatest acceleration by gravity, t the time, w the wind: what a network that only
+ *     loses energy has, but for what a step that is near the bound of stability lends it for a while. Not asserted where a side begins beyond
+ *     a mass, for it is put back by force.
+ * The thesis's step is none of the integrators here: it is kept as it was, and explodes. */
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <energy.h>
+#include <fields.h>
+#include <step.h>
+
+#include "sample.h"
+#include "scenes.h"
+
+enum { SOME = 60, STEPS = 1000, LOOKS = 10, MASSES_MOST = 8, SPRINGS_MOST = 14 };
+#define GROWTH 3.0
+
+static double any_of(uint64_t *state, const struct dyn_control *c)
+{
+    double most = isfinite(c->most) ? c->most : 1000, low;
+    switch (c->curve) {
+    case DYN_SWITCH:
+        return (double)(sample_word(state) % 2);
+    case DYN_CHOICE:
+        return (double)(sample_word(state) % 2); /* of integrators: not the thesis's */
+    case DYN_LINEAR:
+    case DYN_LOGARITHMIC:
+        break;
+    }
+    if (sample_word(state) % 8 == 0)
+        return sample_word(state) % 2 ? most : c->least;
+    if (c->curve == DYN_LINEAR)
+        return scene_chance(state, c->least, most);
+    low = c->least > 0 ? c->least : most * 1e-7;
+    return fmin(fmax(low * exp(scene_chance(state, 0, log(most / low))), c->least), most);
+}
+
+static void fields_fill(uint64_t *state, const struct dyn_control *fields, int first, int count,
+                        void *of)
+{
+    for (int i = first; i < count; i++)
+        scene_must(dyn_control_write(&fields[i], of, any_of(state, &fields[i])));
+}
+
+/* near: sides and what each mass and spring has are moderate, so that the second bound holds. */
+static struct dyn_network *setting(uint64_t *state, bool near)
+{
+    struct dyn_network *n;
+    struct dyn_world w;
+    scene_must(dyn_network_create(&n));
+    fields_fill(state, dyn_controls, 0, dyn_controls_count, &w);
+    if (near) {
+        w.floor = scene_chance(state, -4, 0);
+        w.ceiling = scene_chance(state, 4, 8);
+        w.left = scene_chance(state, -4, 0);
+        w.right = scene_chance(state, 4, 8);
+    }
+    scene_must(dyn_network_world_set(n, &w));
+    int masses = 2 + (int)(sample_word(state) % (MASSES_MOST - 1));
+    int springs = 1 + (int)(sample_word(state) % SPRINGS_MOST);
+    for (int i = 0; i < masses; i++) {
+        struct dyn_mass mass = dyn_mass_usual();
+        if (near)
+            mass.mass = exp(scene_chance(state, log(0.01), log(100)));
+        else
+            fields_fill(state, dyn_mass_fields, 4, dyn_mass_fields_count, &mass);
+        mass.x = scene_chance(state, 0, 4);
+        mass.y = scene_chance(state, 0, 4);
+        mass.vx = scene_chance(state, -3, 3);
+        mass.vy = scene_chance(state, -3, 3);
+        mass.hold = sample_word(state) % 6 == 0 ? DYN_STUCK : DYN_FREE;
+        scene_must(dyn_mass_add(n, &mass, NULL));
+    }
+    for (int i = 0; i < springs; i++) {
+        struct dyn_spring spring = dyn_spring_usual();
+        if (near) {
+            spring.constant = exp(scene_chance(state, log(1), log(1e4)));
+            spring.damping = exp(scene_chance(state, log(0.01), log(100)));
+            spring.rest_length = scene_chance(state, 0, 4);
+        } else {
+            fields_fill(state, dyn_spring_fields, 0, dyn_spring_fields_count, &spring);
+        }
+        int a = (int)(sample_word(state) % (uint64_t)masses);
+        spring.end[0] = a;
+        spring.end[1] = (a + 1 + (int)(sample_word(state) % (uint64_t)(masses - 1))) % masses;
+        scene_must(dyn_spring_add(n, &spring, NULL));
+    }
+    return n;
+}
+
+static double least_mass(const struct dyn_network *n)
+{
+    double least = INFINITY;
+    for (int i = 0; i < dyn_masses_count(n); i++)
+        least = fmin(least, dyn_mass_get(n, i).mass);
+    return least * dyn_network_world(n)->mass;
+}
+
+/* The greatest speed over what the second bound allows it. */
+static double look(uint64_t setting_number, const struct dyn_network *n, double lent, double t)
+{
+    const struct dyn_world *w = dyn_network_world(n);
+    double allowed = lent + fabs(w->gravity) * t + hypot(w->wind_x, w->wind_y), most = 0;
+    for (int i = 0; i < dyn_masses_count(n); i++) {
+        const struct dyn_state *s = &dyn_network_states(n)[i];
+        bool fine = fabs(s->x) <= 1e6 && fabs(s->y) <= 1e6 && fabs(s->vx) <= w->speed_limit &&
+                    fabs(s->vy) <= w->speed_limit;
+        if (!fine) {
+            printf("setting %llu: mass %d is at (%g, %g), speed (%g, %g)\n",
+                   (unsigned long long)setting_number, i, s->x, s->y, s->vx, s->vy);
+            exit(EXIT_FAILURE);
+        }
+        most = fmax(most, hypot(s->vx, s->vy) / allowed);
+    }
+    return most;
+}
+
+static double one(uint64_t number)
+{
+    /* long steps have many parts: most settings take shorter ones */
+    static const double rates[] = {1.0 / 60,   1.0 / 240,  1.0 / 1000, 1.0 / 1000,
+                                   1.0 / 4000, 1.0 / 4000, 1.0 / 4000, 1.0 / 4000};
+    uint64_t state = sample_mixed(number);
+    bool near = number % 4 > 0;
+    struct dyn_network *n = setting(&state, near);
+    struct dyn_energy e = dyn_network_energy(n);
+    double lent = sqrt(2 * (e.motion + e.springs) / least_mass(n)), most = 0;
+    double dt = rates[sample_word(&state) % 8];
+    for (int i = 1; i <= LOOKS; i++) {
+        scene_must(dyn_network_step(n, dt, STEPS / LOOKS));
+        double grown = look(number, n, lent, dt * STEPS / LOOKS * i);
+        most = near ? fmax(most, grown) : 0;
+    }
+    if (most > GROWTH) {
+        printf("setting %llu: speeds are %g times what they should be\n",
+               (unsigned long long)number, most);
+        exit(EXIT_FAILURE);
+    }
+    dyn_network_destroy(n);
+    return most;
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t first = argc > 1 ? strtoull(argv[1], NULL, 10) : 0;
+    uint64_t count = argc > 2 ? strtoull(argv[2], NULL, 10) : SOME;
+    double most = 0;
+    for (uint64_t i = first; i < first + count; i++)
+        most = fmax(most, one(i));
+    printf("%llu settings, 1000 steps each: speeds at most %.3f times what energy allows (%.1f "
+           "is asserted)\n",
+           (unsigned long long)count, most, GROWTH);
+    return EXIT_SUCCESS;
+}
