@@ -258,6 +258,11 @@ int dyn_word_letter_at(const struct dyn_word *word, const struct dyn_network *n,
 
 /* ---- changes ---- */
 
+struct dyn_word_style dyn_word_style_get(const struct dyn_word *word)
+{
+    return word->style;
+}
+
 enum dyn_status dyn_word_style_set(struct dyn_word *word, struct dyn_network *n,
                                    const struct dyn_word_style *style)
 {

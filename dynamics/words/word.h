@@ -131,6 +131,7 @@ struct dyn_word_range {
 struct dyn_word_range dyn_word_range(const struct dyn_word *word);
 enum dyn_part dyn_word_part(const struct dyn_word *word, int index);
 
+struct dyn_word_style dyn_word_style_get(const struct dyn_word *word);
 /* Gives masses and springs that style; box and tacks stay. Errors: BAD_ARGUMENT. */
 enum dyn_status dyn_word_style_set(struct dyn_word *word, struct dyn_network *n,
                                    const struct dyn_word_style *style);

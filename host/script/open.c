@@ -20,6 +20,10 @@ const struct script_functions script_functions[] = {
     {script_paper_type, script_picture_paper_methods, false},
     {script_brush_type, script_brush_methods, false},
     {script_picture_type, script_picture_methods, false},
+    {script_spring_type, script_spring_makers, false},
+    {script_spring_type, script_spring_word_makers, false},
+    {script_network_type, script_network_methods, false},
+    {script_network_type, script_network_word_methods, false},
     {NULL, NULL, false}};
 
 /* A type's metatable has its methods as __index, be it a table or, for papers, the upvalue of a function. */
@@ -46,6 +50,7 @@ int script_open(lua_State *L)
     script_brush_open(L);
     script_stroke_open(L);
     script_picture_open(L);
+    script_springs_open(L);
     for (const struct script_functions *f = script_functions; f->functions; f++)
         functions_open(L, f);
     return 0;

@@ -3,7 +3,8 @@
 
 const char script_mask_type[] = "lutetia mask", script_papers_type[] = "lutetia papers",
            script_paper_type[] = "lutetia paper", script_brush_type[] = "lutetia brush",
-           script_picture_type[] = "lutetia picture";
+           script_picture_type[] = "lutetia picture", script_spring_type[] = "lutetia spring",
+           script_network_type[] = "lutetia network";
 
 void script_type_open(lua_State *L, const char *name, lua_CFunction gc)
 {

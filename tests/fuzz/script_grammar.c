@@ -15,7 +15,7 @@ enum { STATEMENTS_MAX = 14, DEPTH_MAX = 4 };
 /* What a function takes, a letter an argument:
  *   n number   i small whole number   b boolean   c two numbers   m mask   q picture   A amounts   O options   U a stroke's options
  *   L layer   l a layer's value   P pigment   W substance   f function   t corners   D path   S text   s a picture's file
- *   h a paper's file   r render's numbers   v anything */
+ *   h a paper's file   r render's numbers   C a control of springs   v anything */
 static const struct {
     const char *of, *name, *takes;
     const char *options; /* key:letter, for an O */
@@ -92,6 +92,41 @@ static const struct {
     {"brush", "wipe", "n", ""},
     {"brush", "holds", "W", ""},
     {"picture", "size", "", ""},
+    {"spring", "network", "S", ""},
+    {"spring", "word", "O",
+     "text:S font:S size:n x:n y:n width:n align:S features:S preset:S path:t circle:v side:n "
+     "link:n letter_mass:n box:S tack:S link_breaking:n gravity:n stiffness:n integrator:i"},
+    {"network", "word", "O", "text:S size:n x:n y:n preset:S path:t side:n damping_ratio:n"},
+    {"network", "hang", "ii", ""},
+    {"network", "letters", "", ""},
+    {"network", "letter", "i", ""},
+    {"network", "mask", "O", "scale:n x:n y:n"},
+    {"network", "mass", "O", "x:n y:n vx:n vy:n mass:n drag:n gravity:n friction:n stuck:b"},
+    {"network", "spring", "iiO", "constant:n rest_length:n damping:n breaking_strain:n"},
+    {"network", "place", "i", ""},
+    {"network", "masses", "", ""},
+    {"network", "springs", "", ""},
+    {"network", "ends", "i", ""},
+    {"network", "nearest", "nnn", ""},
+    {"network", "time", "", ""},
+    {"network", "energy", "", ""},
+    {"network", "save", "S", ""},
+    {"network", "set", "Cn", ""},
+    {"network", "get", "C", ""},
+    {"network", "set_mass", "iCn", ""},
+    {"network", "set_spring", "iCn", ""},
+    {"network", "hold", "inn", ""},
+    {"network", "clamp", "inn", ""},
+    {"network", "release", "i", ""},
+    {"network", "tack", "i", ""},
+    {"network", "untack", "i", ""},
+    {"network", "pull", "innn", ""},
+    {"network", "cut", "innn", ""},
+    {"network", "pluck", "in", ""},
+    {"network", "collide", "b", ""},
+    {"network", "events", "", ""},
+    {"network", "on", "f", ""},
+    {"network", "step", "in", ""},
 };
 enum { GRAMMAR_COUNT = sizeof grammar / sizeof *grammar };
 
@@ -310,6 +345,10 @@ static const struct {
     {'r', false, {"1", "1", "2, 1", "0.9, 2"}},
     {'b', false, {"true", "false"}},
     {'q', false, {"I", "I", "I", "p:picture()"}},
+    {'C',
+     true,
+     {"gravity", "stiffness", "floor_on", "integrator", "restitution", "side", "mass", "x",
+      "constant", "rest_length", "tack", "none"}},
 };
 
 static bool listed(struct script_source *s, char what)
@@ -387,6 +426,10 @@ static void call(struct script_source *s, int depth)
         say(s, "used(%s):%s(", ONE_OF(s, papers), name);
     else if (of && strcmp(of, "papers") == 0)
         say(s, "paper%s%s(", name[0] == '_' ? "" : ".", name[0] == '_' ? "" : name);
+    else if (of && strcmp(of, "spring") == 0)
+        say(s, "spring.%s(", name);
+    else if (of && strcmp(of, "network") == 0)
+        say(s, "W:%s(", name);
     else if (of)
         say(s, "%s:%s(",
             strcmp(of, "mask") == 0    ? (script_byte(s) % 2 ? "M" : "N")
@@ -414,7 +457,7 @@ static void call(struct script_source *s, int depth)
 
 static void statement(struct script_source *s, int depth)
 {
-    static const char *const kept[] = {"M", "N", "I", "V", "K", "B"};
+    static const char *const kept[] = {"M", "N", "I", "V", "K", "B", "W"};
     static const char *const collections[] = {
         "collectgarbage() ", "collectgarbage('step', 100) ", "collectgarbage('generational') ",
         "collectgarbage('incremental', 1, 1000) ", "collectgarbage('setpause', 0) "};
@@ -515,7 +558,8 @@ const char *script_by_chance(struct script_source *s)
         "function ready() if not open(p) then reopen() end if not open(P) then anew() end end\n"
         "ready() T = p M, N, E = rect(1, 1, 5, 4), ellipse(4, 5, 3):soften(1), rect(0, 0, 0, "
         "0)\n"
-        "I = picture(3, 2, function(x, y) return x / 3, y / 2, 0.5 end)\n");
+        "I = picture(3, 2, function(x, y) return x / 3, y / 2, 0.5 end) "
+        "W = spring.word{text = 'ab', y = 1, link_breaking = 0.2}\n");
     for (int i = 0; i < STATEMENTS_MAX && s->at < s->end; i++) {
         statement(s, 0);
         say(s, "pcall(ready)\n");

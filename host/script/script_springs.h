@@ -1,0 +1,41 @@
+/* script_springs.h - a script's networks of masses and springs: what the files of their methods share. */
+#ifndef LUTETIA_SCRIPT_SPRINGS_H
+#define LUTETIA_SCRIPT_SPRINGS_H
+
+#include "script_internal.h"
+
+#include <paint.h>
+#include <word.h>
+
+enum { SCRIPT_WORDS_OF_NETWORK = 256, SCRIPT_FONTS_OF_NETWORK = 16 };
+
+struct script_font {
+    char name[128];
+    struct font_face *face;
+    struct font_shaper *shaper;
+};
+
+struct script_network {
+    struct script *script;
+    struct dyn_network *network;
+    struct dyn_word *words[SCRIPT_WORDS_OF_NETWORK];
+    struct script_font fonts[SCRIPT_FONTS_OF_NETWORK];
+    struct font_painter *painter; /* NULL until it is needed */
+    int words_count, fonts_count;
+    bool collide;
+    double bytes;
+};
+
+/* Pushes one with an empty network. */
+struct script_network *script_network_new(lua_State *L);
+struct script_network *script_network_at(lua_State *L, int index);
+/* Raises an error with what the library says. */
+void script_dyn_check(lua_State *L, enum dyn_status status);
+/* Counts what the network has taken since. */
+void script_network_count(lua_State *L, struct script_network *s);
+/* The value on the top, for a control: a number, a text or a boolean; it is popped. */
+double script_control_pop(lua_State *L, const struct dyn_control *control);
+/* Sets a control of the world or of all words' styles. */
+void script_network_set(lua_State *L, struct script_network *s, const char *name, int index);
+
+#endif

@@ -1,0 +1,133 @@
+/* test_springs.c - networks and springy words in scripts. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <unistd.h>
+
+#include "scripted.h"
+
+static void prints(const char *text, const char *want)
+{
+    struct scripted s = {.config = scripted_config()};
+    enum script_status status = scripted_run(&s, text);
+    if (status != SCRIPT_OK)
+        fail_msg("%s", s.errors);
+    assert_string_equal(s.prints, want);
+}
+
+static void fails(const char *text, const char *want)
+{
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(scripted_run(&s, text), SCRIPT_FAILED);
+    if (!strstr(s.errors, want))
+        fail_msg("\"%s\" instead of \"%s\"", s.errors, want);
+}
+
+static void masses_fall_and_springs_hold(void **state)
+{
+    (void)state;
+    prints("local n = spring.network() n:set('drag', 0) n:set('floor_on', false)\n"
+           "local a, b = n:mass{y = 2, stuck = true}, n:mass{y = 1, mass = 2}\n"
+           "local s = n:spring(a, b, {constant = 1000, damping = 50})\n"
+           "n:step(240 * 20) local x, y = n:place(b)\n"
+           "print(a, b, s, n:masses(), n:springs(), ('%.2f %.3f'):format(n:time(), 2 - "
+           "math.sqrt(x^2 + (y - 2)^2)))\n"
+           "n:cut(s) n:step(24) print(select(3, n:ends(s)), select(2, n:place(b)) < y)",
+           "1\t2\t1\t2\t1\t20.00 0.980\nfalse\ttrue\n");
+}
+
+static void events_are_told_and_listed(void **state)
+{
+    (void)state;
+    prints(
+        "local n = spring.network() local m, heard = n:mass{y = 1}, {}\n"
+        "n:on(function(e) heard[#heard + 1] = ('%s %d %d'):format(e.kind, e.mass, e.velocity) "
+        "end)\n"
+        "n:step(240) print(#heard > 0, heard[1]) n:on(nil) n:tack(m)\n"
+        "local e = n:events() print(#e, e[1].kind, e[1].mass) print(#n:events())",
+        "true\tclank 1 53\n1\tclick\t1\n0\n");
+    fails(
+        "local n = spring.network() n:mass{y = 0.01, vy = -5} n:on(function() error('no') end) "
+        "n:step(9)",
+        "no");
+}
+
+static void words_are_made_of_letters(void **state)
+{
+    (void)state;
+    prints("local w = spring.word{text = 'wet ink', preset = 'stiff', side = 1234, gravity = "
+           "3, y = "
+           "2}\n"
+           "print(w:letters(), w:masses(), w:springs(), w:letter(2))\n"
+           "print(w:get('gravity'), w:word{text = 'on', x = 9, y = 2}, w:letters())\n"
+           "local m = w:mask{scale = 20, x = 5, y = 60} local x, y, wide, high = m:bounds()\n"
+           "print(x >= 0 and x < 12, wide > 180 and wide < 250, high > 10 and high < 30)\n"
+           "w:step(240) local _, y2 = w:mask{scale = 20, x = 5, y = 60}:bounds() print(y2 > y)",
+           "6\t24\t46\t5\t6\t7\t8\n3.0\t2\t8\ntrue\ttrue\ttrue\ntrue\n");
+}
+
+static void networks_are_saved_and_read(void **state)
+{
+    (void)state;
+    prints("local w = spring.word{text = 'a', y = 2} w:step(30) w:save('a.springs')\n"
+           "local n = spring.network('a.springs') w:step(60) n:step(60)\n"
+           "local x, y = w:place(1) local x2, y2 = n:place(1) print(x == x2, y == y2)",
+           "true\ttrue\n");
+    fails("spring.network('../a.springs')", "network");
+    fails("spring.word{text = 'a'}:save('a.txt')", ".springs");
+}
+
+static void what_cannot_be_is_one_line(void **state)
+{
+    (void)state;
+    static const char *const bad[][2] = {
+        {"spring.word{text = '  '}", "has ink"},
+        {"spring.word{}", "word text must be a text"},
+        {"spring.word{text = 'a', sise = 2}", "word has no 'sise'"},
+        {"spring.word{text = 'a', side = -1}", "side must be 0..1e+06 kg/s2 (got -1)"},
+        {"spring.word{text = 'a', preset = 'soup'}",
+         "there is no preset 'soup'; there are stiff"},
+        {"spring.word{text = 'a', tack = 'all'}", "none of: none first ends top bottom"},
+        {"spring.word{text = 'a', font = '/etc/passwd'}", "must be a font's name"},
+        {"spring.word{text = 'a', path = {{1, 2}}}", "word path must be 2..10000 points"},
+        {"spring.network():set('gravy', 1)", "there is no control 'gravy'; there are gravity"},
+        {"spring.network():place(1)", "a mass's number must be a whole number in 1..0"},
+        {"spring.network():step(-1)", "the count of steps must be a whole number"},
+        {"local n = spring.network() n:mass{mass = 0}", "mass must be 1e-06..1e+06 kg (got 0)"},
+        {"local n = spring.network() local a = n:mass{} n:spring(a, a)",
+         "a spring cannot go from mass 1 to itself"},
+        {"local n = spring.network() for i = 1, 1e9 do n:mass{} end", "memory"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        fails(bad[i][0], bad[i][1]);
+}
+
+/* A word's letters are screened into a sheet as they are: ink where the mask is. */
+static void words_wet_a_paper(void **state)
+{
+    (void)state;
+    prints(
+        "local w = spring.word{text = 'II', y = 0, box = 'ink'}\n"
+        "local p = paper{width = 64, height = 48, pigments = {'cyan'}, model = {'infused'}}\n"
+        "p:put(w:mask{scale = 40, x = 8, y = 40}, {water = 0.5}) print(p:total('water') > 20)\n"
+        "w:set_mass(nil, 'vx', 1000) w:step(240)\n"
+        "p:put(w:mask{scale = 40, x = 8, y = 40}, {water = 0.5}) print(p:total('water') < 200)",
+        "true\ntrue\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masses_fall_and_springs_hold),
+        cmocka_unit_test(events_are_told_and_listed),
+        cmocka_unit_test(words_are_made_of_letters),
+        cmocka_unit_test(networks_are_saved_and_read),
+        cmocka_unit_test(what_cannot_be_is_one_line),
+        cmocka_unit_test(words_wet_a_paper),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
