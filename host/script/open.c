@@ -24,6 +24,7 @@ const struct script_functions script_functions[] = {
     {script_spring_type, script_spring_word_makers, false},
     {script_network_type, script_network_methods, false},
     {script_network_type, script_network_word_methods, false},
+    {script_network_type, script_network_key_methods, false},
     {NULL, NULL, false}};
 
 /* A type's metatable has its methods as __index, be it a table or, for papers, the upvalue of a function. */

@@ -192,7 +192,7 @@ extern const luaL_Reg script_sandbox_functions[], script_mask_makers[], script_m
     script_stroke_methods[], script_stroke_functions[], script_technique_methods[],
     script_picture_paper_methods[], script_picture_functions[], script_picture_methods[],
     script_spring_makers[], script_spring_word_makers[], script_network_methods[],
-    script_network_word_methods[];
+    script_network_word_methods[], script_network_key_methods[];
 
 /* All of them: what a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

@@ -4,6 +4,7 @@
 
 #include "script_internal.h"
 
+#include <clamps.h>
 #include <paint.h>
 #include <word.h>
 
@@ -21,14 +22,17 @@ struct script_network {
     struct dyn_word *words[SCRIPT_WORDS_OF_NETWORK];
     struct script_font fonts[SCRIPT_FONTS_OF_NETWORK];
     struct font_painter *painter; /* NULL until it is needed */
+    struct dyn_clamps *clamps;    /* NULL: no keys */
     int words_count, fonts_count;
     bool collide;
-    double bytes;
+    double bytes, keys_bytes;
 };
 
 /* Pushes one with an empty network. */
 struct script_network *script_network_new(lua_State *L);
 struct script_network *script_network_at(lua_State *L, int index);
+/* The mass whose number is at the argument, from 0. */
+int script_network_mass_at(lua_State *L, const struct script_network *s, int index);
 /* Raises an error with what the library says. */
 void script_dyn_check(lua_State *L, enum dyn_status status);
 /* Counts what the network has taken since. */

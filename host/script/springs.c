@@ -33,8 +33,9 @@ static int network_gc(lua_State *L)
         font_face_close(s->fonts[i].face);
     }
     font_painter_destroy(s->painter);
+    dyn_clamps_destroy(s->clamps);
     dyn_network_destroy(s->network);
-    script_memory_give(s->script, s->bytes);
+    script_memory_give(s->script, s->bytes + s->keys_bytes);
     *s = (struct script_network){.script = s->script};
     return 0;
 }
@@ -69,7 +70,7 @@ void script_network_count(lua_State *L, struct script_network *s)
 
 /* ---- numbers ---- */
 
-static int mass_at(lua_State *L, const struct script_network *s, int index)
+int script_network_mass_at(lua_State *L, const struct script_network *s, int index)
 {
     return (int)script_arg_count(L, index, "a mass's number", 0, 1,
                                  dyn_masses_count(s->network)) -
@@ -204,7 +205,7 @@ static int network_spring(lua_State *L)
     struct script_network *s = script_network_at(L, 1);
     struct dyn_spring spring = dyn_spring_usual();
     for (int i = 0; i < 2; i++)
-        spring.end[i] = mass_at(L, s, 2 + i);
+        spring.end[i] = script_network_mass_at(L, s, 2 + i);
     if (spring.end[0] == spring.end[1])
         luaL_error(L, "a spring cannot go from mass %d to itself", spring.end[0] + 1);
     script_arg_options(L, 4, "spring", keys);
@@ -222,7 +223,8 @@ static int network_spring(lua_State *L)
 static int network_place(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    const struct dyn_state *state = &dyn_network_states(s->network)[mass_at(L, s, 2)];
+    const struct dyn_state *state =
+        &dyn_network_states(s->network)[script_network_mass_at(L, s, 2)];
     lua_pushnumber(L, state->x);
     lua_pushnumber(L, state->y);
     lua_pushnumber(L, state->vx);
@@ -328,7 +330,7 @@ static int network_set_mass(lua_State *L)
 {
     lua_settop(L, 4);
     const struct script_network *s = script_network_at(L, 1);
-    int index = lua_isnil(L, 2) ? DYN_ALL : mass_at(L, s, 2);
+    int index = lua_isnil(L, 2) ? DYN_ALL : script_network_mass_at(L, s, 2);
     const struct dyn_control *field = dyn_mass_field_find(luaL_checkstring(L, 3));
     if (!field)
         luaL_error(L, "%s", dyn_error());
@@ -353,7 +355,7 @@ static int network_set_spring(lua_State *L)
 static int network_hold(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    int mass = mass_at(L, s, 2);
+    int mass = script_network_mass_at(L, s, 2);
     script_dyn_check(L, dyn_mass_hold(s->network, mass, place_at(L, 3, "hold's x"),
                                       place_at(L, 4, "hold's y")));
     return 0;
@@ -362,7 +364,7 @@ static int network_hold(lua_State *L)
 static int network_clamp(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    int mass = mass_at(L, s, 2);
+    int mass = script_network_mass_at(L, s, 2);
     script_dyn_check(L, dyn_mass_clamp(s->network, mass, place_at(L, 3, "clamp's x"),
                                        place_at(L, 4, "clamp's y")));
     return 0;
@@ -372,7 +374,7 @@ static int network_clamp(lua_State *L)
 static int network_release(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    int mass = mass_at(L, s, 2);
+    int mass = script_network_mass_at(L, s, 2);
     script_dyn_check(L, dyn_mass_release(s->network, mass));
     script_dyn_check(L, dyn_pull_end(s->network, mass));
     return 0;
@@ -381,14 +383,14 @@ static int network_release(lua_State *L)
 static int network_tack(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    script_dyn_check(L, dyn_mass_tack(s->network, mass_at(L, s, 2)));
+    script_dyn_check(L, dyn_mass_tack(s->network, script_network_mass_at(L, s, 2)));
     return 0;
 }
 
 static int network_untack(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
-    script_dyn_check(L, dyn_mass_untack(s->network, mass_at(L, s, 2)));
+    script_dyn_check(L, dyn_mass_untack(s->network, script_network_mass_at(L, s, 2)));
     return 0;
 }
 
@@ -397,7 +399,7 @@ static int network_pull(lua_State *L)
 {
     lua_settop(L, 5);
     const struct script_network *s = script_network_at(L, 1);
-    int mass = mass_at(L, s, 2);
+    int mass = script_network_mass_at(L, s, 2);
     double x = place_at(L, 3, "pull's x"), y = place_at(L, 4, "pull's y");
     double constant = lua_isnil(L, 5) ? 200 : script_arg_at(L, 5, "pull's constant", 0, 1e9);
     script_dyn_check(L, dyn_pull_begin(s->network, mass, x, y, constant));
@@ -517,7 +519,8 @@ static int network_step(lua_State *L)
     bool told = lua_getiuservalue(L, 1, 1) == LUA_TFUNCTION;
     for (; count > 0; count--) {
         script_check(L);
-        script_dyn_check(L, dyn_network_step(s->network, dt, 1));
+        script_dyn_check(L, s->clamps ? dyn_clamps_step(s->clamps, s->network, dt, 1)
+                                      : dyn_network_step(s->network, dt, 1));
         if (s->collide)
             script_dyn_check(L, dyn_words_collide(s->network,
                                                   (const struct dyn_word *const *)s->words,

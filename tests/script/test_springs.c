@@ -70,6 +70,18 @@ static void words_are_made_of_letters(void **state)
            "6\t24\t46\t5\t6\t7\t8\n3.0\t2\t8\ntrue\ttrue\ttrue\ntrue\n");
 }
 
+static void masses_are_led_along_keys(void **state)
+{
+    (void)state;
+    prints("local n = spring.network() n:set('gravity', 0) n:set('drag', 0) local m = n:mass{y "
+           "= 1}\n"
+           "n:key(m, 0, 0, 1) n:key(m, 1, 2, 3) n:key(m, 2, 4, 5) n:free(m, 2.01)\n"
+           "n:step(240) print(('%.9f %.9f'):format(n:place(m)))\n"
+           "n:step(240 * 2) local x, y, vx = n:place(m) print(vx, x > 5.9)",
+           "2.000000000 3.000000000\n2.0\ttrue\n");
+    fails("spring.network():keys('none.clamps')", "cannot be read");
+}
+
 static void networks_are_saved_and_read(void **state)
 {
     (void)state;
@@ -125,6 +137,7 @@ int main(void)
         cmocka_unit_test(masses_fall_and_springs_hold),
         cmocka_unit_test(events_are_told_and_listed),
         cmocka_unit_test(words_are_made_of_letters),
+        cmocka_unit_test(masses_are_led_along_keys),
         cmocka_unit_test(networks_are_saved_and_read),
         cmocka_unit_test(what_cannot_be_is_one_line),
         cmocka_unit_test(words_wet_a_paper),
