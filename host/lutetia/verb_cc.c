@@ -11,6 +11,7 @@
 
 #include <output_file.h>
 
+#include <elf.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -160,6 +161,31 @@ static int compiler_run(const struct compiler_line *line)
     return WEXITSTATUS(status);
 }
 
+/* Linkers do not always notice that the disk was full: all that the program's header tells of must be in it. */
+static bool program_whole(int program)
+{
+    struct stat made;
+    Elf64_Ehdr head;
+    if (fstat(program, &made) != 0 || made.st_size == 0)
+        return false;
+    if (pread(program, &head, sizeof head, 0) != (ssize_t)sizeof head ||
+        memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_ident[EI_CLASS] != ELFCLASS64)
+        return true; /* of a kind that we do not know */
+    uint64_t size = (uint64_t)made.st_size;
+    if (head.e_shoff > size ||
+        (uint64_t)head.e_shnum * sizeof(Elf64_Shdr) > size - head.e_shoff)
+        return false;
+    for (int i = 0; i < head.e_shnum; i++) {
+        Elf64_Shdr section;
+        off_t at = (off_t)(head.e_shoff + (uint64_t)i * sizeof section);
+        if (pread(program, &section, sizeof section, at) != (ssize_t)sizeof section ||
+            (section.sh_type != SHT_NOBITS &&
+             (section.sh_offset > size || section.sh_size > size - section.sh_offset)))
+            return false;
+    }
+    return true;
+}
+
 static int program_link(struct compiler_line *line)
 {
     static char flag[] = "-o";
@@ -187,11 +213,12 @@ static int program_link(struct compiler_line *line)
     fflush(NULL);
     int status = program < 0 ? fail("cc", "%s: cannot write: %s", name, strerror(errno))
                              : compiler_run(line);
-    struct stat made;
     mode_t mask = umask(0);
     umask(mask);
-    if (status == EXIT_SUCCESS && (fstat(program, &made) != 0 || made.st_size == 0))
-        status = fail("cc", "%s made no program", line->arguments[0]);
+    if (status == EXIT_SUCCESS && !program_whole(program))
+        status =
+            fail("cc", "%s: %s has not written it whole; see that there is room on the disk",
+                 name, line->arguments[0]);
     if (program >= 0)
         close(program);
     if (status != EXIT_SUCCESS) {

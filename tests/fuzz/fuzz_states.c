@@ -329,7 +329,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         }
     struct event_bytes run = {0};
     state_pieces_join(piece, pieces, &run);
-    if (file == 0)
+    if (file == 15)
         loaded_from_file(s, given, &run);
     loaded(&c, s, given, &run);
     free(run.at);
