@@ -1,6 +1,7 @@
 /* spring_sound.c - see spring_sound.h. */
 #include "spring_sound.h"
 
+#include <midi_internal.h>
 #include <sound.h>
 #include <sound_events.h>
 
@@ -10,41 +11,46 @@
 enum { AT_ONCE = 64, LOUDEST = 127, CLANK_PER_SPEED = 20 };
 
 struct spring_sound {
-    const char *path;
     struct sound_def def;
     struct midi_song *song;
+    double seconds;
     int count;
-    enum midi_status status;
 };
 
-enum midi_status spring_sound_create(const char *path, struct spring_sound **out)
+static enum midi_status spring_sound_create(double seconds, struct spring_sound **out)
 {
     struct sound *probe;
-    struct spring_sound *s = calloc(1, sizeof *s);
-    *out = s;
-    if (!s)
-        return MIDI_NO_MEMORY;
-    s->path = path;
-    s->def = sound_def_default();
-    s->def.room = true;
-    enum midi_status status = sound_create(&s->def, &probe); /* not after a long film */
-    if (status == MIDI_OK)
-        sound_destroy(probe);
-    s->song = status == MIDI_OK ? sound_events_song() : NULL;
-    if (status == MIDI_OK && !s->song)
-        status = MIDI_NO_MEMORY;
-    if (status != MIDI_OK) {
+    struct sound_def def = sound_def_default();
+    struct spring_sound *s = NULL;
+    *out = NULL;
+    def.room = true;
+    enum midi_status status = sound_create(&def, &probe); /* before a long film, not after it */
+    if (status != MIDI_OK)
+        return status;
+    sound_destroy(probe);
+    s = calloc(1, sizeof *s);
+    if (s)
+        s->song = sound_events_song();
+    if (!s || !s->song) {
         free(s);
-        *out = NULL;
+        return midi_fail(MIDI_NO_MEMORY, "no memory for sounds");
     }
-    return status;
+    s->def = def;
+    s->seconds = seconds;
+    *out = s;
+    return MIDI_OK;
 }
 
-void spring_sound_abandon(struct spring_sound *s)
+void spring_sound_destroy(struct spring_sound *s)
 {
     if (s)
         midi_song_destroy(s->song);
     free(s);
+}
+
+int spring_sound_count(const struct spring_sound *s)
+{
+    return s->count;
 }
 
 /* A clank's strength is a speed; the others' is 1 where it is usual. */
@@ -55,14 +61,15 @@ static int velocity_of(enum sound_kind kind, double strength)
     return (int)(LOUDEST * (1 - exp(-1.5 * fmax(strength, 0))));
 }
 
-void spring_sound_take(struct spring_sound *s, struct stage *stage)
+static enum midi_status sounds_take(struct spring_sound *s, struct stage *stage)
 {
     const struct stage_actor actor = stage_actor(stage);
     const struct font_box box = actor.kind->extent(actor.self);
     const double width = fmax(box.x1 - box.x0, 1e-9);
     struct stage_sound heard[AT_ONCE];
+    enum midi_status status = MIDI_OK;
     for (int count; (count = actor.kind->heard(actor.self, heard, AT_ONCE)) > 0;)
-        for (int i = 0; i < count && s->status == MIDI_OK; i++) {
+        for (int i = 0; i < count && status == MIDI_OK; i++) {
             const int kind = sound_kind_read(heard[i].name);
             if (kind < 0)
                 continue;
@@ -73,17 +80,37 @@ void spring_sound_take(struct spring_sound *s, struct stage *stage)
                 .velocity = velocity_of((enum sound_kind)kind, heard[i].strength),
                 .height = 0.25 + 0.5 * across,
                 .side = 1.4 * (across - 0.5)};
-            s->status = sound_event_add(s->song, &e);
+            status = sound_event_add(s->song, &e);
             s->count++;
         }
+    return status;
 }
 
-enum midi_status spring_sound_finish(struct spring_sound *s, double seconds, int *count)
+enum midi_status spring_sound_hear(struct stage *stage, int fps, double seconds,
+                                   struct spring_sound **out)
 {
-    enum midi_status status = s->status;
-    if (status == MIDI_OK)
-        status = sound_render(&s->def, s->song, seconds, s->path);
-    *count = s->count;
-    spring_sound_abandon(s);
+    const int last = (int)lround(seconds * fps);
+    enum midi_status status = spring_sound_create((double)(last + 1) / fps, out);
+    stage_clock(stage)->frame_max_s = INFINITY; /* as a film has it: no frame is too late */
+    for (int frame = 0; frame <= last && status == MIDI_OK; frame++) {
+        if (stage_frame(stage, (double)frame / fps, NULL) != STAGE_OK)
+            status = midi_fail(MIDI_BAD_ARGUMENT, "%s", stage_error());
+        else
+            status = sounds_take(*out, stage);
+    }
+    if (status != MIDI_OK) {
+        spring_sound_destroy(*out);
+        *out = NULL;
+    }
     return status;
+}
+
+enum midi_status spring_sound_write(struct spring_sound *s, const char *path)
+{
+    return sound_render(&s->def, s->song, s->seconds, path);
+}
+
+enum midi_status spring_sound_open(struct spring_sound *s, int *file)
+{
+    return sound_render_open(&s->def, s->song, s->seconds, file);
 }

@@ -1,10 +1,11 @@
-/* spring_sound.h - what a stage's actor lets hear while a film is made, as a WAV file of the film's length.
+/* spring_sound.h - what a stage's actor lets hear, as sound as long as the film of it.
  *
  *     struct spring_sound *sound;
- *     if (spring_sound_create("film.wav", &sound) != MIDI_OK)          // says at once if there can be none
+ *     if (spring_sound_hear(stage, fps, seconds, &sound) != MIDI_OK)    // runs the stage from its beginning, draws nothing
  *         return fail("spring", "%s", midi_error());
- *     ... after each picture: spring_sound_take(sound, stage);
- *     status = spring_sound_finish(sound, seconds);                    // frees it, too
+ *     spring_sound_write(sound, "film.wav");
+ *     spring_sound_open(sound, &file);                                  // for a film
+ *     spring_sound_destroy(sound);
  *
  * Sounds keep the actor's own times, not those of pictures: a clank is heard within 1.5 ms of its bounce. Its loudness is its
  * speed, as MIDI has it (20 for each unit a second); left and right are where it happens, and so is how high it is. */
@@ -17,12 +18,16 @@
 
 struct spring_sound;
 
-/* path: borrowed. Errors: NO_DEVICE (FluidSynth or a SoundFont is missing), NO_MEMORY. */
-enum midi_status spring_sound_create(const char *path, struct spring_sound **out);
-/* Takes what waits to be heard. Times are the actor's, whose beginning is the film's. */
-void spring_sound_take(struct spring_sound *sound, struct stage *stage);
-/* Writes and frees. *count: how many were heard. Errors: IO_FAILED, NO_MEMORY. */
-enum midi_status spring_sound_finish(struct spring_sound *sound, double seconds, int *count);
-void spring_sound_abandon(struct spring_sound *sound); /* takes NULL */
+/* The stage is one for this alone: it is at its end then. Where no sound can be made, that is said before. Errors: NO_DEVICE
+ * (FluidSynth or a SoundFont is missing), NO_MEMORY, BAD_ARGUMENT (the stage's own: stage_error() in midi_error()). */
+enum midi_status spring_sound_hear(struct stage *stage, int fps, double seconds,
+                                   struct spring_sound **out);
+void spring_sound_destroy(struct spring_sound *sound); /* takes NULL */
+
+int spring_sound_count(const struct spring_sound *sound); /* of what is heard */
+/* Errors: IO_FAILED. */
+enum midi_status spring_sound_write(struct spring_sound *sound, const char *path);
+/* A WAV file without a name. Owns: the caller closes *file. */
+enum midi_status spring_sound_open(struct spring_sound *sound, int *file);
 
 #endif

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct spring {
     struct spring_scene_def scene;
@@ -20,10 +21,8 @@ struct spring {
     struct option_texts sets;
     const char *way, *frames, *save, *session, *replay, *sound_path;
     int size[2];
-    bool controls;
+    bool controls, silent;
     struct progress progress;
-    struct spring_sound *sound; /* of the film; NULL: none */
-    struct stage *stage;
 };
 
 static int fail_stage(void)
@@ -137,6 +136,7 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          0, 0, 0},
         {"sound", 0, OPTION_TEXT, "FILE.wav",
          "what is heard in the film: clanks, clicks, twangs", &s->sound_path, 0, 0, 0},
+        {"silent", 0, OPTION_FLAG, NULL, "no sound in the film", &s->silent, 0, 0, 0},
         {"save", 0, OPTION_TEXT, "FILE", "the masses and springs at the end; Control S",
          &s->save, 0, 0, 0},
         {"session", 0, OPTION_TEXT, "FILE", "what is done in the window, written at its end",
@@ -181,22 +181,39 @@ static int controls_print(struct stage *stage)
 static bool frame_after(void *context, int frame, int frames)
 {
     struct spring *s = context;
-    if (s->sound)
-        spring_sound_take(s->sound, s->stage);
     if (frame == 1)
         s->progress = progress_begin("spring", frames);
     progress_show(&s->progress, frame);
     return interrupted();
 }
 
-static int sound_end(struct spring *s)
+/* What the film lets hear is known before its first picture: another stage like it runs ahead, and nothing of it is drawn. */
+static int sound_make(struct spring *s)
 {
-    int count;
-    if (!s->sound)
+    struct spring_scene ahead;
+    struct spring_sound *sound = NULL;
+    if (!s->sound_path && (!s->film.video || s->silent))
         return EXIT_SUCCESS;
-    if (spring_sound_finish(s->sound, s->film.seconds, &count) != MIDI_OK)
+    if (spring_scene_make(&s->scene, &ahead) != STAGE_OK ||
+        (s->replay && stage_session_replay(ahead.stage, s->replay) != STAGE_OK)) {
+        spring_scene_finish(&ahead);
+        return fail_stage();
+    }
+    enum midi_status status =
+        spring_sound_hear(ahead.stage, s->film.fps, s->film.seconds, &sound);
+    spring_scene_finish(&ahead);
+    if (status == MIDI_OK && s->film.video && !s->silent)
+        status = spring_sound_open(sound, &s->film.sound);
+    if (status == MIDI_OK && s->sound_path)
+        status = spring_sound_write(sound, s->sound_path);
+    if (status == MIDI_OK && s->sound_path)
+        printf("%d sounds in %s\n", spring_sound_count(sound), s->sound_path);
+    spring_sound_destroy(sound);
+    if (status == MIDI_OK)
+        return EXIT_SUCCESS;
+    if (s->sound_path)
         return fail("spring", "--sound: %s", midi_error());
-    printf("%d sounds in %s\n", count, s->sound_path);
+    fprintf(stderr, "lutetia spring: the film is silent: %s\n", midi_error());
     return EXIT_SUCCESS;
 }
 
@@ -207,18 +224,15 @@ static int film_make(struct spring *s, struct stage *stage)
     s->film.frames = s->frames;
     s->film.after = frame_after;
     s->film.context = s;
-    s->stage = stage;
-    if (s->sound_path && spring_sound_create(s->sound_path, &s->sound) != MIDI_OK)
-        return fail("spring", "--sound: %s", midi_error());
+    if (sound_make(s) != EXIT_SUCCESS)
+        return EXIT_FAILED;
     enum stage_status status = stage_film(stage, &s->film);
     progress_end(&s->progress);
-    if (status != STAGE_OK || interrupted()) {
-        spring_sound_abandon(s->sound);
-        s->sound = NULL;
-    }
+    if (s->film.sound >= 0)
+        close(s->film.sound);
     if (status == STAGE_OK && interrupted())
         return EXIT_FAILED; /* which is said in the end */
-    return status == STAGE_OK ? sound_end(s) : fail_stage();
+    return status == STAGE_OK ? EXIT_SUCCESS : fail_stage();
 }
 
 static int window_run(struct spring *s, struct stage *stage)

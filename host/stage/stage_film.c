@@ -26,7 +26,8 @@ struct film {
 
 struct stage_film_def stage_film_def_default(void)
 {
-    return (struct stage_film_def){.strip = {1, 1},
+    return (struct stage_film_def){.sound = -1,
+                                   .strip = {1, 1},
                                    .width_px = 1280,
                                    .height_px = 720,
                                    .px = 1,
@@ -76,7 +77,8 @@ static enum stage_status film_begin(struct film *f)
                                                                      : STAGE_BY_OSMESA,
                                           width, height, &f->renderer);
     if (status == STAGE_OK && def->video) {
-        enum display_status made = video_create(def->video, width, height, def->fps, &f->video);
+        enum display_status made =
+            video_create_with_sound(def->video, width, height, def->fps, def->sound, &f->video);
         status = made == DISPLAY_OK ? STAGE_OK : fail_display(made);
     }
     return status;

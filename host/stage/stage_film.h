@@ -17,8 +17,9 @@ enum stage_film_way { STAGE_FILM_EXACT, STAGE_FILM_EGL, STAGE_FILM_OSMESA };
 
 struct stage_film_def {
     /* What is written; NULL: it is not. */
-    const char *still;  /* a PNG of the last moment */
-    const char *video;  /* as video.h has it */
+    const char *still; /* a PNG of the last moment */
+    const char *video; /* as video.h has it */
+    int sound; /* a descriptor of a whole WAV file for the video, see video.h; -1: none */
     const char *frames; /* a folder that is there, for frame-000000.png and so on */
     int strip
         [2]; /* a still of so many columns and rows of moments, from the first to the last; 1, 1: of the last */
