@@ -103,14 +103,12 @@ static void enter_take(GLFWwindow *glfw, int entered)
         put(window_of(glfw), (struct input_event){.kind = INPUT_POINTER_LEAVE});
 }
 
+/* Where the pointer was then is what the last move said: GLFW, asked, would say where it is now. */
 static void button_take(GLFWwindow *glfw, int button, int action, int modifiers)
 {
     struct window *window = window_of(glfw);
-    double x, y;
     if (button < 0 || button >= INPUT_BUTTONS)
         return;
-    glfwGetCursorPos(glfw, &x, &y);
-    place_set(window, x, y);
     window->pointer.modifiers = modifiers_of(modifiers);
     if (action == GLFW_RELEASE)
         window->pointer.buttons &= ~(1u << button);

@@ -67,6 +67,23 @@ static void pointers_move_press_and_release(void **state)
     }
 }
 
+/* A program that is late gets a press where it was, though the pointer has long been elsewhere. */
+static void late_presses_are_where_they_were(void **state)
+{
+    (void)state;
+    xtest_move(there, 10, 10);
+    settle();
+    xtest_move(there, 60, 40);
+    xtest_button(1, true);
+    xtest_move(there, 200, 150);
+    xtest_button(1, false);
+    xtest_move(there, 20, 90);
+    struct input_event event = next(INPUT_POINTER_DOWN);
+    assert_true(event.x_px == 60 && event.y_px == 40);
+    event = next(INPUT_POINTER_UP);
+    assert_true(event.x_px == 200 && event.y_px == 150);
+}
+
 static void wheels_scroll(void **state)
 {
     (void)state;
@@ -138,6 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pointers_move_press_and_release),
+        cmocka_unit_test(late_presses_are_where_they_were),
         cmocka_unit_test(wheels_scroll),
         cmocka_unit_test(modifiers_are_those_held),
         cmocka_unit_test(held_keys_repeat),
