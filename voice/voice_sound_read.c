@@ -1,8 +1,10 @@
-/* voice_sound_read.c - sounds in files, by libsndfile. */
+/* voice_sound_read.c - sounds in files, by libsndfile, which is loaded when the first sound is read: it brings a codec for each kind of
+ * file, and most commands read none. */
 #include "voice_sound.h"
 
 #include <sndfile.h>
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -14,16 +16,37 @@
 
 enum { FRAMES_AT_ONCE = 4096, CHANNELS_MAX = 64 };
 
+struct sndfile {
+    SNDFILE *(*open_fd)(int, int, SF_INFO *, int);
+    sf_count_t (*readf_float)(SNDFILE *, float *, sf_count_t);
+    int (*close)(SNDFILE *);
+};
+
+/* False: it is not installed. */
+static bool sndfile_load(struct sndfile *out)
+{
+    static const char *const names[] = {"sf_open_fd", "sf_readf_float", "sf_close"};
+    void *const functions[] = {&out->open_fd, &out->readf_float, &out->close};
+    void *library = dlopen("libsndfile.so.1", RTLD_NOW | RTLD_LOCAL);
+    bool there = library != NULL;
+    for (int i = 0; i < 3 && there; i++) {
+        void *function = dlsym(library, names[i]);
+        memcpy(functions[i], &function, sizeof function);
+        there = function != NULL;
+    }
+    return there; /* what is loaded stays: the next sound finds it at once */
+}
+
 /* Appends what the file still has. False: no memory, or it is too long: then *too_long is true. */
-static bool frames_read(SNDFILE *file, const SF_INFO *info, struct voice_sound *out,
-                        bool *too_long)
+static bool frames_read(const struct sndfile *library, SNDFILE *file, const SF_INFO *info,
+                        struct voice_sound *out, bool *too_long)
 {
     size_t room = 0, most = (size_t)VOICE_SECONDS_MAX * (size_t)info->samplerate;
     float *frames = malloc(sizeof *frames * FRAMES_AT_ONCE * (size_t)info->channels);
     bool memory = frames != NULL;
     *too_long = false;
     while (memory && !*too_long) {
-        sf_count_t count = sf_readf_float(file, frames, FRAMES_AT_ONCE);
+        sf_count_t count = library->readf_float(file, frames, FRAMES_AT_ONCE);
         if (count <= 0)
             break;
         *too_long = out->count + (size_t)count > most;
@@ -59,6 +82,7 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
 {
     struct stat status;
     SF_INFO info = {0};
+    struct sndfile library;
     bool too_long;
     *out = (struct voice_sound){0};
     /* without waiting for a pipe's other end */
@@ -69,7 +93,11 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
         close(descriptor);
         return refuse(out, why, room, path, "a sound must be a regular file");
     }
-    SNDFILE *file = sf_open_fd(descriptor, SFM_READ, &info, 0);
+    if (!sndfile_load(&library)) {
+        close(descriptor);
+        return refuse(out, why, room, path, "sounds need libsndfile: install libsndfile1");
+    }
+    SNDFILE *file = library.open_fd(descriptor, SFM_READ, &info, 0);
     if (!file) {
         close(descriptor);
         return refuse(out, why, room, path,
@@ -78,8 +106,8 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
     bool good = info.channels >= 1 && info.channels <= CHANNELS_MAX &&
                 info.samplerate >= VOICE_RATE_MIN && info.samplerate <= VOICE_RATE_MAX;
     out->rate_hz = info.samplerate;
-    bool done = good && frames_read(file, &info, out, &too_long);
-    sf_close(file);
+    bool done = good && frames_read(&library, file, &info, out, &too_long);
+    library.close(file);
     close(descriptor);
     if (!good)
         return refuse(
