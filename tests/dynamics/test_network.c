@@ -123,6 +123,8 @@ static void tables_name_ranges_and_choices(void **unused)
 static void fields_are_written_and_read(void **unused)
 {
     (void)unused;
+    /* what is behind the last member may be anything */
+    const size_t whole = offsetof(struct dyn_mass, hold) + sizeof(unsigned);
     uint64_t state = 5;
     struct dyn_network *n = scene_by_chance(&state);
     while (dyn_masses_count(n) < 5) {
@@ -136,9 +138,9 @@ static void fields_are_written_and_read(void **unused)
         now = dyn_mass_get(n, 2);
         assert_true(dyn_control_read(field, &now) == field->most);
         dyn_control_write(field, &before, field->most);
-        assert_memory_equal(&now, &before, sizeof now);
+        assert_memory_equal(&now, &before, whole);
         now = dyn_mass_get(n, 3);
-        assert_memory_equal(&now, &other, sizeof now);
+        assert_memory_equal(&now, &other, whole);
         scene_must(dyn_mass_write(n, DYN_ALL, field, field->usual));
         for (int m = 0; m < dyn_masses_count(n); m++) {
             now = dyn_mass_get(n, m);

@@ -203,6 +203,8 @@ static void vowels_are_told_apart(void **state)
 static void pieces_make_no_difference(void **state)
 {
     (void)state;
+    /* what is behind the last member may be anything */
+    const size_t whole = offsetof(struct voice_frame, attack) + sizeof(bool);
     struct voice_cry cry = {1.2, 22050, three_cries, rising, vowel_700};
     struct voice_def def = voice_def_default();
     size_t samples_count;
@@ -222,7 +224,7 @@ static void pieces_make_no_difference(void **state)
         at += piece;
         while (voice_next(voice, &one)) {
             assert_true(one.time_s <= (double)at / 22050 + 1e-9);
-            assert_memory_equal(&one, &f[taken++], sizeof one);
+            assert_memory_equal(&one, &f[taken++], whole);
         }
         /* it is no later than the header says */
         assert_true((double)at / 22050 - (double)taken / def.frames_hz <=
@@ -230,7 +232,7 @@ static void pieces_make_no_difference(void **state)
     }
     assert_true(voice_end(voice));
     while (voice_next(voice, &one))
-        assert_memory_equal(&one, &f[taken++], sizeof one);
+        assert_memory_equal(&one, &f[taken++], whole);
     assert_int_equal(taken, count);
     voice_destroy(voice);
     free(f);
