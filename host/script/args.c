@@ -184,6 +184,15 @@ long script_arg_count(lua_State *L, int index, const char *what, long fallback, 
     return (long)value;
 }
 
+int script_arg_index(lua_State *L, int index, const char *what, int count)
+{
+    if (count < 1)
+        luaL_error(L, "%s must be given, and there is none yet", what);
+    if (lua_isnoneornil(L, index))
+        luaL_error(L, "%s must be given: 1..%d", what, count);
+    return (int)script_arg_count(L, index, what, 1, 1, count) - 1;
+}
+
 double script_arg_at(lua_State *L, int index, const char *what, double low, double high)
 {
     lua_pushvalue(L, index);

@@ -127,6 +127,8 @@ void script_fields_read(lua_State *L, int index, const char *what,
 /* The whole number at an argument's index within bounds; missing is fallback. */
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
                       long high);
+/* The number, from 1, of one of `count` things at an argument's index, as a number from 0; an error where it is missing. */
+int script_arg_index(lua_State *L, int index, const char *what, int count);
 /* The number at an argument's index within bounds. */
 double script_arg_at(lua_State *L, int index, const char *what, double low, double high);
 

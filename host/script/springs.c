@@ -72,16 +72,12 @@ void script_network_count(lua_State *L, struct script_network *s)
 
 int script_network_mass_at(lua_State *L, const struct script_network *s, int index)
 {
-    return (int)script_arg_count(L, index, "a mass's number", 0, 1,
-                                 dyn_masses_count(s->network)) -
-           1;
+    return script_arg_index(L, index, "a mass's number", dyn_masses_count(s->network));
 }
 
 static int spring_at(lua_State *L, const struct script_network *s, int index)
 {
-    return (int)script_arg_count(L, index, "a spring's number", 0, 1,
-                                 dyn_springs_count(s->network)) -
-           1;
+    return script_arg_index(L, index, "a spring's number", dyn_springs_count(s->network));
 }
 
 static double place_at(lua_State *L, int index, const char *what)

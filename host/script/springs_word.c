@@ -161,7 +161,7 @@ static int network_hang(lua_State *L)
     long words[2];
     int first, count;
     for (int i = 0; i < 2; i++)
-        words[i] = script_arg_count(L, 2 + i, "a word's number", 0, 1, s->words_count) - 1;
+        words[i] = script_arg_index(L, 2 + i, "a word's number", s->words_count);
     if (words[0] == words[1])
         luaL_error(L, "a word cannot hang from itself");
     script_dyn_check(
@@ -179,7 +179,7 @@ static const struct dyn_word *letter_find(lua_State *L, const struct script_netw
     int all = 0;
     for (int i = 0; i < s->words_count; i++)
         all += dyn_word_letters_count(s->words[i]);
-    int number = (int)script_arg_count(L, 2, "a letter's number", 0, 1, all) - 1;
+    int number = script_arg_index(L, 2, "a letter's number", all);
     for (int i = 0; i < s->words_count; i++) {
         int count = dyn_word_letters_count(s->words[i]);
         if (number < count) {
