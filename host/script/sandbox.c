@@ -99,18 +99,22 @@ static int set_metatable(lua_State *L)
     return 1;
 }
 
-/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, and what it had pinned is free. */
+/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, and what it had pinned is free. It stays at 1: what it
+ * closes may let go of it. */
 static int resume(lua_State *L)
 {
     lua_State *other = lua_tothread(L, 1);
-    lua_pushvalue(L, lua_upvalueindex(1));
+    luaL_argexpected(L, other, 1, "coroutine");
+    lua_pushvalue(L, 1);
     lua_insert(L, 1);
-    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
-    if (other && lua_status(other) != LUA_OK && lua_status(other) != LUA_YIELD) {
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 2);
+    lua_call(L, lua_gettop(L) - 2, LUA_MULTRET);
+    if (lua_status(other) != LUA_OK && lua_status(other) != LUA_YIELD) {
         lua_resetthread(other);
         lua_settop(other, 0); /* its error is already here */
     }
-    return lua_gettop(L);
+    return lua_gettop(L) - 1;
 }
 
 /* Puts a function, whose upvalue is the one that was there, in the place of a field of the table on the top. */

@@ -65,6 +65,19 @@ static const struct {
     {"local c = coroutine.create(function() p:layer('height', error) end) "
      "local d = coroutine.wrap(function() coroutine.resume(c) end) d() close() print('closed')",
      NULL, "closed\n", false},
+    /* a coroutine that failed is let go of while it closes what it held */
+    {"K = coroutine.create(function() local x <close> = setmetatable({}, {__close = function() "
+     "K = nil "
+     "for i = 1, 9 do collectgarbage() coroutine.wrap(litter)() end end}) error('x') end) "
+     "print(coroutine.resume(K)) open()",
+     NULL, NULL, true},
+    {"K = coroutine.create(function() local x <close> = setmetatable({}, {__close = function() "
+     "K = nil "
+     "for i = 1, 40 do coroutine.wrap(litter)() end end}) error('x') end) coroutine.resume(K) "
+     "open()",
+     NULL, OPEN, false},
+    {"coroutine.resume(5)", "coroutine expected", "", false},
+    {"coroutine.resume()", "coroutine expected", "", false},
     /* papers that are done something else to in such a function */
     {"p:layer('height', function(x, y) p:put(m, {water = 0.01}) return x end) open()", NULL,
      OPEN, false},
