@@ -293,17 +293,8 @@ static void json_report(FILE *f, const struct bench_report *r)
 
 bool bench_can_write(const char *path)
 {
-    char folder[4096];
-    bool there = access(path, F_OK) == 0;
-    snprintf(folder, sizeof folder, "%s", path);
-    char *slash = strrchr(folder, '/');
-    if (slash)
-        slash[slash == folder] = '\0';
-    return access(there   ? path
-                  : slash ? folder
-                          : ".",
-                  W_OK) == 0 ||
-           bench_fail("%s: cannot write: %s", path, strerror(errno));
+    const char *wrong = output_file_wrong(path);
+    return !wrong || bench_fail("%s: cannot write: %s", path, wrong);
 }
 
 bool bench_report_write(const struct bench_report *r, const char *path)

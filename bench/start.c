@@ -1,6 +1,6 @@
 /* start.c - `lutetia bench start`: how long the first picture takes from the command, with warm caches.
  *
- * Each run is a process of its own, this very program again, that writes into a folder which is taken away afterwards. One
+ * Each run is a process of its own, `lutetia`, that writes into a folder which is taken away afterwards. One
  * run of each warms the caches of kernels, fonts and files. Then they take turns; each gives the time until it has ended,
  * and the processor time that it took in all its threads: that is hardly longer where others use the machine.
  *
@@ -22,6 +22,7 @@
 #include "listing.h"
 #include "of_machine.h"
 #include "paris_internal.h"
+#include "program.h"
 #include "scene.h"
 
 enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
@@ -92,12 +93,12 @@ static double seconds_of(struct timeval t)
 static bool command_run(const char *const words[COMMAND_WORDS], struct place *place,
                         double *passed_s, double *processor_s)
 {
-    char program[4096], name[] = "lutetia";
+    char program[PATH_MAX], name[] = "lutetia";
     char *arguments[COMMAND_WORDS + 2] = {name};
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0)
-        return bench_fail("/proc/self/exe cannot be read");
-    program[length] = '\0';
+    if (!program_find(program, (program_code *)bench_start_main, LUTETIA_BINDIR "/lutetia",
+                      "host/lutetia/lutetia"))
+        return bench_fail("the program lutetia is not beside lutetia-bench; install or build "
+                          "it with the rest");
     for (int i = 0; i < COMMAND_WORDS && words[i]; i++) {
         const char *word = words[i];
         arguments[i + 1] = strcmp(word, PICTURE) == 0  ? place->picture

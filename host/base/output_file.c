@@ -219,6 +219,18 @@ bool output_file_open(struct output_file *out, const char *path)
     return output_fail(out, error);
 }
 
+const char *output_file_wrong(const char *path)
+{
+    struct output_file out = {.folder = -1};
+    int error = path_split(&out, path);
+    if (!error)
+        error = target_check(&out);
+    if (!error && faccessat(out.folder, ".", W_OK | X_OK, 0) != 0)
+        error = errno;
+    output_file_abandon(&out);
+    return error ? output_file_explain(error) : NULL;
+}
+
 /* Nothing of it is left in memory, nor its part file if that has not got its name. */
 static void output_release(struct output_file *out)
 {

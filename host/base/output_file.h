@@ -52,6 +52,9 @@ bool output_file_commit(struct output_file *out);
  * abandoned, or not opened (all zero). */
 void output_file_abandon(struct output_file *out);
 
+/* Looks, before long work, whether a file can be written there: NULL where nothing is against it, else why not. */
+const char *output_file_wrong(const char *path);
+
 /* In plain words what an errno of a write means, with what to do about it. */
 const char *output_file_explain(int error);
 

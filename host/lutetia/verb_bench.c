@@ -1,49 +1,24 @@
-/* verb_bench.c - `lutetia bench NAME`: hands the rest of the line to that benchmark. */
+/* verb_bench.c - `lutetia bench NAME`: runs the benchmarks, which are a program of their own (bench/lutetia_bench.c). */
 #include "lutetia.h"
 
-#include <bench.h>
+#include <program.h>
 
-#include <stdio.h>
-#include <stdlib.h>
+#include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *help;
-} benches[] = {
-    {"diffusion", bench_diffusion_main,
-     "the thesis's cycle through the machine, beside its limits"},
-    {"calls", bench_calls_main, "what a C/Paris call costs the front end"},
-    {"scan", bench_scan_main, "scans along a line, beside plain C"},
-    {"rank", bench_rank_main, "ranks along a line, beside a radix sort in plain C"},
-    {"life", bench_life_main, "Conway's Life in Paris, beside C with OpenMP"},
-    {"heat", bench_heat_main, "a heat equation of nine points in Paris, beside C with OpenMP"},
-    {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
-    {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
-    {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
-    {"text", bench_text_main, "justified lines, beside Pango"},
-    {"springs", bench_springs_main, "masses and springs, beside plain C, Chipmunk and Box2D"},
-    {"model", bench_model_main,
-     "what the engine's cost model prefers, beside what it could have had"},
-    {"midi", bench_midi_main, "a note from an instrument to sixteen programs"},
-    {"start", bench_start_main, "the first picture, from the command, with warm caches"},
-};
-
-enum { BENCHES_COUNT = sizeof benches / sizeof *benches };
+static void here(void)
+{
+}
 
 int verb_bench(int argc, char **argv)
 {
-    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
-        FILE *out = argc < 2 ? stderr : stdout;
-        fputs("usage: lutetia bench NAME [options]\n\n", out);
-        for (int i = 0; i < BENCHES_COUNT; i++)
-            fprintf(out, "  %-12s %s\n", benches[i].name, benches[i].help);
-        return argc < 2 ? EXIT_USAGE : EXIT_SUCCESS;
-    }
-    for (int i = 0; i < BENCHES_COUNT; i++)
-        if (strcmp(argv[1], benches[i].name) == 0)
-            return benches[i].run(argc - 1, argv + 1);
-    return fail_usage(
-        "bench", "there is no benchmark '%.60s'; `lutetia bench --help` lists them", argv[1]);
+    (void)argc;
+    char path[PATH_MAX];
+    if (!program_find(path, here, LUTETIA_LIBEXECDIR "/lutetia/lutetia-bench",
+                      "bench/lutetia-bench"))
+        return fail("bench", "the program lutetia-bench is not beside lutetia; install or "
+                             "build it with the rest");
+    execv(path, argv);
+    return fail("bench", "%s cannot be run: %s", path, strerror(errno));
 }

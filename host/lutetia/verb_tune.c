@@ -10,7 +10,6 @@
 #include <output_file.h>
 
 #include <errno.h>
-#include <harness.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -366,8 +365,9 @@ int verb_tune(int argc, char **argv)
         return fail_usage("tune", "there is nothing to do with '%.60s'", words.words[0]);
     if (forced_check() != EXIT_SUCCESS)
         return EXIT_USAGE;
-    if (json_path && !bench_can_write(json_path))
-        return fail("tune", "%s", bench_error());
+    const char *wrong = json_path ? output_file_wrong(json_path) : NULL;
+    if (wrong)
+        return fail("tune", "%s: cannot write: %s", json_path, wrong);
     interrupt_catch();
     setenv("LUTETIA_BOX_AFTER", "0", 1); /* kernels as a long run gets them, from the start */
     struct machine_tuning usual = machine_tuning_usual();

@@ -18,7 +18,6 @@
  * to the machine, which compiles while the program waits, from then on. */
 #include "build/background.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -35,7 +34,7 @@
 #include "build/compiler.h"
 #include "build/plans.h"
 #include "device/cache.h"
-#include "user_folder.h"
+#include "program.h"
 
 /* A program that ends so soon after it first wanted something compiled is better off without. A process that says nothing
  * for so long is not going to. */
@@ -74,35 +73,16 @@ struct background {
 
 /* ---- the process ---- */
 
-/* From where this code lies upwards: as it is installed, and as it was built. Nobody else's. */
 static bool compiler_find(char path[PATH_MAX])
 {
-    static const char *const places[] = {LUTETIA_LIBEXECDIR "/lutetia/lutetia-compiler",
-                                         "host/machine/lutetia-compiler"};
     const char *said = secure_getenv("LUTETIA_COMPILER");
-    char here[PATH_MAX];
-    Dl_info info;
     if (said) {
         snprintf(path, PATH_MAX, "%s", said);
         return *said != '\0'; /* the user's own choice */
     }
-    bool known = dladdr((void *)(uintptr_t)background_finish, &info) &&
-                 *info.dli_fname == '/' && realpath(info.dli_fname, here);
-    if (!known && !realpath("/proc/self/exe", here)) /* the program itself, as it was called */
-        return false;
-    for (int up = 0; up < 4; up++) {
-        char *end = strrchr(here, '/');
-        if (!end)
-            return false;
-        *end = '\0';
-        for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-            int n = *places[i] == '/' ? snprintf(path, PATH_MAX, "%s", places[i])
-                                      : snprintf(path, PATH_MAX, "%s/%s", here, places[i]);
-            if (n < PATH_MAX && !user_program_wrong(path))
-                return true;
-        }
-    }
-    return false;
+    return program_find(path, (program_code *)background_finish,
+                        LUTETIA_LIBEXECDIR "/lutetia/lutetia-compiler",
+                        "host/machine/lutetia-compiler");
 }
 
 /* It starts the process, and ends; the program may have taken note of that itself. */
