@@ -60,7 +60,7 @@ struct font_atlas_def font_atlas_def_default(void)
 
 enum font_status font_atlas_create(const struct font_atlas_def *def, struct font_atlas **out)
 {
-    enum { SIDE_MIN = 64, SIDE_MAX = 16384, PLACES_MAX = 16 };
+    enum { SIDE_MIN = 64, SIDE_MAX = 16384, PLACES_MAX = 256 };
     *out = NULL;
     if (def->width_px < SIDE_MIN || def->width_px > SIDE_MAX || def->height_px < SIDE_MIN ||
         def->height_px > SIDE_MAX)
@@ -447,13 +447,19 @@ enum font_status font_atlas_layout(struct font_atlas *a, const struct font_layou
     *count = 0;
     for (; *first < layout->glyphs_count && *count < quads_max; ++*first) {
         const struct font_placed *g = &layout->glyphs[*first];
-        struct font_point at = {g->x_px, g->y_px};
         struct font_atlas_slot slot;
-        double jacobian[4];
-        if (map && map->kind == FONT_AFFINE)
-            font_map_point(map, at, &at, jacobian);
-        enum font_status status = font_atlas_get(a, g->face, g->glyph, layout->size_px, map,
-                                                 x_px + at.x, y_px + at.y, &slot);
+        struct font_map whole;
+        double x, y;
+        enum font_status status =
+            font_placed_map(layout, *first, map, x_px, y_px, &whole, &x, &y);
+        if (status == FONT_OK && whole.kind != FONT_AFFINE) { /* the place goes into the map */
+            struct font_map move = {FONT_AFFINE, {1, 0, x, 0, 1, y}};
+            whole = font_map_then(whole, move);
+            x = y = 0;
+        }
+        if (status == FONT_OK)
+            status = font_atlas_get(a, g->face, g->glyph, font_placed_size(layout, g), &whole,
+                                    x, y, &slot);
         if (status != FONT_OK)
             return status;
         if (!slot.width_px)
@@ -466,7 +472,8 @@ enum font_status font_atlas_layout(struct font_atlas *a, const struct font_layou
                                                .v0 = (float)slot.y * v,
                                                .u1 = (float)(slot.x + slot.width_px) * u,
                                                .v1 = (float)(slot.y + slot.height_px) * v,
-                                               .page = slot.page};
+                                               .page = slot.page,
+                                               .ink = g->ink};
     }
     return FONT_OK;
 }

@@ -37,7 +37,7 @@ struct font_atlas_def {
     const char *filter;        /* "gaussian-fast" */
     int width_px, height_px;   /* of a page, 64..16384 */
     int pages_max;             /* 1..64 */
-    int places_x, places_y;    /* 1..16: a pixel's places along x and y */
+    int places_x, places_y;    /* 1..256: a pixel's places along x and y */
     double darken_px;          /* as font_painter_def has it */
     size_t edges_budget_bytes; /* of edges that are kept besides */
 };
@@ -68,9 +68,10 @@ enum font_status font_atlas_get(struct font_atlas *atlas, struct font_face *face
 struct font_quad {
     float x0, y0, x1, y1, u0, v0, u1, v1;
     int page;
+    int ink; /* of the layout's, from 1; 0: whoever draws says */
 };
 
-/* Quads for a layout with its origin at (x_px, y_px), through an affine map (NULL: as it is); glyphs without ink have none.
+/* Quads for a layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first through its own; glyphs without ink have none.
  * *count: how many were made, at most quads_max, and *first (0 to begin with) becomes the first glyph that is not done, so
  * that after FULL, or where quads_max was too few, it goes on from there.
  * Errors: as font_atlas_get(); quads made before stay. */

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include <fontconfig/fontconfig.h>
@@ -16,6 +17,8 @@
 #include FT_FONT_FORMATS_H
 #include FT_MULTIPLE_MASTERS_H
 #include FT_OUTLINE_H
+
+#include <fontconfig/fcfreetype.h> /* after both */
 
 enum { FILE_BYTES_MAX = 1 << 29, AXES_MAX = 64 };
 
@@ -107,6 +110,25 @@ enum font_status font_face_open_memory(const void *bytes, size_t count, int inde
 
 /* ---- finding ---- */
 
+/* Of files of one name OpenType comes first, then Type 1, then what is left: bitmaps, compressed ones. */
+static int ending_rank(const char *path)
+{
+    static const char *const endings[] = {".otf", ".ttf", ".otc", ".ttc",
+                                          ".t1",  ".pfb", ".pfa"};
+    enum { COUNT = sizeof endings / sizeof *endings, OPENTYPE = 4 };
+    const char *ending = strrchr(path, '.');
+    for (int i = 0; ending && i < COUNT; i++)
+        if (strcasecmp(ending, endings[i]) == 0)
+            return i < OPENTYPE ? 0 : 1;
+    return 2;
+}
+
+static bool comes_first(const char *path, const char *other)
+{
+    int rank = ending_rank(path), others = ending_rank(other);
+    return rank != others ? rank < others : strcmp(path, other) < 0;
+}
+
 /* A file called so, or a family that fontconfig has: the path, or NULL. */
 static char *by_fontconfig(const char *name, int *index)
 {
@@ -130,7 +152,7 @@ static char *by_fontconfig(const char *name, int *index)
         base = base ? base + 1 : (char *)file;
         if (strncasecmp(base, name, length) != 0 || (base[length] && base[length] != '.'))
             continue;
-        if (!path || strcmp((char *)file, path) < 0) {
+        if (!path || comes_first((char *)file, path)) {
             free(path);
             path = strdup((char *)file);
         }
@@ -288,6 +310,30 @@ void font_face_describe(const struct font_face *face, struct font_face_info *out
     }
 }
 
+struct font_manner font_face_manner(const struct font_face *face)
+{
+    struct font_manner manner = {FC_WEIGHT_REGULAR, FC_SLANT_ROMAN, FC_WIDTH_NORMAL};
+    FcPattern *pattern =
+        FcInit() ? FcFreeTypeQueryFace(face->ft, (const FcChar8 *)face->path, 0, NULL) : NULL;
+    if (pattern) {
+        FcPatternGetDouble(pattern, FC_WEIGHT, 0, &manner.weight);
+        FcPatternGetInteger(pattern, FC_SLANT, 0, &manner.slant);
+        FcPatternGetInteger(pattern, FC_WIDTH, 0, &manner.width);
+        FcPatternDestroy(pattern);
+    }
+    struct font_axis axis;
+    for (int i = 0; i < face->axes_count && font_face_axis(face, i, &axis) == FONT_OK; i++) {
+        if (strcmp(axis.tag, "wght") == 0)
+            manner.weight = FcWeightFromOpenTypeDouble(axis.value);
+        else if (strcmp(axis.tag, "wdth") == 0)
+            manner.width = (int)lrint(axis.value); /* both in percent */
+        else if ((strcmp(axis.tag, "slnt") == 0 && axis.value != 0) ||
+                 (strcmp(axis.tag, "ital") == 0 && axis.value > 0.5))
+            manner.slant = FC_SLANT_OBLIQUE;
+    }
+    return manner;
+}
+
 uint32_t font_face_glyph(const struct font_face *face, uint32_t character)
 {
     return FT_Get_Char_Index(face->ft, character);
@@ -400,6 +446,27 @@ double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right)
     return (double)kerning.x;
 }
 
+double font_face_stem(struct font_face *face)
+{
+    static const uint32_t letters[] = {'l', 'I', 'i', 'o'};
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
+        struct font_outline outline;
+        uint32_t glyph = font_face_glyph(face, letters[i]);
+        if (!glyph || font_face_outline_raw(face, glyph, &outline) != FONT_OK)
+            continue;
+        struct font_box box = font_outline_box(&outline);
+        double area = 0, height = box.y1 - box.y0, units = outline.units_per_em;
+        for (int k = 0; k < outline.segments_count; k++)
+            for (int n = 0; n < outline.segments[k].degree; n++)
+                area += 0.5 * (outline.segments[k].p[n].x * outline.segments[k].p[n + 1].y -
+                               outline.segments[k].p[n + 1].x * outline.segments[k].p[n].y);
+        font_outline_finish(&outline);
+        if (height > 0 && units > 0)
+            return fabs(area) / height / units;
+    }
+    return 1.0 / 12;
+}
+
 /* ---- axes ---- */
 
 enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out)
@@ -452,4 +519,23 @@ const void *font_face_bytes(const struct font_face *face, size_t *count)
 uint64_t font_face_version(const struct font_face *face)
 {
     return face->version;
+}
+
+enum font_status font_face_axes_set(struct font_face *face, const char *axes)
+{
+    while (axes && *axes) {
+        char tag[5] = "", *end = NULL;
+        size_t length = strcspn(axes, "=,");
+        if (length >= 1 && length <= 4)
+            memcpy(tag, axes, length);
+        double value = axes[length] == '=' ? strtod(axes + length + 1, &end) : NAN;
+        if (!tag[0] || !isfinite(value) || end == axes + length + 1 || (*end && *end != ','))
+            return font_fail(FONT_BAD_ARGUMENT,
+                             "axes must be like wght=700,wdth=80 (got '%.60s')", axes);
+        enum font_status status = font_face_axis_set(face, tag, value);
+        if (status != FONT_OK)
+            return status;
+        axes = *end ? end + 1 : end;
+    }
+    return FONT_OK;
 }

@@ -42,6 +42,14 @@ struct font_face_info {
 };
 void font_face_describe(const struct font_face *face, struct font_face_info *out);
 
+/* How heavy, slanted and wide a face is, as fontconfig counts (FC_WEIGHT, FC_SLANT, FC_WIDTH); a variable one as its axes are
+ * set. */
+struct font_manner {
+    double weight;
+    int slant, width;
+};
+struct font_manner font_face_manner(const struct font_face *face);
+
 /* The glyph for a character; 0 if the font has none. */
 uint32_t font_face_glyph(const struct font_face *face, uint32_t character);
 
@@ -56,6 +64,10 @@ enum font_status font_face_advance(struct font_face *face, uint32_t glyph, doubl
 /* What the font's own pair table adds between two glyphs (Type 1 and old TrueType); 0 without one. */
 double font_face_kerning(struct font_face *face, uint32_t left, uint32_t right);
 
+/* How wide the face's uprights are, of an em: the area of its l by its height, where it has none of I, i or o. 1/12 if it has none
+ * of them. */
+double font_face_stem(struct font_face *face);
+
 /* A variable font's axes: "wght" from least to most, what it is set to. */
 struct font_axis {
     char tag[5];
@@ -65,6 +77,8 @@ struct font_axis {
 enum font_status font_face_axis(const struct font_face *face, int axis, struct font_axis *out);
 /* Sets one axis; beyond its ends the end is taken. Errors: BAD_ARGUMENT for a tag that the font has not. */
 enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value);
+/* Several: "wght=700,wdth=80"; NULL or "": none. Errors: BAD_ARGUMENT, also for what does not read so. */
+enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 
 /* The font's file in memory, for shaping. Owned by the face. */
 const void *font_face_bytes(const struct font_face *face, size_t *count);

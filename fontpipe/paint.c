@@ -2,59 +2,11 @@
  *
  * What is kept: a glyph's edges by (face, axes, glyph, map), and with `places` its gray pictures by that and the place
  * between pixels. Both are entries of one table with one budget; what was not used for longest goes first. */
-#include "paint.h"
-#include "internal.h"
+#include "paint_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { BUCKETS = 4096, TO_LIGHT = 256, TO_NUMBER = 4096 };
-
-/* Compared whole: no padding, all of it set. */
-struct key {
-    uint64_t version;
-    double map[FONT_MAP_NUMBERS];
-    uint32_t glyph;
-    int32_t kind;
-    int32_t place_x, place_y; /* of a picture; -1 for edges */
-};
-
-struct entry {
-    struct key key;
-    struct font_edges edges; /* or: */
-    struct font_gray gray;
-    size_t bytes;
-    struct entry *next;          /* of the bucket */
-    struct entry *newer, *older; /* in order of use */
-};
-
-struct font_painter {
-    struct font_painter_def def;
-    struct font_filter *filter;
-    struct entry *buckets[BUCKETS];
-    struct entry *newest, *oldest;
-    struct font_painter_stats stats;
-    struct font_gray scratch[3];
-    float to_light[TO_LIGHT];
-    uint8_t to_number[TO_NUMBER + 1];
-};
-
-/* ---- light ---- */
-
-double font_light(double number, double gamma)
-{
-    if (gamma > 0)
-        return pow(number, gamma);
-    return number <= 0.04045 ? number / 12.92 : pow((number + 0.055) / 1.055, 2.4);
-}
-
-double font_number(double light, double gamma)
-{
-    if (gamma > 0)
-        return pow(light, 1 / gamma);
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
-}
 
 /* ---- a painter ---- */
 
@@ -72,7 +24,8 @@ enum font_status font_painter_create(const struct font_painter_def *def,
             return font_fail(FONT_BAD_ARGUMENT, "ink must be 0..1 (got %g)", def->ink[i]);
     if (!(def->gamma == 0 || (def->gamma >= 0.2 && def->gamma <= 5)))
         return font_fail(FONT_BAD_ARGUMENT, "gamma must be 0 or 0.2..5 (got %g)", def->gamma);
-    if (!(def->darken_px >= 0 && def->darken_px <= 2))
+    if (!((def->darken_px >= 0 && def->darken_px <= 2) ||
+          def->darken_px == FONT_DARKEN_BY_STEM))
         return font_fail(FONT_BAD_ARGUMENT, "stems can be darkened by 0..2 pixels (got %g)",
                          def->darken_px);
     if (def->places < 0 || def->places > 256)
@@ -202,11 +155,30 @@ static void entry_weigh(struct font_painter *p, struct entry *e, size_t bytes)
 
 /* ---- glyphs ---- */
 
-/* How much wider stems get, in pixels. */
-static double darkening(const struct font_painter *p, double size_px)
+/* How much wider stems get that are so wide, both in pixels: between these points on straight lines. */
+static double darkening_of_stem(double stem_px)
 {
-    double share = (36 - size_px) / 24;
-    return p->def.darken_px * fmin(1, fmax(0, share));
+    static const double stems[] = {0.5, 1, 1.667, 2.333}, more[] = {0.4, 0.275, 0.275, 0};
+    enum { POINTS = 4 };
+    if (stem_px <= stems[0])
+        return more[0];
+    for (int i = 1; i < POINTS; i++)
+        if (stem_px < stems[i])
+            return more[i] +
+                   (more[i - 1] - more[i]) * (stems[i] - stem_px) / (stems[i] - stems[i - 1]);
+    return 0;
+}
+
+/* How much wider the face's stems get, in pixels. */
+static double darkening(struct font_painter *p, struct font_face *face, double size_px)
+{
+    if (p->def.darken_px >= 0)
+        return p->def.darken_px * fmin(1, fmax(0, (36 - size_px) / 24));
+    if (p->stem_of != font_face_version(face)) {
+        p->stem_of = font_face_version(face);
+        p->stem = font_face_stem(face);
+    }
+    return darkening_of_stem(p->stem * size_px);
 }
 
 /* Of a glyph that its map folds over: what it covers from either side. */
@@ -233,7 +205,7 @@ static enum font_status edges_make(struct font_painter *p, struct font_face *fac
                                    struct font_edges *edges)
 {
     struct font_outline outline;
-    double darken = darkening(p, size_px);
+    double darken = darkening(p, face, size_px);
     enum font_status status;
     if (darken > 0) {
         status = font_face_outline_raw(face, glyph, &outline);
@@ -286,93 +258,20 @@ static enum font_status edges_get(struct font_painter *p, struct font_face *face
 
 /* The glyph's map: its own units to pixels at its place in the text, then the text's map. What is left over as a
  * translation is the place; distortions have it in the map. */
-static enum font_status placed_map(const struct font_layout *layout,
-                                   const struct font_placed *g, const struct font_map *map,
-                                   double x_px, double y_px, struct font_map *out, double *x,
-                                   double *y)
+static enum font_status placed_map(const struct font_layout *layout, int i,
+                                   const struct font_map *map, double x_px, double y_px,
+                                   struct font_map *out, double *x, double *y)
 {
     struct font_face_info info;
+    struct font_map pixels;
+    const struct font_placed *g = &layout->glyphs[i];
     font_face_describe(g->face, &info);
-    struct font_map own = font_map_size(layout->size_px, info.units_per_em);
-    if (!map || map->kind == FONT_AFFINE) {
-        struct font_point at = {g->x_px, g->y_px};
-        double jacobian[4];
-        *out = own;
-        if (map) {
-            struct font_map linear = *map;
-            linear.m[2] = linear.m[5] = 0;
-            *out = font_map_then(own, linear);
-            font_map_point(map, at, &at, jacobian);
-        }
-        *x = x_px + at.x;
-        *y = y_px + at.y;
-        return FONT_OK;
-    }
-    own.m[2] = g->x_px;
-    own.m[5] = g->y_px;
-    *x = x_px;
-    *y = y_px;
-    return font_map_compose(&own, map, out);
+    struct font_map own = font_map_size(font_placed_size(layout, g), info.units_per_em);
+    enum font_status status = font_placed_map(layout, i, map, x_px, y_px, &pixels, x, y);
+    return status == FONT_OK ? font_map_compose(&own, &pixels, out) : status;
 }
 
-/* ---- blending ---- */
-
-/* The light of a colour, over the light that there is. */
-static inline uint8_t mixed(const struct font_painter *p, uint8_t below, float ink, float cover)
-{
-    float light = p->to_light[below];
-    light += (ink - light) * cover;
-    return p->to_number[(int)(sqrtf(light) * TO_NUMBER + 0.5f)];
-}
-
-/* The part of a glyph's rows and columns that is on a picture; and where on it (0, 0) of the glyph lies. */
-struct window {
-    int left, top, column, columns_end, row, rows_end;
-};
-
-static struct window window_of(const struct font_gray *gray, int x, int y, int width,
-                               int height)
-{
-    struct window w = {.left = x + gray->left_px, .top = y + gray->top_px};
-    if (!gray->pixels)
-        return w;
-    w.column = w.left < 0 ? -w.left : 0;
-    w.row = w.top < 0 ? -w.top : 0;
-    w.columns_end = width - w.left < gray->width_px ? width - w.left : gray->width_px;
-    w.rows_end = height - w.top < gray->height_px ? height - w.top : gray->height_px;
-    return w;
-}
-
-static void gray_blend(const struct font_painter *p, const struct font_gray *gray, int x, int y,
-                       int channel, const float ink[3], struct font_picture *to)
-{
-    const struct window w = window_of(gray, x, y, to->width_px, to->height_px);
-    for (int r = w.row; r < w.rows_end; r++) {
-        const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
-        uint8_t *row =
-            to->rgb + (size_t)(w.top + r) * (size_t)to->pitch + 3 * (ptrdiff_t)w.left;
-        for (int c = w.column; c < w.columns_end; c++) {
-            if (!from[c])
-                continue;
-            float cover = (float)from[c] * (1 / 255.0f);
-            for (int i = channel < 0 ? 0 : channel; i <= (channel < 0 ? 2 : channel); i++)
-                row[3 * c + i] = mixed(p, row[3 * c + i], ink[i], cover);
-        }
-    }
-}
-
-static void gray_cover(const struct font_gray *gray, int x, int y, struct font_cover *to)
-{
-    const struct window w = window_of(gray, x, y, to->width_px, to->height_px);
-    for (int r = w.row; r < w.rows_end; r++) {
-        const uint8_t *from = gray->pixels + (size_t)r * (size_t)gray->pitch;
-        uint8_t *row = to->gray + (size_t)(w.top + r) * (size_t)to->pitch + (ptrdiff_t)w.left;
-        for (int c = w.column; c < w.columns_end; c++) {
-            int rest = 255 - row[c];
-            row[c] = (uint8_t)(row[c] + (rest * from[c] + 127) / 255);
-        }
-    }
-}
+/* ---- drawing ---- */
 
 /* A picture at a place, drawn or kept. *whole_x, *whole_y: the pixel that it counts from. */
 static enum font_status gray_get(struct font_painter *p, const struct font_edges *edges,
@@ -420,8 +319,7 @@ static enum font_status glyph_place(const struct font_layout *layout, int i,
                                     const struct font_map *map, double x_px, double y_px,
                                     struct font_map *whole, double *x, double *y)
 {
-    enum font_status status =
-        placed_map(layout, &layout->glyphs[i], map, x_px, y_px, whole, x, y);
+    enum font_status status = placed_map(layout, i, map, x_px, y_px, whole, x, y);
     if (status == FONT_OK && !(fabs(*x) < 1e6 && fabs(*y) < 1e6))
         status = font_fail(FONT_BAD_ARGUMENT, "a glyph cannot be at (%g, %g)", *x, *y);
     return status;
@@ -437,7 +335,7 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
     struct font_edges *edges;
     struct key key;
     enum font_status status =
-        edges_get(p, g->face, g->glyph, whole, layout->size_px, &key, &edges);
+        edges_get(p, g->face, g->glyph, whole, font_placed_size(layout, g), &key, &edges);
     return status == FONT_OK ? gray_get(p, edges, key, x, y, scratch, gray, whole_x, whole_y)
                              : status;
 }
@@ -446,13 +344,13 @@ enum font_status font_painter_layout(struct font_painter *p, const struct font_l
                                      const struct font_map *map, double x_px, double y_px,
                                      struct font_picture *picture)
 {
-    float ink[3];
-    for (int i = 0; i < 3; i++)
-        ink[i] = (float)font_light(p->def.ink[i], p->def.gamma);
+    struct font_ink own = font_ink_plain(p->def.ink[0], p->def.ink[1], p->def.ink[2], 1);
     enum font_status status = FONT_OK;
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
         struct font_map whole;
         double x, y;
+        int number = layout->glyphs[i].ink;
+        const struct font_ink *ink = number > 0 ? &layout->inks[number - 1] : &own;
         status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
         for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
             const struct font_gray *gray;
@@ -462,7 +360,8 @@ enum font_status font_painter_layout(struct font_painter *p, const struct font_l
             status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray,
                                 &whole_x, &whole_y);
             if (status == FONT_OK)
-                gray_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, picture);
+                font_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, x_px, y_px,
+                           picture);
         }
     }
     return status;
@@ -483,7 +382,7 @@ enum font_status font_painter_cover(struct font_painter *p, const struct font_la
             status = glyph_draw(p, layout, i, &whole, x, y, &p->scratch[0], &gray, &whole_x,
                                 &whole_y);
         if (status == FONT_OK)
-            gray_cover(gray, whole_x, whole_y, cover);
+            font_blend_cover(gray, whole_x, whole_y, cover);
     }
     return status;
 }
@@ -501,7 +400,7 @@ enum font_status font_painter_glyph(struct font_painter *p, struct font_face *fa
     if (!(size_px >= 0.1 && size_px <= FONT_SIDE_MAX))
         return font_fail(FONT_BAD_ARGUMENT, "a size must be 0.1..%d pixels (got %g)",
                          FONT_SIDE_MAX, size_px);
-    enum font_status status = placed_map(&layout, &one, map, x_px, y_px, &whole, &x, &y);
+    enum font_status status = placed_map(&layout, 0, map, x_px, y_px, &whole, &x, &y);
     if (map && map->kind == FONT_AFFINE) { /* its linear part */
         x = x_px;
         y = y_px;
@@ -529,9 +428,10 @@ enum font_status font_painter_measure(struct font_painter *p, const struct font_
         struct font_gray place;
         struct key key;
         double x, y;
-        status = placed_map(layout, g, map, x_px, y_px, &whole, &x, &y);
+        status = placed_map(layout, i, map, x_px, y_px, &whole, &x, &y);
         if (status == FONT_OK)
-            status = edges_get(p, g->face, g->glyph, &whole, layout->size_px, &key, &edges);
+            status = edges_get(p, g->face, g->glyph, &whole, font_placed_size(layout, g), &key,
+                               &edges);
         if (status != FONT_OK)
             break;
         double fx = x - floor(x), fy = y - floor(y);

@@ -29,11 +29,14 @@ struct font_picture {
     uint8_t *rgb;
 };
 
+/* As much as the face's stems ask for at a size: docs/fonts.md says how much, and why. */
+#define FONT_DARKEN_BY_STEM (-1.0)
+
 struct font_painter_def {
     const char *filter; /* "gaussian-fast" */
     double ink[3];      /* sRGB, 0..1 */
     double gamma;       /* 0: sRGB's own curve; else a power; 1: none */
-    double darken_px;   /* 0..2 */
+    double darken_px;   /* 0..2, or FONT_DARKEN_BY_STEM */
     bool stripes;       /* RGB */
     int places; /* a pixel is divided into so many for keeping glyphs; 0: glyphs are drawn where they are */
     size_t budget_bytes; /* of what is kept */
@@ -82,9 +85,5 @@ struct font_painter_stats {
     int kept_count;
 };
 void font_painter_stats_get(const struct font_painter *painter, struct font_painter_stats *out);
-
-/* Light from sRGB numbers 0..1 and back, or a power. */
-double font_light(double number, double gamma);
-double font_number(double light, double gamma);
 
 #endif

@@ -186,7 +186,7 @@ void font_shaper_destroy(struct font_shaper *s)
 
 /* ---- fallback ---- */
 
-/* All fonts there are, those most like the first face first. */
+/* All fonts there are, those most like the first face first: a bold word's other letters are bold, too. */
 static void candidates_find(struct font_shaper *s)
 {
     struct font_face_info info;
@@ -196,6 +196,10 @@ static void candidates_find(struct font_shaper *s)
         return;
     FcResult result;
     FcPatternAddString(pattern, FC_FAMILY, (const FcChar8 *)info.family);
+    const struct font_manner manner = font_face_manner(s->faces[0].face);
+    FcPatternAddDouble(pattern, FC_WEIGHT, manner.weight);
+    FcPatternAddInteger(pattern, FC_SLANT, manner.slant);
+    FcPatternAddInteger(pattern, FC_WIDTH, manner.width);
     FcPatternAddBool(pattern, FC_OUTLINE, FcTrue);
     FcConfigSubstitute(NULL, pattern, FcMatchPattern);
     FcDefaultSubstitute(pattern);

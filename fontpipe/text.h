@@ -21,7 +21,9 @@
 #define LUTETIA_FONT_TEXT_H
 
 #include "face.h"
+#include "ink.h"
 
+struct font_map;
 struct font_shaper;
 
 /* face: borrowed, must outlive the shaper; the first choice for every character. */
@@ -58,6 +60,11 @@ struct font_placed {
         y_px; /* of the origin, from the column's left edge on the first baseline; y downwards */
     int cluster; /* byte of the text that it comes from */
     int line;
+    float size_px; /* of the em; 0: the layout's */
+    int ink;       /* of the layout's inks, from 1; 0: whoever draws says */
+    /* Of the layout's maps, from 1; 0: none. It takes pixels around the glyph's origin to pixels around it, before the glyph is
+     * put in its place and the text's own map is applied. */
+    int map;
 };
 
 struct font_line {
@@ -82,7 +89,23 @@ struct font_layout {
     uint32_t missing[FONT_MISSING_MAX]; /* the first of them, each once */
     int damaged_count;                  /* sequences that were not UTF-8 */
     int fallback_count;                 /* characters set in another face */
+    /* Owned by the layout, freed with it. */
+    struct font_ink *inks;
+    struct font_map *maps;
+    int inks_count, inks_capacity, maps_count, maps_capacity;
 };
+
+/* The size that a glyph is set at. */
+double font_placed_size(const struct font_layout *layout, const struct font_placed *glyph);
+/* Where glyph i of a layout goes whose origin is at (x_px, y_px), through `map` (NULL: as it is): *out takes pixels around the
+ * glyph's origin to the picture's around (*x, *y). Where nothing is distorted *out has no translation.
+ * Errors: BAD_ARGUMENT (a distortion after another, unless both are projective). */
+enum font_status font_placed_map(const struct font_layout *layout, int i,
+                                 const struct font_map *map, double x_px, double y_px,
+                                 struct font_map *out, double *x, double *y);
+/* A map or an ink of the layout's own: its number; 0: no memory. */
+int font_layout_map_add(struct font_layout *layout, const struct font_map *map);
+int font_layout_ink_add(struct font_layout *layout, const struct font_ink *ink);
 
 /* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read, a width below 0), TOO_LARGE past a million
  * characters, NO_MEMORY; *out is then empty. options: NULL for the usual. */

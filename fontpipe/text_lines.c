@@ -500,6 +500,8 @@ void font_layout_finish(struct font_layout *layout)
 {
     free(layout->glyphs);
     free(layout->lines);
+    free(layout->inks);
+    free(layout->maps);
     *layout = (struct font_layout){0};
 }
 

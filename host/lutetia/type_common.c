@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const double pixels_max = 4e8;
 
@@ -42,6 +43,12 @@ struct font_picture type_picture(const struct display_image *image)
                                  image->pixels};
 }
 
+bool type_out_good(const char *path)
+{
+    const char *base = strrchr(path, '/'), *ending = strrchr(base ? base : path, '.');
+    return !ending || strcasecmp(ending, ".png") == 0;
+}
+
 int type_image_write(const char *verb, const char *path, const struct display_image *image)
 {
     if (display_png_write(path, image) != DISPLAY_OK)
@@ -54,17 +61,12 @@ int type_face_open(const char *verb, const char *name, int index, const char *ax
 {
     if (font_face_open(name, index, out) != FONT_OK)
         return fail_font(verb);
-    while (axes && *axes) {
-        char tag[5] = "", *end;
-        size_t length = strcspn(axes, "=,");
-        if (length >= 1 && length <= 4)
-            memcpy(tag, axes, length);
-        double value = axes[length] == '=' ? strtod(axes + length + 1, &end) : NAN;
-        if (!tag[0] || !isfinite(value) || end == axes + length + 1 || (*end && *end != ','))
-            return fail_usage(verb, "--axes must be like wght=700,wdth=80 (got '%.60s')", axes);
-        if (font_face_axis_set(*out, tag, value) != FONT_OK)
-            return fail_font(verb);
-        axes = *end ? end + 1 : end;
+    enum font_status status = font_face_axes_set(*out, axes);
+    if (status != FONT_OK) {
+        font_face_close(*out);
+        *out = NULL;
+        return status == FONT_BAD_ARGUMENT ? fail_usage(verb, "%s", font_error())
+                                           : fail_font(verb);
     }
     return EXIT_SUCCESS;
 }

@@ -14,6 +14,8 @@ int fail_font(const char *verb);
 int type_image_create(const char *verb, double width, double height,
                       struct display_image *image);
 struct font_picture type_picture(const struct display_image *image);
+/* Whether a picture's name ends as PNGs do, or has no ending. */
+bool type_out_good(const char *path);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
 /* Opens a font and sets axes, "wght=700,wdth=80". */

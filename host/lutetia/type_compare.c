@@ -25,16 +25,20 @@ struct compare {
 };
 
 /* The map of one glyph to the picture, all of the place in it. */
-static enum font_status glyph_map(const struct compare *c, const struct font_placed *g,
-                                  double x_px, double y_px, struct font_map *out)
+static enum font_status glyph_map(const struct compare *c, int i, double x_px, double y_px,
+                                  struct font_map *out)
 {
+    const struct font_placed *g = &c->layout->glyphs[i];
     struct font_face_info info;
+    struct font_map pixels;
+    double x, y;
     font_face_describe(g->face, &info);
-    struct font_map own = font_map_size(c->layout->size_px, info.units_per_em);
-    own.m[2] = g->x_px;
-    own.m[5] = g->y_px;
-    enum font_status status = font_map_compose(&own, c->map, out);
-    struct font_map move = {FONT_AFFINE, {1, 0, x_px, 0, 1, y_px}};
+    struct font_map own = font_map_size(font_placed_size(c->layout, g), info.units_per_em);
+    enum font_status status =
+        font_placed_map(c->layout, i, c->map, x_px, y_px, &pixels, &x, &y);
+    if (status == FONT_OK)
+        status = font_map_compose(&own, &pixels, out);
+    struct font_map move = {FONT_AFFINE, {1, 0, x, 0, 1, y}};
     *out = font_map_then(*out, move);
     return status;
 }
@@ -51,7 +55,7 @@ static int glyphs_each(struct compare *c, double x_px, double y_px, each_glyph *
         struct font_outline outline = {0};
         struct font_map map;
         if (font_face_outline(g->face, g->glyph, &outline) != FONT_OK ||
-            glyph_map(c, g, x_px, y_px, &map) != FONT_OK)
+            glyph_map(c, i, x_px, y_px, &map) != FONT_OK)
             status = fail_font("type");
         if (status == EXIT_SUCCESS)
             status = each(c, g, &outline, &map);
@@ -188,7 +192,7 @@ static int freetype_draw(struct compare *c, double x_px, double y_px)
         }
         if (!ft)
             status = fail("type", "FreeType cannot open the font");
-        else if (glyph_map(c, g, x_px, y_px, &map) != FONT_OK)
+        else if (glyph_map(c, i, x_px, y_px, &map) != FONT_OK)
             status = fail_font("type");
         else
             status = freetype_glyph(c, ft, g, &map, pixels);

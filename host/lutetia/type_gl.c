@@ -8,6 +8,9 @@
 #include <gl_offscreen.h>
 #include <gl_type.h>
 
+/* A pixel's places: an edge is at most 1/128 of a pixel beside its own, which is 2 of 255 where a filter is steepest. */
+enum { PLACES = 64 };
+
 int type_gl(const char *verb, const struct font_layout *layout, const struct font_map *map,
             const char *filter, double darken_px, double x_px, double y_px, const double ink[3],
             struct display_image *image)
@@ -18,6 +21,7 @@ int type_gl(const char *verb, const struct font_layout *layout, const struct fon
     def.function = gl_offscreen_function;
     def.atlas.filter = filter;
     def.atlas.darken_px = darken_px;
+    def.atlas.places_x = def.atlas.places_y = PLACES;
     if (layout->size_px > 256) /* a glyph must fit a page */
         def.atlas.width_px = def.atlas.height_px = 4096;
     enum display_status status =

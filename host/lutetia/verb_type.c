@@ -59,8 +59,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", t->ink, 0, 1, 3},
         {"gamma", 0, OPTION_NUMBER, "G", "light is mixed by this power; 1: not at all (sRGB's)",
          &t->gamma, 0.2, 5, 0},
-        {"darken", 0, OPTION_NUMBER, "PX", "widens the stems of small type (0)", &t->darken_px,
-         0, 2, 0},
+        {"darken", 0, OPTION_NUMBER, "PX",
+         "widens the stems of small type; 0: not (by their width)", &t->darken_px, 0, 2, 0},
         {"stripes", 0, OPTION_FLAG, NULL, "for a display with RGB stripes", &t->stripes, 0, 0,
          0},
         {"features", 0, OPTION_TEXT, "F,..", "OpenType features: -liga,ss01,kern=0",
@@ -114,9 +114,13 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage("type", "the text is empty: there is nothing to draw");
     if (t->corners.count > 1)
         return fail_usage("type", "--corners can be given once");
-    if (t->gl && (t->corners.count || t->gamma != 0 || t->stripes || t->compare))
-        return fail_usage("type",
-                          "--gl goes without --corners, --gamma, --stripes and --compare");
+    if (t->gl && (t->gamma != 0 || t->stripes || t->compare))
+        return fail_usage("type", "--gl goes without --gamma, --stripes and --compare");
+    if (t->compare && t->stripes)
+        return fail_usage("type", "--compare goes without --stripes: it shows gray");
+    if (!type_out_good(t->out_path))
+        return fail_usage("type", "-o names a picture in PNG: FILE.png (got '%.80s')",
+                          t->out_path);
     if (t->warp && strcmp(t->warp, "projective") != 0 && strcmp(t->warp, "bilinear") != 0)
         return fail_usage("type", "--warp must be projective or bilinear (got '%.60s')",
                           t->warp);
@@ -128,28 +132,6 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage(
             "type", "--align must be left, right, center or justify (got '%.60s')", t->align);
     return EXIT_SUCCESS;
-}
-
-/* The thinnest upright of the face in pixels, from the width of its l or I, measured on the outline. */
-static double detail_px(struct font_face *face, double size_px)
-{
-    static const uint32_t letters[] = {'l', 'I', 'i', 'o'};
-    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++) {
-        struct font_outline outline;
-        uint32_t glyph = font_face_glyph(face, letters[i]);
-        if (!glyph || font_face_outline_raw(face, glyph, &outline) != FONT_OK)
-            continue;
-        struct font_box box = font_outline_box(&outline);
-        double area = 0, height = box.y1 - box.y0, units = outline.units_per_em;
-        for (int k = 0; k < outline.segments_count; k++)
-            for (int n = 0; n < outline.segments[k].degree; n++)
-                area += 0.5 * (outline.segments[k].p[n].x * outline.segments[k].p[n + 1].y -
-                               outline.segments[k].p[n + 1].x * outline.segments[k].p[n].y);
-        font_outline_finish(&outline);
-        if (height > 0 && units > 0)
-            return fabs(area) / height * size_px / units;
-    }
-    return size_px / 12;
 }
 
 /* Where the text goes: sheared, rotated, and onto its corners. */
@@ -239,7 +221,7 @@ static int type_run(struct type *t, struct font_face *face)
         enum font_display display = strcmp(t->display, "crt") == 0     ? FONT_DISPLAY_CRT
                                     : strcmp(t->display, "print") == 0 ? FONT_DISPLAY_PRINT
                                                                        : FONT_DISPLAY_LCD;
-        t->filter = font_filter_choose(detail_px(face, t->size_px), display);
+        t->filter = font_filter_choose(font_face_stem(face) * t->size_px, display);
         printf("filter: %s\n", t->filter);
     }
     def.filter = t->filter;
@@ -284,6 +266,7 @@ int verb_type(int argc, char **argv)
                       .display = "lcd",
                       .out_path = "out.png",
                       .size_px = 48,
+                      .darken_px = FONT_DARKEN_BY_STEM,
                       .margin_px = 8,
                       .zoom = 8};
     int status = type_options(&t, argc, argv, &help);

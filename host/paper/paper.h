@@ -130,6 +130,12 @@ struct paper_line {
     const char *language; /* "fr" */
     int right_to_left; /* 1 lines run to the left, -1 to the right, 0 as their first letter */
     double pixels_max; /* of the screen; 0: 2^29 */
+    const char *axes;  /* of a variable font: "wght=700,wdth=80"; NULL: as it is */
+    double darken_px;  /* widens the stems of small type, 0..2 */
+    /* Where the upper left, upper right, lower right and lower left corner of the type go (x, y, ...), in place of a
+     * baseline, a place between fibers and an angle; NULL: they do not. */
+    const double *corners;
+    bool bilinear; /* between corners; else projective */
 };
 
 /* Sets type as a screen: shaped, filtered, in other fonts where this one lacks a character, as small as its ink. What no

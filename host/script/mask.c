@@ -292,13 +292,32 @@ static int make_line(lua_State *L)
 
 static const char *const text_fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
 
+/* corners = {{x, y}, ...}: of the upper left, upper right, lower right and lower left. false: there are none. */
+static bool text_corners(lua_State *L, int index, double corners[8])
+{
+    if (lua_isnoneornil(L, index) || lua_getfield(L, index, "corners") == LUA_TNIL)
+        return false;
+    if (!lua_istable(L, -1) || lua_rawlen(L, -1) != 4)
+        luaL_error(L, "text corners must be four points: {{x, y}, {x, y}, {x, y}, {x, y}}");
+    for (int i = 0; i < 4; i++)
+        corner_read(L, lua_absindex(L, -1), i + 1, "text corner", corners + 2 * i);
+    static const char *const others[] = {"x", "y", "angle", "anchor"};
+    for (int i = 0; i < 4; i++) {
+        if (lua_getfield(L, index, others[i]) != LUA_TNIL)
+            luaL_error(L, "text corners go without %s", others[i]);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    return true;
+}
+
 /* What text{} and p:type{} take, but for the place. */
 static void text_options(lua_State *L, int index, struct paper_line *line)
 {
-    static const char *const keys[] = {"size",   "font",          "x",        "y",
-                                       "align",  "tracking",      "filter",   "angle",
-                                       "width",  "leading",       "features", "language",
-                                       "anchor", "right_to_left", NULL};
+    static const char *const keys[] = {
+        "size",  "font",   "x",       "y",        "align",    "tracking", "filter",
+        "angle", "width",  "leading", "features", "language", "anchor",   "right_to_left",
+        "axes",  "darken", "corners", "warp",     NULL};
     static const char *const aligns[] = {[PAPER_ALIGN_LEFT] = "left",
                                          [PAPER_ALIGN_RIGHT] = "right",
                                          [PAPER_ALIGN_CENTER] = "center",
@@ -314,6 +333,12 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
     line->features = script_arg_text(L, index, "text", "features");
     line->language = script_arg_text(L, index, "text", "language");
     line->right_to_left = script_arg_boolean(L, index, "text", "right_to_left", false);
+    line->axes = script_arg_text(L, index, "text", "axes");
+    line->darken_px = script_arg_number(L, index, "text", "darken", 0, 0, 2);
+    const char *warp = script_arg_text(L, index, "text", "warp");
+    if (warp && strcmp(warp, "bilinear") != 0 && strcmp(warp, "projective") != 0)
+        luaL_error(L, "text warp must be \"projective\" or \"bilinear\" (got '%s')", warp);
+    line->bilinear = warp && strcmp(warp, "bilinear") == 0;
     const char *align = script_arg_text(L, index, "text", "align");
     for (int i = PAPER_ALIGN_LEFT; align && i <= PAPER_ALIGN_JUSTIFY; i++)
         if (strcmp(align, aligns[i]) == 0)
@@ -338,11 +363,15 @@ int script_mask_text_push(lua_State *L, int index)
     struct paper_line line = {.text = luaL_checkstring(L, index)};
     struct script *script = script_of(L);
     int options = index + 1;
+    double corners[8];
     text_options(L, options, &line);
+    line.corners = text_corners(L, options, corners) ? corners : NULL;
     double x =
         script_arg_number(L, options, "text", "x", 0, -SCRIPT_PLACE_MAX, SCRIPT_PLACE_MAX);
     double y = script_arg_number(L, options, "text", "y", line.size_px, -SCRIPT_PLACE_MAX,
                                  SCRIPT_PLACE_MAX);
+    if (line.corners)
+        x = y = 0;
     line.x_px = x - floor(x);
     line.y_px = y - floor(y);
     /* What drawing takes at most for a letter, and its place in the picture: given back but for the picture. */

@@ -131,6 +131,40 @@ static void text_turns(void **state)
     stage_close(&s);
 }
 
+/* Each glyph through a map of its own, of every kind, and in inks that let others shine through; then all of it turned. */
+static void glyphs_have_maps_and_inks(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        struct stage s;
+        struct font_atlas_def atlas = font_atlas_def_default();
+        atlas.places_x = atlas.places_y = 16;
+        stage_open(&s, 34, &atlas);
+        static const enum font_map_kind kinds[] = {FONT_PROJECTIVE, FONT_BILINEAR, FONT_SMOOTH};
+        for (int i = 0; i < s.layout.glyphs_count; i++) {
+            double a = (i * 37 % 11 - 5) * 0.9, b = (i * 53 % 13 - 6) * 0.9;
+            const struct font_point to[4] = {
+                {a, -30 + b}, {24 - b, -32 + a}, {25 + a, 4 - b}, {-2 + b, 3 + a}};
+            struct font_map map = font_map_rotation(i * 17);
+            if (i % 4)
+                assert_int_equal(font_map_corners(kinds[i % 4 - 1], 0, -30, 24, 4, to, &map),
+                                 FONT_OK);
+            const struct font_ink own =
+                font_ink_plain(i % 3 / 2.0, i % 5 / 4.0, i % 7 / 6.0, 0.3 + i % 2 * 0.5);
+            s.layout.glyphs[i].map = i % 6 ? font_layout_map_add(&s.layout, &map) : 0;
+            s.layout.glyphs[i].ink = i % 5 ? font_layout_ink_add(&s.layout, &own) : 0;
+            s.layout.glyphs[i].size_px = i % 3 ? 0 : 27.5f;
+        }
+        struct font_map all = font_map_rotation(9);
+        gl_type_begin(s.type, WIDTH, HEIGHT);
+        assert_display(gl_type_draw(s.type, &s.layout, turned ? &all : NULL, 8, 50, ink));
+        /* Distorted glyphs are where they are; the painter's places round only what is left over. */
+        struct display_image wanted = painted(&s, turned ? &all : NULL, 8, 50, 16);
+        assert_true(compare(&s, &wanted) > 1000);
+        stage_close(&s);
+    }
+}
+
 /* One page that cannot hold all of it: what has been drawn makes room. */
 static void small_atlases_do(void **state)
 {
@@ -180,9 +214,8 @@ static void what_cannot_be_is_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_is_as_painted),
-        cmocka_unit_test(text_turns),
-        cmocka_unit_test(small_atlases_do),
+        cmocka_unit_test(text_is_as_painted),        cmocka_unit_test(text_turns),
+        cmocka_unit_test(glyphs_have_maps_and_inks), cmocka_unit_test(small_atlases_do),
         cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -298,7 +298,7 @@ static void what_cannot_be_is_refused(void **state)
     assert_int_equal(font_atlas_get(f.atlas, f.face, glyph, 20, &map, 0, 0, &slot),
                      FONT_BAD_ARGUMENT);
     static const struct font_atlas_def wrong[] = {{.width_px = 10},  {.height_px = 1 << 20},
-                                                  {.pages_max = -1}, {.places_x = 99},
+                                                  {.pages_max = -1}, {.places_x = 257},
                                                   {.places_y = -2},  {.filter = "soft"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct font_atlas_def def = font_atlas_def_default();

@@ -189,6 +189,79 @@ static void what_the_face_has_not_is_found_or_said(void **state)
     font_face_close(face);
 }
 
+/* What a bold or slanted face lacks comes from one that is so, too. */
+static void fallback_keeps_weight_and_slant(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *font;
+        bool bold, slanted;
+    } cases[] = {{"C059-Roman", false, false},
+                 {"C059-Bold", true, false},
+                 {"C059-Bold.t1", true, false},
+                 {"NimbusSans-Italic", false, true},
+                 {"NimbusSans-BoldItalic", true, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct font_face *face = face_open(cases[i].font);
+        struct font_shaper *s = shaper_make(face);
+        struct font_layout l = layout_make(s, "\xe2\x87\x9d", NULL); /* DejaVu has this arrow */
+        assert_int_equal(l.fallback_count, 1);
+        const struct font_manner manner = font_face_manner(l.glyphs[0].face);
+        assert_int_equal(manner.weight > 150, cases[i].bold); /* fontconfig's: 80 is regular */
+        assert_int_equal(manner.slant > 0, cases[i].slanted);
+        font_layout_finish(&l);
+        font_shaper_destroy(s);
+        font_face_close(face);
+    }
+}
+
+/* URW's faces are there as Type 1 and as OpenType, under one name. */
+static void names_are_of_opentype_files(void **state)
+{
+    (void)state;
+    char *path = font_face_find("C059-Bold", NULL);
+    assert_non_null(path);
+    assert_string_equal(path + strlen(path) - 4, ".otf");
+    free(path);
+    path = font_face_find("C059-Bold.t1", NULL);
+    assert_string_equal(path + strlen(path) - 3, ".t1");
+    free(path);
+}
+
+/* The thinner stems are the more they are darkened, and wide ones not at all. */
+static void stems_say_how_dark(void **state)
+{
+    (void)state;
+    struct font_painter_def def = font_painter_def_default();
+    struct font_painter *painters[2];
+    assert_font(font_painter_create(&def, &painters[0]));
+    def.darken_px = FONT_DARKEN_BY_STEM;
+    assert_font(font_painter_create(&def, &painters[1]));
+    struct font_face *face = face_open("DejaVuSans");
+    assert_true(fabs(font_face_stem(face) - 184.0 / 2048) <
+                1e-9); /* of an l, as it was drawn */
+    double before = 1e9;
+    for (double size = 8; size < 40; size += 4) {
+        double ink[2] = {0};
+        for (int k = 0; k < 2; k++) {
+            const struct font_gray *gray;
+            assert_font(font_painter_glyph(painters[k], face, font_face_glyph(face, 'l'), size,
+                                           NULL, 0.25, 0, &gray));
+            for (int i = 0; i < gray->height_px; i++)
+                for (int c = 0; c < gray->width_px; c++)
+                    ink[k] += gray->pixels[i * gray->pitch + c];
+        }
+        double more = ink[1] / ink[0];
+        assert_true(more <= before + 1e-3 && (more > 1.1 || size > 20));
+        if (size >= 27)
+            assert_true(more == 1);
+        before = more;
+    }
+    font_face_close(face);
+    font_painter_destroy(painters[0]);
+    font_painter_destroy(painters[1]);
+}
+
 static void nonsense_is_refused(void **state)
 {
     (void)state;
@@ -403,6 +476,9 @@ int main(void)
         cmocka_unit_test(advances_are_the_glyphs),
         cmocka_unit_test(right_to_left_is_turned),
         cmocka_unit_test(what_the_face_has_not_is_found_or_said),
+        cmocka_unit_test(fallback_keeps_weight_and_slant),
+        cmocka_unit_test(names_are_of_opentype_files),
+        cmocka_unit_test(stems_say_how_dark),
         cmocka_unit_test(nonsense_is_refused),
         cmocka_unit_test(light_is_what_is_mixed),
         cmocka_unit_test(stems_darken_when_small),

@@ -30,7 +30,7 @@ static const struct {
     {NULL, "text", "SO",
      "size:n font:S x:n y:n align:S tracking:n filter:S angle:n width:n leading:n features:S "
      "language:S anchor:n "
-     "right_to_left:b"},
+     "right_to_left:b axes:S darken:n corners:t warp:S"},
     {NULL, "image", "snn", ""},
     {NULL, "mask", "iif", ""},
     {NULL, "path", "Dn", ""},

@@ -193,55 +193,6 @@ static float mixed(const struct gl_type *t, double number)
     return (float)(t->light ? font_light(number, 0) : number);
 }
 
-static void state_set(const struct gl_type *t)
-{
-    const struct gl *gl = &t->gl;
-    gl->Enable(GL_TEXTURE_2D);
-    gl->Enable(GL_BLEND);
-    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
-    if (t->light)
-        gl->Enable(GL_FRAMEBUFFER_SRGB);
-}
-
-static void state_reset(const struct gl_type *t)
-{
-    t->gl.Disable(GL_BLEND);
-    t->gl.Disable(GL_TEXTURE_2D);
-    if (t->light)
-        t->gl.Disable(GL_FRAMEBUFFER_SRGB);
-}
-
-enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
-                                 const struct font_map *map, double x_px, double y_px,
-                                 const double ink[3])
-{
-    enum display_status status = DISPLAY_OK;
-    bool emptied = false; /* nothing has been asked of the atlas since */
-    int first = 0;
-    state_set(t);
-    t->gl.Color3f(mixed(t, ink[0]), mixed(t, ink[1]), mixed(t, ink[2]));
-    while (status == DISPLAY_OK && first < layout->glyphs_count) {
-        int count = 0;
-        enum font_status placed = font_atlas_layout(t->atlas, layout, map, x_px, y_px, t->quads,
-                                                    QUADS, &first, &count);
-        if (placed != FONT_OK && (placed != FONT_FULL || (emptied && !count))) {
-            status = fail_font(placed);
-            break;
-        }
-        status = textures_update(t);
-        if (status == DISPLAY_OK)
-            quads_draw(t, count);
-        emptied = placed == FONT_FULL;
-        if (emptied) /* what has been drawn may go */
-            font_atlas_begin(t->atlas);
-    }
-    state_reset(t);
-    return status;
-}
-
-/* ---- glyphs one by one ---- */
-
 /* Quads in their order, each in its colour. */
 static void quads_draw_in_order(const struct gl_type *t, int count)
 {
@@ -264,6 +215,77 @@ static void quads_draw_in_order(const struct gl_type *t, int count)
     if (bound >= 0)
         t->gl.End();
 }
+
+static void state_set(const struct gl_type *t)
+{
+    const struct gl *gl = &t->gl;
+    gl->Enable(GL_TEXTURE_2D);
+    gl->Enable(GL_BLEND);
+    gl->BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl->TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
+    if (t->light)
+        gl->Enable(GL_FRAMEBUFFER_SRGB);
+}
+
+static void state_reset(const struct gl_type *t)
+{
+    t->gl.Disable(GL_BLEND);
+    t->gl.Disable(GL_TEXTURE_2D);
+    if (t->light)
+        t->gl.Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+/* The quads' colours, of the layout's inks. */
+static enum display_status inks_set(struct gl_type *t, const struct font_layout *layout,
+                                    const double ink[3], int count)
+{
+    for (int i = 0; i < count; i++) {
+        const struct font_ink plain = font_ink_plain(ink[0], ink[1], ink[2], 1);
+        const struct font_ink *own =
+            t->quads[i].ink > 0 ? &layout->inks[t->quads[i].ink - 1] : &plain;
+        if (own->kind != FONT_INK_PLAIN)
+            return display_fail(DISPLAY_BAD_ARGUMENT,
+                                "gradients and pictures as ink are not drawn by OpenGL");
+        for (int c = 0; c < 3; c++)
+            t->colors[i][c] = mixed(t, own->rgba[c]);
+        t->colors[i][3] = (float)own->rgba[3];
+    }
+    return DISPLAY_OK;
+}
+
+enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
+                                 const struct font_map *map, double x_px, double y_px,
+                                 const double ink[3])
+{
+    enum display_status status = DISPLAY_OK;
+    bool emptied = false; /* nothing has been asked of the atlas since */
+    int first = 0;
+    state_set(t);
+    t->gl.Color3f(mixed(t, ink[0]), mixed(t, ink[1]), mixed(t, ink[2]));
+    while (status == DISPLAY_OK && first < layout->glyphs_count) {
+        int count = 0;
+        enum font_status placed = font_atlas_layout(t->atlas, layout, map, x_px, y_px, t->quads,
+                                                    QUADS, &first, &count);
+        if (placed != FONT_OK && (placed != FONT_FULL || (emptied && !count))) {
+            status = fail_font(placed);
+            break;
+        }
+        status = textures_update(t);
+        if (status == DISPLAY_OK && layout->inks_count)
+            status = inks_set(t, layout, ink, count);
+        if (status == DISPLAY_OK && layout->inks_count)
+            quads_draw_in_order(t, count);
+        else if (status == DISPLAY_OK)
+            quads_draw(t, count);
+        emptied = placed == FONT_FULL;
+        if (emptied) /* what has been drawn may go */
+            font_atlas_begin(t->atlas);
+    }
+    state_reset(t);
+    return status;
+}
+
+/* ---- glyphs one by one ---- */
 
 static struct font_quad quad_of(const struct gl_type *t, const struct font_atlas_slot *slot)
 {

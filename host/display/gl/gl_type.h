@@ -40,9 +40,10 @@ void gl_type_destroy(struct gl_type *type); /* NULL is fine */
 /* A new frame: the size of the viewport, which is the picture's. */
 void gl_type_begin(struct gl_type *type, int width_px, int height_px);
 
-/* A layout with its origin at (x_px, y_px), through an affine map (NULL: as it is). ink: 0..1, as numbers of sRGB.
- * Errors: BAD_ARGUMENT (a map that is not affine, a glyph larger than a page, a place out of range), NO_MEMORY; part of
- * the text may then have been drawn. */
+/* A layout with its origin at (x_px, y_px), through any map (NULL: as it is), each glyph first through its own. ink: 0..1, as numbers
+ * of sRGB, for glyphs that have none of the layout's.
+ * Errors: BAD_ARGUMENT (a glyph larger than a page or beyond the horizon, a place out of range, an ink that is not plain), NO_MEMORY;
+ * part of the text may then have been drawn. */
 enum display_status gl_type_draw(struct gl_type *type, const struct font_layout *layout,
                                  const struct font_map *map, double x_px, double y_px,
                                  const double ink[3]);

@@ -48,6 +48,10 @@ static enum paper_status line_check(const struct paper_line *line)
                           "anchored at 0..1 (got %g, %g; %g; %g; %g; %g)",
                           line->x_px, line->y_px, line->angle_deg, line->width_px,
                           line->leading, line->anchor);
+    for (int i = 0; line->corners && i < 8; i++)
+        if (!(fabs(line->corners[i]) <= SCREEN_SIDE_MAX))
+            return paper_fail(PAPER_BAD_ARGUMENT, "a corner of type must be within %d (got %g)",
+                              SCREEN_SIDE_MAX, line->corners[i]);
     const char *at = line->text, *end = at + strlen(at);
     for (uint32_t character; at < end;) {
         size_t byte = (size_t)(at - line->text) + 1;
@@ -55,6 +59,18 @@ static enum paper_status line_check(const struct paper_line *line)
             return paper_fail(PAPER_BAD_TEXT, "the text is not UTF-8 at its byte %zu", byte);
     }
     return PAPER_OK;
+}
+
+/* The type's own rectangle, from the first ascent to the last descent, onto the corners. */
+static enum font_status line_map_corners(struct line_setting *set)
+{
+    const struct font_layout *l = &set->layout;
+    struct font_point to[4];
+    for (int i = 0; i < 4; i++)
+        to[i] = (struct font_point){set->line->corners[2 * i], set->line->corners[2 * i + 1]};
+    return font_map_corners(
+        set->line->bilinear ? FONT_BILINEAR : FONT_PROJECTIVE, 0, -l->ascent_px, l->width_px,
+        (l->lines_count - 1) * l->line_height_px + l->descent_px, to, &set->map);
 }
 
 static enum paper_status line_set(struct line_setting *set)
@@ -65,6 +81,7 @@ static enum paper_status line_set(struct line_setting *set)
     const struct paper_line *line = set->line;
     struct font_painter_def def = font_painter_def_default();
     def.filter = line->filter ? line->filter : "box";
+    def.darken_px = line->darken_px;
     struct font_text_options options = {.features = line->features,
                                         .language = line->language,
                                         .letter_spacing_px = line->tracking_em * line->size_px,
@@ -75,6 +92,8 @@ static enum paper_status line_set(struct line_setting *set)
     enum font_status status = font_face_open(line->font, 0, &set->face);
     if (status != FONT_OK)
         return pipeline_failed(status, PAPER_BAD_FONT);
+    if (font_face_axes_set(set->face, line->axes) != FONT_OK)
+        return pipeline_failed(FONT_BAD_ARGUMENT, PAPER_BAD_ARGUMENT);
     status = font_shaper_create(set->face, &set->shaper);
     if (status == FONT_OK)
         status = font_painter_create(&def, &set->painter);
@@ -82,6 +101,8 @@ static enum paper_status line_set(struct line_setting *set)
         status = font_shaper_layout(set->shaper, line->text, strlen(line->text), line->size_px,
                                     &options, &set->layout);
     set->map = font_map_rotation(line->angle_deg);
+    if (status == FONT_OK && line->corners)
+        status = line_map_corners(set);
     return status == FONT_OK ? PAPER_OK : pipeline_failed(status, PAPER_BAD_ARGUMENT);
 }
 
@@ -140,8 +161,12 @@ static enum paper_status line_draw(struct line_setting *set, struct paper_screen
     struct font_box box;
     struct font_point anchor = {-line->anchor * set->layout.width_px, 0};
     double jacobian[4];
-    font_map_point(&set->map, anchor, &anchor, jacobian);
-    double x = line->x_px + anchor.x, y = line->y_px + anchor.y;
+    double x = 0, y = 0;
+    if (!line->corners) {
+        font_map_point(&set->map, anchor, &anchor, jacobian);
+        x = line->x_px + anchor.x;
+        y = line->y_px + anchor.y;
+    }
     enum font_status status =
         font_painter_measure(set->painter, &set->layout, &set->map, x, y, &box);
     if (status != FONT_OK)

@@ -1,0 +1,51 @@
+/* paint_internal.h - what paint.c and paint_blend.c share. */
+#ifndef LUTETIA_FONT_PAINT_INTERNAL_H
+#define LUTETIA_FONT_PAINT_INTERNAL_H
+
+#include "internal.h"
+#include "paint.h"
+
+enum { BUCKETS = 4096, TO_LIGHT = 256, TO_NUMBER = 4096 };
+
+/* Compared whole: no padding, all of it set. */
+struct key {
+    uint64_t version;
+    double map[FONT_MAP_NUMBERS];
+    uint32_t glyph;
+    int32_t kind;
+    int32_t place_x, place_y; /* of a picture; -1 for edges */
+};
+
+struct entry {
+    struct key key;
+    struct font_edges edges; /* or: */
+    struct font_gray gray;
+    size_t bytes;
+    struct entry *next;          /* of the bucket */
+    struct entry *newer, *older; /* in order of use */
+};
+
+struct font_painter {
+    struct font_painter_def def;
+    struct font_filter *filter;
+    struct entry *buckets[BUCKETS];
+    struct entry *newest, *oldest;
+    struct font_painter_stats stats;
+    struct font_gray scratch[3];
+    uint64_t stem_of; /* the version of the face whose stems are known */
+    double stem;
+    double ink[3]; /* the last plain one, and its light */
+    float ink_light[3];
+    float to_light[TO_LIGHT];
+    uint8_t to_number[TO_NUMBER + 1];
+};
+
+/* The gray picture of a glyph, counted from the pixel (x, y), onto a picture: in one channel, or all (-1). The ink's places count
+ * from (ink_x, ink_y). */
+void font_blend(struct font_painter *p, const struct font_gray *gray, int x, int y, int channel,
+                const struct font_ink *ink, double ink_x, double ink_y,
+                struct font_picture *to);
+/* The same onto what is covered so far. */
+void font_blend_cover(const struct font_gray *gray, int x, int y, struct font_cover *to);
+
+#endif
