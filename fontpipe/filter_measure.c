@@ -31,32 +31,64 @@ static int grid_fill(double *grid, double length, double radius)
     return count;
 }
 
-/* Adds weight[i] * column(x_i) * H(Y - y_i). Steps add the difference of integrals from x_i - half to x_i + half,
- * nodes the density. */
-static void trial_add(struct trial *t, const struct font_filter *f, int term, double x,
-                      double y, double half, double weight, double (*sum)[GRID_MAX])
+/* The entries of a grid that the filter reaches from `at`, with `half` of a step: outside nothing of it lies. */
+static void grid_reached(const double *grid, int count, double reach, double at, int *from,
+                         int *to)
 {
-    double column[GRID_MAX];
-    for (int i = 0; i < t->x_count; i++)
-        column[i] = half > 0 ? font_term_integral(f, term, t->x[i] - x + half) -
-                                   font_term_integral(f, term, t->x[i] - x - half)
-                             : weight * font_term_density(f, term, t->x[i] - x);
-    for (int j = 0; j < t->y_count; j++) {
-        double row = f->terms[term].weight * font_term_integral(f, term, t->y[j] - y);
+    double begin = count ? grid[0] : 0;
+    *from = (int)fmin(fmax(floor((at - reach - begin) * GRID_PER_PX), 0), count);
+    *to = (int)fmin(fmax(ceil((at + reach - begin) * GRID_PER_PX) + 1, *from), count);
+}
+
+/* Adds column(x_i) * H(Y - y_i); column holds the entries from..to - 1, and is nought elsewhere. */
+static void trial_add(const struct trial *t, const struct font_filter *f, int term, double y,
+                      const double *column, int from, int to, double (*sum)[GRID_MAX])
+{
+    const struct font_filter_term *terms = &f->terms[term];
+    int low, high;
+    grid_reached(t->y, t->y_count, f->radius, y, &low, &high);
+    for (int j = low; j < t->y_count; j++) {
+        double row = terms->weight * (j < high ? font_term_integral(f, term, t->y[j] - y)
+                                               : terms->integral[f->knots]);
         if (row != 0)
-            for (int i = 0; i < t->x_count; i++)
+            for (int i = from; i < to; i++)
                 sum[j][i] += row * column[i];
     }
 }
 
+/* Steps add the difference of integrals from one end of the step to the other. A step begins where the one before ended. */
 static void trial_steps(struct trial *t, const struct font_filter *f, int count,
                         double (*sum)[GRID_MAX])
 {
+    double column[GRID_MAX], before[GRID_MAX];
     memset(sum, 0, sizeof t->exact);
-    for (int term = 0; term < f->terms_count; term++)
-        for (int k = 0; k < count; k++)
-            trial_add(t, f, term, t->dx * (k + 0.5) / count, t->dy * (k + 0.5) / count,
-                      t->dx / count / 2, 1, sum);
+    for (int term = 0; term < f->terms_count; term++) {
+        for (int i = 0; i < t->x_count; i++)
+            before[i] = font_term_integral(f, term, t->x[i]);
+        for (int k = 0; k < count; k++) {
+            double end = t->dx * (k + 1) / count;
+            int from, to;
+            grid_reached(t->x, t->x_count, f->radius + t->dx / count, end, &from, &to);
+            for (int i = from; i < to; i++) {
+                double now = font_term_integral(f, term, t->x[i] - end);
+                column[i] = before[i] - now;
+                before[i] = now;
+            }
+            trial_add(t, f, term, t->dy * (k + 0.5) / count, column, from, to, sum);
+        }
+    }
+}
+
+/* Nodes add weight times the density there. */
+static void trial_node(const struct trial *t, const struct font_filter *f, int term, double at,
+                       double weight, double (*sum)[GRID_MAX])
+{
+    double column[GRID_MAX], x = t->dx * at;
+    int from, to;
+    grid_reached(t->x, t->x_count, f->radius, x, &from, &to);
+    for (int i = from; i < to; i++)
+        column[i] = t->dx * weight * font_term_density(f, term, t->x[i] - x);
+    trial_add(t, f, term, t->dy * at, column, from, to, sum);
 }
 
 static void trial_nodes(struct trial *t, const struct font_filter *f, int count,
@@ -65,9 +97,7 @@ static void trial_nodes(struct trial *t, const struct font_filter *f, int count,
     memset(sum, 0, sizeof t->exact);
     for (int term = 0; term < f->terms_count; term++)
         for (int k = 0; k < count; k++)
-            trial_add(t, f, term, t->dx * font_gauss_at[count][k],
-                      t->dy * font_gauss_at[count][k], 0, t->dx * font_gauss_weight[count][k],
-                      sum);
+            trial_node(t, f, term, font_gauss_at[count][k], font_gauss_weight[count][k], sum);
 }
 
 static void trial_even(struct trial *t, const struct font_filter *f, int count,
@@ -77,8 +107,8 @@ static void trial_even(struct trial *t, const struct font_filter *f, int count,
     for (int term = 0; term < f->terms_count; term++)
         for (int k = 0; k < count; k++) {
             int end = k < count - 1 - k ? k : count - 1 - k;
-            double weight = end < 3 ? (double)font_even_weight[end] : 1, at = (k + 0.5) / count;
-            trial_add(t, f, term, t->dx * at, t->dy * at, 0, t->dx * weight / count, sum);
+            double weight = end < 3 ? (double)font_even_weight[end] : 1;
+            trial_node(t, f, term, (k + 0.5) / count, weight / count, sum);
         }
 }
 
