@@ -207,34 +207,50 @@ static void candidates_find(struct font_shaper *s)
     FcPatternDestroy(pattern);
 }
 
+/* The shaper's face that is candidate i of fontconfig's, opened if need be; -1 if it cannot be, or has not the character. */
+static int candidate_open(struct font_shaper *s, int i, uint32_t character)
+{
+    FcCharSet *set;
+    FcChar8 *file;
+    int index = 0;
+    FcPattern *font = s->candidates->fonts[i];
+    if (FcPatternGetCharSet(font, FC_CHARSET, 0, &set) != FcResultMatch ||
+        !FcCharSetHasChar(set, character) ||
+        FcPatternGetString(font, FC_FILE, 0, &file) != FcResultMatch)
+        return -1;
+    for (int k = 1; k < s->faces_count; k++)
+        if (s->faces[k].candidate == i)
+            return font_face_glyph(s->faces[k].face, character) ? k : -1;
+    if (s->faces_count == FONT_FACES_MAX)
+        return -1;
+    FcPatternGetInteger(font, FC_INDEX, 0, &index);
+    struct font_face *face;
+    if (font_face_open((const char *)file, index & 0xffff, &face) != FONT_OK)
+        return -1;
+    if (!font_face_glyph(face, character)) {
+        font_face_close(face);
+        return -1;
+    }
+    s->faces[s->faces_count] =
+        (struct font_shaped_face){.face = face, .owned = true, .candidate = i};
+    font_shaped_refresh(&s->faces[s->faces_count]);
+    return s->faces_count++;
+}
+
+/* Always in fontconfig's order: which face it is does not depend on the characters that were looked for before. */
 int font_shaper_face_for(struct font_shaper *s, uint32_t character)
 {
-    for (int i = 0; i < s->faces_count; i++)
-        if (font_face_glyph(s->faces[i].face, character))
-            return i;
+    if (font_face_glyph(s->faces[0].face, character))
+        return 0;
     if (!s->candidates)
         candidates_find(s);
-    for (int i = 0;
-         s->candidates && i < s->candidates->nfont && s->faces_count < FONT_FACES_MAX; i++) {
-        FcCharSet *set;
-        FcChar8 *file;
-        int index = 0;
-        FcPattern *font = s->candidates->fonts[i];
-        if (FcPatternGetCharSet(font, FC_CHARSET, 0, &set) != FcResultMatch ||
-            !FcCharSetHasChar(set, character) ||
-            FcPatternGetString(font, FC_FILE, 0, &file) != FcResultMatch)
-            continue;
-        FcPatternGetInteger(font, FC_INDEX, 0, &index);
-        struct font_face *face;
-        if (font_face_open((const char *)file, index & 0xffff, &face) != FONT_OK)
-            continue;
-        if (!font_face_glyph(face, character)) {
-            font_face_close(face);
-            continue;
-        }
-        s->faces[s->faces_count] = (struct font_shaped_face){.face = face, .owned = true};
-        font_shaped_refresh(&s->faces[s->faces_count]);
-        return s->faces_count++;
-    }
-    return -1;
+    struct font_known *known = &s->known[character % FONT_KNOWN];
+    if (known->character == character && known->face)
+        return known->face;
+    int face = -1;
+    for (int i = 0; face < 0 && s->candidates && i < s->candidates->nfont; i++)
+        face = candidate_open(s, i, character);
+    if (face > 0)
+        *known = (struct font_known){character, face};
+    return face;
 }

@@ -8,7 +8,7 @@
 #include <fontconfig/fontconfig.h>
 #include <hb.h>
 
-enum { FONT_FACES_MAX = 24 };
+enum { FONT_FACES_MAX = 24, FONT_KNOWN = 512 };
 
 struct font_shaped_face {
     struct font_face *face;
@@ -16,12 +16,20 @@ struct font_shaped_face {
     uint64_t version;
     bool owned;
     double units_per_em;
+    int candidate; /* which of fontconfig's it is, where it is one of those */
+};
+
+/* A character, and the face that it was found in. */
+struct font_known {
+    uint32_t character;
+    int face; /* 0: none yet */
 };
 
 struct font_shaper {
     struct font_shaped_face faces[FONT_FACES_MAX];
     int faces_count;
     hb_buffer_t *buffer;
+    struct font_known known[FONT_KNOWN];
     FcFontSet *candidates; /* fontconfig's, best first; NULL until the first is needed */
 };
 
@@ -29,5 +37,25 @@ struct font_shaper {
 void font_shaped_refresh(struct font_shaped_face *face);
 /* A face of the shaper that has the character, opened if need be; -1 if there is none. */
 int font_shaper_face_for(struct font_shaper *shaper, uint32_t character);
+
+/* text_runs.c: nothing is drawn for it, so no font need have it; a mark, which goes with its letter; white space; a new line, and
+ * what Unicode has beside it. */
+bool font_text_invisible(uint32_t character);
+bool font_text_mark(uint32_t character);
+bool font_text_white(uint32_t character);
+bool font_text_ends_line(uint32_t character);
+/* Common and inherited characters go with those before them, at the beginning with those behind. */
+void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts);
+/* The paragraph's levels (UAX 9). direction: 1 it runs to the left, -1 to the right, 0 as its first letter; *base: its own level.
+ * False: no memory. */
+bool font_levels_find(const uint32_t *characters, int count, int direction, int8_t *levels,
+                      int *base);
+
+/* Characters of one level, and whatever else they have in common. */
+struct font_run {
+    int begin, end, level;
+};
+/* Puts a line's runs in the order in which they are seen (rule L2). */
+void font_runs_order(struct font_run *runs, int count);
 
 #endif

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <fribidi.h>
 #include <linebreak.h>
 
 enum { FEATURES_MAX = 32, CHARACTERS_MAX = 1000000, TRIES = 16, SOFT_HYPHEN = 0xad };
@@ -27,32 +26,18 @@ struct letter {
     hb_script_t script;
 };
 
-struct run {
-    int begin, end, level;
-};
-
 struct paragraph {
     struct letter *letters;
-    FriBidiChar *characters;
-    FriBidiCharType *types;
-    FriBidiBracketType *brackets;
-    FriBidiLevel *levels;
-    struct run *runs;
+    uint32_t *characters;
+    hb_script_t *scripts;
+    int8_t *levels;
+    struct font_run *runs;
     double *
         advances; /* of a character, where lines are to be broken: of a cluster, at its first; else 0 */
     bool *clusters; /* one begins here */
     char *breaks;   /* libunibreak's, of the place behind a character */
     int count, runs_count, base;
 };
-
-/* Nothing is drawn for it, so no font need have it. */
-static bool invisible(hb_unicode_funcs_t *unicode, uint32_t c)
-{
-    hb_unicode_general_category_t category = hb_unicode_general_category(unicode, c);
-    return category == HB_UNICODE_GENERAL_CATEGORY_CONTROL ||
-           category == HB_UNICODE_GENERAL_CATEGORY_FORMAT || (c >= 0xfe00 && c <= 0xfe0f) ||
-           c == 0x34f;
-}
 
 static void missing_add(struct font_layout *out, uint32_t c)
 {
@@ -67,18 +52,13 @@ static void missing_add(struct font_layout *out, uint32_t c)
 static void faces_choose(struct font_shaper *s, struct paragraph *p, bool fallback,
                          struct font_layout *out)
 {
-    hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
     for (int i = 0; i < p->count; i++) {
         struct letter *l = &p->letters[i];
         int before = i ? p->letters[i - 1].face : 0;
         l->face = before;
-        if (invisible(unicode, l->character))
+        if (font_text_invisible(l->character))
             continue;
-        hb_unicode_general_category_t category =
-            hb_unicode_general_category(unicode, l->character);
-        bool mark = category == HB_UNICODE_GENERAL_CATEGORY_NON_SPACING_MARK ||
-                    category == HB_UNICODE_GENERAL_CATEGORY_ENCLOSING_MARK ||
-                    category == HB_UNICODE_GENERAL_CATEGORY_SPACING_MARK;
+        bool mark = font_text_mark(l->character);
         if (mark && font_face_glyph(s->faces[before].face, l->character))
             continue; /* with its letter */
         int face = font_face_glyph(s->faces[0].face, l->character) ? 0
@@ -92,83 +72,37 @@ static void faces_choose(struct font_shaper *s, struct paragraph *p, bool fallba
     }
 }
 
-/* Common and inherited characters go with those before them, at the beginning with those behind. */
 static void scripts_choose(struct paragraph *p)
 {
-    hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
-    hb_script_t known = HB_SCRIPT_INVALID;
-    for (int i = 0; i < p->count; i++) {
-        hb_script_t script = hb_unicode_script(unicode, p->letters[i].character);
-        bool shared = script == HB_SCRIPT_COMMON || script == HB_SCRIPT_INHERITED;
-        if (!shared && known == HB_SCRIPT_INVALID)
-            for (int k = 0; k < i; k++)
-                p->letters[k].script = script;
-        known = shared ? known : script;
-        p->letters[i].script = shared && known != HB_SCRIPT_INVALID ? known : script;
-    }
-}
-
-static bool white(uint32_t c)
-{
-    return c == ' ' || c == '\t' || c == 0x1680 ||
-           (c >= 0x2000 && c <= 0x200a && c != 0x2007) || c == 0x205f || c == 0x3000;
+    for (int i = 0; i < p->count; i++)
+        p->characters[i] = p->letters[i].character;
+    font_scripts_choose(p->characters, p->count, p->scripts);
+    for (int i = 0; i < p->count; i++)
+        p->letters[i].script = p->scripts[i];
 }
 
 /* The whole paragraph's levels. */
 static bool levels_find(struct paragraph *p, int direction)
 {
-    for (int i = 0; i < p->count; i++)
-        p->characters[i] = p->letters[i].character;
-    fribidi_get_bidi_types(p->characters, p->count, p->types);
-    fribidi_get_bracket_types(p->characters, p->count, p->types, p->brackets);
-    FriBidiParType base = direction > 0   ? FRIBIDI_PAR_RTL
-                          : direction < 0 ? FRIBIDI_PAR_LTR
-                                          : FRIBIDI_PAR_ON;
-    if (!fribidi_get_par_embedding_levels_ex(p->types, p->brackets, p->count, &base, p->levels))
-        return false;
-    p->base = FRIBIDI_IS_RTL(base) ? 1 : 0;
-    return true;
+    return font_levels_find(p->characters, p->count, direction, p->levels, &p->base);
 }
 
 /* The runs of begin..end in the order of the text. White space at its end has the paragraph's level (rule L1). */
 static void runs_cut(struct paragraph *p, int begin, int end)
 {
     int ink_end = end;
-    while (ink_end > begin && white(p->letters[ink_end - 1].character))
+    while (ink_end > begin && font_text_white(p->letters[ink_end - 1].character))
         ink_end--;
     p->runs_count = 0;
     for (int i = begin; i < end; i++) {
         int level = i < ink_end ? p->levels[i] : p->base;
-        struct run *last = p->runs_count ? &p->runs[p->runs_count - 1] : NULL;
+        struct font_run *last = p->runs_count ? &p->runs[p->runs_count - 1] : NULL;
         if (last && last->level == level && p->letters[i].face == p->letters[i - 1].face &&
             p->letters[i].script == p->letters[i - 1].script)
             last->end = i + 1;
         else
-            p->runs[p->runs_count++] = (struct run){i, i + 1, level};
+            p->runs[p->runs_count++] = (struct font_run){i, i + 1, level};
     }
-}
-
-/* Puts them in the order in which they are seen. */
-static void runs_order(struct paragraph *p)
-{
-    int highest = 0, lowest = 127;
-    for (int i = 0; i < p->runs_count; i++) {
-        highest = p->runs[i].level > highest ? p->runs[i].level : highest;
-        if (p->runs[i].level & 1)
-            lowest = p->runs[i].level < lowest ? p->runs[i].level : lowest;
-    }
-    for (int level = highest; level >= lowest; level--)
-        for (int i = 0; i < p->runs_count; i++) {
-            int end = i;
-            while (end < p->runs_count && p->runs[end].level >= level)
-                end++;
-            for (int a = i, b = end - 1; a < b; a++, b--) {
-                struct run swap = p->runs[a];
-                p->runs[a] = p->runs[b];
-                p->runs[b] = swap;
-            }
-            i = end > i ? end : i;
-        }
 }
 
 static enum font_status paragraph_reserve(struct paragraph *p, size_t count)
@@ -176,15 +110,14 @@ static enum font_status paragraph_reserve(struct paragraph *p, size_t count)
     count++;
     p->letters = calloc(count, sizeof *p->letters);
     p->characters = calloc(count, sizeof *p->characters);
-    p->types = calloc(count, sizeof *p->types);
-    p->brackets = calloc(count, sizeof *p->brackets);
+    p->scripts = calloc(count, sizeof *p->scripts);
     p->levels = calloc(count, sizeof *p->levels);
     p->runs = calloc(count, sizeof *p->runs);
     p->advances = calloc(count, sizeof *p->advances);
     p->clusters = calloc(count, sizeof *p->clusters);
     p->breaks = calloc(count, sizeof *p->breaks);
-    return p->letters && p->characters && p->types && p->brackets && p->levels && p->runs &&
-                   p->advances && p->clusters && p->breaks
+    return p->letters && p->characters && p->scripts && p->levels && p->runs && p->advances &&
+                   p->clusters && p->breaks
                ? FONT_OK
                : font_fail(FONT_NO_MEMORY, "no memory for text");
 }
@@ -193,8 +126,7 @@ static void paragraph_finish(struct paragraph *p)
 {
     free(p->letters);
     free(p->characters);
-    free(p->types);
-    free(p->brackets);
+    free(p->scripts);
     free(p->levels);
     free(p->runs);
     free(p->advances);
@@ -232,7 +164,7 @@ static enum font_status features_read(struct shaping *g)
 
 /* Shapes the run: what the shaper's buffer then holds. */
 static enum font_status run_shape(struct shaping *g, const struct paragraph *p,
-                                  const struct run *run, double *scale)
+                                  const struct font_run *run, double *scale)
 {
     struct font_shaped_face *face = &g->shaper->faces[p->letters[run->begin].face];
     hb_buffer_t *buffer = g->shaper->buffer;
@@ -263,7 +195,7 @@ static double pen_step(const struct shaping *g, const hb_glyph_info_t *infos,
 
 /* Appends the run's glyphs from *pen on. */
 static enum font_status run_set(struct shaping *g, const struct paragraph *p,
-                                const struct run *run, int line, double y, double *pen,
+                                const struct font_run *run, int line, double y, double *pen,
                                 struct font_layout *out)
 {
     double scale;
@@ -290,11 +222,6 @@ static enum font_status run_set(struct shaping *g, const struct paragraph *p,
 }
 
 /* ---- lines ---- */
-
-__attribute__((constructor)) static void breaks_begin(void)
-{
-    init_linebreak(); /* an index to its tables */
-}
 
 /* How far each character moves the pen if nothing is broken. */
 static enum font_status advances_find(struct shaping *g, struct paragraph *p)
@@ -347,7 +274,7 @@ static int line_break(const struct shaping *g, const struct paragraph *p, int be
             cluster = i;
         pen += p->advances[i];
         /* White space may stand in the margin. */
-        if (pen > width_px * (1 + 1e-9) && !white(c)) {
+        if (pen > width_px * (1 + 1e-9) && !font_text_white(c)) {
             if (allowed > begin) {
                 *hyphen = p->letters[allowed - 1].character == SOFT_HYPHEN;
                 return allowed;
@@ -371,7 +298,7 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
                                  bool hyphen, double y, struct font_layout *out,
                                  double *width_px)
 {
-    FriBidiChar kept = 0;
+    uint32_t kept = 0;
     double hyphen_px;
     *width_px = 0;
     if (hyphen) {
@@ -379,10 +306,10 @@ static enum font_status line_set(struct shaping *g, struct paragraph *p, int beg
         uint32_t seen = hyphen_for(g, &p->letters[end - 1], &hyphen_px);
         p->characters[end - 1] = seen ? seen : kept;
     }
-    while (g->trims && end > begin && white(p->letters[end - 1].character))
+    while (g->trims && end > begin && font_text_white(p->letters[end - 1].character))
         end--;
     runs_cut(p, begin, end);
-    runs_order(p);
+    font_runs_order(p->runs, p->runs_count);
     enum font_status status = FONT_OK;
     for (int i = 0; i < p->runs_count && status == FONT_OK; i++)
         status = run_set(g, p, &p->runs[i], out->lines_count, y, width_px, out);
@@ -437,7 +364,8 @@ static enum font_status paragraph_set(struct shaping *g, struct paragraph *p,
             room = fmin(room - (width - column), 0.9 * room);
         }
         begin = end;
-        while (g->trims && begin > 0 && begin < p->count && white(p->letters[begin].character))
+        while (g->trims && begin > 0 && begin < p->count &&
+               font_text_white(p->letters[begin].character))
             begin++;
         if (status == FONT_OK)
             status = line_add(out, first, width, p->base, begin >= p->count);
@@ -505,12 +433,6 @@ void font_layout_finish(struct font_layout *layout)
     *layout = (struct font_layout){0};
 }
 
-/* A new line, and what Unicode has beside it. */
-static bool ends_line(uint32_t c)
-{
-    return c == '\n' || c == 0x0b || c == 0x0c || c == 0x85 || c == 0x2028 || c == 0x2029;
-}
-
 /* The characters up to the next end of line; false if it was the text's. */
 static bool paragraph_read(struct paragraph *p, const char *text, const char **at,
                            const char *end, struct font_layout *out)
@@ -521,7 +443,7 @@ static bool paragraph_read(struct paragraph *p, const char *text, const char **a
         *l = (struct letter){.byte = (int)(*at - text)};
         if (!font_utf8_next(at, end, &l->character))
             out->damaged_count++;
-        if (ends_line(l->character))
+        if (font_text_ends_line(l->character))
             return true;
         if (l->character == '\t')
             l->character = ' ';

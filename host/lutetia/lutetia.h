@@ -25,6 +25,7 @@ int verb_leds(int argc, char **argv);
 int verb_explain(int argc, char **argv);
 int verb_tune(int argc, char **argv);
 int verb_type(int argc, char **argv);
+int verb_set(int argc, char **argv);
 int verb_font(int argc, char **argv);
 int verb_run(int argc, char **argv);
 int verb_spring(int argc, char **argv);

@@ -1,0 +1,519 @@
+/* flow.c - paragraphs onto pages: see page_internal.h.
+ *
+ * A page is filled from where the one before it ended, frame after frame. A paragraph is broken for the widths of the slots that it is
+ * going to stand in; then it is seen how many of its lines may stand in the frame (its keeps, the notes that its lines bring along), and
+ * where fewer stand here than fit, it is broken again for the slots that it gets. */
+#include "page_internal.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TRIES = 4, CHAIN_MAX = 4, EMPTY_PAGES_MAX = 2 };
+
+const struct page_template *flow_template(const struct page_text *t, int page)
+{
+    return t->templates_count
+               ? &t->templates[page < t->templates_count ? page : t->templates_count - 1]
+               : NULL;
+}
+
+/* ---- slots to come ---- */
+
+struct walk {
+    const struct page_text *t;
+    const struct page_template *template;
+    int flow, page, frame, part;
+    double v, v_end;
+    int empty_pages;
+};
+
+static int frame_next(const struct page_template *t, int flow, int frame)
+{
+    for (frame++; frame < t->frames_count; frame++)
+        if (t->frames[frame].flow == flow)
+            return frame;
+    return -1;
+}
+
+/* On to the flow's next frame; false: there are none any more. */
+static bool walk_on(struct walk *w)
+{
+    w->frame = frame_next(w->template, w->flow, w->frame);
+    while (w->frame < 0) {
+        if (++w->empty_pages > EMPTY_PAGES_MAX)
+            return false;
+        w->template = flow_template(w->t, ++w->page);
+        w->frame = frame_next(w->template, w->flow, -1);
+    }
+    w->v = 0;
+    w->part = 0;
+    w->v_end = frame_depth(&w->template->frames[w->frame]);
+    return true;
+}
+
+static bool walk_next(struct walk *w, double height, struct slot *slot)
+{
+    while (!slots_next(w->template, w->frame, &w->v, &w->part, w->v_end, height, slot))
+        if (!walk_on(w))
+            return false;
+    w->empty_pages = 0;
+    return true;
+}
+
+/* ---- filling a frame ---- */
+
+struct filling {
+    struct page_text *t;
+    struct page *page;
+    const struct page_template *template;
+    int number, flow, frame;
+    double v, foot_px, margin_v;
+    bool top; /* nothing stands in the frame yet */
+    struct paragraph **notes;
+    int notes_count, notes_capacity;
+    double *widths;
+    int widths_capacity;
+    struct slot *slots;
+    int slots_capacity;
+};
+
+static double paragraph_measure(const struct paragraph *p, const struct slot *s, bool first)
+{
+    return s->u1 - s->u0 - p->manner.left_px - p->manner.right_px -
+           (first ? p->manner.indent_px : 0);
+}
+
+/* Whether all of the flow's lines are of one width. */
+static bool is_uniform(const struct page_text *t, int flow, double *width)
+{
+    *width = 0;
+    for (int k = 0; k < t->templates_count; k++) {
+        if (t->templates[k].shapes_count)
+            return false;
+        for (int i = 0; i < t->templates[k].frames_count; i++) {
+            const struct page_frame *f = &t->templates[k].frames[i];
+            if (f->flow != flow)
+                continue;
+            if (*width > 0 && *width != frame_measure(f))
+                return false;
+            *width = frame_measure(f);
+        }
+    }
+    return true;
+}
+
+/* Breaks the paragraph for the slots from here on, of which at most `limit` are in this frame. */
+static enum font_status break_here(struct filling *f, struct paragraph *p, int limit)
+{
+    struct slot slot;
+    double width;
+    const double narrow =
+        1; /* slots are no narrower than that, whatever the paragraph leaves blank */
+    enum font_status status = set_analyse(f->t, p);
+    if (status != FONT_OK)
+        return status;
+    if (is_uniform(f->t, f->flow, &width)) {
+        slot = (struct slot){.u1 = width};
+        double widths[2] = {fmax(narrow, paragraph_measure(p, &slot, true)),
+                            fmax(narrow, paragraph_measure(p, &slot, false))};
+        return lines_break(f->t, p, widths, widths[0] == widths[1] ? 1 : 2);
+    }
+    for (int wanted = 16;; wanted *= 4) {
+        struct walk w = {.t = f->t,
+                         .template = f->template,
+                         .flow = f->flow,
+                         .page = f->number,
+                         .frame = f->frame,
+                         .v = f->v,
+                         .v_end = frame_depth(&f->template->frames[f->frame]) - f->foot_px};
+        int count = 0;
+        if (!array_reserve(&f->widths, &f->widths_capacity, wanted, sizeof *f->widths))
+            return font_fail(FONT_NO_MEMORY, "no memory for a page");
+        bool more = limit != 0 || walk_on(&w);
+        while (more && count < wanted && (more = walk_next(&w, p->leading_px, &slot))) {
+            f->widths[count] = fmax(narrow, paragraph_measure(p, &slot, count == 0));
+            if (++count == limit)
+                more = walk_on(&w);
+        }
+        if (!count)
+            f->widths[count++] = fmax(narrow, frame_measure(&f->template->frames[f->frame]));
+        status = lines_break(f->t, p, f->widths, count);
+        if (status != FONT_OK || p->lines_count <= count || !more)
+            return status;
+    }
+}
+
+/* How high a note is, set as wide as the frame. */
+static enum font_status note_height(struct filling *f, struct paragraph *p, double width_px,
+                                    double *height)
+{
+    struct slot slot = {.u1 = width_px};
+    enum font_status status = set_analyse(f->t, p);
+    double widths[2] = {fmax(1, paragraph_measure(p, &slot, true)),
+                        fmax(1, paragraph_measure(p, &slot, false))};
+    if (status == FONT_OK)
+        status = lines_break(f->t, p, widths, 2);
+    *height = p->lines_count * p->leading_px + p->manner.before_px + p->manner.after_px;
+    return status;
+}
+
+/* What a line's notes take at the foot. */
+static enum font_status line_notes(struct filling *f, const struct paragraph *p,
+                                   const struct line *line, double *height)
+{
+    const struct page_frame *frame = &f->template->frames[f->frame];
+    *height = 0;
+    for (int i = 0; i < p->notes_count; i++) {
+        const struct note *n = &p->notes[i];
+        int end = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
+        int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
+        if (n->kind != PAGE_NOTE_FOOT || n->byte > end || n->byte <= (begin ? begin : -1))
+            continue;
+        double own;
+        enum font_status status = note_height(f, n->paragraph, frame_measure(frame), &own);
+        if (status != FONT_OK)
+            return status;
+        *height += own;
+    }
+    return FONT_OK;
+}
+
+/* How many lines from `from` on fit into the frame; their slots are in f->slots. */
+static enum font_status lines_fit(struct filling *f, const struct paragraph *p, int from,
+                                  int *fit)
+{
+    const struct page_frame *frame = &f->template->frames[f->frame];
+    double v = f->v, foot = f->foot_px, own;
+    int part = 0;
+    *fit = 0;
+    for (int i = from; i < p->lines_count; i++) {
+        struct slot slot;
+        enum font_status status = line_notes(f, p, &p->lines[i], &own);
+        if (status != FONT_OK)
+            return status;
+        double after = foot + own + (own > 0 && foot == 0 ? frame->foot_gap_px : 0);
+        bool room = slots_next(f->template, f->frame, &v, &part, frame_depth(frame) - after,
+                               p->leading_px, &slot);
+        /* A note that is too high for any column stands over its edge. */
+        if (!room && f->top && *fit == 0 && own > 0)
+            room = slots_next(f->template, f->frame, &v, &part, frame_depth(frame),
+                              p->leading_px, &slot);
+        if (!room)
+            return FONT_OK;
+        if (!array_reserve(&f->slots, &f->slots_capacity, *fit + 1, sizeof *f->slots))
+            return font_fail(FONT_NO_MEMORY, "no memory for a page");
+        f->slots[(*fit)++] = slot;
+        foot = after;
+    }
+    return FONT_OK;
+}
+
+/* What paragraphs behind one that is kept with them need of the frame. */
+static enum font_status chain_height(struct filling *f, const struct paragraph *p,
+                                     double *height)
+{
+    const struct flow *flow = &f->t->flows[f->flow];
+    double width = frame_measure(&f->template->frames[f->frame]);
+    *height = p->manner.after_px;
+    for (int i = p->at + 1; i < flow->count && i <= p->at + CHAIN_MAX; i++) {
+        struct paragraph *q = flow->paragraphs[i];
+        double own;
+        if (q->manner.begins_column)
+            break;
+        enum font_status status = note_height(f, q, width, &own);
+        if (status != FONT_OK)
+            return status;
+        if (q->manner.keep_with_next) {
+            *height += own;
+            continue;
+        }
+        int lines = q->manner.keep_together || q->lines_count < q->manner.orphans
+                        ? q->lines_count
+                        : q->manner.orphans;
+        *height += q->manner.before_px + lines * q->leading_px;
+        break;
+    }
+    return FONT_OK;
+}
+
+/* How many of the lines that fit are to stand here. */
+static enum font_status lines_keep(struct filling *f, const struct paragraph *p, int from,
+                                   int fit, int *stand)
+{
+    const struct page_manner *m = &p->manner;
+    int left = p->lines_count - from, orphans = from ? 0 : m->orphans;
+    double depth = frame_depth(&f->template->frames[f->frame]), behind;
+    *stand = fit;
+    if (fit < left) {
+        if (m->keep_together && !from && left * p->leading_px <= depth)
+            *stand = 0;
+        if (left - *stand < m->widows)
+            *stand = left - m->widows;
+        if (*stand < orphans || *stand < 0)
+            *stand = 0;
+    } else if (m->keep_with_next && !from && p->at + 1 < f->t->flows[f->flow].count) {
+        enum font_status status = chain_height(f, p, &behind);
+        if (status != FONT_OK)
+            return status;
+        double end = fit ? f->slots[fit - 1].v + p->leading_px : f->v;
+        if (end + behind > depth - f->foot_px + 1e-6)
+            *stand = 0;
+    }
+    if (*stand == 0 && f->top) /* the next column has no more room than this one */
+        *stand = fit;
+    return FONT_OK;
+}
+
+static bool slot_add(struct page *page, struct slot slot)
+{
+    if (!array_reserve(&page->slots, &page->slots_capacity, page->slots_count + 1,
+                       sizeof *page->slots))
+        return false;
+    page->slots[page->slots_count++] = slot;
+    return true;
+}
+
+static bool piece_add(struct page *page, struct paragraph *p, int begin, int end, int frame,
+                      const struct slot *slots)
+{
+    if (begin == end)
+        return true;
+    if (!array_reserve(&page->pieces, &page->pieces_capacity, page->pieces_count + 1,
+                       sizeof *page->pieces))
+        return false;
+    page->pieces[page->pieces_count++] =
+        (struct piece){p, begin, end, page->slots_count, frame};
+    for (int i = 0; i < end - begin; i++) {
+        struct slot s = slots[i];
+        bool first = begin + i == 0;
+        s.u0 += (p->base ? p->manner.right_px : p->manner.left_px) +
+                (first && !p->base ? p->manner.indent_px : 0);
+        s.u1 -= (p->base ? p->manner.left_px : p->manner.right_px) +
+                (first && p->base ? p->manner.indent_px : 0);
+        if (!slot_add(page, s))
+            return false;
+    }
+    return true;
+}
+
+/* A note's lines, from v on, in a box of the frame's. */
+static enum font_status note_place(struct filling *f, struct paragraph *p, double u0, double u1,
+                                   double v)
+{
+    if (!array_reserve(&f->slots, &f->slots_capacity, p->lines_count, sizeof *f->slots))
+        return font_fail(FONT_NO_MEMORY, "no memory for a page");
+    for (int i = 0; i < p->lines_count; i++)
+        f->slots[i] =
+            (struct slot){u0, u1, v + p->manner.before_px + i * p->leading_px, f->frame};
+    p->first_page = p->last_page = f->number;
+    return piece_add(f->page, p, 0, p->lines_count, f->frame, f->slots)
+               ? FONT_OK
+               : font_fail(FONT_NO_MEMORY, "no memory for a page");
+}
+
+/* The notes of lines that were just placed: those of the margin at once, those of the foot when the frame is full. */
+static enum font_status notes_take(struct filling *f, struct paragraph *p, int from, int end)
+{
+    const struct page_frame *frame = &f->template->frames[f->frame];
+    int first_slot = f->page->slots_count - (end - from);
+    for (int i = from; i < end; i++) {
+        const struct line *line = &p->lines[i];
+        double own;
+        enum font_status status = line_notes(f, p, line, &own);
+        if (status != FONT_OK)
+            return status;
+        if (own > 0)
+            f->foot_px += own + (f->foot_px == 0 ? frame->foot_gap_px : 0);
+        for (int k = 0; k < p->notes_count; k++) {
+            const struct note *n = &p->notes[k];
+            int last = line->end < p->count ? p->letters[line->end].byte : p->bytes + 1;
+            int begin = line->begin < p->count ? p->letters[line->begin].byte : 0;
+            if (n->byte > last || n->byte <= (begin ? begin : -1))
+                continue;
+            if (n->kind == PAGE_NOTE_FOOT) {
+                if (!array_reserve(&f->notes, &f->notes_capacity, f->notes_count + 1,
+                                   sizeof *f->notes))
+                    return font_fail(FONT_NO_MEMORY, "no memory for notes");
+                f->notes[f->notes_count++] = n->paragraph;
+            } else if (frame->margin_width > 0 && !frame->vertical) {
+                double height, v = f->page->slots[first_slot + i - from].v;
+                status = note_height(f, n->paragraph, frame->margin_width, &height);
+                v = fmax(v, f->margin_v);
+                if (status == FONT_OK)
+                    status = note_place(f, n->paragraph, frame->margin_x - frame->x,
+                                        frame->margin_x - frame->x + frame->margin_width, v);
+                if (status != FONT_OK)
+                    return status;
+                f->margin_v = v + height;
+            }
+        }
+    }
+    return FONT_OK;
+}
+
+static enum font_status feet_place(struct filling *f)
+{
+    const struct page_frame *frame = &f->template->frames[f->frame];
+    double v = frame_depth(frame) - f->foot_px + frame->foot_gap_px, height;
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < f->notes_count && status == FONT_OK; i++) {
+        status = note_height(f, f->notes[i], frame_measure(frame), &height);
+        if (status == FONT_OK)
+            status = note_place(f, f->notes[i], 0, frame_measure(frame), v);
+        v += height;
+    }
+    f->notes_count = 0;
+    return status;
+}
+
+/* As many lines of the paragraph, from the cursor's on, as may stand in the frame. *full: the rest goes on. */
+static enum font_status paragraph_place(struct filling *f, struct paragraph *p,
+                                        struct cursor *cursor, bool *full)
+{
+    int from = cursor->line, fit = 0, stand = 0, limit = -1;
+    enum font_status status = FONT_OK;
+    *full = p->manner.begins_column && !from && !f->top;
+    if (*full)
+        return FONT_OK;
+    if (!from && !f->top)
+        f->v += p->manner.before_px;
+    for (int tries = 0; status == FONT_OK && tries < TRIES; tries++) {
+        if (!from)
+            status = break_here(f, p, limit);
+        if (status == FONT_OK)
+            status = lines_fit(f, p, from, &fit);
+        if (status == FONT_OK)
+            status = lines_keep(f, p, from, limit >= 0 && limit < fit ? limit : fit, &stand);
+        double width;
+        if (from || stand == fit || stand == limit || is_uniform(f->t, f->flow, &width))
+            break;
+        limit = stand;
+    }
+    if (status != FONT_OK)
+        return status;
+    *full = stand < p->lines_count - from;
+    if (!from)
+        p->first_page = f->number;
+    p->last_page = f->number;
+    if (!stand)
+        return FONT_OK;
+    double end = f->slots[stand - 1].v + p->leading_px;
+    if (!piece_add(f->page, p, from, from + stand, f->frame, f->slots))
+        return font_fail(FONT_NO_MEMORY, "no memory for a page");
+    status = notes_take(f, p, from, from + stand);
+    f->v = end + (*full ? 0 : p->manner.after_px);
+    f->top = false;
+    cursor->line = from + stand;
+    return status;
+}
+
+static enum font_status frame_fill(struct filling *f, struct cursor *cursor)
+{
+    const struct flow *flow = &f->t->flows[f->flow];
+    enum font_status status = FONT_OK;
+    f->v = f->foot_px = f->margin_v = 0;
+    f->top = true;
+    for (bool full = false; status == FONT_OK && !full && cursor->at < flow->count;) {
+        status = paragraph_place(f, flow->paragraphs[cursor->at], cursor, &full);
+        if (!full && status == FONT_OK)
+            *cursor = (struct cursor){.at = cursor->at + 1};
+    }
+    return status == FONT_OK ? feet_place(f) : status;
+}
+
+/* ---- pages ---- */
+
+void flow_changed(struct page_text *t, const struct paragraph *p)
+{
+    if (p->flow < 0 && p->owner >= 0 && t->by_id[p->owner])
+        p = t->by_id[p->owner];
+    if (p->first_page < 0 || p->first_page > t->pages_filled)
+        return;
+    int from =
+        p->first_page > 0 ? p->first_page - 1 : 0; /* it may now fit on the page before */
+    t->pages_good = from < t->pages_good ? from : t->pages_good;
+    t->dirty_until = p->last_page > t->dirty_until ? p->last_page : t->dirty_until;
+}
+
+void flow_changed_from(struct page_text *t, int page)
+{
+    t->pages_good = page < t->pages_good ? (page > 0 ? page : 0) : t->pages_good;
+    t->dirty_until = INT_MAX;
+}
+
+static bool ends_same(const struct cursor *a, const struct cursor *b)
+{
+    for (int i = 0; i < FLOWS_MAX; i++)
+        if (a[i].at != b[i].at || a[i].line != b[i].line)
+            return false;
+    return true;
+}
+
+static enum font_status page_fill(struct page_text *t, int number)
+{
+    struct page *page = &t->pages[number];
+    struct cursor starts[FLOWS_MAX] = {{0}}, ends[FLOWS_MAX];
+    struct filling f = {.t = t, .page = page, .number = number};
+    enum font_status status = FONT_OK;
+    f.template = flow_template(t, number);
+    if (number > 0)
+        memcpy(starts, t->pages[number - 1].ends, sizeof starts);
+    memcpy(ends, starts, sizeof ends);
+    page->pieces_count = page->slots_count = 0;
+    for (int i = 0; i < f.template->frames_count && status == FONT_OK; i++) {
+        f.frame = i;
+        f.flow = f.template->frames[i].flow;
+        status = frame_fill(&f, &ends[f.flow]);
+    }
+    free(f.notes);
+    free(f.widths);
+    free(f.slots);
+    if (status != FONT_OK)
+        return status;
+    bool same = page->filled && number >= t->dirty_until && ends_same(page->ends, ends);
+    bool over = true;
+    for (int i = 0; i < FLOWS_MAX; i++)
+        over = over && ends[i].at >= t->flows[i].count;
+    memcpy(page->starts, starts, sizeof starts);
+    memcpy(page->ends, ends, sizeof ends);
+    /* A page on which nothing fits is followed by others like it: it is the last. */
+    page->last = over || (number >= t->templates_count - 1 && ends_same(starts, ends));
+    page->filled = true;
+    t->stats.pages_filled++;
+    if (same) {
+        t->pages_good = t->pages_filled;
+    } else {
+        t->pages_good = number + 1;
+        t->pages_filled =
+            page->last || t->pages_filled < number + 1 ? number + 1 : t->pages_filled;
+    }
+    if (same || page->last)
+        t->dirty_until = -1;
+    return FONT_OK;
+}
+
+enum font_status flow_fill(struct page_text *t, int number)
+{
+    if (number < 0 || number >= PAGES_MAX || !t->templates_count)
+        return font_fail(FONT_BAD_ARGUMENT,
+                         t->templates_count ? "there is no page %d"
+                                            : "there is no template for page %d",
+                         number + 1);
+    while (t->pages_good <= number) {
+        int next = t->pages_good;
+        if (next > 0 && t->pages[next - 1].last)
+            return font_fail(FONT_BAD_ARGUMENT, "there is no page %d: the text has %d",
+                             number + 1, next);
+        if (next >= t->pages_count) {
+            if (!array_reserve(&t->pages, &t->pages_capacity, next + 1, sizeof *t->pages))
+                return font_fail(FONT_NO_MEMORY, "no memory for pages");
+            t->pages[t->pages_count++] = (struct page){0};
+        }
+        enum font_status status = page_fill(t, next);
+        if (status != FONT_OK)
+            return status;
+    }
+    return FONT_OK;
+}

@@ -1,0 +1,205 @@
+/* layout.c - pages as glyphs in their places, and what is asked of pages: see page.h. */
+#include "page_internal.h"
+
+#include "../edges.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A line's baseline, across the frame's lines: letters' middles are in the middle of its slot. */
+static double baseline(const struct page_text *t, const struct paragraph *p,
+                       const struct slot *s)
+{
+    const struct style *first = t->styles[p->style];
+    return s->v + p->leading_px / 2 + (first->ascent_px - first->descent_px) / 2;
+}
+
+struct output {
+    const struct page_text *t;
+    const struct page_template *template;
+    struct font_layout *out;
+    int *inks; /* of the layout, by style; 0: not yet */
+    struct font_map last;
+    int last_number;
+};
+
+static int ink_of(struct output *o, int style)
+{
+    const struct page_style *look = &o->t->styles[style]->look;
+    if (!look->inked)
+        return 0;
+    if (!o->inks[style])
+        o->inks[style] = font_layout_ink_add(o->out, &look->ink);
+    return o->inks[style];
+}
+
+/* The map of a glyph that is expanded, or lies in a vertical line; 0: none. */
+static int map_of(struct output *o, bool vertical, bool upright, float scale)
+{
+    double s = (double)scale;
+    struct font_map map = {FONT_AFFINE, {s, 0, 0, 0, 1, 0}};
+    if (vertical && upright)
+        map = (struct font_map){FONT_AFFINE, {1, 0, 0, 0, s, 0}};
+    else if (vertical)
+        map = (struct font_map){FONT_AFFINE, {0, -1, 0, s, 0, 0}};
+    else if (s == 1)
+        return 0;
+    if (!o->last_number || memcmp(map.m, o->last.m, sizeof map.m) != 0) {
+        o->last_number = font_layout_map_add(o->out, &map);
+        o->last = map;
+    }
+    return o->last_number;
+}
+
+static bool line_put(struct output *o, const struct paragraph *p, const struct set_line *l,
+                     const struct slot *slot, int line)
+{
+    struct font_layout *out = o->out;
+    const struct page_frame *frame = &o->template->frames[slot->frame];
+    double base = baseline(o->t, p, slot);
+    if (!array_reserve(&out->glyphs, &out->glyphs_capacity, out->glyphs_count + l->glyphs_count,
+                       sizeof *out->glyphs))
+        return false;
+    for (int i = 0; i < l->glyphs_count; i++) {
+        const struct set_glyph *g = &l->glyphs[i];
+        const struct set_run *run = &p->runs[g->run];
+        const struct style *style = o->t->styles[run->style];
+        struct font_placed *to = &out->glyphs[out->glyphs_count++];
+        *to = (struct font_placed){.face = style->shaper->faces[run->face].face,
+                                   .glyph = g->glyph,
+                                   .cluster = g->letter >= 0 ? p->letters[g->letter].byte : 0,
+                                   .line = line,
+                                   .size_px = (float)style->look.size_px,
+                                   .ink = ink_of(o, run->style),
+                                   .map = map_of(o, frame->vertical, run->upright, g->scale)};
+        slot_point(o->template, slot, slot->u0 + (double)g->u, base - (double)g->v, &to->x_px,
+                   &to->y_px);
+    }
+    return true;
+}
+
+enum font_status page_layout(struct page_text *t, int page, struct font_layout *out)
+{
+    *out = (struct font_layout){0};
+    enum font_status status = flow_fill(t, page);
+    if (status != FONT_OK)
+        return status;
+    struct set_line l = {0};
+    struct output o = {.t = t, .template = flow_template(t, page), .out = out};
+    o.inks = calloc((size_t)t->styles_count + 1, sizeof *o.inks);
+    bool ok = o.inks != NULL;
+    out->width_px = o.template->width_px;
+    out->size_px = t->styles_count ? t->styles[0]->look.size_px : 1;
+    const struct page *from = &t->pages[page];
+    for (int i = 0; ok && status == FONT_OK && i < from->pieces_count; i++) {
+        const struct piece *piece = &from->pieces[i];
+        for (int k = piece->begin; ok && status == FONT_OK && k < piece->end; k++) {
+            const struct slot *slot = &from->slots[piece->slots_begin + k - piece->begin];
+            status = line_set(t, piece->paragraph, &piece->paragraph->lines[k],
+                              slot->u1 - slot->u0, &l);
+            ok =
+                status != FONT_OK || line_put(&o, piece->paragraph, &l, slot, out->lines_count);
+            out->lines_count++;
+        }
+    }
+    out->lines_count = 0; /* lines of a page are not those of a column: it lists none */
+    free(o.inks);
+    set_line_finish(&l);
+    if (status == FONT_OK && !ok)
+        status = font_fail(FONT_NO_MEMORY, "no memory for a page");
+    if (status != FONT_OK)
+        font_layout_finish(out);
+    return status;
+}
+
+enum font_status page_count(struct page_text *t, int *count)
+{
+    *count = 0;
+    for (;; ++*count) {
+        enum font_status status = flow_fill(t, *count);
+        if (status != FONT_OK)
+            return status;
+        if (t->pages[*count].last) {
+            ++*count;
+            return FONT_OK;
+        }
+    }
+}
+
+/* The paragraph's line that a byte is in. before: where a line ends and the next begins there, the one that ends. */
+int layout_line(const struct paragraph *p, int byte, bool before)
+{
+    int line = 0;
+    while (line + 1 < p->lines_count) {
+        int next = p->lines[line + 1].begin;
+        int begins = next < p->count ? p->letters[next].byte : p->bytes;
+        if (byte < begins || (byte == begins && before))
+            break;
+        line++;
+    }
+    return line;
+}
+
+static const struct slot *slot_of(const struct page *page, const struct paragraph *p, int line)
+{
+    for (int i = 0; i < page->pieces_count; i++) {
+        const struct piece *piece = &page->pieces[i];
+        if (piece->paragraph == p && line >= piece->begin && line < piece->end)
+            return &page->slots[piece->slots_begin + line - piece->begin];
+    }
+    return NULL;
+}
+
+enum font_status layout_find(struct page_text *t, struct page_place place, bool before,
+                             int *page, int *line, struct slot *slot)
+{
+    const struct paragraph *p = story_paragraph(t, place.paragraph);
+    if (!p || place.byte < 0 || place.byte > p->bytes)
+        return font_fail(FONT_BAD_ARGUMENT, "there is no byte %d of a paragraph %d", place.byte,
+                         place.paragraph);
+    const struct paragraph *owner = p->flow < 0 ? t->by_id[p->owner] : p;
+    int from =
+        owner->first_page >= 0 && owner->first_page < t->pages_good ? owner->first_page : 0;
+    for (int k = from;; k++) {
+        enum font_status status = flow_fill(t, k);
+        if (status != FONT_OK)
+            return status;
+        *line = p->broken ? layout_line(p, place.byte, before) : 0;
+        const struct slot *found = p->broken ? slot_of(&t->pages[k], p, *line) : NULL;
+        if (found) {
+            *slot = *found;
+            *page = k;
+            return FONT_OK;
+        }
+        if (t->pages[k].last)
+            return font_fail(FONT_BAD_ARGUMENT,
+                             "paragraph %d stands on no page: its flow has no frame "
+                             "with room for it",
+                             place.paragraph);
+    }
+}
+
+enum font_status page_find(struct page_text *t, struct page_place place, int *page)
+{
+    struct slot slot;
+    int line;
+    return layout_find(t, place, false, page, &line, &slot);
+}
+
+void page_stats_get(const struct page_text *t, struct page_stats *out)
+{
+    *out = t->stats;
+    out->bytes = sizeof *t;
+    for (int i = 0; i < t->ids_count; i++) {
+        const struct paragraph *p = t->by_id[i];
+        if (p)
+            out->bytes += sizeof *p + (size_t)p->bytes +
+                          (p->letters ? (size_t)(p->bytes + 1) * (sizeof *p->letters + 4) : 0) +
+                          (size_t)p->glyphs_capacity * sizeof *p->glyphs +
+                          (size_t)p->runs_capacity * sizeof *p->runs +
+                          (size_t)p->lines_capacity * sizeof *p->lines;
+    }
+    for (int i = 0; i < t->pages_count; i++)
+        out->bytes += (size_t)t->pages[i].pieces_capacity * sizeof(struct piece) +
+                      (size_t)t->pages[i].slots_capacity * sizeof(struct slot);
+}

@@ -1,0 +1,193 @@
+/* page.h - pages: paragraphs in many faces, sizes and inks, broken as wholes, flowing through the boxes of a template, around shapes and
+ * inside them; notes at the foot and in the margin; text that can be changed, and only what changes is set anew.
+ *
+ *     struct page_text *text;
+ *     page_text_create(&text);
+ *     struct page_style style = page_style_default();
+ *     style.size_px = 14;
+ *     int roman, id;
+ *     page_style_add(text, &style, &roman);
+ *     struct page_manner manner = page_manner_default();
+ *     manner.align = FONT_ALIGN_JUSTIFY;
+ *     page_paragraph_add(text, 0, -1, "In the beginning...", 19, roman, &manner, &id);
+ *     struct page_template template = {.width_px = 600, .height_px = 800, .frames_count = 1,
+ *                                      .frames = {{.x = 60, .y = 60, .width = 480, .height = 680}}};
+ *     page_templates_set(text, &template, 1);
+ *     struct font_layout layout;
+ *     page_layout(text, 0, &layout);                   // the first page, for any painter
+ *     ...
+ *     page_text_replace(text, id, 3, 3, "a", 1);       // "In a beginning": that paragraph alone is set anew
+ *
+ * Pages are set when they are asked for: a page needs those before it, as far as they have changed since. Places in pages are
+ * pixels from the upper left, y downwards. Errors are fontpipe's, their words in font_error().
+ *
+ * Threads. A text belongs to one thread at a time. */
+#ifndef LUTETIA_PAGE_H
+#define LUTETIA_PAGE_H
+
+#include "text.h"
+
+struct page_text;
+enum font_status page_text_create(struct page_text **out);
+void page_text_destroy(struct page_text *text); /* NULL is fine */
+
+/* ---- how letters look ---- */
+
+struct page_style {
+    const char *font;     /* as font_face_open() has it */
+    const char *axes;     /* "wght=700"; NULL: as the font is */
+    const char *features; /* "-liga,ss01"; NULL: the font's usual ones */
+    const char *language; /* "fr"; NULL: the locale's */
+    double size_px;
+    double raise_px;   /* above the baseline; negative: below */
+    double spacing_px; /* added between letters */
+    bool inked;        /* in `ink`; else whoever draws says */
+    struct font_ink ink;
+};
+struct page_style page_style_default(void);
+/* Texts are copied. Errors: BAD_FILE for a font that there is not, BAD_ARGUMENT. */
+enum font_status page_style_add(struct page_text *text, const struct page_style *style,
+                                int *out);
+
+/* ---- paragraphs ---- */
+
+enum page_tab_align { PAGE_TAB_LEFT, PAGE_TAB_RIGHT, PAGE_TAB_CENTER, PAGE_TAB_DECIMAL };
+struct page_tab {
+    double x_px; /* from the paragraph's left edge */
+    enum page_tab_align align;
+};
+enum { PAGE_TABS_MAX = 16 };
+
+struct page_manner {
+    enum font_align align;
+    double
+        leading_px; /* from line to line; 0: the font's, at the size of the paragraph's first style */
+    double indent_px;                              /* of the first line */
+    double left_px, right_px, before_px, after_px; /* what is left blank around it */
+    int right_to_left;                             /* as font_text_options has it */
+    bool hyphenate;  /* by the dictionary of the style's language */
+    double protrude; /* 0..1: how far small signs at a line's ends stand in the margin */
+    double expand;   /* 0..0.05: how much wider or narrower letters may be */
+    double
+        tolerance; /* the badness a line may have before words are hyphenated more freely; 200 */
+    bool keep_together, keep_with_next, begins_column;
+    int orphans, widows; /* the fewest lines at the end and at the beginning of a column; 2 */
+    struct page_tab
+        tabs[PAGE_TABS_MAX]; /* a tab goes to the next; behind the last, every four ems */
+    int tabs_count;
+};
+struct page_manner page_manner_default(void);
+
+/* A paragraph before the one that is number `at` of its flow (-1: as the last), all in one style. *id names it ever after. Line ends
+ * in the text are kept within the paragraph. Errors: BAD_ARGUMENT, TOO_LARGE past a million characters, NO_MEMORY. */
+enum font_status page_paragraph_add(struct page_text *text, int flow, int at, const char *utf8,
+                                    size_t bytes, int style, const struct page_manner *manner,
+                                    int *id);
+enum font_status page_paragraph_remove(struct page_text *text, int id);
+enum font_status page_paragraph_manner(struct page_text *text, int id,
+                                       const struct page_manner *manner);
+/* Bytes begin..end of it in another style. */
+enum font_status page_paragraph_style(struct page_text *text, int id, int begin, int end,
+                                      int style);
+/* Takes `removed` bytes out at a byte and puts others there, in the style of the letter before. Errors: BAD_ARGUMENT where that would cut
+ * a character in two. */
+enum font_status page_text_replace(struct page_text *text, int id, int byte, int removed,
+                                   const char *utf8, size_t bytes);
+const char *page_paragraph_text(const struct page_text *text, int id, size_t *bytes);
+int page_paragraph_at(const struct page_text *text, int flow,
+                      int at); /* its id; -1: there is none */
+
+/* A note to a place, set where the page's template has room for such: at the foot of the column that the place is in, or in its
+ * margin. Its paragraph has an id, and is changed as others are; it goes with the letter before its place. */
+enum page_note { PAGE_NOTE_FOOT, PAGE_NOTE_MARGIN };
+enum font_status page_note_add(struct page_text *text, int id, int byte, enum page_note kind,
+                               const char *utf8, size_t bytes, int style,
+                               const struct page_manner *manner, int *note_id);
+
+/* ---- marks ---- */
+
+struct page_place {
+    int paragraph, byte;
+};
+/* A place that stays at its letter when text around it is changed. after: it stays behind what is put in exactly there. */
+enum font_status page_mark_add(struct page_text *text, struct page_place place, bool after,
+                               int *mark);
+/* False: it has gone with its paragraph. */
+bool page_mark_get(const struct page_text *text, int mark, struct page_place *place);
+
+/* ---- templates ---- */
+
+struct page_box {
+    double x, y, width, height;
+};
+enum { PAGE_FRAMES_MAX = 12, PAGE_SHAPES_MAX = 16 };
+
+/* A box that a flow's text goes through, in the order of the list, then on the next page. */
+struct page_frame {
+    double x, y, width, height;
+    int flow;
+    bool vertical;                 /* lines go down, from the right to the left */
+    double margin_x, margin_width; /* of the box for its margin notes; width 0: there is none */
+    double foot_gap_px;            /* between text and notes at its foot */
+};
+
+/* A polygon (x, y, ...). Obstacles: text goes around, at a distance; else text stays inside of all that there are. */
+struct page_shape {
+    const double *points; /* borrowed until page_templates_set() is called again */
+    int points_count;
+    bool inside;
+    double distance_px;
+    double least_px; /* the narrowest piece of line that is used; 0: 3 lines' height */
+};
+
+struct page_template {
+    double width_px, height_px;
+    struct page_frame frames[PAGE_FRAMES_MAX];
+    int frames_count;
+    struct page_shape shapes[PAGE_SHAPES_MAX];
+    int shapes_count;
+};
+/* The first page is by the first template, and so on; the last one is for all pages after it. Errors: BAD_ARGUMENT. */
+enum font_status page_templates_set(struct page_text *text,
+                                    const struct page_template *templates, int count);
+
+/* ---- pages ---- */
+
+/* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of the glyph's paragraph. Errors: NO_MEMORY,
+ * BAD_ARGUMENT for a page that there is not. Owns: the caller finishes *out. */
+enum font_status page_layout(struct page_text *text, int page, struct font_layout *out);
+/* How many pages all of the text needs: sets them. */
+enum font_status page_count(struct page_text *text, int *count);
+/* Where a letter is: its page, and the number of its line there. */
+enum font_status page_find(struct page_text *text, struct page_place place, int *page);
+
+struct page_stats {
+    long paragraphs_analysed, paragraphs_broken, pages_filled; /* since it was created */
+    size_t bytes;
+    int lines_overfull; /* of all paragraphs that are set: what no rule could fit */
+};
+void page_stats_get(const struct page_text *text, struct page_stats *out);
+
+/* ---- pointing ---- */
+
+/* A caret's line: from the top of the line to its foot. */
+struct page_caret {
+    int page;
+    double x0, y0, x1, y1;
+};
+/* The caret at a place. before: at the edge of the letter before it, else of the letter behind: they differ at ends of lines and where
+ * the direction changes. A place inside a cluster or a ligature is between its parts. Errors: BAD_ARGUMENT for no place. */
+enum font_status page_caret_get(struct page_text *text, struct page_place place, bool before,
+                                struct page_caret *out);
+/* The place nearest to a point of a page. *before: as page_caret_get() has it. Errors: BAD_ARGUMENT where the page has no text. */
+enum font_status page_hit(struct page_text *text, int page, double x, double y,
+                          struct page_place *place, bool *before);
+/* The boxes of what lies between two places of one flow, on a page: those of each line, which touch where the text does. *count: how
+ * many there are; at most boxes_max are written. */
+enum font_status page_select(struct page_text *text, struct page_place from,
+                             struct page_place to, int page, struct page_box *boxes,
+                             int boxes_max, int *count);
+/* The next place that a caret can be at; forward: towards the text's end. False: it was the last one of its paragraph. */
+bool page_place_step(struct page_text *text, struct page_place *place, bool forward);
+
+#endif

@@ -1,0 +1,251 @@
+/* page_internal.h - what the files of fontpipe/page share.
+ *
+ *     page_text -> flows -> paragraphs -> letters, shaped runs        set.c: once for each change of the text
+ *                                      -> lines                       lines.c: once for each change of widths
+ *               -> pages: which lines of which paragraphs, where      flow.c: from the first that has changed */
+#ifndef LUTETIA_PAGE_INTERNAL_H
+#define LUTETIA_PAGE_INTERNAL_H
+
+#include "../internal.h"
+#include "../text_internal.h"
+#include "breaks.h"
+#include "page.h"
+
+enum { LETTERS_MAX = 1000000, FLOWS_MAX = 8, PAGES_MAX = 100000 };
+
+/* One look of letters, and the shaper of its face. Faces are shared. */
+struct style {
+    struct page_style look;
+    char *font, *axes, *features, *language;
+    struct font_shaper *shaper;
+    hb_feature_t hb_features[32];
+    unsigned features_count;
+    hb_language_t hb_language;
+    double ascent_px, descent_px, leading_px;
+};
+
+struct letter {
+    uint32_t character;
+    int32_t byte;
+    int16_t style, face;
+    int8_t level;
+    bool cluster;  /* a cluster begins here */
+    bool grapheme; /* a caret may stand before it */
+    bool safe;     /* glyphs before and behind it are as they would be apart */
+    bool hyphen;   /* a word may be divided behind it */
+    uint8_t brk;   /* libunibreak's, of the place behind it */
+    hb_script_t script;
+    float advance_px;            /* of the cluster, at its first letter */
+    float stretch_px, shrink_px; /* of the space behind it */
+};
+
+struct shaped {
+    uint32_t glyph;
+    int32_t letter;               /* its cluster's first */
+    float advance_px, x_px, y_px; /* along the line; of its origin from the pen */
+};
+
+struct set_run {
+    int begin, end, glyphs_begin, glyphs_end;
+    int16_t style, face;
+    int8_t level;
+    bool upright; /* in a vertical line, its letters stand */
+};
+
+struct line {
+    int begin, end;  /* letters; white space at its end is within */
+    int ink_end;     /* and without it */
+    double ratio;    /* by which its spaces are stretched or shrunk */
+    double width_px; /* what it was broken for */
+    bool hyphen, last;
+};
+
+struct note {
+    int byte;
+    enum page_note kind;
+    struct paragraph *paragraph;
+};
+
+struct mark {
+    int id, byte;
+    bool after;
+};
+
+struct span {
+    int begin, style; /* from that byte to the next span's */
+};
+
+struct paragraph {
+    int id, flow, at; /* its number in the flow; flow -1: a note */
+    char *text;
+    int bytes;
+    int style; /* that it was given to begin with: its lines' height and middle are of that */
+    struct span *spans;
+    int spans_count, spans_capacity;
+    struct page_manner manner;
+    struct note *notes;
+    int notes_count, notes_capacity;
+    struct mark *marks;
+    int marks_count, marks_capacity;
+    /* From here on made of the above. */
+    bool analysed, vertical;
+    int count, base;
+    struct letter *letters;
+    uint32_t *characters;
+    struct shaped *glyphs;
+    int glyphs_count, glyphs_capacity;
+    struct set_run *runs;
+    int runs_count, runs_capacity;
+    bool hyphenated;
+    double leading_px;
+    struct line *lines;
+    int lines_count, lines_capacity;
+    bool broken;
+    double *widths; /* that lines were broken for */
+    int widths_count, widths_capacity;
+    int overfull;
+    int first_page, last_page; /* that it was placed on when pages were last filled; -1: none */
+    int owner;                 /* of a note: the paragraph that it belongs to; -1 */
+};
+
+/* A piece of a line that text can stand in: the box of a line in a frame, or of what obstacles leave of it. */
+struct slot {
+    double u0, u1, v; /* along the lines, across them: of its beginning, end and upper edge */
+    int frame;
+};
+
+/* Lines begin..end of a paragraph on a page, each in a slot of its own. */
+struct piece {
+    struct paragraph *paragraph;
+    int begin, end, slots_begin, frame;
+};
+
+struct cursor {
+    int at;   /* of the flow's paragraphs */
+    int line; /* of it that comes next */
+};
+
+struct page {
+    struct cursor starts[FLOWS_MAX], ends[FLOWS_MAX];
+    struct piece *pieces;
+    struct slot *slots;
+    int pieces_count, pieces_capacity, slots_count, slots_capacity;
+    bool filled, last;
+};
+
+struct flow {
+    struct paragraph **paragraphs;
+    int count, capacity;
+};
+
+struct shared_face {
+    char *name; /* and axes */
+    struct font_face *face;
+    struct font_shaper *shaper;
+};
+
+struct page_text {
+    struct style **styles;
+    int styles_count, styles_capacity;
+    struct shared_face *faces; /* of styles, each once */
+    int faces_count, faces_capacity;
+    struct flow flows[FLOWS_MAX];
+    struct paragraph **by_id;
+    int ids_count, ids_capacity;
+    int *marks_of; /* the paragraph's id of each mark; -1: gone */
+    int marks_count, marks_capacity;
+    struct page_template *templates;
+    double **shape_points; /* owned: PAGE_SHAPES_MAX for each template */
+    int templates_count;
+    struct page *pages;
+    int pages_count, pages_capacity;
+    int pages_good;   /* so many of them are as the text is now */
+    int pages_filled; /* and so many were, before it changed */
+    int dirty_until;  /* the last page of them that a change may be on */
+    struct page_stats stats;
+    hb_buffer_t *buffer;
+};
+
+/* story.c */
+struct paragraph *story_paragraph(const struct page_text *t, int id); /* NULL: there is none */
+/* templates.c */
+bool templates_vertical(const struct page_text *t, int flow);
+void templates_finish(struct page_text *t);
+
+/* words.c: marks the letters behind which words may be divided; and breaks between words of Thai, which are written together. */
+void words_hyphenate(struct page_text *t, struct paragraph *p);
+void words_thai(struct paragraph *p);
+
+/* set.c: letters, levels, faces, and glyphs for all of the paragraph. */
+enum font_status set_analyse(struct page_text *t, struct paragraph *p);
+void set_forget(struct paragraph *p); /* all that is made of the text */
+/* Glyphs of letters begin..end, which are of one run, as they are at a line's end. Appends to *out. */
+enum font_status set_shape(struct page_text *t, const struct paragraph *p,
+                           const struct set_run *run, int begin, int end, struct shaped **out,
+                           int *count, int *capacity);
+
+/* lines.c: breaks the paragraph for lines of these widths, the last for all after it. */
+enum font_status lines_break(struct page_text *t, struct paragraph *p, const double *widths,
+                             int count);
+
+/* Where the pen is behind a tab that it comes to at `pen`, in a line that ends before the letter `end`. */
+double signs_tab(const struct page_text *t, const struct paragraph *p, int tab, int end,
+                 double pen);
+
+/* A glyph of a line that has been set: u along the line from its slot's beginning, v above the baseline. */
+struct set_glyph {
+    uint32_t glyph;
+    int32_t letter; /* -1: a hyphen that is not in the text */
+    int run;
+    float u, v, scale; /* scale: along the line */
+};
+/* A cluster of it, in the order in which it is seen. */
+struct set_cluster {
+    int begin, end; /* letters */
+    float u0, u1;
+    int8_t level;
+};
+struct set_line {
+    struct set_glyph *glyphs;
+    struct set_cluster *clusters;
+    int glyphs_count, glyphs_capacity, clusters_count, clusters_capacity;
+    double u0, u1; /* where its ink begins and ends */
+    struct shaped *work;
+    int work_count, work_capacity;
+    struct set_run *runs;
+    int runs_capacity;
+    struct font_run *order;
+    int order_capacity;
+};
+void set_line_finish(struct set_line *l);
+/* line.c: sets a line of the paragraph in a slot so wide. */
+enum font_status line_set(struct page_text *t, const struct paragraph *p,
+                          const struct line *line, double width_px, struct set_line *out);
+/* How far the letter may stand in the margin, of its own width. */
+double signs_protrusion(uint32_t character, bool at_end);
+/* The width of a hyphen in the style of a letter; *glyph: 0 if its face has none. */
+double signs_hyphen(const struct page_text *t, const struct letter *l, uint32_t *glyph);
+
+/* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. False: there is no more. */
+bool slots_next(const struct page_template *t, int frame, double *v, int *part, double v_end,
+                double height_px, struct slot *out);
+/* The frame's length along its lines, and across them. */
+double frame_measure(const struct page_frame *f);
+double frame_depth(const struct page_frame *f);
+
+/* flow.c */
+enum font_status flow_fill(struct page_text *t, int page);
+void flow_changed(struct page_text *t, const struct paragraph *p); /* pages from its first on */
+void flow_changed_from(struct page_text *t, int page);             /* all pages from there on */
+const struct page_template *flow_template(const struct page_text *t, int page);
+
+/* layout.c: the line that a byte is in (before: where one ends and the next begins there, the one that ends), its page, its slot. */
+int layout_line(const struct paragraph *p, int byte, bool before);
+enum font_status layout_find(struct page_text *t, struct page_place place, bool before,
+                             int *page, int *line, struct slot *slot);
+
+/* A slot's place on the page: of a point u along and v across it. */
+void slot_point(const struct page_template *t, const struct slot *s, double u, double v,
+                double *x, double *y);
+
+#endif

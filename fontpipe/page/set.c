@@ -1,0 +1,269 @@
+/* set.c - a paragraph's text as letters and glyphs: see page_internal.h.
+ *
+ * All of the paragraph is shaped once, run by run. Lines are later cut out of that where HarfBuzz says that glyphs on both sides of the
+ * cut are as they would be apart; else the line's part of the run is shaped by itself. */
+#include "page_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <linebreak.h>
+
+void set_forget(struct paragraph *p)
+{
+    free(p->letters);
+    free(p->characters);
+    free(p->glyphs);
+    free(p->runs);
+    p->letters = NULL;
+    p->characters = NULL;
+    p->glyphs = NULL;
+    p->runs = NULL;
+    p->glyphs_count = p->glyphs_capacity = p->runs_count = p->runs_capacity = p->count = 0;
+    p->analysed = p->hyphenated = p->broken = false;
+}
+
+/* Signs that are no letters of any run: tabs, and line ends within the paragraph. */
+static bool is_control(uint32_t c)
+{
+    return c == '\t' || c == '\r' || font_text_ends_line(c);
+}
+
+static void letters_read(struct paragraph *p)
+{
+    const char *at = p->text, *end = p->text + p->bytes;
+    int span = 0;
+    for (p->count = 0; at < end; p->count++) {
+        struct letter *l = &p->letters[p->count];
+        *l = (struct letter){.byte = (int32_t)(at - p->text)};
+        while (span + 1 < p->spans_count && p->spans[span + 1].begin <= l->byte)
+            span++;
+        l->style = (int16_t)p->spans[span].style;
+        font_utf8_next(&at, end, &l->character);
+        p->characters[p->count] = l->character;
+    }
+}
+
+static void faces_choose(struct page_text *t, struct paragraph *p)
+{
+    for (int i = 0; i < p->count; i++) {
+        struct letter *l = &p->letters[i];
+        struct font_shaper *s = t->styles[l->style]->shaper;
+        int before = i && p->letters[i - 1].style == l->style ? p->letters[i - 1].face : 0;
+        l->face = (int16_t)before;
+        if (is_control(l->character) || font_text_invisible(l->character))
+            continue;
+        if (font_text_mark(l->character) &&
+            font_face_glyph(s->faces[before].face, l->character))
+            continue;
+        int face = font_face_glyph(s->faces[0].face, l->character)
+                       ? 0
+                       : font_shaper_face_for(s, l->character);
+        l->face = (int16_t)(face < 0 ? 0 : face);
+    }
+}
+
+/* Scripts whose letters stand in a vertical line; all others lie. */
+static bool stands(hb_script_t script)
+{
+    return script == HB_SCRIPT_HAN || script == HB_SCRIPT_HIRAGANA ||
+           script == HB_SCRIPT_KATAKANA || script == HB_SCRIPT_HANGUL ||
+           script == HB_SCRIPT_BOPOMOFO || script == HB_SCRIPT_YI;
+}
+
+/* Scripts that have no spaces between words, or between all letters a place to break: a line is filled there, too. */
+static bool breathes(hb_script_t script)
+{
+    return stands(script) || script == HB_SCRIPT_THAI || script == HB_SCRIPT_LAO ||
+           script == HB_SCRIPT_KHMER || script == HB_SCRIPT_MYANMAR;
+}
+
+/* Whether a caret may stand before letter i: not before marks and joiners, nor within an emoji, a flag or a syllable of jamos (after
+ * UAX 29). */
+static bool caret_before(const struct paragraph *p, int i)
+{
+    uint32_t c = p->characters[i], b = i ? p->characters[i - 1] : 0;
+    if (!i)
+        return true;
+    if (font_text_mark(c) || c == 0x200d || b == 0x200d || (c == '\n' && b == '\r') ||
+        (c >= 0x1f3fb && c <= 0x1f3ff) || (c >= 0x1160 && c <= 0x11ff && b >= 0x1100) ||
+        (c >= 0xe0020 && c <= 0xe007f))
+        return false;
+    int flags = 0; /* regional indicators right before */
+    for (int k = i - 1; k >= 0 && p->characters[k] >= 0x1f1e6 && p->characters[k] <= 0x1f1ff;
+         k--)
+        flags++;
+    return !(c >= 0x1f1e6 && c <= 0x1f1ff && flags % 2);
+}
+
+static bool scripts_find(struct page_text *t, struct paragraph *p)
+{
+    hb_script_t *scripts = calloc((size_t)p->count + 1, sizeof *scripts);
+    int8_t *levels = calloc((size_t)p->count + 1, sizeof *levels);
+    char *breaks = calloc((size_t)p->count + 1, 1);
+    bool good = scripts && levels && breaks;
+    if (good) {
+        font_scripts_choose(p->characters, p->count, scripts);
+        good = font_levels_find(p->characters, p->count, p->manner.right_to_left, levels,
+                                &p->base);
+        const char *language = t->styles[p->style]->language;
+        set_linebreaks_utf32(p->characters, (size_t)p->count, language, breaks);
+        for (int i = 0; i < p->count; i++) {
+            struct letter *l = &p->letters[i];
+            l->script = scripts[i];
+            l->level = levels[i];
+            l->brk = (uint8_t)breaks[i];
+            l->grapheme = caret_before(p, i);
+        }
+    }
+    free(scripts);
+    free(levels);
+    free(breaks);
+    return good;
+}
+
+static bool runs_cut(struct paragraph *p)
+{
+    for (int i = 0; i < p->count; i++) {
+        const struct letter *l = &p->letters[i], *b = i ? l - 1 : NULL;
+        if (b && b->style == l->style && b->face == l->face && b->script == l->script &&
+            b->level == l->level && !is_control(l->character) && !is_control(b->character)) {
+            p->runs[p->runs_count - 1].end = i + 1;
+            continue;
+        }
+        if (!array_reserve(&p->runs, &p->runs_capacity, p->runs_count + 1, sizeof *p->runs))
+            return false;
+        p->runs[p->runs_count++] =
+            (struct set_run){.begin = i,
+                             .end = i + 1,
+                             .style = l->style,
+                             .face = l->face,
+                             .level = l->level,
+                             .upright = p->vertical && stands(l->script)};
+    }
+    return true;
+}
+
+/* Half of what the style's letters are more above the baseline than below: its middle is so far above. */
+static double middle(const struct style *s)
+{
+    return (s->ascent_px - s->descent_px) / 2;
+}
+
+enum font_status set_shape(struct page_text *t, const struct paragraph *p,
+                           const struct set_run *run, int begin, int end, struct shaped **out,
+                           int *count, int *capacity)
+{
+    struct style *style = t->styles[run->style];
+    struct font_shaped_face *face = &style->shaper->faces[run->face];
+    hb_buffer_t *buffer = t->buffer;
+    if (is_control(p->characters[begin]))
+        return FONT_OK;
+    font_shaped_refresh(face);
+    hb_buffer_clear_contents(buffer);
+    hb_buffer_add_utf32(buffer, p->characters, p->count, (unsigned)begin, end - begin);
+    hb_buffer_set_direction(buffer, run->upright     ? HB_DIRECTION_TTB
+                                    : run->level & 1 ? HB_DIRECTION_RTL
+                                                     : HB_DIRECTION_LTR);
+    hb_buffer_set_script(buffer, p->letters[begin].script);
+    hb_buffer_set_language(buffer, style->hb_language);
+    hb_shape(face->hb, buffer, style->hb_features, style->features_count);
+    unsigned n;
+    hb_glyph_info_t *infos = hb_buffer_get_glyph_infos(buffer, &n);
+    hb_glyph_position_t *at = hb_buffer_get_glyph_positions(buffer, &n);
+    if (!hb_buffer_allocation_successful(buffer) || n > 8u * LETTERS_MAX ||
+        !array_reserve(out, capacity, *count + (int)n, sizeof **out))
+        return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    double scale = style->look.size_px / face->units_per_em;
+    double centre = middle(t->styles[p->style]);
+    double shift = style->look.raise_px + (p->vertical ? centre - middle(style) : 0);
+    for (unsigned i = 0; i < n; i++) {
+        struct shaped *g = &(*out)[*count + (int)i];
+        bool last = i + 1 == n || infos[i + 1].cluster != infos[i].cluster;
+        double spacing = last ? style->look.spacing_px : 0;
+        *g = (struct shaped){.glyph = infos[i].codepoint, .letter = (int32_t)infos[i].cluster};
+        if (run->upright) {
+            g->advance_px = (float)(-at[i].y_advance * scale + spacing);
+            g->x_px = (float)(-at[i].y_offset * scale);
+            g->y_px = (float)(at[i].x_offset * scale + centre + style->look.raise_px);
+        } else {
+            g->advance_px = (float)(at[i].x_advance * scale + spacing);
+            g->x_px = (float)(at[i].x_offset * scale);
+            g->y_px = (float)(at[i].y_offset * scale + shift);
+        }
+    }
+    /* Where glyphs may be taken apart: told of a cluster's first, in the order of the text. */
+    if (begin == run->begin && end == run->end)
+        for (unsigned i = 0; i < n; i++)
+            p->letters[infos[i].cluster].safe =
+                !(hb_glyph_info_get_glyph_flags(&infos[i]) & HB_GLYPH_FLAG_UNSAFE_TO_BREAK);
+    *count += (int)n;
+    return FONT_OK;
+}
+
+/* What a line can be stretched and shrunk by, behind a letter. */
+static void spaces_find(struct page_text *t, struct paragraph *p)
+{
+    for (int i = 0; i < p->count; i++) {
+        struct letter *l = &p->letters[i];
+        uint32_t c = l->character;
+        if (c == ' ' || c == 0xa0) {
+            l->stretch_px = l->advance_px / 2;
+            l->shrink_px = l->advance_px / 3;
+        } else if (l->brk == LINEBREAK_ALLOWBREAK && breathes(l->script)) {
+            l->stretch_px = (float)(0.08 * t->styles[l->style]->look.size_px);
+        }
+    }
+}
+
+static enum font_status runs_shape(struct page_text *t, struct paragraph *p)
+{
+    for (int r = 0; r < p->runs_count; r++) {
+        struct set_run *run = &p->runs[r];
+        run->glyphs_begin = p->glyphs_count;
+        enum font_status status = set_shape(t, p, run, run->begin, run->end, &p->glyphs,
+                                            &p->glyphs_count, &p->glyphs_capacity);
+        if (status != FONT_OK)
+            return status;
+        run->glyphs_end = p->glyphs_count;
+        p->letters[run->begin].cluster = p->letters[run->begin].safe = true;
+        for (int g = run->glyphs_begin; g < run->glyphs_end; g++) {
+            struct letter *l = &p->letters[p->glyphs[g].letter];
+            l->cluster = true;
+            l->advance_px += p->glyphs[g].advance_px;
+        }
+    }
+    return FONT_OK;
+}
+
+enum font_status set_analyse(struct page_text *t, struct paragraph *p)
+{
+    if (p->analysed)
+        return FONT_OK;
+    set_forget(p);
+    size_t room = (size_t)p->bytes + 1;
+    p->letters = calloc(room, sizeof *p->letters);
+    p->characters = calloc(room, sizeof *p->characters);
+    if (!p->letters || !p->characters)
+        return font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+    letters_read(p);
+    const struct style *first = t->styles[p->style];
+    p->leading_px = p->manner.leading_px > 0 ? p->manner.leading_px : first->leading_px;
+    p->base = p->manner.right_to_left > 0;
+    enum font_status status = FONT_OK;
+    if (p->count) {
+        faces_choose(t, p);
+        if (!scripts_find(t, p) || !runs_cut(p))
+            status = font_fail(FONT_NO_MEMORY, "no memory for a paragraph");
+        if (status == FONT_OK)
+            status = runs_shape(t, p);
+        if (status == FONT_OK) {
+            words_thai(p);
+            spaces_find(t, p);
+        }
+    }
+    p->analysed = status == FONT_OK;
+    t->stats.paragraphs_analysed++;
+    return status;
+}

@@ -1,0 +1,371 @@
+/* setup.c - see setup.h. */
+#include "setup.h"
+
+#include "page_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum look {
+    ROMAN,
+    ITALIC,
+    BOLD,
+    HEAD,
+    SMALL_HEAD,
+    NOTE,
+    NOTE_ITALIC,
+    NOTE_BOLD,
+    RAISED,
+    NOTE_RAISED,
+    LOOKS
+};
+
+struct making {
+    const struct page_setup *setup;
+    struct page_text *text;
+    int styles[LOOKS];
+    char family_italic[200], family_bold[200];
+    /* The paragraph that is read: its letters, the looks of them, its notes. */
+    char *letters;
+    int count, capacity;
+    struct {
+        int begin;
+        enum look look;
+    } * spans;
+    int spans_count, spans_capacity;
+    struct {
+        int byte, from, end;
+        bool margin;
+    } * notes;
+    int notes_count, notes_capacity, number;
+    bool behind_head;
+};
+
+struct page_setup page_setup_default(void)
+{
+    return (struct page_setup){.font = "DejaVuSerif",
+                               .size_px = 16,
+                               .width_px = 600,
+                               .height_px = 840,
+                               .margin_px = 60,
+                               .gap_px = 24,
+                               .columns = 1,
+                               .align = FONT_ALIGN_JUSTIFY,
+                               .indent_em = 1.2,
+                               .tolerance = 200};
+}
+
+/* The family's slanted or bold face, or the font itself where the family has none. */
+static const char *family_face(const struct page_setup *s, const char *kind, char *room,
+                               size_t bytes)
+{
+    struct font_face *face;
+    struct font_face_info info;
+    if (font_face_open(s->font, 0, &face) != FONT_OK)
+        return s->font;
+    font_face_describe(face, &info);
+    int n = snprintf(room, bytes, "%s:%s", info.family, kind);
+    font_face_close(face);
+    char *path = n > 0 && (size_t)n < bytes ? font_face_find(room, NULL) : NULL;
+    bool found = path != NULL;
+    free(path);
+    return found ? room : s->font;
+}
+
+static enum font_status styles_make(struct making *m)
+{
+    const struct page_setup *s = m->setup;
+    const char *italic = s->italic ? s->italic
+                                   : family_face(s, "italic:weight=80", m->family_italic,
+                                                 sizeof m->family_italic);
+    const char *bold =
+        s->bold ? s->bold : family_face(s, "bold", m->family_bold, sizeof m->family_bold);
+    const struct {
+        const char *font;
+        double size, raise;
+    } looks[LOOKS] = {[ROMAN] = {s->font, 1, 0},
+                      [ITALIC] = {italic, 1, 0},
+                      [BOLD] = {bold, 1, 0},
+                      [HEAD] = {s->font, 1.6, 0},
+                      [SMALL_HEAD] = {bold, 1.1, 0},
+                      [NOTE] = {s->font, 0.8, 0},
+                      [NOTE_ITALIC] = {italic, 0.8, 0},
+                      [NOTE_BOLD] = {bold, 0.8, 0},
+                      [RAISED] = {s->font, 0.65, 0.35},
+                      [NOTE_RAISED] = {s->font, 0.55, 0.28}};
+    for (int i = 0; i < LOOKS; i++) {
+        const struct page_style style = {.font = looks[i].font,
+                                         .features = s->features,
+                                         .language = s->language,
+                                         .size_px = looks[i].size * s->size_px,
+                                         .raise_px = looks[i].raise * s->size_px,
+                                         .inked = s->inked,
+                                         .ink = s->ink};
+        enum font_status status = page_style_add(m->text, &style, &m->styles[i]);
+        if (status != FONT_OK)
+            return status;
+    }
+    return FONT_OK;
+}
+
+static enum font_status template_make(const struct making *m)
+{
+    const struct page_setup *s = m->setup;
+    struct page_template t = {.width_px = s->width_px, .height_px = s->height_px};
+    if (s->columns < 1 || s->columns > PAGE_FRAMES_MAX)
+        return font_fail(FONT_BAD_ARGUMENT, "a page has 1..%d columns (got %d)",
+                         PAGE_FRAMES_MAX, s->columns);
+    if (s->shapes_count > PAGE_SHAPES_MAX)
+        return font_fail(FONT_BAD_ARGUMENT, "a page has at most %d shapes (got %d)",
+                         PAGE_SHAPES_MAX, s->shapes_count);
+    double inner = s->width_px - 2 * s->margin_px - s->notes_px;
+    double width = (inner - (s->columns - 1) * s->gap_px) / s->columns;
+    double height = s->height_px - 2 * s->margin_px;
+    if (s->vertical) { /* columns lie above each other */
+        width = inner;
+        height = (height - (s->columns - 1) * s->gap_px) / s->columns;
+    }
+    if (!(width >= s->size_px && height >= s->size_px))
+        return font_fail(FONT_BAD_ARGUMENT,
+                         "columns of %.0fx%.0f pixels are too small for letters of %g", width,
+                         height, s->size_px);
+    for (int i = 0; i < s->columns; i++)
+        t.frames[t.frames_count++] = (struct page_frame){
+            .x = s->margin_px + (s->vertical ? 0 : i * (width + s->gap_px)),
+            .y = s->margin_px + (s->vertical ? i * (height + s->gap_px) : 0),
+            .width = width,
+            .height = height,
+            .vertical = s->vertical,
+            .margin_x = s->width_px - s->margin_px - s->notes_px + s->gap_px / 2,
+            .margin_width = s->notes_px > 0 ? fmax(0, s->notes_px - s->gap_px / 2) : 0,
+            .foot_gap_px = 0.6 * s->size_px};
+    for (int i = 0; i < s->shapes_count; i++)
+        t.shapes[t.shapes_count++] = s->shapes[i];
+    return page_templates_set(m->text, &t, 1);
+}
+
+/* ---- reading ---- */
+
+static bool letter_add(struct making *m, char c)
+{
+    if (!array_reserve(&m->letters, &m->capacity, m->count + 1, 1))
+        return false;
+    m->letters[m->count++] = c;
+    return true;
+}
+
+static bool look_set(struct making *m, enum look look)
+{
+    if (!array_reserve(&m->spans, &m->spans_capacity, m->spans_count + 1, sizeof *m->spans))
+        return false;
+    m->spans[m->spans_count].begin = m->count;
+    m->spans[m->spans_count++].look = look;
+    return true;
+}
+
+static bool number_add(struct making *m, int number, enum look raised, enum look back)
+{
+    char digits[16];
+    snprintf(digits, sizeof digits, "%d", number);
+    bool ok = look_set(m, raised);
+    for (const char *d = digits; ok && *d; d++)
+        ok = letter_add(m, *d);
+    return ok && look_set(m, back);
+}
+
+/* The end of a note that begins at `at`: its closing bracket, or the text's end. */
+static int note_end(const char *s, int at, int end)
+{
+    int depth = 1;
+    for (; at < end; at++) {
+        if (s[at] == '\\')
+            at++;
+        else if (s[at] == '[')
+            depth++;
+        else if (s[at] == ']' && --depth == 0)
+            break;
+    }
+    return at < end ? at : end;
+}
+
+/* Reads s[at..end) with its signs; notes are kept for later where there may be some. */
+static bool signs_read(struct making *m, const char *s, int at, int end, enum look plain,
+                       enum look italic, enum look bold, bool notes)
+{
+    bool slanted = false, heavy = false, ok = true;
+    for (; ok && at < end; at++) {
+        enum look now = heavy ? bold : slanted ? italic : plain;
+        if (s[at] == '\\' && at + 1 < end) {
+            at++;
+            ok = letter_add(m, s[at]); /* a line end, too */
+        } else if (s[at] == '*') {
+            bool two = at + 1 < end && s[at + 1] == '*';
+            at += two;
+            heavy = two ? !heavy : heavy;
+            slanted = two ? slanted : !slanted;
+            ok = look_set(m, heavy ? bold : slanted ? italic : plain);
+        } else if (notes && s[at] == '[' && at + 1 < end &&
+                   (s[at + 1] == '^' || s[at + 1] == '>')) {
+            bool margin = s[at + 1] == '>' && m->setup->notes_px > 0;
+            int last = note_end(s, at + 2, end);
+            if (!margin)
+                ok = number_add(m, m->number + m->notes_count + 1, RAISED, now);
+            ok = ok && array_reserve(&m->notes, &m->notes_capacity, m->notes_count + 1,
+                                     sizeof *m->notes);
+            if (ok) {
+                m->notes[m->notes_count].byte = m->count;
+                m->notes[m->notes_count].from = at + 2;
+                m->notes[m->notes_count].end = last;
+                m->notes[m->notes_count++].margin = margin;
+            }
+            at = last;
+        } else if (s[at] == '\n') {
+            if (m->count && m->letters[m->count - 1] != ' ')
+                ok = letter_add(m, ' ');
+        } else if (s[at] != '\r') {
+            ok = letter_add(m, s[at]);
+        }
+    }
+    while (m->count && m->letters[m->count - 1] == ' ')
+        m->count--;
+    return ok;
+}
+
+static enum font_status spans_apply(struct making *m, int id)
+{
+    enum font_status status = FONT_OK;
+    for (int i = 0; i < m->spans_count && status == FONT_OK; i++) {
+        int begin = m->spans[i].begin;
+        if (begin < m->count)
+            status =
+                page_paragraph_style(m->text, id, begin, m->count, m->styles[m->spans[i].look]);
+    }
+    return status;
+}
+
+static struct page_manner manner_of(const struct making *m, enum look look, bool indented)
+{
+    const struct page_setup *s = m->setup;
+    struct page_manner manner = page_manner_default();
+    double size = s->size_px * (look == HEAD ? 1.6 : look == NOTE ? 0.8 : 1);
+    manner.align = look == HEAD || look == SMALL_HEAD ? FONT_ALIGN_START : s->align;
+    manner.leading_px = s->leading * size;
+    manner.tolerance = s->tolerance;
+    manner.protrude = s->protrude;
+    manner.expand = s->expand;
+    manner.hyphenate = s->hyphenate && look != HEAD && look != SMALL_HEAD;
+    if (look == HEAD || look == SMALL_HEAD) {
+        manner.before_px = s->size_px * (look == HEAD ? 1.4 : 0.9);
+        manner.after_px = s->size_px * (look == HEAD ? 0.6 : 0.3);
+        manner.keep_with_next = manner.keep_together = true;
+    } else if (look == ROMAN && indented) {
+        manner.indent_px = s->indent_em * size;
+    }
+    return manner;
+}
+
+static enum font_status notes_make(struct making *m, const char *s, int id)
+{
+    enum font_status status = FONT_OK;
+    int notes = m->notes_count;
+    for (int i = 0; i < notes && status == FONT_OK; i++) {
+        struct page_manner manner = manner_of(m, NOTE, false);
+        bool margin = m->notes[i].margin;
+        int note;
+        m->count = m->spans_count = 0;
+        if (margin)
+            manner.align = FONT_ALIGN_START;
+        bool ok = margin ||
+                  (number_add(m, m->number + i + 1, NOTE_RAISED, NOTE) && letter_add(m, ' '));
+        if (!ok || !signs_read(m, s, m->notes[i].from, m->notes[i].end, NOTE, NOTE_ITALIC,
+                               NOTE_BOLD, false))
+            return font_fail(FONT_NO_MEMORY, "no memory for a note");
+        status = page_note_add(m->text, id, m->notes[i].byte,
+                               margin ? PAGE_NOTE_MARGIN : PAGE_NOTE_FOOT, m->letters,
+                               (size_t)m->count, m->styles[NOTE], &manner, &note);
+        if (status == FONT_OK)
+            status = spans_apply(m, note);
+    }
+    m->number += notes;
+    return status;
+}
+
+static enum font_status paragraph_make(struct making *m, const char *s, int begin, int end)
+{
+    enum look look = ROMAN;
+    int id;
+    if (begin + 1 < end && s[begin] == '#' && (s[begin + 1] == ' ' || s[begin + 1] == '#')) {
+        look = s[begin + 1] == '#' ? SMALL_HEAD : HEAD;
+        while (begin < end && (s[begin] == '#' || s[begin] == ' '))
+            begin++;
+    }
+    m->count = m->spans_count = m->notes_count = 0;
+    if (!signs_read(m, s, begin, end, look, look == ROMAN ? ITALIC : look,
+                    look == ROMAN ? BOLD : look, true) ||
+        !letter_add(m, '\0'))
+        return font_fail(FONT_NO_MEMORY, "no memory for a text");
+    m->count--;
+    const struct page_manner manner = manner_of(m, look, !m->behind_head);
+    m->behind_head = look != ROMAN;
+    enum font_status status = page_paragraph_add(m->text, 0, -1, m->letters, (size_t)m->count,
+                                                 m->styles[look], &manner, &id);
+    if (status == FONT_OK)
+        status = spans_apply(m, id);
+    return status == FONT_OK ? notes_make(m, s, id) : status;
+}
+
+/* Paragraphs are what blank lines stand between. */
+static enum font_status text_read(struct making *m, const char *s, int bytes)
+{
+    enum font_status status = FONT_OK;
+    m->behind_head = true;
+    for (int at = 0; at < bytes && status == FONT_OK;) {
+        while (at < bytes && (s[at] == '\n' || s[at] == '\r' || s[at] == ' '))
+            at++;
+        int end = at;
+        while (end < bytes) {
+            const char *line = memchr(s + end, '\n', (size_t)(bytes - end));
+            int next = line ? (int)(line - s) + 1 : bytes, blank = next;
+            while (blank < bytes && (s[blank] == ' ' || s[blank] == '\r'))
+                blank++;
+            end = next;
+            if (blank >= bytes || s[blank] == '\n')
+                break;
+        }
+        int last = end;
+        while (last > at && (s[last - 1] == '\n' || s[last - 1] == '\r'))
+            last--;
+        if (last > at)
+            status = paragraph_make(m, s, at, last);
+        at = end;
+    }
+    return status;
+}
+
+enum font_status page_setup_make(const struct page_setup *setup, const char *utf8, size_t bytes,
+                                 struct page_text **out)
+{
+    enum { BYTES_MAX = 1 << 28 };
+    struct making m = {.setup = setup};
+    *out = NULL;
+    if (bytes > BYTES_MAX)
+        return font_fail(FONT_TOO_LARGE, "a text is at most %d bytes (got %zu)", BYTES_MAX,
+                         bytes);
+    enum font_status status = page_text_create(&m.text);
+    if (status == FONT_OK)
+        status = styles_make(&m);
+    if (status == FONT_OK)
+        status = template_make(&m);
+    if (status == FONT_OK)
+        status = text_read(&m, utf8, (int)bytes);
+    free(m.letters);
+    free(m.spans);
+    free(m.notes);
+    if (status == FONT_OK)
+        *out = m.text;
+    else
+        page_text_destroy(m.text);
+    return status;
+}

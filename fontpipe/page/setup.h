@@ -1,0 +1,40 @@
+/* setup.h - a text with few signs in it as pages, by a handful of choices: what `lutetia set` and scripts set.
+ *
+ *     struct page_setup setup = page_setup_default();
+ *     setup.columns = 2;
+ *     setup.hyphenate = true;
+ *     page_setup_make(&setup, "# In the marsh\n\nThe *water* rises[^By night.].", 45, &text);
+ *
+ * A blank line ends a paragraph; other line ends are spaces, but for those behind a backslash. `# ` begins a heading, `## ` a smaller
+ * one. *slanted*, **bold**. [^a note] is set at the foot of the column, with a number, and [>a note] in the margin. A backslash before
+ * a sign makes it a letter. */
+#ifndef LUTETIA_PAGE_SETUP_H
+#define LUTETIA_PAGE_SETUP_H
+
+#include "page.h"
+
+struct page_setup {
+    const char *font, *italic, *bold; /* NULL: those of the font's family */
+    const char *features, *language;
+    double size_px;
+    double leading; /* of the size; 0: the font's */
+    double width_px, height_px, margin_px, gap_px;
+    int columns;
+    double
+        notes_px; /* the width of a margin for notes, beside the margin; 0: notes in the margin are set at the foot */
+    enum font_align align;
+    double indent_em; /* of paragraphs that do not stand behind a heading */
+    bool hyphenate, vertical;
+    double protrude, expand, tolerance;
+    const struct page_shape *shapes; /* in the page's pixels */
+    int shapes_count;
+    bool inked;
+    struct font_ink ink;
+};
+struct page_setup page_setup_default(void);
+
+/* Errors: those of page.h. Owns: the caller destroys *out, which is NULL on failure. */
+enum font_status page_setup_make(const struct page_setup *setup, const char *utf8, size_t bytes,
+                                 struct page_text **out);
+
+#endif

@@ -1,0 +1,295 @@
+/* verb_set.c - `lutetia set`: a text as pages: columns, notes, words divided, text around and inside shapes, vertical lines. */
+#include "lutetia.h"
+#include "options.h"
+#include "type_common.h"
+
+#include <input_file.h>
+#include <setup.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXT_BYTES_MAX = 64 << 20, ROUND_CORNERS = 72 };
+
+struct set {
+    const char *out_path, *font, *italic, *bold, *language, *features, *filter, *align;
+    double size_px, leading, margin_px, gap_px, notes_px, indent_em, protrude, expand,
+        tolerance;
+    double ink[3], darken_px;
+    int page_px[2], columns, page;
+    struct option_list around, inside;
+    bool all, hyphenate, vertical, statistics;
+    struct page_setup setup;
+    struct page_shape shapes[PAGE_SHAPES_MAX];
+    double corners[PAGE_SHAPES_MAX][2 * ROUND_CORNERS];
+};
+
+static int set_options(struct set *s, int argc, char **argv, const char **path, bool *help)
+{
+    const struct option_row rows[] = {
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (page.png)", &s->out_path, 0, 0, 0},
+        {"page", 0, OPTION_INTEGER, "N", "which page (1)", &s->page, 1, 99999, 0},
+        {"all", 0, OPTION_FLAG, NULL, "all pages: page-1.png, page-2.png, ..", &s->all, 0, 0,
+         0},
+        {"font", 0, OPTION_TEXT, "F", "a font file, its name, or a family (DejaVuSerif)",
+         &s->font, 0, 0, 0},
+        {"italic", 0, OPTION_TEXT, "F", "of *slanted* words (the family's)", &s->italic, 0, 0,
+         0},
+        {"bold", 0, OPTION_TEXT, "F", "of **bold** words (the family's)", &s->bold, 0, 0, 0},
+        {"size", 0, OPTION_NUMBER, "PX", "of the em (16)", &s->size_px, 1, 1000, 0},
+        {"leading", 0, OPTION_NUMBER, "L", "from line to line, of the size (the font's)",
+         &s->leading, 0.1, 10, 0},
+        {"paper", 0, OPTION_SIZE, "WxH", "the page's pixels (600x840)", s->page_px, 16, 16384,
+         0},
+        {"margin", 0, OPTION_NUMBER, "PX", "around the page's text (60)", &s->margin_px, 0,
+         8000, 0},
+        {"columns", 0, OPTION_INTEGER, "N", "side by side (1)", &s->columns, 1, PAGE_FRAMES_MAX,
+         0},
+        {"gap", 0, OPTION_NUMBER, "PX", "between columns (24)", &s->gap_px, 0, 8000, 0},
+        {"notes", 0, OPTION_NUMBER, "PX", "a margin at the right for [>notes] (0)",
+         &s->notes_px, 0, 8000, 0},
+        {"align", 0, OPTION_TEXT, "A", "left, right, center or justify (justify)", &s->align, 0,
+         0, 0},
+        {"indent", 0, OPTION_NUMBER, "EM", "of paragraphs' first lines (1.2)", &s->indent_em, 0,
+         20, 0},
+        {"hyphenate", 0, OPTION_FLAG, NULL, "words are divided, by --language (en)",
+         &s->hyphenate, 0, 0, 0},
+        {"language", 0, OPTION_TEXT, "L", "of the text: fr", &s->language, 0, 0, 0},
+        {"features", 0, OPTION_TEXT, "F,..", "OpenType features: onum,-liga", &s->features, 0,
+         0, 0},
+        {"protrude", 0, OPTION_NUMBER, "P", "0..1: signs stand in the margins (0)",
+         &s->protrude, 0, 1, 0},
+        {"expand", 0, OPTION_NUMBER, "P", "0..0.05: letters are widened (0)", &s->expand, 0,
+         0.05, 0},
+        {"tolerance", 0, OPTION_NUMBER, "B", "the badness that a line may have (200)",
+         &s->tolerance, 0, 10000, 0},
+        {"vertical", 0, OPTION_FLAG, NULL, "lines go down, from the right to the left",
+         &s->vertical, 0, 0, 0},
+        {"around", 0, OPTION_LIST, "X,Y,RX,RY",
+         "text goes around this ellipse; as often as wanted", &s->around, -16384, 16384, 4},
+        {"inside", 0, OPTION_LIST, "X,Y,RX,RY", "text stays inside of this ellipse", &s->inside,
+         -16384, 16384, 4},
+        {"ink", 0, OPTION_NUMBERS, "R,G,B", "0..1 (0,0,0)", s->ink, 0, 1, 3},
+        {"filter", 0, OPTION_TEXT, "F", "of the letters (gaussian-fast)", &s->filter, 0, 0, 0},
+        {"darken", 0, OPTION_NUMBER, "PX",
+         "widens the stems of small type; 0: not (by their width)", &s->darken_px, 0, 2, 0},
+        {"statistics", 0, OPTION_FLAG, NULL, "says what was set", &s->statistics, 0, 0, 0},
+        {0}};
+    struct option_words words;
+    if (!options_parse("set", rows, argc, argv, &words))
+        return EXIT_USAGE;
+    *help = words.help;
+    if (words.help) {
+        puts("usage: lutetia set FILE [options]\n");
+        options_help(rows);
+        puts("\nIn the text: a blank line ends a paragraph, # begins a heading, *slanted*, "
+             "**bold**,\n"
+             "[^a note at the foot], [>a note in the margin]; a backslash at a line's end "
+             "keeps\n"
+             "it, and before a sign makes that a letter. FILE may be - for what is piped in.");
+        return EXIT_SUCCESS;
+    }
+    if (words.count != 1)
+        return fail_usage("set",
+                          words.count ? "there is one text (then came '%.60s')"
+                                      : "give a file with the text, or -%s",
+                          words.count ? words.words[1] : "");
+    *path = words.words[0];
+    if (!type_out_good(s->out_path))
+        return fail_usage("set", "-o names a picture in PNG: FILE.png (got '%.80s')",
+                          s->out_path);
+    return EXIT_SUCCESS;
+}
+
+static int text_read(const char *path, char **text, size_t *bytes)
+{
+    const char *why = "";
+    bool piped = strcmp(path, "-") == 0;
+    FILE *file = piped ? stdin : input_file_open(path, &why);
+    size_t room = 0;
+    *text = NULL;
+    *bytes = 0;
+    if (!file)
+        return fail("set", "%s: %s", path, why);
+    for (;;) {
+        if (*bytes == room) {
+            room = room ? 2 * room : 65536;
+            char *more = room <= TEXT_BYTES_MAX ? realloc(*text, room) : NULL;
+            if (!more)
+                break;
+            *text = more;
+        }
+        size_t got = fread(*text + *bytes, 1, room - *bytes, file);
+        *bytes += got;
+        if (!got)
+            break;
+    }
+    bool good = *text && *bytes < room && !ferror(file);
+    if (!piped)
+        fclose(file);
+    return good ? EXIT_SUCCESS
+                : fail("set", "%s cannot be read whole; a text has up to %d MB", path,
+                       TEXT_BYTES_MAX >> 20);
+}
+
+static int shapes_make(struct set *s)
+{
+    const struct option_list *lists[2] = {&s->around, &s->inside};
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < lists[k]->count; i++) {
+            const double *e = lists[k]->numbers[i];
+            int n = s->setup.shapes_count;
+            if (n == PAGE_SHAPES_MAX)
+                return fail_usage("set", "there are at most %d shapes", PAGE_SHAPES_MAX);
+            if (!(e[2] > 0 && e[3] > 0))
+                return fail_usage("set", "an ellipse's radii must be above 0 (got %g, %g)",
+                                  e[2], e[3]);
+            for (int c = 0; c < ROUND_CORNERS; c++) {
+                double a = 2 * M_PI * c / ROUND_CORNERS;
+                s->corners[n][2 * c] = e[0] + e[2] * cos(a);
+                s->corners[n][2 * c + 1] = e[1] + e[3] * sin(a);
+            }
+            s->shapes[n] = (struct page_shape){.points = s->corners[n],
+                                               .points_count = ROUND_CORNERS,
+                                               .inside = k == 1,
+                                               .distance_px = k ? 0 : s->size_px / 2};
+            s->setup.shapes_count++;
+        }
+    s->setup.shapes = s->shapes;
+    return EXIT_SUCCESS;
+}
+
+static int page_draw(const struct set *s, struct page_text *text, int page, const char *path)
+{
+    struct font_painter_def def = font_painter_def_default();
+    struct font_painter *painter = NULL;
+    struct font_layout layout = {0};
+    struct display_image image = {0};
+    def.filter = s->filter;
+    def.darken_px = s->darken_px;
+    memcpy(def.ink, s->ink, sizeof def.ink);
+    int status = EXIT_SUCCESS;
+    if (page_layout(text, page, &layout) != FONT_OK ||
+        font_painter_create(&def, &painter) != FONT_OK)
+        status = fail_font("set");
+    if (status == EXIT_SUCCESS)
+        status = type_image_create("set", s->page_px[0], s->page_px[1], &image);
+    struct font_picture picture = type_picture(&image);
+    if (status == EXIT_SUCCESS &&
+        font_painter_layout(painter, &layout, NULL, 0, 0, &picture) != FONT_OK)
+        status = fail_font("set");
+    if (status == EXIT_SUCCESS)
+        status = type_image_write("set", path, &image);
+    display_image_destroy(&image);
+    font_layout_finish(&layout);
+    font_painter_destroy(painter);
+    return status;
+}
+
+/* page.png becomes page-12.png. */
+static char *numbered(const char *path, int number)
+{
+    const char *base = strrchr(path, '/'), *ending = strrchr(base ? base : path, '.');
+    size_t stem = ending ? (size_t)(ending - path) : strlen(path), room = strlen(path) + 16;
+    char *name = malloc(room);
+    if (name)
+        snprintf(name, room, "%.*s-%d%s", (int)stem, path, number, ending ? ending : "");
+    return name;
+}
+
+static int pages_draw(const struct set *s, struct page_text *text)
+{
+    int count, status = EXIT_SUCCESS;
+    if (s->all || s->statistics) {
+        if (page_count(text, &count) != FONT_OK)
+            return fail_font("set");
+        for (int i = 0; s->all && i < count && status == EXIT_SUCCESS; i++) {
+            char *name = numbered(s->out_path, i + 1);
+            status = name ? page_draw(s, text, i, name) : fail("set", "no memory");
+            free(name);
+        }
+    }
+    if (!s->all)
+        status = page_draw(s, text, s->page - 1, s->out_path);
+    if (status == EXIT_SUCCESS && s->statistics) {
+        struct page_stats stats;
+        page_stats_get(text, &stats);
+        printf("%d pages; %ld paragraphs; %d lines that nothing fits; %.1f MB\n", count,
+               stats.paragraphs_broken, stats.lines_overfull, (double)stats.bytes * 1e-6);
+    }
+    return status;
+}
+
+static int align_read(const char *word, enum font_align *align)
+{
+    static const char *const words[] = {[FONT_ALIGN_LEFT] = "left",
+                                        [FONT_ALIGN_RIGHT] = "right",
+                                        [FONT_ALIGN_CENTER] = "center",
+                                        [FONT_ALIGN_JUSTIFY] = "justify"};
+    for (int i = FONT_ALIGN_LEFT; i <= FONT_ALIGN_JUSTIFY; i++)
+        if (strcmp(word, words[i]) == 0) {
+            *align = (enum font_align)i;
+            return EXIT_SUCCESS;
+        }
+    return fail_usage("set", "--align must be left, right, center or justify (got '%.60s')",
+                      word);
+}
+
+int verb_set(int argc, char **argv)
+{
+    static struct set s; /* its lists are large */
+    const char *path = NULL;
+    char *text = NULL;
+    size_t bytes = 0;
+    bool help = false;
+    const struct page_setup usual = page_setup_default();
+    s = (struct set){.out_path = "page.png",
+                     .font = usual.font,
+                     .align = "justify",
+                     .size_px = usual.size_px,
+                     .margin_px = usual.margin_px,
+                     .gap_px = usual.gap_px,
+                     .indent_em = usual.indent_em,
+                     .tolerance = usual.tolerance,
+                     .page_px = {600, 840},
+                     .darken_px = FONT_DARKEN_BY_STEM,
+                     .columns = 1,
+                     .page = 1};
+    int status = set_options(&s, argc, argv, &path, &help);
+    if (status != EXIT_SUCCESS || help)
+        return status;
+    s.setup = (struct page_setup){.font = s.font,
+                                  .italic = s.italic,
+                                  .bold = s.bold,
+                                  .features = s.features,
+                                  .language = s.language,
+                                  .size_px = s.size_px,
+                                  .leading = s.leading,
+                                  .width_px = s.page_px[0],
+                                  .height_px = s.page_px[1],
+                                  .margin_px = s.margin_px,
+                                  .gap_px = s.gap_px,
+                                  .columns = s.columns,
+                                  .notes_px = s.notes_px,
+                                  .indent_em = s.indent_em,
+                                  .hyphenate = s.hyphenate,
+                                  .vertical = s.vertical,
+                                  .protrude = s.protrude,
+                                  .expand = s.expand,
+                                  .tolerance = s.tolerance};
+    status = align_read(s.align, &s.setup.align);
+    if (status == EXIT_SUCCESS)
+        status = shapes_make(&s);
+    if (status == EXIT_SUCCESS)
+        status = text_read(path, &text, &bytes);
+    struct page_text *pages = NULL;
+    if (status == EXIT_SUCCESS && page_setup_make(&s.setup, text, bytes, &pages) != FONT_OK)
+        status = fail_font("set");
+    if (status == EXIT_SUCCESS)
+        status = pages_draw(&s, pages);
+    page_text_destroy(pages);
+    free(text);
+    return status;
+}

@@ -1,0 +1,378 @@
+/* test_page.c - pages: lines against all ways to break, edits against texts from scratch, keeps, notes, shapes, tabs, vertical lines. */
+#include "support.h"
+
+#include <breaks.h>
+#include <page.h>
+#include <setup.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- breaking ---- */
+
+struct way {
+    const struct break_place *places;
+    const double *widths;
+    int count, widths_count;
+    const struct break_rules *rules;
+    double best;
+};
+
+/* All ways from a place on. */
+static void ways_try(struct way *w, int from, int line, int fitness, double demerits)
+{
+    if (from == w->count - 1) {
+        w->best = fmin(w->best, demerits);
+        return;
+    }
+    for (int to = from + 1; to < w->count; to++) {
+        bool last = to == w->count - 1;
+        double width = w->widths[line < w->widths_count ? line : w->widths_count - 1];
+        double r = breaks_ratio(&w->places[from], &w->places[to], width, w->rules, last);
+        int next;
+        if (r >= -1 && fmin(100 * fabs(r * r * r), BREAK_INFINITE) <= w->rules->tolerance) {
+            double more =
+                breaks_demerits(&w->places[from], &w->places[to], r, fitness, &next, last);
+            ways_try(w, to, line + 1, next, demerits + more);
+        }
+        if (!last && w->places[to].penalty <= -BREAK_INFINITE)
+            return;
+    }
+}
+
+static void paragraphs_are_broken_best(void **state)
+{
+    (void)state;
+    uint32_t seed = 20261123;
+    int found = 0;
+    for (int turn = 0; turn < 3000; turn++) {
+        enum { MOST = 15 };
+        struct break_place places[MOST];
+        double widths[3];
+        int count = 4 + (int)(random_unit(&seed) * (MOST - 4)), chosen[MOST], lines;
+        struct break_sum sum = {0};
+        memset(places, 0, sizeof places);
+        for (int i = 1; i < count; i++) {
+            sum.px += 10 + 40 * random_unit(&seed);
+            places[i].end = sum;
+            if (random_unit(&seed) < 0.3) {
+                places[i].flagged = true;
+                places[i].penalty = 50;
+                places[i].end.px += 4;
+            } else {
+                sum.px += 5;
+                sum.stretch += 2.5 + random_unit(&seed);
+                sum.shrink += 1.6;
+            }
+            if (random_unit(&seed) < 0.04)
+                places[i].penalty = -BREAK_INFINITE;
+            places[i].next = sum;
+        }
+        for (int i = 0; i < 3; i++)
+            widths[i] = 70 + 60 * random_unit(&seed);
+        struct break_rules rules = {.tolerance = turn % 3 ? 500 : BREAK_INFINITE,
+                                    .emergency_px = turn % 2 ? 0 : 12,
+                                    .last_fills = turn % 5 != 0};
+        int widths_count = 1 + turn % 3;
+        double demerits = 0;
+        assert_true(breaks_find(places, count, widths, widths_count, &rules, chosen, &lines,
+                                &demerits));
+        struct way way = {places, widths, count, widths_count, &rules, INFINITY};
+        ways_try(&way, 0, 0, 2, 0);
+        assert_int_equal(lines > 0, isfinite(way.best));
+        if (!lines)
+            continue;
+        found++;
+        if (fabs(demerits - way.best) > 1e-6 * fabs(way.best))
+            fail_msg("turn %d: %g demerits, %g are the fewest", turn, demerits, way.best);
+        assert_int_equal(chosen[lines - 1], count - 1);
+    }
+    assert_true(found > 1000);
+}
+
+/* ---- texts ---- */
+
+static const char *const words[] = {"water",
+                                    "the",
+                                    "of",
+                                    "paper,",
+                                    "printer",
+                                    "difficult.",
+                                    "fi",
+                                    "waffles",
+                                    "AVATAR",
+                                    "\xd8\xa7\xd9\x84\xd9\x85\xd8\xa7\xd8\xa1",
+                                    "\xd7\x9e\xd7\x99\xd7\x9d",
+                                    "\xd0\xb2\xd0\xbe\xd0\xb4\xd0\xb0",
+                                    "\xce\xbd\xce\xb5\xcf\x81\xcf\x8c",
+                                    "e\xcc\x81l\xc3\xa8ve",
+                                    "extraordinary",
+                                    "(brackets)",
+                                    "1990",
+                                    "co-operate",
+                                    "un\xc2\xad"
+                                    "seen",
+                                    "\xe2\x80\x9cquoted\xe2\x80\x9d",
+                                    "\xd8\xa8\xd9\x90\xd8\xb3\xd9\x92\xd9\x85",
+                                    "a\tb",
+                                    "line\nend",
+                                    "\xe0\xb8\x99\xe0\xb9\x89\xe0\xb8\xb3",
+                                    "\xf0\x9f\x98\x80",
+                                    "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89",
+                                    "\xff"};
+enum { WORDS = sizeof words / sizeof *words };
+
+static size_t random_text(uint32_t *seed, char *out, int count)
+{
+    size_t bytes = 0;
+    for (int i = 0; i < count; i++) {
+        const char *w = words[random_next(seed) % WORDS];
+        memcpy(out + bytes, w, strlen(w));
+        bytes += strlen(w);
+        if (i + 1 < count)
+            out[bytes++] = ' ';
+    }
+    return bytes;
+}
+
+enum { STYLES = 4 };
+
+static struct page_text *text_begin(void)
+{
+    struct page_text *t;
+    assert_font(page_text_create(&t));
+    for (int i = 0; i < STYLES; i++) {
+        static const char *const fonts[STYLES] = {"DejaVuSerif", "DejaVuSans",
+                                                  "EBGaramond12-Italic", "DejaVuSans-Bold"};
+        struct page_style style = page_style_default();
+        int id;
+        style.font = fonts[i];
+        style.size_px = 10 + 3 * i;
+        style.language = "en";
+        style.inked = i == 3;
+        style.ink = font_ink_plain(1, 0, 0, 0.5);
+        style.raise_px = i == 1 ? 2 : 0;
+        assert_font(page_style_add(t, &style, &id));
+        assert_int_equal(id, i);
+    }
+    return t;
+}
+
+static const double diamond[] = {200, 80, 280, 180, 200, 280, 120, 180};
+
+static void columns_set(struct page_text *t, bool shaped)
+{
+    struct page_template page = {.width_px = 400, .height_px = 400, .frames_count = 2};
+    page.frames[0] = (struct page_frame){.x = 20,
+                                         .y = 20,
+                                         .width = 170,
+                                         .height = 360,
+                                         .foot_gap_px = 8,
+                                         .margin_x = -60,
+                                         .margin_width = 70};
+    page.frames[1] = page.frames[0];
+    page.frames[1].x = 210;
+    page.shapes_count = shaped;
+    page.shapes[0] = (struct page_shape){
+        .points = diamond, .points_count = 4, .distance_px = 5, .least_px = 40};
+    assert_font(page_templates_set(t, &page, 1));
+}
+
+static struct page_manner random_manner(uint32_t *seed)
+{
+    struct page_manner m = page_manner_default();
+    m.align = (enum font_align)(random_next(seed) % 5);
+    m.hyphenate = random_next(seed) % 2;
+    m.protrude = random_next(seed) % 2;
+    m.expand = random_next(seed) % 3 ? 0 : 0.02;
+    m.indent_px = random_next(seed) % 2 * 12;
+    m.before_px = random_next(seed) % 3 * 4;
+    m.keep_with_next = random_next(seed) % 6 == 0;
+    m.keep_together = random_next(seed) % 6 == 0;
+    m.begins_column = random_next(seed) % 12 == 0;
+    m.leading_px = 18;
+    m.tabs[0] = (struct page_tab){60, PAGE_TAB_RIGHT};
+    m.tabs_count = 1;
+    return m;
+}
+
+/* ---- edits against texts from scratch ---- */
+
+struct model {
+    int id;
+    char *text;
+    int bytes, first_style;
+    uint8_t *styles; /* of each byte */
+    struct page_manner manner;
+};
+enum { MODELS = 60, MODEL_BYTES = 4000 };
+
+static void pages_compare(struct page_text *a, struct page_text *b, int turn)
+{
+    int pages, others;
+    assert_font(page_count(a, &pages));
+    assert_font(page_count(b, &others));
+    if (pages != others)
+        fail_msg("turn %d: %d pages, from scratch %d", turn, pages, others);
+    for (int k = 0; k < pages; k++) {
+        struct font_layout p, q;
+        assert_font(page_layout(a, k, &p));
+        assert_font(page_layout(b, k, &q));
+        if (p.glyphs_count != q.glyphs_count)
+            fail_msg("turn %d, page %d: %d glyphs, from scratch %d", turn, k, p.glyphs_count,
+                     q.glyphs_count);
+        for (int i = 0; i < p.glyphs_count; i++) {
+            const struct font_placed *g = &p.glyphs[i], *h = &q.glyphs[i];
+            struct font_face_info gi, hi;
+            font_face_describe(g->face, &gi);
+            font_face_describe(h->face, &hi);
+            if (g->glyph != h->glyph || g->x_px != h->x_px || g->y_px != h->y_px ||
+                g->size_px != h->size_px || g->cluster != h->cluster || g->line != h->line ||
+                !g->ink != !h->ink || !g->map != !h->map || strcmp(gi.path, hi.path) != 0)
+                fail_msg("turn %d, page %d, glyph %d: %u at %g, %g, from scratch %u at %g, %g",
+                         turn, k, i, g->glyph, g->x_px, g->y_px, h->glyph, h->x_px, h->y_px);
+        }
+        font_layout_finish(&p);
+        font_layout_finish(&q);
+    }
+}
+
+static int random_boundary(uint32_t *seed, const struct model *m)
+{
+    int at = (int)(random_unit(seed) * (m->bytes + 1));
+    at = at > m->bytes ? m->bytes : at;
+    while (at < m->bytes && ((unsigned char)m->text[at] & 0xc0) == 0x80)
+        at++;
+    return at;
+}
+
+static void model_replace(struct page_text *t, struct model *m, uint32_t *seed)
+{
+    char put[400];
+    int a = random_boundary(seed, m), b = random_boundary(seed, m);
+    if (a > b) {
+        int swap = a;
+        a = b;
+        b = swap;
+    }
+    if (random_next(seed) % 3 || b - a == m->bytes)
+        b = a; /* mostly put in; never all taken out */
+    int bytes = (int)random_text(seed, put, 1 + (int)(random_next(seed) % 6));
+    if (m->bytes - (b - a) + bytes > MODEL_BYTES)
+        return;
+    assert_font(page_text_replace(t, m->id, a, b - a, put, (size_t)bytes));
+    uint8_t style = m->styles[a > 0 ? a - 1 : 0];
+    memmove(m->text + a + bytes, m->text + b, (size_t)(m->bytes - b));
+    memmove(m->styles + a + bytes, m->styles + b, (size_t)(m->bytes - b));
+    memcpy(m->text + a, put, (size_t)bytes);
+    memset(m->styles + a, style, (size_t)bytes);
+    m->bytes += bytes - (b - a);
+}
+
+static void model_add(struct page_text *t, struct model *models, int *count, uint32_t *seed)
+{
+    int at = (int)(random_next(seed) % (uint32_t)(*count + 1));
+    memmove(models + at + 1, models + at, (size_t)(*count - at) * sizeof *models);
+    struct model *m = &models[at];
+    *m = (struct model){.manner = random_manner(seed),
+                        .first_style = (int)(random_next(seed) % STYLES)};
+    m->text = malloc(MODEL_BYTES + 400);
+    m->styles = malloc(MODEL_BYTES + 400);
+    m->bytes = (int)random_text(seed, m->text, 3 + (int)(random_next(seed) % 60));
+    memset(m->styles, m->first_style, (size_t)m->bytes);
+    assert_font(page_paragraph_add(t, 0, at, m->text, (size_t)m->bytes, m->first_style,
+                                   &m->manner, &m->id));
+    ++*count;
+}
+
+static struct page_text *text_from(const struct model *models, int count, bool shaped)
+{
+    struct page_text *t = text_begin();
+    for (int i = 0; i < count; i++) {
+        const struct model *m = &models[i];
+        int id;
+        assert_font(page_paragraph_add(t, 0, -1, m->text, (size_t)m->bytes, m->first_style,
+                                       &m->manner, &id));
+        for (int begin = 0; begin < m->bytes;) {
+            int end = begin;
+            while (end < m->bytes && m->styles[end] == m->styles[begin])
+                end++;
+            assert_font(page_paragraph_style(t, id, begin, end, m->styles[begin]));
+            begin = end;
+        }
+    }
+    columns_set(t, shaped);
+    return t;
+}
+
+static void model_change(struct page_text *t, struct model *models, int *count, uint32_t *seed)
+{
+    struct model *m = &models[random_next(seed) % (uint32_t)*count];
+    struct font_layout layout;
+    uint32_t what = random_next(seed) % 10;
+    if (what == 0 && *count < MODELS) {
+        model_add(t, models, count, seed);
+    } else if (what == 1 && *count > 5) {
+        assert_font(page_paragraph_remove(t, m->id));
+        free(m->text);
+        free(m->styles);
+        memmove(m, m + 1, (size_t)(&models[*count] - (m + 1)) * sizeof *m);
+        --*count;
+    } else if (what == 2) {
+        m->manner = random_manner(seed);
+        assert_font(page_paragraph_manner(t, m->id, &m->manner));
+    } else if (what == 3) {
+        int a = random_boundary(seed, m), b = random_boundary(seed, m);
+        int style = (int)(random_next(seed) % STYLES);
+        if (a < b) {
+            assert_font(page_paragraph_style(t, m->id, a, b, style));
+            memset(m->styles + a, style, (size_t)(b - a));
+        }
+    } else if (what == 4) { /* seen, somewhere */
+        int pages;
+        if (random_next(seed) % 2)
+            assert_font(page_count(t, &pages));
+        if (page_layout(t, (int)(random_next(seed) % 4), &layout) == FONT_OK)
+            font_layout_finish(&layout);
+    } else {
+        model_replace(t, m, seed);
+    }
+}
+
+static void edited_is_as_from_scratch(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 6; round++) {
+        static struct model models[MODELS + 1];
+        uint32_t seed = 77u + (uint32_t)round * 1000003u;
+        bool shaped = round % 2;
+        int count = 0;
+        struct page_text *t = text_begin();
+        columns_set(t, shaped);
+        for (int i = 0; i < 12; i++)
+            model_add(t, models, &count, &seed);
+        for (int turn = 0; turn < 120; turn++) {
+            model_change(t, models, &count, &seed);
+            if (turn % 12)
+                continue;
+            struct page_text *fresh = text_from(models, count, shaped);
+            pages_compare(t, fresh, turn);
+            page_text_destroy(fresh);
+        }
+        for (int i = 0; i < count; i++) {
+            free(models[i].text);
+            free(models[i].styles);
+        }
+        page_text_destroy(t);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paragraphs_are_broken_best),
+        cmocka_unit_test(edited_is_as_from_scratch),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
