@@ -39,7 +39,7 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
         y = t;
     }
     struct machine_value *result = machine_binary(m, self->op, x, y);
-    bool is_function = paris_is_float_function(self->op);
+    bool is_function = machine_op_is_function(self->op);
     if (self->overflow &&
         (!(is_function ? paris_float_overflow(m, self->op, x, y, result)
                        : machine_overflow_record(m, self->op, is_signed, x, y) == MACHINE_OK) ||

@@ -56,6 +56,12 @@ static void finish(struct machine *m, const struct paris_instruction *self,
 
 /* ---- quotients ---- */
 
+static bool is_signed_quotient(int op)
+{
+    return op == MACHINE_SDIV || op == MACHINE_SFLOOR || op == MACHINE_SCEIL ||
+           op == MACHINE_SROUND;
+}
+
 void paris_integer(const struct paris_instruction *self, struct paris_operand dest,
                    struct paris_operand a, struct paris_operand b)
 {
@@ -67,7 +73,7 @@ void paris_integer(const struct paris_instruction *self, struct paris_operand de
     struct machine_value *result = machine_binary(m, self->op, x, y);
     struct machine_value *overflow =
         either(m, is_number(m, y, 0), paris_lost(m, result, dest.len, is_signed));
-    if (self->op >= MACHINE_SDIV && self->op <= MACHINE_SROUND && x && y)
+    if (is_signed_quotient(self->op) && x && y)
         overflow = either(m, overflow, both(m, is_least(m, x), is_number(m, y, -1)));
     finish(m, self, dest, result, is_signed, overflow);
 }

@@ -315,14 +315,10 @@ enum paris_float_op {
     PARIS_IEEE_TO_VAX,
     PARIS_VAX_TO_IEEE
 };
-/* Records the overflow of MACHINE_FEXP .. MACHINE_FSCALE: infinite from finite, and for the
+/* Records the overflow of machine_op_is_function(): infinite from finite, and for the
  * remainders a divisor of 0. b NULL: one operand. */
 bool paris_float_overflow(struct machine *m, int op, struct machine_value *a,
                           struct machine_value *b, struct machine_value *result);
-static inline bool paris_is_float_function(int op)
-{
-    return op >= MACHINE_FEXP && op <= MACHINE_FSCALE;
-}
 /* op: MACHINE_FPOW or MACHINE_FSCALE; b is an integer. */
 void paris_float_by_integer(const struct paris_instruction *self, struct paris_operand dest,
                             struct paris_operand a, struct paris_operand b);

@@ -350,6 +350,8 @@ struct machine_value *machine_self_index(struct machine *m, int width);
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 
+/* A function of floats in kernels/math.cl: exp, sine, power, remainder, ... */
+bool machine_op_is_function(int op);
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a);
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,

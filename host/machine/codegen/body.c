@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
 #include "base/node_ops.h"
 #include "codegen/narrow_spell.h"
 #include "codegen/spell.h"
@@ -157,7 +158,7 @@ static int constant_of(struct emitter *e, int node)
 
 bool emit_is_box(const struct plan_graph *g, const struct plan_node *n)
 {
-    if (n->leaf || n->op < MACHINE_ULT || n->op > MACHINE_SLE)
+    if (n->leaf || !op_has(n->op, OP_ORDERS))
         return false;
     const struct plan_node *a = &g->nodes[n->in[0]], *b = &g->nodes[n->in[1]];
     const struct plan_node *place = a->constant ? b : a;
@@ -169,8 +170,7 @@ bool emit_is_box(const struct plan_graph *g, const struct plan_node *n)
  * holds at both ends. */
 static bool note_box(struct emitter *e, const struct plan_node *n, int row, int dx)
 {
-    static const char *const symbols[] = {
-        [MACHINE_ULT] = "<", [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
+    const char *symbol = node_words[n->op].word;
     if (!emit_is_box(e->g, n))
         return false;
     const struct plan_node *a = &e->g->nodes[n->in[0]], *b = &e->g->nodes[n->in[1]];
@@ -199,9 +199,9 @@ static bool note_box(struct emitter *e, const struct plan_node *n, int row, int 
     for (int i = 0; i < (column ? 2 : 1); i++) {
         const char *sign = is_signed ? "" : "(uint)";
         if (a->constant)
-            text_put(t, " && %s %s %s%s", number, symbols[n->op], sign, ends[i]);
+            text_put(t, " && %s %s %s%s", number, symbol, sign, ends[i]);
         else
-            text_put(t, " && %s%s %s %s", sign, ends[i], symbols[n->op], number);
+            text_put(t, " && %s%s %s %s", sign, ends[i], symbol, number);
     }
     return true;
 }
@@ -378,9 +378,9 @@ static void spell_bits_unary(char *out, size_t size, const struct plan_node *n,
 {
     char raw[100];
     if (type[1] == 'Q')
-        snprintf(raw, sizeof raw, "%s(%s)", n->op == MACHINE_NOT ? "q_not" : "q_neg", a);
+        snprintf(raw, sizeof raw, "%s(%s)", node_words[n->op].second, a);
     else
-        snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+        snprintf(raw, sizeof raw, "%s%s", node_words[n->op].word, a);
     if (type[1] == 'I')
         snprintf(out, size, "%s", raw);
     else
@@ -393,27 +393,43 @@ static void spell_operation(struct emitter *e, char *out, size_t size,
 {
     struct machine_type from = e->g->nodes[n->in[0]].type;
     const char *a = in[0].text, *b = in[1].text, *type = spell_container(n->type);
-    if (n->op == NODE_SELECT)
+    switch ((enum op_spell)node_ops[n->op].spell) {
+    case SPELL_SELECT:
         snprintf(out, size, "SEL_%c(%s, %s, %s)", type[1], a, b, in[2].text);
-    else if (n->op == MACHINE_NOT || n->op == MACHINE_NEG)
+        break;
+    case SPELL_BITS_ONE:
         spell_bits_unary(out, size, n, type, a);
-    else if (op_is_integer(n->op)) {
+        break;
+    case SPELL_BITS:
+        spell_bits_binary(out, size, n->op, from, a, b);
+        break;
+    case SPELL_INTEGER:
         e->integers = true;
         spell_integer(out, size, n->op, from, a, b);
-    } else if (n->op < MACHINE_FNEG)
-        spell_bits_binary(out, size, n->op, from, a, b);
-    else if (op_is_math(n->op)) {
+        break;
+    case SPELL_FLOAT_FUNCTION:
+    case SPELL_FLOAT_OPERATOR:
+    case SPELL_FLOAT_CHOICE:
+    case SPELL_FLOAT_COMPARISON:
+        spell_float(out, size, n->op, from, a, b);
+        break;
+    case SPELL_MATH:
         spell_math(out, size, n->op, from, a, b);
         e->math = true;
-    } else if (n->op < MACHINE_OP_COUNT_PUBLIC)
-        spell_float(out, size, n->op, from, a, b);
-    else if (n->op >= NODE_OVERFLOW_UADD) {
+        break;
+    case SPELL_OVERFLOW:
         spell_overflow(out, size, n->op, from, a, b);
         e->wide = e->wide || from.width > 32;
-    } else if (n->op == NODE_CONCAT)
+        break;
+    case SPELL_CONCAT:
         spell_concat(out, size, type, a, from, b, e->g->nodes[n->in[1]].type);
-    else
+        break;
+    case SPELL_CONVERSION:
         spell_conversion(out, size, n, from, a);
+        break;
+    case SPELL_PLACE:
+        INVARIANT(!"what has no words is not spelt");
+    }
 }
 
 /* What a node computes of its operands. */

@@ -80,10 +80,7 @@ static void extremum(char *out, size_t size, const char *symbol, const char *x, 
 void narrow_spell(char *out, size_t size, const struct plan_graph *g, const struct plan_node *n,
                   int lane, const char *a, const char *b, const char *c)
 {
-    static const char *const symbols[] = {
-        [MACHINE_AND] = "&",  [MACHINE_OR] = "|",  [MACHINE_XOR] = "^", [MACHINE_ADD] = "+",
-        [MACHINE_SUB] = "-",  [MACHINE_EQ] = "==", [MACHINE_NE] = "!=", [MACHINE_ULT] = "<",
-        [MACHINE_ULE] = "<=", [MACHINE_SLT] = "<", [MACHINE_SLE] = "<="};
+    const char *word = node_words[n->op].word;
     struct machine_type from = g->nodes[n->in[0]].type;
     char raw[160], x[64], y[64];
     int width = n->type.width;
@@ -118,7 +115,7 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         return;
     case MACHINE_NOT:
     case MACHINE_NEG:
-        snprintf(raw, sizeof raw, "%s%s", n->op == MACHINE_NOT ? "~" : "-", a);
+        snprintf(raw, sizeof raw, "%s%s", word, a);
         cut(out, size, raw, width == 1 ? lane : width, lane);
         return;
     case MACHINE_SLT:
@@ -128,9 +125,9 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         extended(x, sizeof x, a, from, lane);
         extended(y, sizeof y, b, from, lane);
         if (n->op == MACHINE_SMIN || n->op == MACHINE_SMAX)
-            extremum(out, size, n->op == MACHINE_SMIN ? "<" : ">", x, y, a, b);
+            extremum(out, size, word, x, y, a, b);
         else
-            snprintf(out, size, "(%s %s %s)", x, symbols[n->op], y);
+            snprintf(out, size, "(%s %s %s)", x, word, y);
         return;
     case MACHINE_UMIN:
     case MACHINE_UMAX:
@@ -138,7 +135,7 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         return;
     case MACHINE_ADD:
     case MACHINE_SUB:
-        snprintf(raw, sizeof raw, "%s %s %s", a, symbols[n->op], b);
+        snprintf(raw, sizeof raw, "%s %s %s", a, word, b);
         cut(out, size, raw, n->op == MACHINE_ADD && sum_fits(g, n, width) ? lane : width, lane);
         return;
     case NODE_OVERFLOW_UADD:
@@ -160,7 +157,7 @@ void narrow_spell(char *out, size_t size, const struct plan_graph *g, const stru
         return;
     }
     default: /* AND, OR, XOR, comparisons */
-        snprintf(out, size, "(%s %s %s)", a, symbols[n->op], b);
+        snprintf(out, size, "(%s %s %s)", a, word, b);
         return;
     }
 }

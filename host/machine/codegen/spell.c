@@ -87,13 +87,7 @@ static void extended(char *out, size_t size, const char *a, struct machine_type 
 void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a,
                        const char *b)
 {
-    static const char *const symbols[] = {
-        [MACHINE_AND] = "&", [MACHINE_OR] = "|",  [MACHINE_XOR] = "^", [MACHINE_ADD] = "+",
-        [MACHINE_SUB] = "-", [MACHINE_MUL] = "*", [MACHINE_EQ] = "==", [MACHINE_NE] = "!=",
-        [MACHINE_ULT] = "<", [MACHINE_ULE] = "<="};
-    static const char *const functions[] = {
-        [MACHINE_AND] = "q_and", [MACHINE_OR] = "q_or",   [MACHINE_XOR] = "q_xor",
-        [MACHINE_ADD] = "q_add", [MACHINE_SUB] = "q_sub", [MACHINE_MUL] = "q_mul"};
+    const char *word = node_words[op].word, *function = node_words[op].second;
     char c = spell_letter(t), raw[192], x[96], y[96];
     switch (op) {
     case MACHINE_AND:
@@ -103,10 +97,10 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
     case MACHINE_SUB:
     case MACHINE_MUL:
         if (c == 'Q')
-            snprintf(raw, sizeof raw, "%s(%s, %s)", functions[op], a, b);
+            snprintf(raw, sizeof raw, "%s(%s, %s)", function, a, b);
         else
-            snprintf(raw, sizeof raw, "%s %s %s", a, symbols[op], b);
-        if (op >= MACHINE_ADD && c != 'I')
+            snprintf(raw, sizeof raw, "%s %s %s", a, word, b);
+        if (op_has(op, OP_CUTS) && c != 'I')
             spell_cut(out, size, raw, t.width);
         else
             snprintf(out, size, "%s", raw);
@@ -116,7 +110,7 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
     case MACHINE_ULT:
     case MACHINE_ULE:
         if (c != 'Q')
-            snprintf(out, size, "CMP_%c(%s %s %s)", c, a, symbols[op], b);
+            snprintf(out, size, "CMP_%c(%s %s %s)", c, a, word, b);
         else if (op == MACHINE_ULE)
             snprintf(out, size, "~q_ult(%s, %s)", b, a);
         else
@@ -135,7 +129,7 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
         else {
             extended(x, sizeof x, a, t);
             extended(y, sizeof y, b, t);
-            snprintf(out, size, "CMP_%c(%s %s %s)", c, x, op == MACHINE_SLT ? "<" : "<=", y);
+            snprintf(out, size, "CMP_%c(%s %s %s)", c, x, word, y);
         }
         break;
     case MACHINE_UMIN:
@@ -144,7 +138,7 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
             snprintf(out, size, "q_select(q_ult(%s, %s), %s, %s)", a, b,
                      op == MACHINE_UMIN ? a : b, op == MACHINE_UMIN ? b : a);
         else
-            snprintf(out, size, "%s(%s, %s)", op == MACHINE_UMIN ? "min" : "max", a, b);
+            snprintf(out, size, "%s(%s, %s)", word, a, b);
         break;
     default: /* SMIN, SMAX */
         spell_bits_binary(raw, sizeof raw, MACHINE_SLT, t, a, b);
@@ -157,45 +151,35 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
 void spell_float(char *out, size_t size, int op, struct machine_type t, const char *a,
                  const char *b)
 {
-    static const char *const symbols[] = {
-        [MACHINE_FADD] = "+", [MACHINE_FSUB] = "-", [MACHINE_FMUL] = "*", [MACHINE_FDIV] = "/",
-        [MACHINE_FMIN] = "<", [MACHINE_FMAX] = ">", [MACHINE_FEQ] = "==", [MACHINE_FNE] = "!=",
-        [MACHINE_FLT] = "<",  [MACHINE_FLE] = "<=", [MACHINE_FGT] = ">",  [MACHINE_FGE] = ">="};
-    static const char *const functions[] = {
-        [MACHINE_FNEG] = "-",       [MACHINE_FABS] = "fabs",  [MACHINE_FSQRT] = "sqrt",
-        [MACHINE_FFLOOR] = "floor", [MACHINE_FCEIL] = "ceil", [MACHINE_FTRUNC] = "trunc",
-        [MACHINE_FROUND] = "rint"};
-    const char *compare = t.width == 32 ? "CMP_U" : "CMP_L";
-    if (op <= MACHINE_FROUND)
-        snprintf(out, size, "%s(%s)", functions[op], a);
-    else if (op <= MACHINE_FDIV)
-        snprintf(out, size, "%s %s %s", a, symbols[op], b);
-    else if (op <= MACHINE_FMAX)
-        snprintf(out, size, "SEL_%c(%s(%s %s %s), %s, %s)", spell_letter(t), compare, a,
-                 symbols[op], b, a, b);
-    else
-        snprintf(out, size, "%s(%s %s %s)", compare, a, symbols[op], b);
+    const char *word = node_words[op].word, *compare = t.width == 32 ? "CMP_U" : "CMP_L";
+    switch (node_ops[op].spell) {
+    case SPELL_FLOAT_FUNCTION:
+        snprintf(out, size, "%s(%s)", word, a);
+        break;
+    case SPELL_FLOAT_OPERATOR:
+        snprintf(out, size, "%s %s %s", a, word, b);
+        break;
+    case SPELL_FLOAT_CHOICE:
+        snprintf(out, size, "SEL_%c(%s(%s %s %s), %s, %s)", spell_letter(t), compare, a, word,
+                 b, a, b);
+        break;
+    default: /* COMPARISON */
+        snprintf(out, size, "%s(%s %s %s)", compare, a, word, b);
+        break;
+    }
 }
 
 void spell_math(char *out, size_t size, int op, struct machine_type t, const char *a,
                 const char *b)
 {
-    static const char *const names[] = {
-        [MACHINE_FEXP] = "exp",     [MACHINE_FLN] = "ln",       [MACHINE_FLOG2] = "log2",
-        [MACHINE_FLOG10] = "log10", [MACHINE_FSIN] = "sin",     [MACHINE_FCOS] = "cos",
-        [MACHINE_FTAN] = "tan",     [MACHINE_FASIN] = "asin",   [MACHINE_FACOS] = "acos",
-        [MACHINE_FATAN] = "atan",   [MACHINE_FSINH] = "sinh",   [MACHINE_FCOSH] = "cosh",
-        [MACHINE_FTANH] = "tanh",   [MACHINE_FASINH] = "asinh", [MACHINE_FACOSH] = "acosh",
-        [MACHINE_FATANH] = "atanh", [MACHINE_FATAN2] = "atan2", [MACHINE_FPOW] = "pow",
-        [MACHINE_FMOD] = "mod",     [MACHINE_FREM] = "rem",     [MACHINE_FSCALE] = "ldexp"};
-    bool single = t.width == 32, two = op >= MACHINE_FATAN2;
+    bool single = t.width == 32, two = node_ops[op].inputs == 2;
     snprintf(out, size,
              single ? two ? "CONVERT(float, math_%s_lanes(CONVERT(double, %s), "
                             "CONVERT(double, %s)))"
                           : "CONVERT(float, math_%s_lanes(CONVERT(double, %s)))"
              : two  ? "math_%s_lanes(%s, %s)"
                     : "math_%s_lanes(%s)",
-             names[op], a, b);
+             node_words[op].word, a, b);
 }
 
 void spell_overflow(char *out, size_t size, int op, struct machine_type t, const char *a,
@@ -277,12 +261,10 @@ void spell_overflow(char *out, size_t size, int op, struct machine_type t, const
     case NODE_OVERFLOW_RESULT:
         snprintf(out, size, "INFINITE_%c(%s) & FINITE_%c(%s)", c, a, c, b);
         return;
-    default: {
-        static const char symbols[] = {'+', '-', '*', '/'};
-        snprintf(out, size, "INFINITE_%c(%s %c %s) & FINITE_%c(%s) & FINITE_%c(%s)", c, a,
-                 symbols[op - NODE_OVERFLOW_FADD], b, c, a, c, b);
+    default: /* of floats */
+        snprintf(out, size, "INFINITE_%c(%s %s %s) & FINITE_%c(%s) & FINITE_%c(%s)", c, a,
+                 node_words[op].word, b, c, a, c, b);
         return;
-    }
     }
 }
 

@@ -16,23 +16,6 @@ static bool is_short(struct machine_type t)
     return t.s <= 24 && t.e <= 9;
 }
 
-static const char *soft_name(int op)
-{
-    switch (op) {
-    case MACHINE_FADD:
-    case NODE_OVERFLOW_FADD:
-        return "SOFT_ADD";
-    case MACHINE_FSUB:
-    case NODE_OVERFLOW_FSUB:
-        return "SOFT_SUB";
-    case MACHINE_FMUL:
-    case NODE_OVERFLOW_FMUL:
-        return "SOFT_MUL";
-    default:
-        return "SOFT_DIV";
-    }
-}
-
 /* Whole numbers that a double need not hold. */
 static enum spell_soft spell_whole(char *out, size_t size, const struct plan_node *n,
                                    struct machine_type from, const char *a)
@@ -59,7 +42,7 @@ static enum spell_soft spell_whole(char *out, size_t size, const struct plan_nod
 enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
                            struct machine_type from, const char *a, const char *b)
 {
-    static const char symbols[] = {'+', '-', '*', '/'};
+    const struct node_words *words = &node_words[n->op];
     struct machine_type t = n->type.s ? n->type : from;
     int s = t.s, e = t.e;
     if (!s)
@@ -73,12 +56,12 @@ enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
     case MACHINE_FDIV:
         if (vectors)
             return SPELL_SOFT_NOT;
-        snprintf(out, size, "%s(%s, %s, %d, %d)", soft_name(n->op), a, b, s, e);
+        snprintf(out, size, "%s(%s, %s, %d, %d)", words->second, a, b, s, e);
         return kind;
     case MACHINE_FSQRT:
         if (vectors)
             return SPELL_SOFT_NOT;
-        snprintf(out, size, "SOFT_ROOT(%s, %d, %d)", a, s, e);
+        snprintf(out, size, "%s(%s, %d, %d)", words->second, a, s, e);
         return kind;
     case NODE_OVERFLOW_FADD:
     case NODE_OVERFLOW_FSUB:
@@ -86,11 +69,11 @@ enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
     case NODE_OVERFLOW_FDIV:
         if (vectors)
             snprintf(out, size,
-                     "INFINITE_D(short_fit(%s %c %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)", a,
-                     symbols[n->op - NODE_OVERFLOW_FADD], b, s, e, a, b);
+                     "INFINITE_D(short_fit(%s %s %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)", a,
+                     words->word, b, s, e, a, b);
         else
             snprintf(out, size, "INFINITE_D(%s(%s, %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)",
-                     soft_name(n->op), a, b, s, e, a, b);
+                     words->second, a, b, s, e, a, b);
         return kind;
     case NODE_PACK:
         if (n->type.width <= 32)

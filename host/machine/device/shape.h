@@ -21,7 +21,7 @@ struct device_shape {              /* what generated code should look like there
     int tile_width, tile_height;   /* forced; 0: free */
     int turns;                     /* of a loop at once */
     bool narrow;                   /* kernels may have lanes of 8 or 16 bits */
-    bool keeps_nan;                /* see enum nan */
+    bool keeps_nan;                /* see enum op_nan */
     bool streams;                  /* large arrays are stored past the caches */
     double launch_ns;              /* ... a launch */
 };

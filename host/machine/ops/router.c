@@ -332,10 +332,24 @@ static bool address_good(struct machine *m, const struct machine_value *address)
 
 static bool combiner_fits(enum machine_combiner c, struct machine_type type)
 {
-    if (c == MACHINE_COMBINE_OVERWRITE)
+    switch (c) {
+    case MACHINE_COMBINE_OVERWRITE:
         return true;
-    return (c >= MACHINE_COMBINE_FADD) == (type.kind == MACHINE_FLOAT) &&
-           c <= MACHINE_COMBINE_FMAX;
+    case MACHINE_COMBINE_AND:
+    case MACHINE_COMBINE_OR:
+    case MACHINE_COMBINE_XOR:
+    case MACHINE_COMBINE_ADD:
+    case MACHINE_COMBINE_UMIN:
+    case MACHINE_COMBINE_UMAX:
+    case MACHINE_COMBINE_SMIN:
+    case MACHINE_COMBINE_SMAX:
+        return type.kind == MACHINE_BITS;
+    case MACHINE_COMBINE_FADD:
+    case MACHINE_COMBINE_FMIN:
+    case MACHINE_COMBINE_FMAX:
+        return type.kind == MACHINE_FLOAT;
+    }
+    return false;
 }
 
 enum machine_status machine_send(struct machine *m, uint32_t dest,

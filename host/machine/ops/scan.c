@@ -295,9 +295,9 @@ struct machine_value *in_memory(struct machine_value *v)
 
 static bool op_fits(enum machine_scan_op c, struct machine_type type)
 {
-    if (c == MACHINE_SCAN_COPY)
-        return true;
-    return (c >= MACHINE_SCAN_FADD) == (type.kind == MACHINE_FLOAT);
+    bool of_floats = c == MACHINE_SCAN_FADD || c == MACHINE_SCAN_FMUL ||
+                     c == MACHINE_SCAN_FMIN || c == MACHINE_SCAN_FMAX;
+    return c == MACHINE_SCAN_COPY || of_floats == (type.kind == MACHINE_FLOAT);
 }
 
 /* The value as the kernels take it, without regard to who takes part. */

@@ -16,40 +16,11 @@ int lanes_of_node(const struct plan_graph *g, int node, bool loaded)
     if (loaded || n->constant)
         return lane;
     bool of_bits = g->nodes[n->in[0]].type.width == 1;
-    switch (n->op) {
-    case NODE_SHIFT:
-    case NODE_SELECT:
-    case NODE_SIGN_EXTEND:
-    case NODE_CONCAT:
-    case MACHINE_NOT:
-    case MACHINE_AND:
-    case MACHINE_OR:
-    case MACHINE_XOR:
+    if (n->op == NODE_SHIFT)
         return lane;
-    case NODE_ZERO_EXTEND:
-        return n->type.width > 1 ? lane : LANE_WIDE;
-    case NODE_EXTRACT:
-    case MACHINE_NEG:
-    case MACHINE_ADD:
-    case MACHINE_SUB:
-    case MACHINE_EQ:
-    case MACHINE_NE:
-    case MACHINE_ULT:
-    case MACHINE_ULE:
-    case MACHINE_SLT:
-    case MACHINE_SLE:
-    case MACHINE_UMIN:
-    case MACHINE_UMAX:
-    case MACHINE_SMIN:
-    case MACHINE_SMAX:
-    case NODE_OVERFLOW_UADD:
-    case NODE_OVERFLOW_USUB:
-    case NODE_OVERFLOW_SADD:
-    case NODE_OVERFLOW_SSUB:
-        return of_bits ? LANE_WIDE : lane;
-    default:
+    if (n->op == NODE_ZERO_EXTEND && n->type.width == 1)
         return LANE_WIDE;
-    }
+    return op_has(n->op, of_bits ? OP_NARROW_BITS : OP_NARROW) ? lane : LANE_WIDE;
 }
 
 int lanes_of_kernel(const struct plan_graph *g, const int *stores, int count, int stage)

@@ -9,13 +9,6 @@
 
 enum { LIFT_NODES = 1 << 18 };
 
-/* Does to each processor's number alone what it does. */
-static bool is_elementwise(const struct machine_value *v)
-{
-    return v->op < MACHINE_OP_COUNT_PUBLIC || v->op == NODE_SELECT ||
-           (v->op >= NODE_ZERO_EXTEND && v->op <= NODE_OVERFLOW_FDIV);
-}
-
 /* The one value of the finer set whose k slices these are; NULL: there is none to be had for
  * nothing. */
 static struct machine_value *lift(struct machine *m, struct machine_value *const *y, uint32_t k,
@@ -41,7 +34,7 @@ static struct machine_value *lift(struct machine *m, struct machine_value *const
                 return NULL;
         return a->in[0];
     }
-    if (a->buffer || !is_elementwise(a))
+    if (a->buffer || !op_has(a->op, OP_ALONE))
         return NULL;
     for (uint32_t i = 1; i < k; i++)
         if (y[i]->op != a->op || y[i]->buffer || !type_equal(y[i]->type, a->type) ||

@@ -1,4 +1,5 @@
 /* arithmetic.c - operations on one value and on two: folded, simplified, or made. */
+#include "base/errors.h"
 #include "base/parts.h"
 #include "base/types.h"
 #include "values/integers.h"
@@ -6,33 +7,27 @@
 #include "values/math_ops.h"
 #include "values/rules.h"
 
-static bool fold_bits(enum machine_op op, unsigned __int128 a, unsigned __int128 b,
-                      unsigned __int128 *out)
+/* The rows with FOLD_BITS. */
+static unsigned __int128 fold_bits(enum machine_op op, unsigned __int128 a, unsigned __int128 b)
 {
     switch ((int)op) {
     case MACHINE_NOT:
-        *out = ~a;
-        return true;
+        return ~a;
     case MACHINE_NEG:
-        *out = -a;
-        return true;
+        return -a;
     case MACHINE_AND:
-        *out = a & b;
-        return true;
+        return a & b;
     case MACHINE_OR:
-        *out = a | b;
-        return true;
+        return a | b;
     case MACHINE_XOR:
-        *out = a ^ b;
-        return true;
+        return a ^ b;
     case MACHINE_ADD:
-        *out = a + b;
-        return true;
+        return a + b;
     case MACHINE_SUB:
-        *out = a - b;
-        return true;
+        return a - b;
     default:
-        return false;
+        INVARIANT(!"a row says FOLD_BITS, and nobody folds it");
+        return 0;
     }
 }
 
@@ -41,10 +36,7 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
 {
     if (!a)
         return NULL;
-    bool is_float = (op >= MACHINE_FNEG && op <= MACHINE_FROUND) ||
-                    (op >= MACHINE_FEXP && op <= MACHINE_FATANH);
-    if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 1 ||
-        is_float != (a->type.kind == MACHINE_FLOAT))
+    if (!op_suits(op, 1, a->type))
         return make_bad(m, "this operation does not take one operand of this type");
     struct machine_scalar math;
     if (value_is_number(a) && op_is_math((int)op) &&
@@ -52,9 +44,8 @@ static struct machine_value *unary(struct machine *m, enum machine_op op,
         return make_number(m, a->type, type_rounded_scalar(math, a->type));
     if (op_is_integer((int)op))
         return integer_value(m, op, a, NULL);
-    unsigned __int128 folded;
-    if (value_is_number(a) && !is_float && fold_bits(op, scalar_wide(a->imm), 0, &folded))
-        return make_number(m, a->type, scalar_narrow(folded));
+    if (value_is_number(a) && node_ops[op].fold == FOLD_BITS)
+        return make_number(m, a->type, scalar_narrow(fold_bits(op, scalar_wide(a->imm), 0)));
     if (op == MACHINE_NOT && a->type.width == 1)
         return rules_not(m, a);
     if (op == MACHINE_NOT && rules_chooses_number(a, 4))
@@ -78,25 +69,20 @@ static struct machine_value *binary(struct machine *m, enum machine_op op,
 {
     if (!a || !b)
         return NULL;
-    bool is_float = (op >= MACHINE_FADD && op <= MACHINE_FGE) ||
-                    (op >= MACHINE_FATAN2 && op <= MACHINE_FSCALE);
-    if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].inputs != 2 ||
-        !type_equal(a->type, b->type) || is_float != (a->type.kind == MACHINE_FLOAT))
+    if (!op_suits(op, 2, a->type) || !type_equal(a->type, b->type))
         return make_bad(m,
                         "this operation takes two operands of one type, which these are not");
-    bool compares =
-        (op >= MACHINE_EQ && op <= MACHINE_SLE) || (op >= MACHINE_FEQ && op <= MACHINE_FGE);
+    const struct node_op_info *row = &node_ops[op];
     struct machine_scalar math;
     if (value_is_number(a) && value_is_number(b) && op_is_math((int)op) &&
         math_fold((int)op, a->type, a->imm, b->imm, &math))
         return make_number(m, a->type, type_rounded_scalar(math, a->type));
     if (op_is_integer((int)op))
-        return op >= MACHINE_USHIFT && op <= MACHINE_ROTATE ? machine_bits_shift(m, op, a, b)
-                                                            : integer_value(m, op, a, b);
-    unsigned __int128 folded;
-    if (value_is_number(a) && value_is_number(b) && !is_float && !compares &&
-        fold_bits(op, scalar_wide(a->imm), scalar_wide(b->imm), &folded))
-        return make_number(m, a->type, scalar_narrow(folded));
+        return row->fold == FOLD_SHIFT ? machine_bits_shift(m, op, a, b)
+                                       : integer_value(m, op, a, b);
+    if (value_is_number(a) && value_is_number(b) && row->fold == FOLD_BITS)
+        return make_number(
+            m, a->type, scalar_narrow(fold_bits(op, scalar_wide(a->imm), scalar_wide(b->imm))));
     if (a->type.width == 1) { /* bits have rules of their own */
         switch ((int)op) {
         case MACHINE_AND:
@@ -138,7 +124,8 @@ static struct machine_value *binary(struct machine *m, enum machine_op op,
     }
     if (a == b && (op == MACHINE_AND || op == MACHINE_OR))
         return a;
-    return make_node(m, (int)op, compares ? MAKE_BIT_TYPE : a->type, 0, a, b, NULL);
+    return make_node(m, (int)op, row->gives == GIVES_BIT ? MAKE_BIT_TYPE : a->type, 0, a, b,
+                     NULL);
 }
 
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,

@@ -167,7 +167,7 @@ static void bear(struct machine_value *v, uint32_t epoch)
 /* Which NaNs may be in it. */
 static void derive_nan(const struct machine *m, struct machine_value *v)
 {
-    enum nan kind = (enum nan)node_ops[v->op].nan;
+    bool keeps = m->device->shape.keeps_nan;
     bool nan = false, strange = false;
     v->maybe_nan = v->strange_nan = false;
     if (v->type.kind != MACHINE_FLOAT)
@@ -176,29 +176,29 @@ static void derive_nan(const struct machine *m, struct machine_value *v)
         nan = nan || v->in[i]->maybe_nan;
         strange = strange || v->in[i]->strange_nan;
     }
-    switch (v->op) {
-    case NODE_SELECT:
-    case NODE_SHIFT:
+    switch ((enum op_nan)node_ops[v->op].nan) {
+    case NAN_NEVER:
+        break;
+    case NAN_ANY:
+        v->maybe_nan = true;
+        break;
+    case NAN_KEPT:
+        v->maybe_nan = nan || strange || !keeps;
+        break;
+    case NAN_SECOND:
+        v->maybe_nan = v->in[1]->op == NODE_CONSTANT ? scalar_is_nan(v->type, v->in[1]->imm.lo)
+                                                     : nan || strange || !keeps;
+        break;
+    case NAN_PASSED:
         v->maybe_nan = nan;
         v->strange_nan = strange;
         break;
-    case NODE_CONSTANT:
+    case NAN_NUMBER:
         v->strange_nan = scalar_is_strange_nan(v->type, v->imm.lo);
         break;
-    case NODE_BUFFER:
-    case NODE_SLICE:
-    case NODE_REINTERPRET:
+    case NAN_STRANGE:
         v->strange_nan = true;
         break;
-    case MACHINE_FMIN: /* b where either is a NaN: with a number for b they never give one */
-    case MACHINE_FMAX:
-        v->maybe_nan = v->in[1]->op == NODE_CONSTANT
-                           ? scalar_is_nan(v->type, v->in[1]->imm.lo)
-                           : nan || strange || !m->device->shape.keeps_nan;
-        break;
-    default:
-        v->maybe_nan = kind == NAN_ANY ||
-                       (kind == NAN_KEPT && (nan || strange || !m->device->shape.keeps_nan));
     }
 }
 

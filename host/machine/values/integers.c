@@ -38,7 +38,7 @@ static number negated(number a, int width)
 
 static number fold_divided(int op, int width, number a, number b)
 {
-    bool is_signed = op >= MACHINE_SDIV, sa = is_signed && is_negative(a, width),
+    bool is_signed = op_has(op, OP_SIGNED), sa = is_signed && is_negative(a, width),
          sb = is_signed && is_negative(b, width), negative = sa != sb;
     number x = sa ? negated(a, width) : a, y = sb ? negated(b, width) : b;
     number q = y ? x / y : 0, r = y ? x % y : x;
@@ -149,13 +149,19 @@ static number fold_counted(int op, int width, number a)
 
 static number folded(enum machine_op op, int width, number a, number b)
 {
-    if (op <= MACHINE_SMOD)
+    switch (node_ops[op].fold) {
+    case FOLD_QUOTIENT:
         return fold_divided((int)op, width, a, b);
-    if (op <= MACHINE_SPOW_BEYOND)
+    case FOLD_POWER:
         return fold_power((int)op, width, a, b);
-    if (op <= MACHINE_ROTATE)
+    case FOLD_SHIFT:
         return fold_shifted((int)op, width, a, (int)(int32_t)(uint32_t)b);
-    return fold_counted((int)op, width, a);
+    case FOLD_COUNT:
+        return fold_counted((int)op, width, a);
+    default:
+        INVARIANT(!"a row says SPELL_INTEGER, and nobody folds it");
+        return 0;
+    }
 }
 
 /* ---- values ---- */
@@ -165,12 +171,6 @@ static number number_of(const struct machine_value *v)
     return (number)v->imm.hi << 64 | v->imm.lo;
 }
 
-static bool keeps_sign(enum machine_op op)
-{
-    return (op >= MACHINE_SDIV && op <= MACHINE_SMOD) || op == MACHINE_SSHIFT ||
-           op == MACHINE_SPOW_BEYOND;
-}
-
 /* Operands have one width but for shifts, whose b is a count of 32 bits. */
 struct machine_value *integer_value(struct machine *m, enum machine_op op,
                                     struct machine_value *a, struct machine_value *b)
@@ -178,25 +178,22 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     if (!a || (node_ops[op].inputs == 2 && !b))
         return NULL;
     int width = a->type.width;
-    bool gives_bit = op == MACHINE_UPOW_BEYOND || op == MACHINE_SPOW_BEYOND;
-    bool shifts = op >= MACHINE_USHIFT && op <= MACHINE_ROTATE;
+    bool gives_bit = node_ops[op].gives == GIVES_BIT, keeps_sign = op_has((int)op, OP_SIGNED);
     struct machine_type type = gives_bit ? MACHINE_BIT : a->type;
     if (a->op == NODE_CONSTANT && (!b || b->op == NODE_CONSTANT))
         return machine_constant(m, type,
                                 scalar(folded(op, width, number_of(a), b ? number_of(b) : 0)));
-    if (width == 1 && (op == MACHINE_ROTATE || op >= MACHINE_POPCOUNT))
+    if (width == 1 && op_has((int)op, OP_BIT_KEPT))
         return a;
     if (width > 1)
         return make_operation(m, op, type, a, b);
     if (gives_bit) { /* 0 and 1 to the power fit; -1 (a signed 1) does unless it becomes 1 */
         struct machine_value *even = rules_not(m, b);
-        return op == MACHINE_SPOW_BEYOND
-                   ? even
-                   : machine_constant(m, type, (struct machine_scalar){0, 0});
+        return keeps_sign ? even : machine_constant(m, type, (struct machine_scalar){0, 0});
     }
-    a = machine_resize(m, a, 2, keeps_sign(op));
-    if (b && !shifts)
-        b = machine_resize(m, b, 2, keeps_sign(op));
+    a = machine_resize(m, a, 2, keeps_sign);
+    if (b && node_ops[op].fold != FOLD_SHIFT)
+        b = machine_resize(m, b, 2, keeps_sign);
     struct machine_value *v = a && (b || node_ops[op].inputs == 1)
                                   ? make_operation(m, op, MACHINE_UINT(2), a, b)
                                   : NULL;
@@ -237,8 +234,8 @@ struct machine_value *machine_bits_shift(struct machine *m, enum machine_op op,
 {
     if (!a || !count)
         return NULL;
-    if (op < MACHINE_USHIFT || op > MACHINE_ROTATE || a->type.kind != MACHINE_BITS ||
-        count->type.kind != MACHINE_BITS) {
+    if ((unsigned)op >= MACHINE_OP_COUNT_PUBLIC || node_ops[op].fold != FOLD_SHIFT ||
+        a->type.kind != MACHINE_BITS || count->type.kind != MACHINE_BITS) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "bits are shifted, by a number");
         return NULL;
     }

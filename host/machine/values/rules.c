@@ -122,7 +122,7 @@ static struct machine_value *scaled_by_sign(struct machine *m, struct machine_va
     int class = factor_class(g);
     if (!class || positive->op != MACHINE_FGT || positive->in[0] != t ||
         !is_float_zero(positive->in[1]) || product->op != MACHINE_FMUL || product->in[0] != t ||
-        product->in[1] != g || t->op < MACHINE_FADD || t->op > MACHINE_FDIV)
+        product->in[1] != g || node_ops[t->op].spell != SPELL_FLOAT_OPERATOR)
         return NULL;
     struct machine_value *quotient = make_node(m, MACHINE_FDIV, t->type, 0, t, g, NULL);
     struct machine_value *chosen = quotient
