@@ -81,10 +81,7 @@ enum paper_status paper_history_render(struct paper_sheet *sheet, double scale, 
 
 /* ---- states, for files ---- */
 
-/* Goes up with every change that makes the same run give other bits. */
-enum { PAPER_MODEL_VERSION = 1 };
-
-enum { PAPER_PLANES_MAX = 15 + 3 * PAPER_PIGMENTS_MAX };
+enum { PAPER_PLANES_MAX = 20 + 3 * PAPER_PIGMENTS_MAX };
 /* What changes in a sheet is held in planes of one word of 4 bytes for each fiber. */
 struct paper_plane {
     char name[40];

@@ -110,8 +110,13 @@ struct paper_air {     /* what may change at any time */
 };
 struct paper_air paper_air_default(void);
 
+/* How water moves and what paper is like. Every version stays as it is, to the bit: the greatest goes up when the same run would give
+ * other bits. What a new sheet gets that asks for none: */
+enum { PAPER_MODEL_USUAL = 1, PAPER_MODEL_VERSION = 2 };
+
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
+    int model;         /* its version, 1..PAPER_MODEL_VERSION; without parts always the first */
     bool torus;        /* water that leaves at an edge comes in at the other */
     unsigned parts;    /* PAPER_PART_...; 0: the thesis's model */
     enum paper_rule rule;
@@ -130,7 +135,7 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
 void paper_sheet_destroy(struct paper_sheet *sheet); /* NULL is fine */
 const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet *sheet);
 
-/* The numbers of a sheet's fibers: what the paper is made of, and what it holds. The last three layers exist once for each pigment. */
+/* The numbers of a sheet's fibers: what the paper is made of, and what it holds. Three layers of pigment exist once for each. */
 enum paper_layer {
     PAPER_LAYER_HEIGHT,     /* 0..1 */
     PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
@@ -142,12 +147,16 @@ enum paper_layer {
     PAPER_LAYER_RED, /* what the pigments lie on: linear light, 0..1, or by the other rules display values */
     PAPER_LAYER_GREEN,
     PAPER_LAYER_BLUE,
-    PAPER_LAYER_SURFACE_WATER, /* from here on 0..15, and 0..4 when written */
+    PAPER_LAYER_SURFACE_WATER, /* this and the next five: 0..15, and 0..4 when written */
     PAPER_LAYER_INFUSED_WATER,
     PAPER_LAYER_DRIED_WATER,     /* what has evaporated */
     PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
     PAPER_LAYER_INFUSED_PIGMENT,
     PAPER_LAYER_FIXED_PIGMENT,
+    /* Where water flows (version 2): how hard fibers are to wet, 0.01..100, about 1; eddies, -10..10; what part of them is wet, 0..1 */
+    PAPER_LAYER_SIZING,
+    PAPER_LAYER_CURRENT,
+    PAPER_LAYER_WET_PART,
     PAPER_LAYERS_COUNT
 };
 

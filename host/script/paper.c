@@ -130,9 +130,9 @@ static const char *const rules[] = {"kubelka-munk", "subtract", "luminous", NULL
 
 static int make_paper(lua_State *L)
 {
-    static const char *const besides[] = {"width", "height",  "torus", "model",
-                                          "rule",  "stock",   "seed",  "pigments",
-                                          "color", "history", "undo",  NULL};
+    static const char *const besides[] = {"width", "height",  "torus",    "model", "rule",
+                                          "stock", "seed",    "pigments", "color", "history",
+                                          "undo",  "version", NULL};
     lua_remove(L, 1); /* the table `paper`, which is called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);
@@ -147,6 +147,8 @@ static int make_paper(lua_State *L)
     config.seed = (uint64_t)script_arg_integer(
         L, 1, "paper", "seed", (int)(script->config->seed & 0x7fffffff), 0, 2147483647);
     parts_read(L, &config);
+    config.model =
+        script_arg_integer(L, 1, "paper", "version", config.model, 1, PAPER_MODEL_VERSION);
     const char *rule = script_arg_text(L, 1, "paper", "rule");
     if (rule)
         config.rule = (enum paper_rule)script_arg_choice(L, "paper rule", rule, rules);

@@ -27,6 +27,9 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_SURFACE_PIGMENT] = "surface pigment",
                                           [PAPER_LAYER_INFUSED_PIGMENT] = "infused pigment",
                                           [PAPER_LAYER_FIXED_PIGMENT] = "fixed pigment",
+                                          [PAPER_LAYER_SIZING] = "sizing",
+                                          [PAPER_LAYER_CURRENT] = "current",
+                                          [PAPER_LAYER_WET_PART] = "wet part",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
 /* The layer of that name, and of the pigment if it has one. */
@@ -36,7 +39,7 @@ static enum paper_layer layer_read(lua_State *L, const struct script_paper *pape
     enum paper_layer layer =
         (enum paper_layer)script_arg_choice(L, "a layer", name, layer_names);
     *pigment = 0;
-    if (layer < PAPER_LAYER_SURFACE_PIGMENT)
+    if (layer < PAPER_LAYER_SURFACE_PIGMENT || layer > PAPER_LAYER_FIXED_PIGMENT)
         return layer;
     if (!pigment_name)
         luaL_error(L, "layer '%s' needs a pigment's name", name);

@@ -45,7 +45,7 @@ static const struct {
     {"mask", "__mul", "m", ""},
     {"mask", "__sub", "m", ""},
     {"papers", "__call", "O",
-     "width:i height:i torus:b model:S rule:S stock:S seed:i pigments:v color:v "
+     "width:i height:i torus:b model:S version:i rule:S stock:S seed:i pigments:v color:v "
      "color_variation:n absorbency:n capacity:n "
      "roughness:n grain:n fibers:v history:b undo:n"},
     {"papers", "load", "hi", ""},

@@ -40,11 +40,14 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
+static int sheets_model = 1;
+
 static struct paper_sheet *sheet_new(double budget_bytes)
 {
     struct paper_sheet_config config =
         sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
+    config.model = sheets_model;
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     if (budget_bytes >= 0)

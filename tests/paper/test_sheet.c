@@ -221,11 +221,11 @@ static void layer_extremes(struct paper_sheet *sheet, enum paper_layer layer, in
                      (double)values[i], i);
 }
 
-static void any_air_keeps_matter_and_numbers(void **state)
+static void any_air_keeps_matter_of_model(int model)
 {
-    (void)state;
     enum { AIRS = 60 };
     struct paper_sheet_config config = config_small(20, 18, 2);
+    config.model = model;
     struct paper_sheet *sheet = sheet_make(&config);
     for (int i = 0; i < AIRS; i++) {
         struct paper_air air = air_by_chance();
@@ -248,6 +248,13 @@ static void any_air_keeps_matter_and_numbers(void **state)
         }
     }
     paper_sheet_destroy(sheet);
+}
+
+static void any_air_keeps_matter_and_numbers(void **state)
+{
+    (void)state;
+    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
+        any_air_keeps_matter_of_model(model);
 }
 
 /* ---- symmetry ---- */
@@ -278,21 +285,30 @@ static int moved(enum motion motion, int x, int y)
 static const enum paper_layer board_layers[] = {
     PAPER_LAYER_HEIGHT,          PAPER_LAYER_ABSORBENCY,    PAPER_LAYER_CAPACITY,
     PAPER_LAYER_SURFACE_WATER,   PAPER_LAYER_INFUSED_WATER, PAPER_LAYER_SURFACE_PIGMENT,
-    PAPER_LAYER_INFUSED_PIGMENT, PAPER_LAYER_FIXED_PIGMENT};
-enum { BOARD_LAYERS = sizeof board_layers / sizeof *board_layers };
+    PAPER_LAYER_INFUSED_PIGMENT, PAPER_LAYER_FIXED_PIGMENT, PAPER_LAYER_SIZING,
+    PAPER_LAYER_CURRENT};
+enum { BOARD_LAYERS = sizeof board_layers / sizeof *board_layers, BOARD_OF_SPREADING = 8 };
 
-static void moved_sheets_give_moved_bits(void **state)
+/* Eddies turn the other way round in a mirror. */
+static float seen_so(enum motion motion, enum paper_layer layer, float value)
 {
-    (void)state;
+    bool mirror = motion == MIRRORED_X || motion == MIRRORED_Y || motion == TRANSPOSED;
+    return mirror && layer == PAPER_LAYER_CURRENT ? -value : value;
+}
+
+static void moved_sheets_of_model_give_moved_bits(int model)
+{
+    const int layers = model == 1 ? BOARD_OF_SPREADING : BOARD_LAYERS;
     static float first[BOARD_LAYERS][BOARD * BOARD], start[BOARD_LAYERS][BOARD * BOARD],
         values[BOARD * BOARD];
     for (int layer = 0; layer < BOARD_LAYERS; layer++)
         for (int i = 0; i < BOARD * BOARD; i++) {
-            bool there = layer < 3 || uniform(0, 1) < 0.4;
+            bool there = layer < 3 || layer >= BOARD_OF_SPREADING || uniform(0, 1) < 0.4;
             start[layer][i] = there ? (float)uniform(0, layer == 1 ? 0.25 : 1) : 0.0f;
         }
     for (enum motion motion = AS_IT_IS; motion < MOTIONS; motion++) {
         struct paper_sheet_config config = config_small(BOARD, BOARD, 2);
+        config.model = model;
         struct paper_sheet *sheet = sheet_make(&config);
         struct paper_air air = air_with_all();
         air.tension = 0.01;
@@ -301,14 +317,15 @@ static void moved_sheets_give_moved_bits(void **state)
         air.seep[0] = motion == MIRRORED_X ? 0.2 : motion == TRANSPOSED ? 0.05 : -0.2;
         air.seep[1] = motion == MIRRORED_Y ? -0.05 : motion == TRANSPOSED ? -0.2 : 0.05;
         check(paper_sheet_air(sheet, &air));
-        for (int layer = 0; layer < BOARD_LAYERS; layer++) {
+        for (int layer = 0; layer < layers; layer++) {
             for (int y = 0; y < BOARD; y++)
                 for (int x = 0; x < BOARD; x++)
-                    values[moved(motion, x, y)] = start[layer][y * BOARD + x];
+                    values[moved(motion, x, y)] =
+                        seen_so(motion, board_layers[layer], start[layer][y * BOARD + x]);
             check(paper_sheet_layer_write(sheet, board_layers[layer], 0, values));
         }
         steps(sheet, 40);
-        for (int layer = 3; layer < BOARD_LAYERS; layer++) {
+        for (int layer = 3; layer < BOARD_OF_SPREADING; layer++) {
             check(paper_sheet_layer_read(sheet, board_layers[layer], 0, values));
             for (int y = 0; y < BOARD; y++)
                 for (int x = 0; x < BOARD; x++) {
@@ -323,6 +340,13 @@ static void moved_sheets_give_moved_bits(void **state)
         }
         paper_sheet_destroy(sheet);
     }
+}
+
+static void moved_sheets_give_moved_bits(void **state)
+{
+    (void)state;
+    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
+        moved_sheets_of_model_give_moved_bits(model);
 }
 
 /* One pigment and no surface: each instruction is a kernel to compile. */

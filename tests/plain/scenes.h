@@ -35,7 +35,7 @@ static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
 }
 
 /* One line for each turn: a number from each plane but those of colour. */
-static inline void scene_play(FILE *out)
+static inline void scene_of_model_play(FILE *out, int model)
 {
     static uint8_t gray[11 * 9];
     static uint32_t words[SCENE_WIDTH * SCENE_HEIGHT];
@@ -43,6 +43,7 @@ static inline void scene_play(FILE *out)
     struct paper_sheet_config config =
         sheet_of_two(SCENE_WIDTH, SCENE_HEIGHT, "quinacridone rose", "french ultramarine");
     config.torus = true;
+    config.model = model;
     uint64_t chance = 3;
     struct paper_sheet *sheet;
     scene_check(paper_sheet_create(&config, &sheet));
@@ -74,11 +75,17 @@ static inline void scene_play(FILE *out)
             for (int j = 0; j < SCENE_WIDTH * SCENE_HEIGHT; j++)
                 hash = (hash ^ words[j]) * 0x100000001b3u;
             if (i < 4 || i >= 10)
-                fprintf(out, "turn %d, %s: %016llx\n", turn, planes[i].name,
+                fprintf(out, "model %d, turn %d, %s: %016llx\n", model, turn, planes[i].name,
                         (unsigned long long)hash);
         }
     }
     paper_sheet_destroy(sheet);
+}
+
+static inline void scene_play(FILE *out)
+{
+    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
+        scene_of_model_play(out, model);
 }
 
 #endif

@@ -83,6 +83,7 @@ static struct paper_sheet_config config_by_chance(void)
     config.height = SIDE_LEAST + below(SIDE - SIDE_LEAST + 1);
     config.torus = below(2);
     config.parts = (unsigned)(below(3) ? 15 : below(16));
+    config.model = 1 + below(PAPER_MODEL_VERSION);
     config.rule = (enum paper_rule)below(3);
     config.seed = sample_word(&chance);
     config.stock = *paper_stock_number(below(5));
@@ -159,12 +160,22 @@ static void planes_look(struct paper_sheet *sheet, const char *when)
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     int count = paper_sheet_planes(sheet, planes), fibers = config->width * config->height;
     for (int i = 0; i < count; i++) {
-        bool fraction = i < 10 || strcmp(planes[i].name, "wet around") == 0;
-        double most = fraction ? 1 : config->parts ? 15.0 * PAPER_GRAINS : 1;
+        bool wet = strncmp(planes[i].name, "wet ", 4) == 0,
+             speed = strncmp(planes[i].name, "speed", 5) == 0,
+             noise = strcmp(planes[i].name, "sizing") == 0 ||
+                     strcmp(planes[i].name, "current") == 0;
+        bool fraction = i < 10 || wet || speed || noise;
+        double most = noise           ? 100
+                      : fraction      ? 1
+                      : config->parts ? 15.0 * PAPER_GRAINS
+                                      : 1,
+               least = noise   ? -10
+                       : speed ? -1
+                               : 0;
         check(paper_sheet_plane_read(sheet, i, &plane));
         for (int j = 0; j < fibers; j++) {
             double value = planes[i].whole ? plane.words[j] : (double)plane.values[j];
-            if (!(value >= 0 && value <= (planes[i].whole ? 0x1p31 - 1 : most)))
+            if (!(value >= least && value <= (planes[i].whole ? 0x1p31 - 1 : most)))
                 wrong("%s: %s is %g in fiber %d", when, planes[i].name, value, j);
             if (!fraction && config->parts && floor(value) != value)
                 wrong("%s: %s is %g in fiber %d, not whole", when, planes[i].name, value, j);

@@ -48,6 +48,7 @@ static inline struct paper_sheet *sample_sheet(uint64_t seed)
     struct paper_sheet_config config =
         sheet_of_two(SAMPLE_WIDTH, SAMPLE_HEIGHT, "burnt umber", "phthalo green");
     config.seed = seed;
+    config.model = 1 + (int)(seed % PAPER_MODEL_VERSION);
     struct paper_sheet *sheet;
     sample_check(paper_sheet_create(&config, &sheet));
     sample_check(paper_history_begin(sheet, 1e6));

@@ -7,28 +7,35 @@
 
 #include <string.h>
 
+/* The version of the model, less 1, stands above the parts: descriptions from before there were versions are of the first. */
+enum { PARTS_BITS = 16 };
+
 static void config_pass(struct event_stream *s, struct paper_sheet_config *config)
 {
     uint64_t width = event_pass_number(s, (uint64_t)config->width, 4),
              height = event_pass_number(s, (uint64_t)config->height, 4),
              torus = event_pass_number(s, config->torus, 1),
-             parts = event_pass_number(s, config->parts, 4),
+             parts = event_pass_number(
+                 s, config->parts | (uint64_t)(config->model - 1) << PARTS_BITS, 4),
              rule = event_pass_number(s, (uint64_t)config->rule, 4),
              seed = event_pass_number(s, config->seed, 8),
              pigments = event_pass_number(s, (uint64_t)config->pigments_count, 4);
     event_stream_expect(s, width >= PAPER_SIDE_MIN && width <= PAPER_SIDE_MAX &&
                                height >= PAPER_SIDE_MIN && height <= PAPER_SIDE_MAX &&
+                               parts >> PARTS_BITS < PAPER_MODEL_VERSION &&
                                rule <= PAPER_RULE_LUMINOUS && pigments <= PAPER_PIGMENTS_MAX);
     if (!event_stream_good(s))
         return;
     if (s->in)
-        *config = (struct paper_sheet_config){.width = (int)width,
-                                              .height = (int)height,
-                                              .torus = torus != 0,
-                                              .parts = (unsigned)parts,
-                                              .rule = (enum paper_rule)rule,
-                                              .seed = seed,
-                                              .pigments_count = (int)pigments};
+        *config =
+            (struct paper_sheet_config){.width = (int)width,
+                                        .height = (int)height,
+                                        .torus = torus != 0,
+                                        .model = (int)(parts >> PARTS_BITS) + 1,
+                                        .parts = (unsigned)parts & ((1u << PARTS_BITS) - 1),
+                                        .rule = (enum paper_rule)rule,
+                                        .seed = seed,
+                                        .pigments_count = (int)pigments};
     event_pass_members(s, &paper_stock_members, &config->stock);
     for (int i = 0; i < config->pigments_count; i++)
         event_pass_members(s, &paper_pigment_members, &config->pigments[i]);
@@ -41,7 +48,7 @@ void sheet_config_encode(struct event_bytes *b, const struct paper_sheet_config 
 
 enum paper_status sheet_config_decode(struct event_reader *r, struct paper_sheet_config *config)
 {
-    memset(config, 0, sizeof *config);
+    *config = (struct paper_sheet_config){.model = 1};
     config_pass(&(struct event_stream){.in = r}, config);
     return r->bad ? paper_fail(PAPER_BAD_FILE, "the description of the sheet is damaged")
                   : PAPER_OK;

@@ -42,7 +42,7 @@ enum paper_status sheet_put(struct paper_sheet *p, const void *arguments)
             kit_f_least(q, q, 0.0);
         }
     }
-    sheet_wet_around_make(p);
+    sheet_wet_put(p, amount[0] > 0, share);
     return paper_leave(&p->page);
 }
 
@@ -131,8 +131,13 @@ enum paper_status sheet_dry(struct paper_sheet *p, const void *arguments)
             kit_f_set(p->infused[i], 0.0);
         }
     }
-    if (sheet_has(p, PAPER_PART_EDGE))
+    if (sheet_has(p, PAPER_PART_EDGE) || sheet_flows(p))
         kit_f_set(p->wet_around, 0.0);
+    if (sheet_flows(p)) {
+        kit_f_set(p->wet_part, 0.0);
+        kit_f_set(p->speed[0], 0.0);
+        kit_f_set(p->speed[1], 0.0);
+    }
     if (p->salted) { /* brushed off */
         kit_f_set(p->salt, 0.0);
         kit_f_set(p->brine, 0.0);

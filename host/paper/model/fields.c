@@ -26,7 +26,9 @@ void sheet_fields_make(struct paper_sheet *p)
         &p->page.outward,    &p->page.scratch, &p->height,        &p->capacity,
         &p->resist,          &p->face[0],      &p->face[1],       &p->substrate[0],
         &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around,
-        &p->varnish,         &p->salt,         &p->brine};
+        &p->varnish,         &p->salt,         &p->brine,         &p->sizing,
+        &p->current,         &p->wet_part,     &p->speed[0],      &p->speed[1],
+        &p->ease[0],         &p->ease[1],      &p->swirl};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < p->config.pigments_count; i++) {
@@ -47,15 +49,20 @@ void sheet_fields_make(struct paper_sheet *p)
  * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
 enum paper_status sheet_amounts_clear(struct paper_sheet *p)
 {
-    CM_field_id_t fields[5 + 3 * PAPER_PIGMENTS_MAX];
+    CM_field_id_t fields[8 + 3 * PAPER_PIGMENTS_MAX];
     int count = 0;
     fields[count++] = p->page.water;
     if (p->config.parts)
         fields[count++] = p->resist;
     if (sheet_has(p, PAPER_PART_SURFACE))
         fields[count++] = p->surface_water;
-    if (sheet_has(p, PAPER_PART_EDGE))
+    if (sheet_has(p, PAPER_PART_EDGE) || (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)))
         fields[count++] = p->wet_around;
+    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)) {
+        fields[count++] = p->wet_part;
+        fields[count++] = p->speed[0];
+        fields[count++] = p->speed[1];
+    }
     for (int i = 0; i < p->config.pigments_count; i++)
         count += sheet_pigment_fields(p, i, fields + count);
     float *zeros =

@@ -1,6 +1,8 @@
 /* flow.c - what all flows between fibers share: how much room a fiber has, and what goes through a face in whole grains. */
 #include "model/model.h"
 
+#define FLOWS_FROM 4.0 /* grains; model/film.c */
+
 void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
 {
     CM_field_id_t fields[3];
@@ -34,4 +36,49 @@ void sheet_flow_take(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t flow,
     kit_f_previous(arriving, flow, axis);
     kit_f_add(q, q, arriving);
     kit_f_sub(q, q, flow);
+}
+
+/* ---- where water flows ---- */
+
+void sheet_faces_below(struct sheet_faces *faces)
+{
+    for (unsigned axis = 0; axis < 2; axis++) {
+        kit_f_previous(faces->out_below[axis], faces->out[axis], axis);
+        kit_f_previous(faces->in_below[axis], faces->in[axis], axis);
+    }
+}
+
+/* d = out * lower + in * upper, rounded to whole grains, and KIT_WHOLE more. Uses t[15]. */
+static void grains_flow(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
+                        CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
+{
+    CM_field_id_t part = p->t[15];
+    kit_f_mul(part, upper, in);
+    kit_f_mul(d, lower, out);
+    kit_f_add(d, d, part);
+    kit_f_plus(d, d, KIT_WHOLE);
+}
+
+/* As step.c: what comes in from below is computed again from both sides' amounts. */
+void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct sheet_faces *faces,
+                        const double weight[2])
+{
+    CM_field_id_t free = p->t[8], other = p->t[9], flow = p->t[10],
+                  sum[2] = {p->t[11], p->t[12]}, out = p->t[13], in = p->t[14];
+    kit_f_plus(free, q, -FLOWS_FROM);
+    kit_f_least(free, free, 0.0);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        const double w = weight ? weight[axis == KIT_AXIS_X ? 0 : 1] : 1;
+        kit_f_times(out, faces->out_below[axis], w);
+        kit_f_times(in, faces->in_below[axis], w);
+        kit_f_previous(other, free, axis);
+        grains_flow(p, flow, out, other, in, free);
+        kit_f_times(out, faces->out[axis], w);
+        kit_f_times(in, faces->in[axis], w);
+        kit_f_next(other, free, axis);
+        grains_flow(p, other, out, free, in, other);
+        kit_f_sub(sum[axis], flow, other);
+    }
+    kit_f_add(sum[0], sum[0], sum[1]);
+    kit_f_add(q, q, sum[0]);
 }

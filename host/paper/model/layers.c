@@ -29,6 +29,9 @@ static const struct {
     LAYER(SURFACE_PIGMENT, surface, true, true, 0, 4),
     LAYER(INFUSED_PIGMENT, infused, true, true, 0, 4),
     LAYER(FIXED_PIGMENT, fixed, true, true, 0, 4),
+    LAYER(SIZING, sizing, false, false, 0.01, 100),
+    LAYER(CURRENT, current, false, false, -10, 10),
+    LAYER(WET_PART, wet_part, false, false, 0, 1),
 #undef LAYER
 };
 
@@ -64,6 +67,14 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
         layer_check(p, (enum paper_layer)event->layer, event->pigment, &field);
     if (status == PAPER_OK && event->layer == PAPER_LAYER_DRIED_WATER)
         return paper_fail(PAPER_BAD_ARGUMENT, "what has dried is counted, not written");
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_WET_PART)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "what part of a fiber is wet follows its water and is not written");
+    bool film = event->layer == PAPER_LAYER_SIZING || event->layer == PAPER_LAYER_CURRENT;
+    if (status == PAPER_OK && film && !(sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)))
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "paper has sizing and currents where water flows: version 2, with a "
+                          "surface");
     unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
                     : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
                                                                 : 0;
@@ -101,7 +112,8 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     kit_grid_f_write(&p->page.grid, field, cut);
     p->varnished = p->varnished || layer == PAPER_LAYER_VARNISH;
     p->salted = p->salted || layer == PAPER_LAYER_SALT || layer == PAPER_LAYER_BRINE;
-    if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST)
+    if (layer == PAPER_LAYER_ABSORBENCY || layer == PAPER_LAYER_RESIST ||
+        layer == PAPER_LAYER_SIZING || layer == PAPER_LAYER_CURRENT)
         sheet_faces_make(p);
     if (layer == PAPER_LAYER_SURFACE_WATER || layer == PAPER_LAYER_INFUSED_WATER)
         sheet_wet_around_make(p);

@@ -6,7 +6,7 @@
 #include "model/operations.h"
 #include "sheet.h"
 
-enum { SHEET_TEMPORARIES = 24, SHEET_DRIED_BITS = 31 };
+enum { SHEET_TEMPORARIES = 56, SHEET_DRIED_BITS = 31 };
 
 /* What a fiber holds at most: more does not flow in. */
 #define SHEET_LOAD_MAX 15.0
@@ -32,6 +32,11 @@ struct paper_sheet {
     CM_field_id_t surface_water;
     CM_field_id_t dried; /* grains, SHEET_DRIED_BITS */
     CM_field_id_t wet_around;
+    /* Where water flows (model/film.c): how hard fibers are to wet, and eddies; what part of each fiber is wet; how fast
+     * water flows to the neighbour above, [axis]. */
+    CM_field_id_t sizing, current, wet_part, speed[2];
+    CM_field_id_t ease[2]; /* [axis]: how easily it flows over the face; 0: closed */
+    CM_field_id_t swirl;   /* of current, at the corner above on both axes */
     CM_field_id_t varnish, salt, brine;
     bool varnished, salted; /* there may be some */
     double salt_reach, salt_strength;
@@ -56,6 +61,12 @@ static inline unsigned sheet_parts_whole(unsigned parts)
     if (parts & PAPER_PART_EDGE)
         parts |= PAPER_PART_SURFACE;
     return parts ? parts | PAPER_PART_INFUSED : 0;
+}
+
+/* The thesis's page has one version. */
+static inline int sheet_model_whole(const struct paper_sheet_config *config)
+{
+    return config->parts ? config->model : 1;
 }
 
 /* ---- a sheet's life (sheet.c) ---- */
@@ -121,6 +132,50 @@ void sheet_amount_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t sha
                        CM_field_id_t lost);
 /* The wet area is as it is now: its edge begins to dry faster from here. Uses t[0]. */
 void sheet_wet_around_make(struct paper_sheet *p);
+
+/* ... where amounts were put through `share`, water among them or not: of a fiber that part is wet. Uses t[0]. */
+void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share);
+
+/* ---- water that flows (sizing.c, soak.c, film.c, capillary.c) ---- */
+
+/* Whether water flows with a speed over the surface, or spreads (step.c). */
+static inline bool sheet_flows(const struct paper_sheet *p)
+{
+    return p->config.model >= 2;
+}
+
+/* Sizing and currents from the seed. Errors: NO_MEMORY. */
+enum paper_status sheet_sizing_make(struct paper_sheet *p);
+/* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */
+void sheet_film_faces_make(struct paper_sheet *p);
+
+/* What a fiber's own part of a step leaves for its faces: temporaries of the sheet. */
+struct sheet_terms {
+    CM_field_id_t room;      /* 1 to 0 as it fills up */
+    CM_field_id_t saturated; /* infused water to capacity */
+    CM_field_id_t depth;     /* of surface water, units */
+    CM_field_id_t
+        level; /* of its surface where the fiber is wet; where it is dry, what water must stand above to come in */
+    CM_field_id_t deep;    /* depth of the part that is wet */
+    CM_field_id_t inverse; /* 1 / depth */
+    CM_field_id_t swirled; /* depth that eddies move: none at the edge of what is wet */
+};
+/* Uses t[7..15]; terms are t[0..6]. */
+void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
+/* Uses t[7..15], t[32..44]. */
+void sheet_capillary_flow(struct paper_sheet *p, const struct sheet_terms *terms);
+/* Parts of a gradient at the four faces of a fiber, as step.c explains them: out and in at that above a fiber on the axis, and at
+ * that below. */
+struct sheet_faces {
+    CM_field_id_t out[2], in[2], out_below[2], in_below[2];
+};
+/* The faces below from those above. */
+void sheet_faces_below(struct sheet_faces *faces);
+/* q gets what flows through its four faces, all parts times weight[axis] (x, y). Uses t[8..15]. */
+void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct sheet_faces *faces,
+                        const double weight[2]);
+/* A step of a sheet whose water flows. Between paper_enter() and paper_leave(). */
+void sheet_film_step(struct paper_sheet *p);
 
 /* ---- flows (flow.c) ---- */
 

@@ -50,11 +50,41 @@ void sheet_resist_heed(struct paper_sheet *p, CM_field_id_t share, CM_field_id_t
     kit_f_mul(share, share, open);
 }
 
+/* Depth of water, units, that was laid on all of a fiber. */
+#define WETTED 0.25
+
+/* By its surface water alone. Uses t[0]. */
+static void wet_part_make(struct paper_sheet *p)
+{
+    kit_f_times(p->t[0], p->surface_water, 1 / (WETTED * p->unit));
+    kit_f_most(p->t[0], p->t[0], 1.0);
+    kit_f_max(p->wet_part, p->wet_part, p->t[0]);
+    kit_f_max(p->wet_around, p->wet_around, p->t[0]);
+}
+
 void sheet_wet_around_make(struct paper_sheet *p)
 {
+    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE)) {
+        wet_part_make(p);
+        return;
+    }
     if (!sheet_has(p, PAPER_PART_EDGE))
         return;
     kit_f_most(p->t[0], p->surface_water, 1.0);
+    kit_f_max(p->wet_around, p->wet_around, p->t[0]);
+}
+
+void sheet_wet_put(struct paper_sheet *p, bool water, CM_field_id_t share)
+{
+    if (!sheet_flows(p) || !sheet_has(p, PAPER_PART_SURFACE)) {
+        sheet_wet_around_make(p);
+        return;
+    }
+    if (!water)
+        return;
+    kit_f_most(p->t[0], p->surface_water, 1.0);
+    kit_f_mul(p->t[0], p->t[0], share);
+    kit_f_max(p->wet_part, p->wet_part, p->t[0]);
     kit_f_max(p->wet_around, p->wet_around, p->t[0]);
 }
 

@@ -9,6 +9,7 @@ struct paper_sheet_config paper_sheet_config_default(void)
 {
     struct paper_sheet_config config = {.width = 512,
                                         .height = 512,
+                                        .model = PAPER_MODEL_USUAL,
                                         .parts = PAPER_PARTS_ALL,
                                         .rule = PAPER_RULE_KUBELKA_MUNK,
                                         .stock = *paper_stock_number(0),
@@ -35,6 +36,9 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
     if (c->height < PAPER_SIDE_MIN || c->height > PAPER_SIDE_MAX)
         return paper_fail(PAPER_BAD_ARGUMENT, "paper height must be %d..%d (got %d)",
                           PAPER_SIDE_MIN, PAPER_SIDE_MAX, c->height);
+    if (c->model < 1 || c->model > PAPER_MODEL_VERSION)
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper's version must be 1..%d (got %d)",
+                          PAPER_MODEL_VERSION, c->model);
     if (c->parts > PAPER_PARTS_ALL)
         return paper_fail(PAPER_BAD_ARGUMENT, "paper has no parts 0x%x", c->parts);
     if (c->pigments_count < 0 || c->pigments_count > PAPER_PIGMENTS_MAX)
@@ -55,8 +59,11 @@ static enum paper_status config_check(const struct paper_sheet_config *c)
 /* A fresh sheet: its stock from the seed, nothing on it. Between paper_enter() and paper_leave(). */
 static enum paper_status fresh_make(struct paper_sheet *p)
 {
+    enum paper_status status = PAPER_OK;
+    if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE))
+        status = sheet_sizing_make(p);
     sheet_stock_make(p);
-    return sheet_amounts_clear(p);
+    return status == PAPER_OK ? sheet_amounts_clear(p) : status;
 }
 
 enum paper_status sheet_create(const struct paper_sheet_config *config,
@@ -71,6 +78,7 @@ enum paper_status sheet_create(const struct paper_sheet_config *config,
         return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet");
     p->config = *config;
     p->config.parts = sheet_parts_whole(config->parts);
+    p->config.model = sheet_model_whole(config);
     p->unit = p->config.parts ? PAPER_GRAINS : 1;
     p->air = paper_air_default();
     p->salt_reach = 10;
@@ -121,6 +129,9 @@ enum paper_status sheet_reset(struct paper_sheet *p)
     CM_set_context();
     kit_f_set(p->resist, 0.0);
     kit_f_set(p->wet_around, 0.0);
+    kit_f_set(p->wet_part, 0.0);
+    kit_f_set(p->speed[0], 0.0);
+    kit_f_set(p->speed[1], 0.0);
     kit_f_set(p->surface_water, 0.0);
     kit_f_set(p->varnish, 0.0);
     kit_f_set(p->salt, 0.0);

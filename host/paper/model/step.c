@@ -1,4 +1,4 @@
-/* step.c - one step of time on a sheet with layers.
+/* step.c - one step of time on a sheet with layers, and what water does that spreads; model/film.c has water that flows.
  *
  * A fiber holds water and pigments in up to three layers:
  *
@@ -31,7 +31,7 @@
 
 #include <math.h>
 
-enum { TENSION_REACH = 10 };
+enum { TENSION_REACH = 10, SPREADING_TEMPORARIES = 24 };
 #define SURFACE_SHARE 0.125
 #define INFUSED_SHARE 0.125
 #define CAPACITY_SHARE 0.25 /* of what a fiber can still take, at one face */
@@ -477,8 +477,23 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
  * made of, and store what it cannot have as an expression (one array of 23 with six pigments). */
 static void temporaries_clear(struct paper_sheet *p)
 {
-    for (int i = 0; i < SHEET_TEMPORARIES; i++)
+    for (int i = 0; i < (sheet_flows(p) ? SHEET_TEMPORARIES : SPREADING_TEMPORARIES); i++)
         kit_f_set(p->t[i], 0.0);
+}
+
+static void spreading_step(struct paper_sheet *p)
+{
+    CM_field_id_t room = p->t[0];
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        absorb(p);
+    if (sheet_has(p, PAPER_PART_FIXING))
+        settle(p);
+    if (p->air.humidity > 0)
+        evaporate(p);
+    sheet_room_make(p, room);
+    if (sheet_has(p, PAPER_PART_SURFACE))
+        flow_surface(p, room);
+    flow_infused(p, room);
 }
 
 enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
@@ -494,17 +509,10 @@ enum paper_status sheet_step(struct paper_sheet *p, const void *arguments)
         paper_cycle(&p->page, &p->air.thesis, p->infused, weights, p->config.pigments_count);
         return paper_leave(&p->page);
     }
-    CM_field_id_t room = p->t[0];
-    if (sheet_has(p, PAPER_PART_SURFACE))
-        absorb(p);
-    if (sheet_has(p, PAPER_PART_FIXING))
-        settle(p);
-    if (p->air.humidity > 0)
-        evaporate(p);
-    sheet_room_make(p, room);
-    if (sheet_has(p, PAPER_PART_SURFACE))
-        flow_surface(p, room);
-    flow_infused(p, room);
+    if (sheet_flows(p))
+        sheet_film_step(p);
+    else
+        spreading_step(p);
     if (p->salted)
         sheet_salt_step(p);
     temporaries_clear(p);

@@ -169,6 +169,7 @@ void sheet_faces_make(struct paper_sheet *p)
             CM_set_context();
         }
     }
+    sheet_film_faces_make(p);
 }
 
 void sheet_stock_make(struct paper_sheet *p)

@@ -66,7 +66,7 @@ enum paper_status sheet_wash(struct paper_sheet *p, const void *arguments)
         kit_f_mul(part, part, share);
         sheet_amount_put(p, i, part);
     }
-    sheet_wet_around_make(p);
+    sheet_wet_put(p, w->amount[0] > 0 || w->end[0] > 0, share);
     return paper_leave(&p->page);
 }
 

@@ -3,7 +3,7 @@
  * The first 512 bytes, text, the rest of them 0:
  *
  *     LUTETIA STATE 1                    the version of this format
- *     model 1                            PAPER_MODEL_VERSION
+ *     model 1                            the greatest version of its sheets' models
  *     program 0.1.0
  *     bytes 123456                       of the whole file
  *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0

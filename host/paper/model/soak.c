@@ -1,0 +1,336 @@
+/* soak.c - a fiber's own part of a step where water flows (model/film.c): what sinks in, settles and dries; and what part of it is
+ * wet.
+ *
+ * What part. Water on a fiber that is not all wet stands on that part alone, as high as a neighbour's that is:
+ *
+ *         ____________                    depth h, wet part f:  height H = h / f
+ *        |            |____               the edge comes forward where H would be more than `advance`,
+ *     ___|____________|____|____                 f = h / advance,
+ *         f = 1        f = 0.4   f = 0    goes back where H is less than `film`, f = h / film, and else stays where it is.
+ *
+ * So type's gray edge stays as gray as it was put. `advance` is the angle at which water comes forward, as a height: it goes with
+ * the sizing, is less on damp paper, and less where more of the neighbours are wet, so that edges are neither lines along the
+ * axes nor frayed. */
+#include "model/model.h"
+
+#include <math.h>
+
+#define ADVANCE 4.375      /* of pinning */
+#define ADVANCE_LEAST 1e-3 /* units */
+#define NEIGHBOURS_HELP                                                                        \
+    1.2 /* how far wet neighbours lower it; a quarter of them are along a straight edge */
+#define NEIGHBOURS_LEAST 0.1
+#define DAMP_HELP 0.85
+#define EMPTY_PART 0.015625 /* of a fiber, that counts as full up to `advance` */
+#define DEEP_FROM                                                                              \
+    8.0 /* the part of a fiber that is thinner than 1 / this does not move as a film */
+#define SUCTION 10.0 /* of the stock's absorbency: well absorbing paper sucks the more */
+#define SUCTION_LOCAL 0.25
+#define SETTLING 4.0
+#define LIFTING 0.4
+#define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
+#define HELD_UP 0.75     /* by a unit of depth, of what settles */
+#define SEEPED_SETTLING 0.1
+#define FIBERS_DRYING 0.25 /* of what dries on the surface */
+#define DRIED_LEAST 4.0    /* grains */
+#define AROUND_LEAST 0.01  /* of what it relaxes by */
+#define EDGE_SHARE 0.75    /* of edge_width, over which the nearness of an edge falls to 1/e */
+#define ROOM_FROM 13.0     /* units that may be taken in before a fiber is full */
+
+/* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses t[8..11]. */
+static void sink_in(struct paper_sheet *p)
+{
+    CM_field_id_t taken = p->t[8], left = p->t[9], part = p->t[10], moved = p->t[11];
+    const double mean = p->config.stock.absorbency, pull = p->air.absorption * SUCTION * mean;
+    kit_f_times(left, p->capacity, p->unit);
+    kit_f_sub(left, left, p->page.water);
+    kit_f_times(taken, p->page.absorbency, pull * SUCTION_LOCAL);
+    kit_f_plus(taken, taken, pull * (1 - SUCTION_LOCAL) * mean);
+    kit_f_mul(taken, taken, left);
+    kit_f_mul(taken, taken, p->wet_part);
+    kit_f_min(taken, taken, left);
+    kit_f_least(taken, taken, 0.0);
+    sheet_whole_of(taken, p->surface_water);
+    kit_f_least(part, p->surface_water, 1.0);
+    kit_f_div(part, taken, part);
+    kit_f_sub(p->surface_water, p->surface_water, taken);
+    kit_f_add(p->page.water, p->page.water, taken);
+    kit_f_most(left, p->surface_water, 1.0); /* 1 where water is left */
+    kit_f_from(left, 1.0, left);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        const double *weight = p->config.pigments[i].weight;
+        kit_f_times(moved, part, fmax(weight[0], weight[1]));
+        if (!sheet_has(p, PAPER_PART_FIXING)) /* what has fallen dry is in the fibers */
+            kit_f_max(moved, moved, left);
+        kit_f_mul(moved, moved, p->surface[i]);
+        sheet_whole_of(moved, p->surface[i]);
+        kit_f_sub(p->surface[i], p->surface[i], moved);
+        kit_f_add(p->infused[i], p->infused[i], moved);
+    }
+}
+
+/* d = height * slope + least, times `by`; at most 1 where it could be more. */
+static void rate_make(struct paper_sheet *p, CM_field_id_t d, double slope, double least,
+                      CM_field_id_t by)
+{
+    kit_f_times(d, p->height, slope);
+    kit_f_plus(d, d, least);
+    if (by)
+        kit_f_mul(d, d, by);
+    if (least > 1 || slope + least > 1)
+        kit_f_most(d, d, 1.0);
+}
+
+/* Part of what is fixed, and of what is in the fibers, is lifted into the water above. Uses t[11..15]. */
+static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_field_id_t slow,
+                           CM_field_id_t dry)
+{
+    CM_field_id_t rate = p->t[11], up = p->t[12], part = p->t[13];
+    CM_field_id_t surface = p->surface[i], infused = p->infused[i], fixed = p->fixed[i];
+    const struct paper_pigment *pigment = &p->config.pigments[i];
+    const double pace = p->air.settling * SETTLING * pigment->density,
+                 lift = p->air.settling * LIFTING / pigment->staining,
+                 hollows = pigment->granulation;
+    rate_make(p, up, lift * hollows, lift * (1 - hollows), thin);
+    kit_f_mul(part, up, infused);
+    sheet_whole_of(part, infused);
+    kit_f_sub(infused, infused, part);
+    kit_f_mul(up, up, fixed);
+    sheet_whole_of(up, fixed);
+    kit_f_sub(fixed, fixed, up);
+    kit_f_add(up, up, part);
+
+    rate_make(p, rate, -pace * hollows, pace, slow);
+    kit_f_times(part, rate, SEEPED_SETTLING);
+    kit_f_mul(part, part, infused);
+    kit_f_mul(part, part, dry);
+    sheet_whole_of(part, infused);
+    kit_f_sub(infused, infused, part);
+    kit_f_add(fixed, fixed, part);
+
+    kit_f_max(rate, rate, dry);
+    kit_f_mul(rate, rate, surface);
+    sheet_whole_of(rate, surface);
+    kit_f_sub(surface, surface, rate);
+    kit_f_add(fixed, fixed, rate);
+    kit_f_add(surface, surface, up);
+}
+
+/* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays. Uses t[8..15]. */
+static void settle_under(struct paper_sheet *p)
+{
+    CM_field_id_t thin = p->t[8], slow = p->t[9], dry = p->t[10];
+    kit_f_times(slow, p->surface_water, 1 / p->unit);
+    kit_f_most(slow, slow, 1.0);
+    kit_f_times(thin, slow, 1 / LIFTED_FROM);
+    kit_f_most(thin, thin, 1.0);
+    kit_f_mul(dry, p->wet_part,
+              p->wet_part); /* little where only a part is wet: an edge would be washed out */
+    kit_f_mul(dry, dry, dry);
+    kit_f_mul(thin, thin, dry);
+    kit_f_times(slow, slow, -HELD_UP);
+    kit_f_plus(slow, slow, 1.0);
+    kit_f_most(dry, p->surface_water, 1.0);
+    kit_f_from(dry, 1.0, dry);
+    for (int i = 0; i < p->config.pigments_count; i++)
+        pigment_settle(p, i, thin, slow, dry);
+}
+
+/* Without a surface: in the fibers, while they are damp. Uses t[8..15]. */
+static void settle_within(struct paper_sheet *p)
+{
+    CM_field_id_t damp = p->t[8], up = p->t[12], part = p->t[13];
+    kit_f_most(damp, p->page.water, 1.0);
+    for (int i = 0; i < p->config.pigments_count; i++) {
+        const struct paper_pigment *pigment = &p->config.pigments[i];
+        const double pace = p->air.settling * SETTLING * SEEPED_SETTLING * pigment->density,
+                     lift = p->air.settling * LIFTING * SEEPED_SETTLING / pigment->staining,
+                     hollows = pigment->granulation;
+        rate_make(p, up, lift * hollows, lift * (1 - hollows), damp);
+        kit_f_mul(up, up, p->fixed[i]);
+        sheet_whole_of(up, p->fixed[i]);
+        rate_make(p, part, -pace * hollows, pace, damp);
+        kit_f_mul(part, part, p->infused[i]);
+        sheet_whole_of(part, p->infused[i]);
+        kit_f_sub(up, up, part);
+        kit_f_add(p->infused[i], p->infused[i], up);
+        kit_f_sub(p->fixed[i], p->fixed[i], up);
+    }
+}
+
+/* q loses at most `loss`, which is kept count of. Uses t[15]. */
+static void water_lose(struct paper_sheet *p, CM_field_id_t q, CM_field_id_t loss)
+{
+    CM_field_id_t count = p->t[15];
+    kit_f_min(loss, loss, q);
+    sheet_whole_of(loss, q);
+    kit_f_sub(q, q, loss);
+    CM_u_f_truncate_2_2L(count, loss, SHEET_DRIED_BITS, KIT_F);
+    CM_u_add_2_1L(p->dried, count, SHEET_DRIED_BITS);
+}
+
+/* From the surface, where it is wet; from fibers that no water covers. Uses t[8..15]. */
+static void dry_out(struct paper_sheet *p)
+{
+    CM_field_id_t loss = p->t[8], dry = p->t[9];
+    const double grains = p->air.humidity * p->unit;
+    if (!sheet_has(p, PAPER_PART_SURFACE)) {
+        kit_f_set(loss, grains * FIBERS_DRYING);
+        water_lose(p, p->page.water, loss);
+        return;
+    }
+    kit_f_most(dry, p->surface_water, 1.0);
+    kit_f_from(dry, 1.0, dry);
+    kit_f_times(loss, p->wet_part, grains);
+    kit_f_plus(loss, loss, DRIED_LEAST);
+    water_lose(p, p->surface_water, loss);
+    kit_f_times(loss, dry, grains * FIBERS_DRYING);
+    water_lose(p, p->page.water, loss);
+}
+
+/* How far the neighbours look that wet_around spreads to: farther for wide edges, so that these are there as soon. */
+static int around_reach(double width)
+{
+    return width <= 10 ? 1 : width <= 20 ? 2 : 4;
+}
+
+/* d = what the two fibers hold that are `reach` away on the axis. Uses t[11]. */
+static void both_sides_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a,
+                            unsigned axis, int reach)
+{
+    CM_field_id_t far = p->t[11];
+    kit_f_copy(d, a);
+    kit_f_copy(far, a);
+    for (int i = 0; i < reach; i++) {
+        kit_f_next(d, d, axis);
+        kit_f_previous(far, far, axis);
+    }
+    kit_f_add(d, d, far);
+}
+
+/* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in the long run it is 1 well inside, 1/2 at
+ * a straight edge and 0 outside, over a distance that goes with edge_width. Uses t[8..12]. */
+static void around_follow(struct paper_sheet *p)
+{
+    CM_field_id_t sum = p->t[8], along_y = p->t[9], along_x = p->t[10], near = p->t[12];
+    const double width = EDGE_SHARE * p->air.edge_width;
+    const int reach = around_reach(p->air.edge_width);
+    const double spread = (1 + reach * reach) / 8.0, relax = spread / (width * width + spread);
+    for (int from = 1;; from = reach) {
+        both_sides_make(p, along_y, p->wet_around, KIT_AXIS_Y, from);
+        both_sides_make(p, along_x, p->wet_around, KIT_AXIS_X, from);
+        kit_f_add(sum, along_y, along_x);
+        if (from == reach)
+            break;
+        kit_f_copy(near, sum);
+    }
+    kit_f_add(sum, sum, reach == 1 ? sum : near);
+    kit_f_times(sum, sum, 0.125 * (1 - relax));
+    kit_f_times(near, p->wet_part, relax);
+    kit_f_add(sum, sum, near);
+    kit_f_plus(sum, sum, -AROUND_LEAST * relax); /* no endless tail of tiny numbers */
+    kit_f_least(p->wet_around, sum, 0.0);
+}
+
+/* d = how wet the fiber and its eight neighbours are, by weights of 4, 2, 1, times 16. Sums go in pairs of opposite sides, so a
+ * mirrored sheet has the same bits. Uses t[10..14]. */
+static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
+{
+    CM_field_id_t right = p->t[10], left = p->t[11], one = p->t[12], other = p->t[13],
+                  corners = p->t[14];
+    kit_f_next(right, p->wet_part, KIT_AXIS_X);
+    kit_f_previous(left, p->wet_part, KIT_AXIS_X);
+    kit_f_previous(one, left, KIT_AXIS_Y);
+    kit_f_next(other, right, KIT_AXIS_Y);
+    kit_f_add(corners, one, other);
+    kit_f_previous(one, right, KIT_AXIS_Y);
+    kit_f_next(other, left, KIT_AXIS_Y);
+    kit_f_add(one, one, other);
+    kit_f_add(corners, corners, one);
+    kit_f_add(d, left, right);
+    kit_f_previous(one, p->wet_part, KIT_AXIS_Y);
+    kit_f_next(other, p->wet_part, KIT_AXIS_Y);
+    kit_f_add(one, one, other);
+    kit_f_add(d, d, one);
+    kit_f_times(d, d, 2.0);
+    kit_f_add(d, d, corners);
+    kit_f_times(one, p->wet_part, 4.0);
+    kit_f_add(d, d, one);
+}
+
+/* The edge comes forward or goes back; level and deep follow. Uses t[7..14]. */
+static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
+{
+    CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
+    neighbourhood_make(p, help);
+    kit_f_times(help, help, -NEIGHBOURS_HELP / 16);
+    kit_f_plus(help, help, 1 + NEIGHBOURS_HELP / 4);
+    kit_f_least(help, help, NEIGHBOURS_LEAST);
+    kit_f_times(advance, p->sizing, ADVANCE * p->air.pinning);
+    kit_f_mul(advance, advance, help);
+    kit_f_most(help, terms->saturated, 1.0);
+    kit_f_mul(help, help, help);
+    kit_f_times(help, help, -DAMP_HELP);
+    kit_f_plus(help, help, 1.0);
+    kit_f_mul(advance, advance, help);
+    kit_f_least(advance, advance, ADVANCE_LEAST);
+
+    kit_f_times(part, terms->depth, 1 / p->air.film);
+    kit_f_min(part, part, p->wet_part);
+    kit_f_div(help, terms->depth, advance);
+    kit_f_max(part, part, help);
+    kit_f_most(p->wet_part, part, 1.0);
+
+    kit_f_times(advance, advance, EMPTY_PART);
+    kit_f_add(advance, advance, terms->depth);
+    kit_f_plus(part, p->wet_part, EMPTY_PART);
+    kit_f_div(advance, advance, part);
+    kit_f_times(part, p->wet_part, DEEP_FROM);
+    kit_f_most(part, part, 1.0);
+    kit_f_mul(terms->deep, advance, part);
+    kit_f_times(part, p->height, p->air.relief);
+    kit_f_add(terms->level, advance, part);
+}
+
+/* Four neighbours bring at most 4/5 of 15 units each; see film.c. */
+static void room_make(struct paper_sheet *p, CM_field_id_t room)
+{
+    CM_field_id_t fields[3];
+    kit_f_copy(room, sheet_has(p, PAPER_PART_SURFACE) ? p->surface_water : p->page.water);
+    for (int i = 0; i < p->config.pigments_count; i++)
+        for (int j = sheet_pigment_fields(p, i, fields) - 1; j >= 0; j--)
+            kit_f_add(room, room, fields[j]);
+    kit_f_from(room, SHEET_LOAD_MAX * p->unit, room);
+    kit_f_times(room, room, 1 / (ROOM_FROM * p->unit));
+    kit_f_least(room, room, 0.0);
+    kit_f_most(room, room, 1.0);
+}
+
+void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms)
+{
+    *terms =
+        (struct sheet_terms){p->t[0], p->t[1], p->t[2], p->t[3], p->t[4], p->t[5], p->t[6]};
+    bool surface = sheet_has(p, PAPER_PART_SURFACE);
+    if (surface)
+        sink_in(p);
+    if (sheet_has(p, PAPER_PART_FIXING) && surface)
+        settle_under(p);
+    else if (sheet_has(p, PAPER_PART_FIXING))
+        settle_within(p);
+    if (p->air.humidity > 0)
+        dry_out(p);
+    room_make(p, terms->room);
+    kit_f_times(terms->saturated, p->capacity, p->unit);
+    kit_f_div(terms->saturated, p->page.water, terms->saturated);
+    if (!surface)
+        return;
+    around_follow(p);
+    kit_f_times(terms->depth, p->surface_water, 1 / p->unit);
+    edge_move(p, terms);
+    kit_f_least(terms->inverse, terms->depth, 4 / p->unit);
+    CM_f_divinto_constant_2_1L(terms->inverse, 1.0, KIT_F);
+    kit_f_times(terms->swirled, p->wet_around, 2.0);
+    kit_f_plus(terms->swirled, terms->swirled, -1.0);
+    kit_f_least(terms->swirled, terms->swirled, 0.0);
+    kit_f_mul(terms->swirled, terms->swirled, terms->depth);
+}

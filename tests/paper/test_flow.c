@@ -1,0 +1,405 @@
+/* test_flow.c - what water does that flows, measured: backruns, drops, letters, drips, edges and type, all on one paper in one
+ * air. Scripts choose water, pigment, gravity and time. */
+#include <paper.h>
+#include <sheet.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 256, FIBERS = SIDE * SIDE, RAYS = 360, SPECTRUM = 40 };
+#define MIDDLE (SIDE / 2.0)
+#define TURN 6.283185307179586
+
+static float first[FIBERS], second[FIBERS], layer[FIBERS];
+
+static void check(enum paper_status status)
+{
+    if (status != PAPER_OK)
+        fail_msg("status %d: %s", (int)status, paper_error());
+}
+
+static struct paper_sheet *sheet_new(uint64_t seed)
+{
+    struct paper_sheet_config config = paper_sheet_config_default();
+    config.width = config.height = SIDE;
+    config.model = 2;
+    config.seed = seed;
+    config.pigments_count = 2;
+    config.pigments[0] = *paper_pigment_find("french ultramarine");
+    config.pigments[1] = *paper_pigment_find("quinacridone rose");
+    struct paper_sheet *sheet;
+    check(paper_sheet_create(&config, &sheet));
+    return sheet;
+}
+
+static void steps(struct paper_sheet *sheet, int count)
+{
+    for (int i = 0; i < count; i++)
+        check(paper_sheet_step(sheet));
+    check(paper_sheet_finish(sheet));
+}
+
+/* All of a pigment, units. */
+static void pigment_read(struct paper_sheet *sheet, int pigment, float *amounts)
+{
+    static const enum paper_layer layers[3] = {
+        PAPER_LAYER_SURFACE_PIGMENT, PAPER_LAYER_INFUSED_PIGMENT, PAPER_LAYER_FIXED_PIGMENT};
+    memset(amounts, 0, FIBERS * sizeof *amounts);
+    for (int i = 0; i < 3; i++) {
+        check(paper_sheet_layer_read(sheet, layers[i], pigment, layer));
+        for (int j = 0; j < FIBERS; j++)
+            amounts[j] += layer[j];
+    }
+}
+
+static void box_put(struct paper_sheet *sheet, double x1, double y1, double x2, double y2,
+                    const double *amount)
+{
+    double corners[8] = {x1, y1, x2, y1, x2, y2, x1, y2};
+    struct paper_screen screen;
+    int x, y;
+    check(paper_polygon_screen(corners, 4, SIDE, SIDE, &screen, &x, &y));
+    check(paper_sheet_put(sheet, &screen, x, y, amount));
+    paper_screen_destroy(&screen);
+}
+
+static void disc_put(struct paper_sheet *sheet, double radius, const double *amount)
+{
+    enum { CORNERS = 90 };
+    double corners[2 * CORNERS];
+    for (int i = 0; i < CORNERS; i++) {
+        corners[2 * i] = MIDDLE + radius * cos(TURN * i / CORNERS);
+        corners[2 * i + 1] = MIDDLE + radius * sin(TURN * i / CORNERS);
+    }
+    struct paper_screen screen;
+    int x, y;
+    check(paper_polygon_screen(corners, CORNERS, SIDE, SIDE, &screen, &x, &y));
+    check(paper_sheet_put(sheet, &screen, x, y, amount));
+    paper_screen_destroy(&screen);
+}
+
+static double value_at(const float *values, double x, double y)
+{
+    int column = (int)floor(x), row = (int)floor(y);
+    if (column < 0 || row < 0 || column >= SIDE - 1 || row >= SIDE - 1)
+        return 0;
+    double u = x - column, v = y - row;
+    const float *at = values + row * SIDE + column;
+    return (1 - v) * ((1 - u) * (double)at[0] + u * (double)at[1]) +
+           v * ((1 - u) * (double)at[SIDE] + u * (double)at[SIDE + 1]);
+}
+
+/* ---- a backrun: clean water into a damp wash ---- */
+
+/* Adds the power of the radius, in squares of its mean, to `power`; the sum but for the first is returned. */
+static double front_power(const float *wet, double power[SPECTRUM + 1])
+{
+    static double radius[RAYS];
+    double mean = 0, sum = 0;
+    for (int i = 0; i < RAYS; i++) {
+        radius[i] = 0;
+        for (double r = 1; r < MIDDLE - 4; r += 0.25)
+            if (value_at(wet, MIDDLE + r * cos(TURN * i / RAYS),
+                         MIDDLE + r * sin(TURN * i / RAYS)) > 0.5)
+                radius[i] = r;
+        mean += radius[i] / RAYS;
+    }
+    for (int n = 1; n <= SPECTRUM; n++) {
+        double x = 0, y = 0;
+        for (int i = 0; i < RAYS; i++) {
+            x += radius[i] * cos(TURN * n * i / RAYS);
+            y += radius[i] * sin(TURN * n * i / RAYS);
+        }
+        double part = 2 * (x * x + y * y) / RAYS / RAYS / mean / mean;
+        power[n] += part;
+        sum += n > 1 ? part : 0;
+    }
+    return sum;
+}
+
+static void backrun_has_lobes(void **state)
+{
+    (void)state;
+    enum { SEEDS = 3 };
+    double power[SPECTRUM + 1] = {0}, varies = 0, inside = 0, rim = 0, beyond = 0;
+    for (int seed = 0; seed < SEEDS; seed++) {
+        struct paper_sheet *sheet = sheet_new((uint64_t)seed + 1);
+        check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.3, 0.4, 0}));
+        steps(sheet, 300);
+        disc_put(sheet, 14, (double[]){4, 0, 0});
+        steps(sheet, 500);
+        check(paper_sheet_layer_read(sheet, PAPER_LAYER_WET_PART, 0, second));
+        varies += sqrt(front_power(second, power)) / SEEDS;
+        pigment_read(sheet, 0, first);
+        double most = 0;
+        for (int i = 0; i < FIBERS; i++)
+            most = fmax(most, (double)first[i]);
+        rim += most / SEEDS;
+        inside += value_at(first, MIDDLE, MIDDLE) / SEEDS;
+        beyond += value_at(first, MIDDLE + 70, MIDDLE + 70) / SEEDS;
+        paper_sheet_destroy(sheet);
+    }
+    double four = power[4] / ((power[2] + power[3] + power[5] + power[6]) / 4),
+           eight = power[8] / ((power[6] + power[7] + power[9] + power[10]) / 4);
+    print_message(
+        "backrun: radius varies by %.1f%%, at 4 %.2f and at 8 %.2f of the neighbours; "
+        "inside %.2f, most %.2f, beyond %.2f\n",
+        100 * varies, four, eight, inside, rim, beyond);
+    assert_true(varies >= 0.08);
+    assert_true(four < 3 && eight < 3);
+    assert_true(inside < 0.85 * beyond && rim > 1.3 * beyond);
+}
+
+/* ---- a drop of colour into clean water ---- */
+
+/* The part of `amounts` that no disc with the profile of an error function has, about its own middle. */
+static double unlike_a_disc(const float *amounts)
+{
+    double mass = 0, x_sum = 0, y_sum = 0, squares = 0, best = INFINITY;
+    for (int i = 0; i < FIBERS; i++) {
+        mass += (double)amounts[i];
+        x_sum += (double)amounts[i] * (i % SIDE);
+        y_sum += (double)amounts[i] * (i / SIDE);
+    }
+    for (int i = 0; i < FIBERS; i++)
+        if (i % SIDE % 2 == 0 && i / SIDE % 2 == 0)
+            squares += (double)amounts[i] * (double)amounts[i];
+    for (double radius = 4; radius < 100; radius *= 1.1)
+        for (double width = 1; width < 60; width *= 1.3) {
+            double both = 0, own = 0;
+            for (int y = 0; y < SIDE; y += 2)
+                for (int x = 0; x < SIDE; x += 2) {
+                    double r = hypot(x - x_sum / mass, y - y_sum / mass);
+                    double disc = 0.5 * erfc((r - radius) / width);
+                    both += disc * (double)amounts[y * SIDE + x];
+                    own += disc * disc;
+                }
+            best = fmin(best, squares - both * both / own);
+        }
+    return sqrt(fmax(0, best) / squares);
+}
+
+static void drop_in_water_is_no_disc(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(1);
+    check(paper_sheet_put(sheet, NULL, 0, 0, (double[]){0.3, 0, 0}));
+    disc_put(sheet, 20, (double[]){2, 0.8, 0});
+    steps(sheet, 300);
+    pigment_read(sheet, 0, first);
+    double unlike = unlike_a_disc(first);
+    print_message("drop: %.1f%% is unlike any disc\n", 100 * unlike);
+    assert_true(unlike >= 0.2);
+    paper_sheet_destroy(sheet);
+}
+
+/* ---- shapes that touch ---- */
+
+static void shapes_that_touch_run_into_each_other(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(1);
+    box_put(sheet, 8, 68, MIDDLE, 188, (double[]){0.5, 0.5, 0});
+    box_put(sheet, MIDDLE, 68, SIDE - 8, 188, (double[]){0.5, 0, 0.5});
+    steps(sheet, 300);
+    pigment_read(sheet, 0, first);
+    pigment_read(sheet, 1, second);
+    int from = 0, to = SIDE;
+    for (int x = 40; x < SIDE - 40; x++) {
+        double left = 0, right = 0;
+        for (int y = 88; y < 168; y++) {
+            left += (double)first[y * SIDE + x];
+            right += (double)second[y * SIDE + x];
+        }
+        if (right < 0.1 * (left + right))
+            from = x;
+        if (right > 0.9 * (left + right) && to == SIDE)
+            to = x;
+    }
+    print_message("two shapes: mixed from 10%% to 90%% over %d fibers\n", to - from);
+    assert_true(to - from >= 20 && to < SIDE);
+    paper_sheet_destroy(sheet);
+}
+
+/* ---- drips ---- */
+
+static double variation(const double *values, int count)
+{
+    double mean = 0, squares = 0;
+    for (int i = 0; i < count; i++)
+        mean += values[i] / count;
+    for (int i = 0; i < count; i++)
+        squares += (values[i] - mean) * (values[i] - mean) / count;
+    return sqrt(squares) / mean;
+}
+
+static void drips_differ(void **state)
+{
+    (void)state;
+    enum { BOTTOM = 70, DRIPS_MOST = SIDE, NEAR = 6 };
+    static double spacing[DRIPS_MOST], length[DRIPS_MOST], bend[DRIPS_MOST];
+    int low[SIDE], count = 0, spaces = 0;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        struct paper_sheet *sheet = sheet_new(seed);
+        struct paper_air air = paper_air_default();
+        air.gravity[1] = 0.2;
+        check(paper_sheet_air(sheet, &air));
+        box_put(sheet, 20, 20, SIDE - 20, BOTTOM, (double[]){1.5, 0.6, 0});
+        steps(sheet, 900);
+        pigment_read(sheet, 0, first);
+        paper_sheet_destroy(sheet);
+        for (int x = 0; x < SIDE; x++) {
+            low[x] = BOTTOM;
+            for (int y = BOTTOM; y < SIDE - 3 && y < low[x] + 8; y++)
+                low[x] = first[y * SIDE + x] > 0.05f ? y : low[x];
+        }
+        int before = -1;
+        for (int x = 24; x < SIDE - 24; x++) {
+            bool lowest = low[x] > BOTTOM + 10;
+            for (int i = -NEAR; i <= NEAR; i++)
+                lowest = lowest && low[x + i] <= low[x] && !(i < 0 && low[x + i] == low[x]);
+            if (!lowest)
+                continue;
+            /* how far its middle has come aside, half as high */
+            int half = (BOTTOM + low[x]) / 2, left = x, right = x;
+            while (left > 0 && first[half * SIDE + left - 1] > 0.05f && x - left < 20)
+                left--;
+            while (right < SIDE - 1 && first[half * SIDE + right + 1] > 0.05f && right - x < 20)
+                right++;
+            bend[count] = 1 + fabs((left + right) / 2.0 - x);
+            length[count++] = low[x] - BOTTOM;
+            if (before >= 0)
+                spacing[spaces++] = x - before;
+            before = x;
+        }
+    }
+    double of_spacing = variation(spacing, spaces), of_length = variation(length, count),
+           of_bend = variation(bend, count);
+    print_message("drips: %d; variation of spacing %.2f, length %.2f, bend %.2f\n", count,
+                  of_spacing, of_length, of_bend);
+    assert_true(count >= 9);
+    assert_true(of_spacing > 0.3 && of_length > 0.3 && of_bend > 0.3);
+}
+
+/* ---- edges ---- */
+
+/* How wide a band at the edge of a disc is darker than what is well inside, fibers; *contrast: the most of it. */
+static double band_width(const float *amounts, double radius, double *contrast)
+{
+    static double profile[SIDE], counts[SIDE];
+    double inside = 0, samples = 0, most = 0, width = 0;
+    memset(profile, 0, sizeof profile);
+    memset(counts, 0, sizeof counts);
+    for (int i = 0; i < FIBERS; i++) {
+        int r = (int)lround(hypot(i % SIDE + 0.5 - MIDDLE, i / SIDE + 0.5 - MIDDLE));
+        profile[r] += (double)amounts[i];
+        counts[r]++;
+    }
+    for (int r = 0; r < SIDE / 2; r++) {
+        inside += r < radius / 2 ? profile[r] : 0;
+        samples += r < radius / 2 ? counts[r] : 0;
+    }
+    inside /= samples;
+    for (int r = (int)radius / 2; r < SIDE / 2; r++)
+        most = fmax(most, profile[r] / counts[r]);
+    for (int r = (int)radius / 2; r < SIDE / 2; r++)
+        width += profile[r] / counts[r] > inside + 0.25 * (most - inside);
+    *contrast = most / inside;
+    return width;
+}
+
+static void edges_are_as_wide_as_asked(void **state)
+{
+    (void)state;
+    static const double widths[4] = {4, 8, 16, 32};
+    double band[4], contrast[4];
+    for (int i = 0; i < 4; i++) {
+        struct paper_sheet *sheet = sheet_new(1);
+        struct paper_air air = paper_air_default();
+        air.edge_width = widths[i];
+        check(paper_sheet_air(sheet, &air));
+        disc_put(sheet, 80, (double[]){0.6, 0.4, 0});
+        steps(sheet, 1000);
+        pigment_read(sheet, 0, first);
+        band[i] = band_width(first, 80, &contrast[i]);
+        paper_sheet_destroy(sheet);
+    }
+    print_message(
+        "edges: of 4, 8, 16, 32 are %.1f, %.1f, %.1f, %.1f wide, contrast %.2f, %.2f, "
+        "%.2f, %.2f\n",
+        band[0], band[1], band[2], band[3], contrast[0], contrast[1], contrast[2], contrast[3]);
+    for (int i = 0; i < 4; i++)
+        assert_true(contrast[i] > 1.15);
+    for (int i = 1; i < 4; i++)
+        assert_true(band[i] > band[i - 1]);
+    assert_true(band[3] >= 3 * band[0]);
+}
+
+/* ---- gray edges ---- */
+
+/* Of the fibers with ink, how many are neither full nor empty. */
+static double gray_part(const float *amounts, double full)
+{
+    double ink = 0, gray = 0;
+    for (int i = 0; i < FIBERS; i++) {
+        ink += (double)amounts[i] > 0.05 * full;
+        gray += (double)amounts[i] > 0.05 * full && (double)amounts[i] < 0.85 * full;
+    }
+    return gray / ink;
+}
+
+static void gray_edges_stay(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_new(2);
+    /* strokes of letters: 1.3 and 2.7 fibers wide, at all angles */
+    for (int i = 0; i < 48; i++) {
+        double x = 20 + 28 * (i % 8), y = 30 + 36 * (i / 8), angle = 0.13 * i,
+               half = i % 2 ? 0.65 : 1.35, u = cos(angle), v = sin(angle);
+        double corners[8] = {x - half * v,          y + half * u,
+                             x + half * v,          y - half * u,
+                             x + 20 * u + half * v, y + 20 * v - half * u,
+                             x + 20 * u - half * v, y + 20 * v + half * u};
+        struct paper_screen screen;
+        int left, top;
+        check(paper_polygon_screen(corners, 4, SIDE, SIDE, &screen, &left, &top));
+        check(paper_sheet_put(sheet, &screen, left, top, (double[]){0.5, 0.6, 0}));
+        paper_screen_destroy(&screen);
+    }
+    pigment_read(sheet, 0, first);
+    double before = gray_part(first, 0.6), ink = 0, ink_after = 0;
+    for (int i = 0; i < FIBERS; i++)
+        ink += first[i] > 0.03f;
+    steps(sheet, 200);
+    pigment_read(sheet, 0, first);
+    double after = gray_part(first, 0.6);
+    for (int i = 0; i < FIBERS; i++)
+        ink_after += first[i] > 0.03f;
+    print_message(
+        "type: gray part %.1f%%, after 200 steps %.1f%%, fibers with ink %.2f as many\n",
+        100 * before, 100 * after, ink_after / ink);
+    assert_true(after >= 0.8 * before);
+    assert_true(ink_after < 1.25 * ink);
+    paper_sheet_destroy(sheet);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(backrun_has_lobes),
+        cmocka_unit_test(drop_in_water_is_no_disc),
+        cmocka_unit_test(shapes_that_touch_run_into_each_other),
+        cmocka_unit_test(drips_differ),
+        cmocka_unit_test(edges_are_as_wide_as_asked),
+        cmocka_unit_test(gray_edges_stay),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
