@@ -368,11 +368,165 @@ static void edited_is_as_from_scratch(void **state)
     }
 }
 
+/* ---- pointing ---- */
+
+static struct page_text *one_column(double width, const char *text, size_t bytes,
+                                    const struct page_manner *manner, int *id)
+{
+    struct page_text *t = text_begin();
+    struct page_template page = {.width_px = width + 20, .height_px = 2000, .frames_count = 1};
+    page.frames[0] = (struct page_frame){.x = 10, .y = 10, .width = width, .height = 1980};
+    assert_font(page_templates_set(t, &page, 1));
+    assert_font(page_paragraph_add(t, 0, -1, text, bytes, 1, manner, id));
+    return t;
+}
+
+/* A caret's place hits a place whose caret is there: the same one, where directions do not change. */
+static void carets_and_hits_agree(void **state)
+{
+    (void)state;
+    uint32_t seed = 4711;
+    long same = 0, all = 0;
+    for (int turn = 0; turn < 150; turn++) {
+        char text[1000];
+        int id;
+        size_t bytes = random_text(&seed, text, 1 + (int)(random_next(&seed) % 25));
+        struct page_manner manner = random_manner(&seed);
+        manner.begins_column = false;
+        struct page_text *t = one_column(120 + 10 * (turn % 20), text, bytes, &manner, &id);
+        struct page_place at = {id, 0};
+        do {
+            for (int before = 0; before < 2; before++) {
+                struct page_caret a, b;
+                struct page_place hit;
+                bool edge;
+                assert_font(page_caret_get(t, at, before, &a));
+                assert_int_equal(a.page, 0);
+                assert_true(a.y1 > a.y0 && a.x0 == a.x1);
+                assert_font(page_hit(t, 0, a.x0, (a.y0 + a.y1) / 2, &hit, &edge));
+                assert_int_equal(hit.paragraph, id);
+                assert_font(page_caret_get(t, hit, edge, &b));
+                if (fabs(a.x0 - b.x0) > 0.01 || a.y0 != b.y0)
+                    fail_msg("turn %d, byte %d (%d): caret at %g, %g; hit byte %d (%d): caret "
+                             "at %g, %g",
+                             turn, at.byte, before, a.x0, a.y0, hit.byte, edge, b.x0, b.y0);
+                same += hit.byte == at.byte;
+                all++;
+            }
+        } while (page_place_step(t, &at, true));
+        assert_int_equal(at.byte, bytes);
+        while (page_place_step(t, &at, false))
+            ;
+        assert_int_equal(at.byte, 0);
+        page_text_destroy(t);
+    }
+    /* The rest are places in white space at lines' ends, and those where two directions meet. */
+    assert_true(same > 0.8 * (double)all);
+}
+
+/* Latin letters alone, in one line: each place is hit again exactly. */
+static void places_are_hit_again(void **state)
+{
+    (void)state;
+    static const char text[] = "waffles, e\xcc\x81l\xc3\xa8ve fi AVATAR office";
+    struct page_manner manner = page_manner_default();
+    struct page_place at, hit;
+    struct page_caret caret;
+    double last = -1;
+    bool edge;
+    int id;
+    struct page_text *t = one_column(900, text, strlen(text), &manner, &id);
+    assert_font(page_paragraph_style(t, id, 0, (int)strlen(text), 2)); /* with ligatures */
+    at = (struct page_place){id, 0};
+    do {
+        assert_font(page_caret_get(t, at, false, &caret));
+        assert_true(caret.x0 > last); /* within ligatures, too */
+        last = caret.x0;
+        assert_font(page_hit(t, 0, caret.x0, caret.y0 + 1, &hit, &edge));
+        assert_int_equal(hit.byte, at.byte);
+    } while (page_place_step(t, &at, true));
+    page_text_destroy(t);
+}
+
+static double boxes_width(struct page_text *t, int id, int from, int to, int *count)
+{
+    struct page_box boxes[200];
+    double width = 0;
+    assert_font(page_select(t, (struct page_place){id, from}, (struct page_place){id, to}, 0,
+                            boxes, 200, count));
+    assert_in_range(*count, 0, 200);
+    for (int i = 0; i < *count; i++)
+        width += boxes[i].width;
+    return width;
+}
+
+/* What is selected in two parts is as wide as selected at once, and boxes of a line do not lie over each other. */
+static void selections_add_up(void **state)
+{
+    (void)state;
+    uint32_t seed = 99;
+    for (int turn = 0; turn < 120; turn++) {
+        char text[1000];
+        int id, count, parts[2];
+        size_t bytes = random_text(&seed, text, 2 + (int)(random_next(&seed) % 20));
+        struct page_manner manner = page_manner_default();
+        manner.align = (enum font_align)(turn % 5);
+        struct page_text *t = one_column(140 + 15 * (turn % 17), text, bytes, &manner, &id);
+        struct page_place middle = {id, 0};
+        for (int steps = (int)(random_next(&seed) % (uint32_t)bytes); steps > 0; steps--)
+            page_place_step(t, &middle, true);
+        double whole = boxes_width(t, id, 0, (int)bytes, &count);
+        double first = boxes_width(t, id, 0, middle.byte, &parts[0]);
+        double second = boxes_width(t, id, middle.byte, (int)bytes, &parts[1]);
+        assert_true(fabs(whole - first - second) < 0.05);
+        assert_true(count > 0 && parts[0] + parts[1] >= count);
+        page_text_destroy(t);
+    }
+    /* From a Latin word into an Arabic one: two boxes, for the Arabic begins at the right. */
+    static const char both[] = "abc \xd8\xa7\xd9\x84\xd9\x85\xd8\xa7\xd8\xa1 def";
+    struct page_manner manner = page_manner_default();
+    int id, count;
+    struct page_text *t = one_column(500, both, strlen(both), &manner, &id);
+    boxes_width(t, id, 1, 8, &count);
+    assert_int_equal(count, 2);
+    boxes_width(t, id, 0, (int)strlen(both), &count);
+    assert_int_equal(count, 1);
+    page_text_destroy(t);
+}
+
+static void marks_stay_at_their_letters(void **state)
+{
+    (void)state;
+    struct page_manner manner = page_manner_default();
+    struct page_place place;
+    int id, other, marks[3];
+    struct page_text *t = one_column(300, "The water rises", 15, &manner, &id);
+    assert_font(page_mark_add(t, (struct page_place){id, 4}, false, &marks[0]));
+    assert_font(page_mark_add(t, (struct page_place){id, 4}, true, &marks[1]));
+    assert_font(page_mark_add(t, (struct page_place){id, 10}, false, &marks[2]));
+    assert_font(page_text_replace(t, id, 4, 0, "old ", 4));
+    assert_true(page_mark_get(t, marks[0], &place) && place.byte == 4);
+    assert_true(page_mark_get(t, marks[1], &place) && place.byte == 8);
+    assert_true(page_mark_get(t, marks[2], &place) && place.byte == 14);
+    assert_font(page_text_replace(t, id, 0, 4, "", 0));
+    assert_true(page_mark_get(t, marks[2], &place) && place.byte == 10);
+    assert_font(page_paragraph_add(t, 0, 0, "Before", 6, 0, &manner, &other));
+    assert_true(page_mark_get(t, marks[2], &place) && place.paragraph == id &&
+                place.byte == 10);
+    assert_font(page_paragraph_remove(t, id));
+    assert_false(page_mark_get(t, marks[2], &place));
+    page_text_destroy(t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paragraphs_are_broken_best),
         cmocka_unit_test(edited_is_as_from_scratch),
+        cmocka_unit_test(carets_and_hits_agree),
+        cmocka_unit_test(places_are_hit_again),
+        cmocka_unit_test(selections_add_up),
+        cmocka_unit_test(marks_stay_at_their_letters),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
