@@ -14,7 +14,7 @@ void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long me
 {
     struct rlimit seconds = {cpu_seconds, cpu_seconds}, none = {0, 0};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) /* it died before that */
+    if (getppid() != parent) /* the parent died before prctl() */
         _exit(1);
     setrlimit(RLIMIT_CPU, &seconds);
     setrlimit(RLIMIT_CORE, &none);
@@ -32,7 +32,8 @@ void confine_resources(pid_t parent, unsigned cpu_seconds, unsigned long long me
 #endif
 }
 
-/* What reading files that are open, memory and an orderly end take, in glibc. */
+/* The system calls, in glibc, for reading open files, allocating memory and exiting
+ * normally. */
 static const int allowed[] = {
     SCMP_SYS(read),
     SCMP_SYS(pread64),
@@ -82,7 +83,7 @@ bool confine_calls(void)
     for (size_t i = 0; i < sizeof allowed / sizeof *allowed && done; i++) {
         int added = seccomp_rule_add(filter, SCMP_ACT_ALLOW, allowed[i], 0);
         done = added == 0 ||
-               added == -EDOM; /* a call that this processor's system does not have */
+               added == -EDOM; /* EDOM: this processor's system does not have the call */
     }
     done = done && seccomp_load(filter) == 0;
     seccomp_release(filter);

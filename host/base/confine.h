@@ -1,4 +1,5 @@
-/* confine.h - a process that reads bytes which anybody may have made, and that gives up all that reading does not need.
+/* confine.h - a process that reads untrusted bytes, and gives up all rights that reading does
+ * not need.
  *
  *     pid_t parent = getpid(), child = fork();
  *     if (child == 0) {
@@ -8,8 +9,9 @@
  *         ... read it; send what was found through a pipe
  *     }
  *
- * If the library that reads the file is made to do something else by it, that something is: computing, for at most so many seconds in
- * at most so much memory, and writing to the descriptors that are open. */
+ * A file that exploits a bug of the library which reads it can then only compute, within the
+ * limits of time and memory, and write to the open descriptors.
+ */
 #ifndef LUTETIA_CONFINE_H
 #define LUTETIA_CONFINE_H
 

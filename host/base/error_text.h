@@ -18,8 +18,8 @@ struct error_text {
     char text[ERROR_TEXT_BYTES]; /* "" before the first failure; longer texts are cut */
 };
 
-/* Keeps the text and returns the status. The arguments may lie in e->text: a failure can be told with the words of the one before
- * it. */
+/* Keeps the text and returns the status. The arguments may point into e->text, so a message
+ * can quote the failure before it. */
 int error_text_fail(struct error_text *e, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -25,10 +25,10 @@ int input_file_descriptor(const char *path, const char **why)
     int error = 0;
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file < 0 || fstat(file, &status) != 0)
-        error = errno == ENXIO ? ENOTSUP : errno; /* ENXIO: a socket */
+        error = errno == ENXIO ? ENOTSUP : errno; /* ENXIO: the file is a socket */
     else if (!S_ISREG(status.st_mode))
         error = S_ISDIR(status.st_mode) ? EISDIR : ENOTSUP;
-    else if (fcntl(file, F_SETFL, 0) != 0) /* no waiting was for opening it */
+    else if (fcntl(file, F_SETFL, 0) != 0) /* O_NONBLOCK was for opening only */
         error = errno;
     if (!error)
         return file;

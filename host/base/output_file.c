@@ -80,7 +80,8 @@ static void part_sweep(int folder, const char *name)
 void output_file_sweep(int folder_descriptor)
 {
     int again = openat(folder_descriptor, ".",
-                       O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* its own position */
+                       O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* a description of its own, with
+                                                             * its own position */
     DIR *names = again < 0 ? NULL : fdopendir(again);
     if (!names) {
         if (again >= 0)
@@ -106,7 +107,7 @@ static void sweep_once(int folder)
     struct stat status;
     bool known = fstat(folder, &status) != 0;
     pthread_mutex_lock(&lock);
-    if (process != getpid()) { /* a child has swept nothing */
+    if (process != getpid()) { /* a forked child has swept nothing yet */
         process = getpid();
         count = 0;
     }
@@ -123,7 +124,7 @@ static void sweep_once(int folder)
 
 /* ---- a file's life ---- */
 
-/* Of the path "a/b.png" the folder "a", open, and the name "b.png". */
+/* Splits the path "a/b.png": opens the folder "a", and keeps the name "b.png". */
 static int path_split(struct output_file *out, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -138,15 +139,16 @@ static int path_split(struct output_file *out, const char *path)
         free(folder);
         return ENOMEM;
     }
-    out->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC); /* it need not be readable */
+    out->folder = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC); /* O_PATH: the folder need
+                                                                   * not be readable */
     int error = out->folder < 0 ? errno : 0;
-    out->part = folder; /* its name is added when it has one */
+    out->part = folder; /* part_make() adds the part file's name */
     if (!slash)
         *folder = '\0';
     return error;
 }
 
-/* What has the name now may be replaced: a regular file, or nothing. */
+/* The name may be replaced if it is a regular file, or free. */
 static int target_check(const struct output_file *out)
 {
     struct stat status;
@@ -157,8 +159,9 @@ static int target_check(const struct output_file *out)
     return S_ISDIR(status.st_mode) ? EISDIR : S_ISLNK(status.st_mode) ? ELOOP : ENOTSUP;
 }
 
-/* Makes the part file and locks it; its descriptor, or -1 with errno. Another process that sweeps may have taken it for a dead
- * one's before it was locked: then it has no name any more, and another is made. */
+/* Makes the part file and locks it. Returns its descriptor, or -1 with errno. Between making
+ * and locking, another process that sweeps may take the file for a dead process's and remove
+ * its name; then another part file is made. */
 static int part_make(struct output_file *out)
 {
     for (int i = 0; i < TRIES; i++) {
@@ -179,7 +182,7 @@ static int part_make(struct output_file *out)
             continue;
         if (file < 0)
             return -1;
-        flock(file, LOCK_EX); /* a file system without locks: then nothing there is swept */
+        flock(file, LOCK_EX); /* a file system without locks is never swept */
         if (fstat(file, &status) == 0 && status.st_nlink > 0)
             return file;
         close(file);
@@ -231,7 +234,7 @@ const char *output_file_wrong(const char *path)
     return error ? output_file_explain(error) : NULL;
 }
 
-/* Nothing of it is left in memory, nor its part file if that has not got its name. */
+/* Frees the memory, and removes the part file if it has not been renamed. */
 static void output_release(struct output_file *out)
 {
     if (out->part_name)
@@ -252,7 +255,8 @@ void output_file_abandon(struct output_file *out)
         output_release(out);
 }
 
-/* The stream only remembers that a write failed, not why: another byte fails for the same reason. */
+/* A stream remembers that a write failed, but not the errno. Writing another byte fails for
+ * the same reason and sets errno. */
 static int write_error(FILE *stream)
 {
     struct stat status;
@@ -261,7 +265,8 @@ static int write_error(FILE *stream)
     return fstat(file, &status) == 0 && pwrite(file, "", 1, status.st_size) == 1 ? EIO : errno;
 }
 
-/* The name, too, is brought to the disk; a folder that cannot be synced is left to the system. */
+/* Syncs the folder, so that the new name is on the disk. A folder that cannot be synced is
+ * left to the system. */
 static void folder_sync(int folder)
 {
     int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -278,7 +283,7 @@ bool output_file_commit(struct output_file *out)
     if (!error && fflush(out->stream) != 0)
         error = errno ? errno : EIO;
     if (!error && fsync(fileno(out->stream)) != 0 && errno != EINVAL)
-        error = errno; /* EINVAL: a file system that has nothing to bring to a disk */
+        error = errno; /* EINVAL: the file system has no fsync() */
     if (!error)
         error = target_check(out);
     if (!error && renameat(out->folder, out->part_name, out->folder, out->name) != 0)

@@ -1,4 +1,4 @@
-/* output_file.h - a file that we write: whole under its name, or not there at all.
+/* output_file.h - writes a file that appears under its name whole, or not at all.
  *
  *     struct output_file out;
  *     if (!output_file_open(&out, "page.png"))
@@ -12,16 +12,19 @@
  *     page.png                            the name in the end
  *     .page.png.0123456789abcdef.part     while it is written: 64 random bits, made anew (O_EXCL), never a link
  *
- * A commit flushes the part file, brings it to the disk, gives it its name in one step (rename), and brings the folder to the disk.
- * So whoever opens the name sees the old file or the new one, after a crash and on a full disk, too.
+ * A commit flushes the part file, brings it to the disk, gives it its name in one step
+ * (rename), and brings the folder to the disk. So a reader of the name sees the old file or the
+ * new one, even after a crash or on a full disk.
  *
- * What has the name already must be a regular file, or nothing. Links, devices, pipes, sockets and folders are refused: a rename
- * would replace them by a file.
+ * If the name exists, it must be a regular file. Links, devices, pipes, sockets and folders are
+ * refused, because a rename would replace them by a file.
  *
- * The writer holds a lock (flock) on its part file. A part file that nobody holds is a dead process's: the first file that a
- * process opens in a folder sweeps the folder's part files of that kind, its own user's only.
+ * The writer holds a lock (flock) on its part file. A part file without a lock belongs to a
+ * dead process. When a process opens its first file in a folder, it removes this user's
+ * unlocked part files there.
  *
- * Threads: functions for different files may run at the same time. */
+ * Threads: functions for different files may run at the same time.
+ */
 #ifndef LUTETIA_OUTPUT_FILE_H
 #define LUTETIA_OUTPUT_FILE_H
 
@@ -29,9 +32,9 @@
 #include <stdio.h>
 
 struct output_file {
-    FILE *
-        stream; /* open for reading and writing, at its beginning; its buffer is the stream's */
-    char *part; /* the part file's path, for libraries that open a path themselves */
+    FILE *stream; /* open for reading and writing, at its beginning; the struct owns the
+                 * stream's buffer */
+    char *part;   /* the part file's path, for libraries that open a path themselves */
     const char
         *why;  /* after a failure: what was wrong, and what to do where there is something */
     int error; /* after a failure: errno */
@@ -40,22 +43,24 @@ struct output_file {
     int folder;
 };
 
-/* Begins a file. False: it cannot be written there; nothing is left to release. A path that ends with a slash, is empty or
- * names a folder is refused. The mode is 0666 less the process's umask. */
+/* Begins a file. False if it cannot be written there; nothing is left to release. A path
+ * that ends with a slash, is empty or names a folder is refused. The mode is 0666 less the
+ * process's umask. */
 bool output_file_open(struct output_file *out, const char *path);
 
-/* Ends the file: it now has its name. False: a write failed before or now; the file that had the name is untouched, and the
- * part file is gone. Releases everything either way. */
+/* Ends the file and renames it. False if a write failed, before or now: the old file of that
+ * name is untouched, and the part file is removed. Releases everything either way. */
 bool output_file_commit(struct output_file *out);
 
-/* Gives up: the part file is gone, the file that had the name is untouched. Does nothing to a file that was committed,
- * abandoned, or not opened (all zero). */
+/* Gives up: removes the part file and leaves the old file of that name untouched. Does
+ * nothing to a file that was committed, abandoned, or not opened (all zero). */
 void output_file_abandon(struct output_file *out);
 
-/* Looks, before long work, whether a file can be written there: NULL where nothing is against it, else why not. */
+/* Checks, before long work, whether a file can be written there. Returns NULL if so, else
+ * the reason. */
 const char *output_file_wrong(const char *path);
 
-/* In plain words what an errno of a write means, with what to do about it. */
+/* Says in plain words what the errno of a failed write means, and what to do about it. */
 const char *output_file_explain(int error);
 
 /* Removes the part files that dead processes of this user have left in the folder. Called by output_file_open(). */

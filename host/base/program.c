@@ -17,7 +17,8 @@ bool program_find(char path[PATH_MAX], program_code *asker, const char *installe
     Dl_info info;
     bool known = dladdr((void *)(uintptr_t)asker, &info) && *info.dli_fname == '/' &&
                  realpath(info.dli_fname, here);
-    if (!known && !realpath("/proc/self/exe", here)) /* the program itself, as it was called */
+    if (!known && !realpath("/proc/self/exe", here)) /* fall back to the program itself,
+                                                      * under the name by which it was called */
         return false;
     for (int up = 0; up < 4; up++) {
         char *end = strrchr(here, '/');

@@ -13,9 +13,10 @@
 /* A function of the library or program that asks. */
 typedef void program_code(void);
 
-/* Where a program of ours lies. It is looked for from where the code of `asker` lies upwards, three folders at most: under
- * `installed` (which may be an absolute path) and under `built` (in a build's folder). Only a file that nobody else can
- * put there counts (user_folder.h). False: there is none. */
+/* Finds one of our programs. Looks from the folder of `asker`'s code upwards, three folders
+ * at most: under `installed` (which may be an absolute path) and under `built` (in a build's
+ * folder). Only a file that nobody else can replace counts (user_folder.h). False: there is
+ * none. */
 bool program_find(char path[PATH_MAX], program_code *asker, const char *installed,
                   const char *built);
 

@@ -11,7 +11,7 @@ void streams_fill(void)
 {
     for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
         if (fcntl(i, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) != i)
-            abort(); /* nothing could be said */
+            abort(); /* stderr is missing, too: no message is possible */
 }
 
 bool streams_end(void)

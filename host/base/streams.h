@@ -11,11 +11,13 @@
 
 #include <stdbool.h>
 
-/* Opens /dev/null where the standard input, output or error is closed: else the next file that is opened would have its number, and
- * prints would land in it. First in main(). */
+/* Opens /dev/null in place of a closed standard input, output or error. Otherwise the next
+ * file opened would get that descriptor, and prints would be written into it. Call first in
+ * main(). */
 void streams_fill(void);
 
-/* Flushes the standard output. False: something that was printed did not arrive (a full disk, a closed pipe). */
+/* Flushes the standard output. False if something printed was not written (a full disk, a
+ * closed pipe). */
 bool streams_end(void);
 
 #endif

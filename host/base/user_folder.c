@@ -18,7 +18,8 @@
 
 /* ---- is it ours alone? ---- */
 
-/* Many systems give each user a group of their own, of the same name, and let it write: that is nobody else. */
+/* Many systems give each user a group of the same name, with only that user in it, and let
+ * it write. Such a group counts as the user. */
 static bool group_is_ours(gid_t group)
 {
     struct passwd user, *user_found = NULL;
@@ -35,14 +36,16 @@ static bool group_is_ours(gid_t group)
     return true;
 }
 
-/* What root lets a group write to (as /usr/local is in some systems) is root's decision. */
+/* If root lets a group write to a folder (as to /usr/local in some systems), that is root's
+ * decision. */
 static bool others_write(const struct stat *s)
 {
     return (s->st_mode & S_IWOTH) ||
            ((s->st_mode & S_IWGRP) && s->st_uid != 0 && !group_is_ours(s->st_gid));
 }
 
-/* A folder above: this user's or root's, and others cannot replace what is in it. */
+/* Checks a parent folder: it belongs to this user or root, and others cannot replace its
+ * entries. */
 static const char *parent_wrong(const struct stat *s)
 {
     if (s->st_uid != geteuid() && s->st_uid != 0)
@@ -70,7 +73,8 @@ static const char *folder_wrong(const char *path)
     return NULL;
 }
 
-/* A home may lie behind links: the folders checked are those where they lead. */
+/* The home folder may be reached by links; the folders that are checked are those of the
+ * resolved path. */
 static const char *parents_wrong(const char *path)
 {
     char real[PATH_MAX];
@@ -146,14 +150,14 @@ static void tree_remove(const char *path)
     nftw(path, entry_remove, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
 }
 
-/* A child of the process that made it leaves it alone. */
+/* Only the process that made the folder removes it; a forked child leaves it alone. */
 static void temporary_remove(void)
 {
     if (temporary.owner == getpid())
         tree_remove(temporary.path);
 }
 
-/* Those of this user's dead processes. */
+/* Removes the temporary folders of this user's dead processes. */
 static void temporaries_sweep(const char *where)
 {
     DIR *names = opendir(where);
@@ -176,7 +180,8 @@ static void temporaries_sweep(const char *where)
         closedir(names);
 }
 
-/* Another process that sweeps may take a folder that is not locked yet for a dead one's: then another is made. */
+/* Makes and locks a temporary folder. Between making and locking, another process that
+ * sweeps may take it for a dead process's and remove it; then another folder is made. */
 static bool temporary_make(void)
 {
     const char *where = getenv("TMPDIR");
@@ -202,7 +207,7 @@ static bool temporary_make(void)
     return false;
 }
 
-/* A forked child uses its parent's: it is there as long as the parent is. */
+/* A forked child uses its parent's folder, which exists as long as the parent does. */
 static bool temporary_folder(const char *name, char out[static USER_FOLDER_MAX])
 {
     pthread_mutex_lock(&temporary.lock);

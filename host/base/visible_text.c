@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The character at the text's beginning and its bytes; 0 bytes: it is no UTF-8. */
+/* Reads the first character of the text and returns its number of bytes; 0 bytes if it is
+ * not UTF-8. */
 static size_t character_read(const unsigned char *text, size_t length, uint32_t *out)
 {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
@@ -28,7 +29,7 @@ static size_t character_read(const unsigned char *text, size_t length, uint32_t 
     return *out < least[bytes] || *out > 0x10ffff || surrogate ? 0 : bytes;
 }
 
-/* Controls, and what changes how other characters are shown, or is not shown itself. */
+/* Control characters, and characters that are invisible or change how others are shown. */
 static bool is_invisible(uint32_t c)
 {
     static const struct {

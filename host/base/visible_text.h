@@ -1,22 +1,26 @@
-/* visible_text.h - text from outside, as it may be printed: nothing in it does anything to a terminal.
+/* visible_text.h - makes untrusted text safe to print: no control sequence reaches the
+ * terminal.
  *
  *     char line[1200];
  *     visible_text(line, sizeof line, "no font '\x1b]0;x\x07'");        // no font '\x1b]0;x\x07', in letters
  *     fprintf(stderr, "%s\n", line);
  *
- * A name, an error of a script, a log or a font's name may hold escapes that recolour, retitle or remote-control a terminal, carriage
- * returns that hide what stands before them, and marks that turn the direction of what follows. They are shown, not done. */
+ * A name, an error of a script, a log or a font's name may hold escapes that recolour,
+ * retitle or remote-control a terminal, carriage returns that hide what stands before them,
+ * and marks that turn the direction of what follows. Such characters are printed as escapes.
+ */
 #ifndef LUTETIA_VISIBLE_TEXT_H
 #define LUTETIA_VISIBLE_TEXT_H
 
 #include <stddef.h>
 
-/* Writes the text as a line. Line ends and tabs become spaces; other control characters, and bytes that are no UTF-8, become \xNN;
- * characters that no eye sees (direction marks, joiners, C1 controls, line separators) \u{NNNN}. The rest is left as it is; what has
- * no room is left out, characters whole. Returns the length. `out` and `text` do not overlap. */
+/* Writes the text as a line. Line ends and tabs become spaces; other control characters, and
+ * bytes that are no UTF-8, become \xNN; invisible characters (direction marks, joiners, C1
+ * controls, line separators) become \u{NNNN}. The rest is unchanged. Text that does not fit
+ * is cut off between characters. Returns the length. `out` and `text` do not overlap. */
 size_t visible_text(char *out, size_t size, const char *text);
 
-/* The same of `length` bytes, zeros among them, that keep their line ends and tabs. */
+/* The same for `length` bytes, which may include zeros. Line ends and tabs are kept. */
 size_t visible_text_lines(char *out, size_t size, const char *text, size_t length);
 
 #endif
