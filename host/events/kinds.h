@@ -1,6 +1,8 @@
-/* kinds.h - what events there are: a row of a module's table names a kind and says of what its arguments consist.
+/* kinds.h - kinds of events: a row of a module's table names a kind and describes its
+ * arguments.
  *
- * The module's row begins with a struct event_kind and goes on with what the event does, which is the module's alone:
+ * The module's row begins with a struct event_kind and goes on with what the event does, which
+ * is the module's alone:
  *
  *     static const struct {
  *         struct event_kind kind;
@@ -14,13 +16,13 @@
 #include "members.h"
 
 struct event_kind {
-    const char *name;  /* in files: never changed */
-    const char *whose; /* goes before its members' names in messages: "a push's ", or "" */
-    size_t size;       /* of its arguments; 0: it has none */
+    const char *name;  /* the kind's name in files: never changed */
+    const char *whose; /* prefix of the members' names in messages: "a push's ", or "" */
+    size_t size;       /* size of the arguments; 0: there are none */
     const struct members *members;
 };
 
-/* Arguments that are all 0, and so is what they will point to. NULL: no memory. */
+/* Allocates arguments that are all 0. NULL: no memory. */
 void *event_blank(const struct event_kind *kind);
 /* NULL is fine. */
 void event_free(const struct event_kind *kind, void *arguments);
@@ -30,12 +32,12 @@ void event_encode(struct event_bytes *b, const struct event_kind *kind, const vo
                   const void *context);
 
 enum event_decoded { EVENT_DECODED, EVENT_DAMAGED, EVENT_NO_MEMORY };
-/* All bytes must be the arguments'. *arguments is NULL for kinds without any, and where it fails. Owns: the caller frees *arguments
- * by event_free(). */
+/* Decodes the arguments; all bytes must be used. *arguments is NULL for kinds without
+ * arguments, and on failure. Owns: the caller frees *arguments by event_free(). */
 enum event_decoded event_decode(const uint8_t *bytes, size_t count,
                                 const struct event_kind *kind, const void *context,
                                 void **arguments);
-/* Bytes of arguments that have only numbers, flags and text. */
+/* Length of the encoded arguments, for kinds with only numbers, flags and text. */
 size_t event_size(const struct event_kind *kind);
 
 #endif

@@ -57,7 +57,8 @@ void event_record_free(struct event_record *record)
     record->bytes = NULL;
 }
 
-/* The arguments' bytes; the record's own, or *made, which the caller frees. NULL: damaged, or no memory. */
+/* Returns the arguments' bytes: the record's own, or, inflated, *made, which the caller
+ * frees. NULL: damaged, or no memory. */
 static const uint8_t *raw_bytes(const struct event_record *record, uint8_t **made)
 {
     *made = NULL;

@@ -1,6 +1,7 @@
-/* members.h - of what a struct of arguments consists, described once. A row for each member says its name, unit and range, how it is
- * kept, and what becomes of it at another scale.  Checking (here), bytes (stream.h), scaling (scale.h), the fields of scripts and
- * the tables of the documentation walk the same rows.
+/* members.h - describes the members of a struct of arguments, once. A row for each member gives
+ * its name, unit and range, how it is stored, and how it scales. Checking (here), bytes
+ * (stream.h), scaling (scale.h), the fields of scripts and the tables of the documentation all
+ * use the same rows.
  *
  *     static const struct member wind_rows[] = {
  *         MEMBER(wind, speed, DOUBLE, 1, PACE, "speed", 0, 40, .unit = "m/s"),
@@ -9,7 +10,8 @@
  *     };
  *     static const struct members wind_members = MEMBERS_OF(wind_rows);
  *
- * In files the order and the kinds of rows never change. */
+ * Files depend on the order and the kinds of rows, so these never change.
+ */
 #ifndef LUTETIA_EVENTS_MEMBERS_H
 #define LUTETIA_EVENTS_MEMBERS_H
 
@@ -23,46 +25,49 @@ enum member_kind {
     MEMBER_WORD, /* uint64_t */
     MEMBER_FLAG, /* bool */
     MEMBER_TEXT, /* char[count], the last 0 */
-    MEMBER_FORM  /* what the module's own functions keep and scale: see struct member_form */
+    MEMBER_FORM  /* stored and scaled by the module's own functions: see struct member_form */
 };
 
-/* What becomes of a number where lengths are s times as long and times t times as many steps. */
+/* How a number changes when lengths are multiplied by s and the number of steps by t. */
 enum member_scaling {
     SCALE_NOT,
     SCALE_LENGTH, /* s */
-    SCALE_RATE,   /* 1/t: what happens in each place in a step */
-    SCALE_SPREAD, /* s * s / t: part of a gradient that flows in a step */
-    SCALE_PULL,   /* s / t: part of an amount that goes on by a place in a step */
+    SCALE_RATE,   /* 1/t: a rate of something that happens at each place in each step */
+    SCALE_SPREAD, /* s * s / t: the part of a gradient that flows in a step */
+    SCALE_PULL,   /* s / t: the part of an amount that moves on by one place in a step */
     SCALE_PACE    /* t: steps in a second */
 };
 
 struct event_stream;  /* stream.h */
 struct event_scaling; /* scale.h */
 
-/* Functions for members that are no plain numbers. `start` is the member, `of` the whole struct. */
+/* Functions for members that are not plain numbers. `start` points to the member, `of` to
+ * the whole struct. */
 struct member_form {
-    /* Puts the member's bytes, or gets it from them. What is gotten is zero bytes before, and owned by the struct after. */
+    /* Writes the member's bytes, or reads it from them. Before reading, the member is zero
+     * bytes; afterwards the struct owns what was read. */
     void (*pass)(struct event_stream *s, void *start, void *of);
-    /* NULL: it stays as it is. False: no memory. */
+    /* NULL: the member does not scale. False: no memory. */
     bool (*scale)(void *start, void *of, const struct event_scaling *scaling);
-    void (*free)(void *start, void *of); /* what it owns; NULL: nothing */
+    void (*free)(void *start, void *of); /* frees what the member owns; NULL: nothing */
 };
 
 struct member {
-    const char *name; /* in messages; NULL: its range is checked by others */
+    const char *name; /* in messages; NULL: its range is checked elsewhere */
     enum member_kind kind;
     enum member_scaling scaling;
     size_t offset;
     int count;
-    double least, most; /* what is scaled stays within them; 0, 0: any */
+    double least, most; /* the range, to which scaled values are clamped; 0, 0: any value */
     const char *unit;   /* NULL: a plain number */
     const struct member_form *form;
-    /* What scripts and the documentation say of it. */
-    const char *field; /* its name there; NULL: no script sets it so */
-    int element; /* of that field's list, from 1: rows of one field follow each other; 0: the field is the member */
-    double per_unit;   /* the script's numbers for one of ours, 180/pi for degrees; 0: 1 */
-    const char *usual; /* its default, in words */
-    const char *help;  /* of a field's first row */
+    /* For scripts and the documentation. */
+    const char *field; /* the field's name there; NULL: scripts cannot set it */
+    int element; /* index in that field's list, from 1 (rows of one field follow each other);
+                  * 0: the field is the member itself */
+    double per_unit;   /* the script's units in one of ours, 180/pi for degrees; 0: 1 */
+    const char *usual; /* the default, in words */
+    const char *help;  /* in a field's first row */
 };
 
 struct members {
@@ -76,10 +81,10 @@ struct members {
         .offset = offsetof(struct type, at), .count = number, .least = low, .most = high,      \
         __VA_ARGS__                                                                            \
     }
-/* Of which nothing is said but how it is kept. */
+/* A member that is only stored: no name, unit or range. */
 #define KEPT(type, at, form_, number, ...)                                                     \
     MEMBER(type, at, form_, number, NOT, NULL, 0, 0, __VA_ARGS__)
-/* What the module's own functions keep. */
+/* A member stored by the module's own functions. */
 #define FORM(type, at, functions)                                                              \
     MEMBER(type, at, FORM, 1, NOT, NULL, 0, 0, .form = &(functions))
 #define MEMBERS_OF(rows)                                                                       \
@@ -87,15 +92,16 @@ struct members {
         rows, sizeof(rows) / sizeof *(rows)                                                    \
     }
 
-/* Whether all numbers are within their ranges. If not, `text` gets "WHOSE NAME must be LEAST..MOST (got X WHERE)". `whose` ends in a
- * space or is empty, `where` begins with one or is empty. A NaN is in no range. */
+/* Checks that all numbers are within their ranges. If not, `text` gets "WHOSE NAME must be
+ * LEAST..MOST (got X WHERE)". `whose` ends in a space or is empty, `where` begins with one
+ * or is empty. A NaN is outside every range. */
 bool members_check(const struct members *members, const void *of, const char *whose,
                    const char *where, char *text, size_t room);
 
-/* Frees what the struct's forms own, not the struct. */
+/* Frees what the members own, but not the struct. */
 void members_free(const struct members *members, void *of);
 
-/* What arguments point to is their owner's to change, though operations may only read it. */
+/* The owner of arguments may change what they point to; operations may only read it. */
 static inline void *members_owned(const void *pointer)
 {
     return (void *)(uintptr_t)pointer;

@@ -1,16 +1,17 @@
-/* scale.h - members at another scale: numbers as their rows say, forms by the module's functions. */
+/* scale.h - scaling members: numbers as their rows say, other members by the module's
+ * functions. */
 #ifndef LUTETIA_EVENTS_SCALE_H
 #define LUTETIA_EVENTS_SCALE_H
 
 #include "members.h"
 
 struct event_scaling {
-    double length;       /* lengths for one */
+    double length;       /* the factor of lengths */
     double pace;         /* steps for one */
-    const void *context; /* for the module's forms */
+    const void *context; /* passed to the module's functions */
 };
 
-/* A number that is brought within its range again stays right as far as it can. False: no memory. */
+/* Scales all members; results are clamped to their ranges. False: no memory. */
 bool members_scale(const struct members *members, void *of,
                    const struct event_scaling *scaling);
 
