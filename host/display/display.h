@@ -1,4 +1,4 @@
-/* display.h - pictures in files: what the paper shows goes out as PNG, and bitmaps to screen come in.
+/* display.h - images in memory, written and read as PNG files.
  *
  *     struct display_image page = {.width_px = 640, .height_px = 480, .channels = 3};
  *     if (display_image_create(&page) != DISPLAY_OK)
@@ -32,7 +32,7 @@ enum display_status {
 /* Rows from top to bottom, pixels from left to right, channels together, no padding. */
 struct display_image {
     int width_px, height_px;
-    int channels; /* 1 gray, 3 red, green, blue; windows take 4, with alpha, too */
+    int channels; /* 1: gray; 3: red, green, blue; windows also accept 4, with alpha */
     uint8_t *pixels;
 };
 
@@ -47,10 +47,9 @@ enum display_status display_image_create(struct display_image *image);
 /* Frees the pixels; an image of zeros is fine. */
 void display_image_destroy(struct display_image *image);
 
-/* Writes 8-bit gray or RGB. The file appears under its name only when it is whole: it is written beside it
- * under a temporary name, then renamed. Where the name is a device (/dev/full) it is written to directly.
- * Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing or closed), NO_MEMORY; what stood
- * under that name stands as it was, and nothing is left beside it. */
+/* Writes 8-bit gray or RGB. The file appears under its name only when it is whole
+ * (output_file.h). Errors: BAD_ARGUMENT, IO_FAILED (a full disk, a folder that is missing or
+ * closed), NO_MEMORY; a file that had the name is unchanged, and no part file is left. */
 enum display_status display_png_write(const char *path, const struct display_image *image);
 
 /* The same with 16 bits for each channel. Shape: height_px * width_px * channels numbers, as in a display_image. */

@@ -15,11 +15,12 @@
 
 struct png_source {
     FILE *file;
-    int error; /* errno of a read that failed; 0 where the file simply ended */
+    int error; /* errno of a read that failed; 0 if the file ended too soon */
     char message[256];
-    uint8_t *
-        rows; /* as libpng gives them, gray+alpha or RGB+alpha: one, or all where it is interlaced */
-    struct display_image image; /* channels: 1 or 3, as asked for */
+    uint8_t
+        *rows; /* as libpng gives them, gray+alpha or RGB+alpha; one row, or all if the image
+               * is interlaced */
+    struct display_image image; /* channels: 1 or 3, as the caller asked */
 };
 
 static void source_read(png_structp png, png_bytep bytes, size_t count)
@@ -42,7 +43,7 @@ _Noreturn static void source_error(png_structp png, png_const_charp message)
 static void source_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* readable all the same */
+    (void)message; /* a warning: the image is readable all the same */
 }
 
 /* One row of `channels` (2 gray+alpha, 4 RGB+alpha) over white; Rec. 709 weights in 1/256. */
@@ -66,7 +67,8 @@ static void row_to_rgb(const uint8_t *row, int width_px, uint8_t *rgb)
                 (uint8_t)((row[c] * (unsigned)row[3] + 255u * (255u - row[3]) + 127u) / 255u);
 }
 
-/* Everything that may jump; what it allocates is in source, so the caller frees it. */
+/* All of the calls that may longjmp(). Allocations are kept in source, so that the caller
+ * frees them. */
 static int png_decode(png_structp png, png_infop info, struct png_source *source)
 {
     if (setjmp(png_jmpbuf(png)))

@@ -44,17 +44,17 @@ _Noreturn static void sink_error(png_structp png, png_const_charp message)
 static void sink_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* a file that could be written is fine */
+    (void)message; /* warnings about a file that was written are ignored */
 }
 
-/* What is written: pixels of one or two bytes, those in this machine's order. */
+/* The pixels to write, of one or two bytes; two-byte pixels in this machine's byte order. */
 struct png_source {
     int width_px, height_px, channels, bytes;
     const uint8_t *pixels;
 };
 
-/* Everything between signature and IEND; false with sink's error or message set. No local is changed after
- * setjmp, so none needs to be volatile. */
+/* Writes everything between signature and IEND. False with sink's error or message set. No
+ * local is changed after setjmp(), so none needs to be volatile. */
 static int png_encode(struct png_sink *sink, const struct png_source *image)
 {
     png_structp png =
@@ -74,7 +74,8 @@ static int png_encode(struct png_sink *sink, const struct png_source *image)
                  8 * image->bytes,
                  image->channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    /* A tenth of the usual settings' time for a tenth more bytes, on paper's grain; type takes no more. */
+    /* Level 2 takes a tenth of the default level's time. Files with the paper's grain are a
+     * tenth larger; files of type are no larger. */
     png_set_compression_level(png, 2);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);

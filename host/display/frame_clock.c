@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* A step that is due but for the rounding of a sum of frames is due. */
+/* A step counts as due if only the rounding error of the summed frame times is missing. */
 #define ROUNDING 1e-9
 
 struct frame_clock frame_clock_begin(double step_s, double now_s)

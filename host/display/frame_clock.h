@@ -1,5 +1,5 @@
-/* frame_clock.h - simulated time out of real time: fixed steps, slow motion, pause, single steps; and when the next picture
- * is due.
+/* frame_clock.h - simulated time out of real time: fixed steps, slow motion, pause, single
+ * steps; and when the next picture is due.
  *
  *     struct frame_clock clock = frame_clock_begin(1 / 240.0, now_s);
  *     for (;;) {                                                // a frame
@@ -8,13 +8,16 @@
  *         draw(frame_clock_fraction(&clock));                   // between the last step and the next
  *     }
  *
- * A simulation goes in steps of one length, so that it computes the same whatever the screen's rate is. Real time that is
- * not yet a whole step is carried to the next frame. A frame that took long brings frame_max_s at most: a program that was
- * stopped goes on where it was, and a simulation that is too slow for real time loses time rather than falls behind for ever.
+ * All steps have the same length, so that a simulation does not depend on the screen's rate.
+ * Real time that is not yet a whole step is carried to the next frame. A long frame counts as
+ * frame_max_s at most. So a program that was stopped goes on where it was, and a simulation
+ * that is too slow for real time runs slower instead of falling behind for ever.
  *
- * The clock asks nobody for the time: whoever calls says what time it is. Films say n / fps, tests what they like.
+ * The clock does not read the system's time: the caller passes the time. Films pass n / fps;
+ * tests pass any time.
  *
- * Units. Seconds. Threads. A clock belongs to one thread at a time. */
+ * Units. Seconds. Threads. A clock belongs to one thread at a time.
+ */
 #ifndef LUTETIA_FRAME_CLOCK_H
 #define LUTETIA_FRAME_CLOCK_H
 
@@ -26,28 +29,30 @@
 
 struct frame_clock {
     double step_s;      /* simulated time of one step */
-    double rate;        /* simulated seconds in a real one; 1; below it slow motion */
-    double frame_max_s; /* real time that one frame brings at most; 0.25 */
+    double rate;        /* simulated seconds for each real second; usually 1, below 1 slow
+                         * motion */
+    double frame_max_s; /* the most real time that one frame counts; 0.25 */
     bool paused;
     /* Read only. */
     int64_t steps_count; /* since the beginning */
-    double carried_s;    /* simulated, 0 to step_s: not yet a step */
+    double carried_s;    /* simulated time that is not yet a whole step: 0 to step_s */
     double now_s;        /* the real time of the last frame */
     int singles_count;   /* single steps that were asked for and not yet taken */
-    double lost_s;       /* real time that frames had beyond frame_max_s */
-    double
-        frame_s; /* a frame's usual length, the mean over the last twenty or so; 0 before two frames */
+    double lost_s;       /* real time lost because frames were longer than frame_max_s */
+    double frame_s; /* a frame's usual length, a running mean over about twenty frames; 0 before
+                  * two frames */
     double frame_longest_s;
 };
 
 /* step_s: above 0. */
 struct frame_clock frame_clock_begin(double step_s, double now_s);
 
-/* A new frame: how many steps to simulate now. A paused clock gives the single steps that were asked for. A time before the
- * last frame's counts as that. */
+/* Begins a new frame. Returns how many steps to simulate now. A paused clock returns the
+ * single steps that were asked for. A time before the last frame's is treated as the last
+ * frame's. */
 int frame_clock_advance(struct frame_clock *clock, double now_s);
 
-/* How far between the last step and the next the present is, 0..1. */
+/* Where the present is between the last step and the next, 0..1. */
 double frame_clock_fraction(const struct frame_clock *clock);
 
 /* Simulated time. */
@@ -56,19 +61,20 @@ double frame_clock_time_s(const struct frame_clock *clock);
 /* Real seconds from the last frame until the simulated time is time_s; 0 if it has been; infinity while paused. */
 double frame_clock_wait_s(const struct frame_clock *clock, double time_s);
 
-/* Goes on to that simulated time at once, if it is still to come: a single step of what happens at known times. */
+/* Moves at once to that simulated time, if it is in the future: a single step of a
+ * simulation whose events have known times. */
 void frame_clock_skip(struct frame_clock *clock, double time_s);
 
-/* Pauses, and asks for one step more. */
+/* Pauses, and requests one more step. */
 void frame_clock_single(struct frame_clock *clock);
 
-/* Kept within FRAME_CLOCK_RATE_MIN..MAX. Simulated time goes on from where it is. */
+/* The rate is clamped to FRAME_CLOCK_RATE_MIN..MAX. Simulated time is continuous. */
 void frame_clock_rate_set(struct frame_clock *clock, double rate);
 
-/* When pictures may be drawn: at most so many a second, and after each a rest as long as it took to draw, so that drawing
- * never takes more than half of a processor. */
+/* Decides when pictures may be drawn: at most so many a second, and after each a rest as
+ * long as it took to draw, so that drawing never takes more than half of a processor. */
 struct frame_pace {
-    double least_s; /* from one picture's beginning to the next's */
+    double least_s; /* from one picture's beginning to the next picture's beginning */
     double due_s;   /* the next picture may begin at this real time */
 };
 void frame_pace_drawn(struct frame_pace *pace, double began_s, double ended_s);

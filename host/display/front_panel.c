@@ -1,15 +1,17 @@
 /* front_panel.c - red lights over the scene of front_panel_scene.c.
  *
- * What is fixed is computed once: the scene, and for each light its footprint, the pixels that it
- * covers and how much of each. A picture is made of three sheets of one number a pixel, all of
- * them red light:
+ * The fixed parts are computed once: the scene, and for each light its footprint, which is the
+ * pixels that it covers and how much of each. A picture is the sum of three images of one
+ * number a pixel, all of them red light:
  *
  *     direct   the footprints of lights that are on                   width x height
  *     bloom    direct, made small, blurred at three widths, added     half, a quarter, an eighth
  *     mirror   mirrored lights, blurred by the floor's roughness      half
  *
- * added in linear light to the scene, taken through a film's curve, and written as sRGB with a
- * fixed dither of one level, so that dark gradients have no steps. */
+ * The three are added to the scene in linear light. The sum goes through the response curve
+ * of a film, and is written as sRGB with a fixed dither of one level, so that dark gradients
+ * have no steps.
+ */
 #include "front_panel.h"
 #include "display_internal.h"
 #include "front_panel_scene.h"
@@ -36,19 +38,19 @@ enum {
 };
 #define CURVE_END 6.0f
 
-/* Red of 660 nm, as a film sees it: what is very bright turns towards orange and white. */
+/* Red light of 660 nm, as film records it: very bright lights turn towards orange and white. */
 static const float red[3] = {1.0f, 0.030f, 0.011f};
 
 struct front_panel {
     struct front_panel_config config;
     struct scene_camera camera;
     struct scene_pixel *scene;
-    struct print *prints, *mirrored; /* of all lights, one after the other */
+    struct print *prints, *mirrored; /* footprints of all lights, one after the other */
     uint32_t print_first[FRONT_PANEL_LIGHTS + 1], mirrored_first[FRONT_PANEL_LIGHTS + 1];
     float light_x[FRONT_PANEL_LIGHTS], light_y[FRONT_PANEL_LIGHTS];
-    float pitch_px; /* from a light to its neighbour */
+    float pitch_px; /* distance from a light to its neighbour */
     struct sheet direct, half, bloom[BLOOMS], mirror, spare;
-    uint16_t curve[CURVE_COUNT]; /* of sRGB, in 256ths of a level */
+    uint16_t curve[CURVE_COUNT]; /* sRGB values, in 256ths of a level */
 };
 
 struct front_panel_config front_panel_config_default(void)
@@ -91,8 +93,8 @@ static bool print_add(struct prints_list *list, uint32_t pixel, float weight)
     return true;
 }
 
-/* An ellipse of light on a sheet: its centre, and what one light's pitch to the right and down are
- * in pixels; profile is of the distance in pitches. */
+/* An ellipse of light in an image: its centre, and the vectors in pixels of one light's
+ * pitch to the right and down; profile is a function of the distance in pitches. */
 struct ellipse {
     float x, y, ax, ay, bx, by, reach;
     float (*profile)(float distance, float softness);
@@ -141,7 +143,8 @@ static bool ellipse_print(struct prints_list *list, const struct sheet *sheet, s
     return true;
 }
 
-/* The ellipse of the light in that place; mirrored: in the floor, on a sheet of half the size. */
+/* The ellipse of the light at that place. mirrored: its reflection in the floor, in an image
+ * of half the size. */
 static struct ellipse ellipse_of(const struct front_panel *panel, float column, float row,
                                  bool mirrored)
 {
@@ -179,7 +182,8 @@ static bool footprints_make(struct front_panel *panel)
         good = ellipse_print(&list, &panel->direct, e, panel->pitch_px > 24 ? 2 : 4);
         if (!good || panel->config.view != FRONT_PANEL_CUBE)
             continue;
-        /* The floor is not quite smooth: what is higher is less sharp in it. */
+        /* The floor is slightly rough: the higher a light is, the more its reflection is
+         * blurred. */
         e = ellipse_of(panel, (float)column + 0.5f, (float)row + 0.5f, true);
         e.softness = 0.38f + 0.020f * (64 - (float)row);
         e.reach = 2.4f * e.softness;
@@ -198,7 +202,8 @@ static bool footprints_make(struct front_panel *panel)
 static void curve_make(struct front_panel *panel)
 {
     for (int i = 0; i < CURVE_COUNT; i++) {
-        /* Square roots, so that the dark has as many entries as the eye wants. */
+        /* The index is a square root, so that dark levels, where the eye is sensitive, have
+         * enough entries. */
         float x = (float)i / (CURVE_COUNT - 1);
         x = x * x * CURVE_END;
         float seen = 1 - expf(-1.15f * x);
@@ -276,7 +281,7 @@ enum display_status front_panel_create(const struct front_panel_config *config,
     }
     scene_make(panel);
     for (uint32_t i = 0; i < panel->print_first[FRONT_PANEL_LIGHTS];
-         i++) /* those that are off */
+         i++) /* lights that are off */
         for (int k = 0; k < 3; k++)
             panel->scene[panel->prints[i].pixel].rgb[k] +=
                 panel->prints[i].weight * (k == 0 ? 0.0034f : 0.0006f);
@@ -347,7 +352,7 @@ static void sheet_mean(const float *from, float *to, int width, int height, int 
     }
 }
 
-/* Three means are nearly a bell. */
+/* Three box blurs approximate a Gaussian. */
 static void sheet_blur(struct sheet *sheet, float *spare, int r)
 {
     for (int i = 0; i < 3 && r > 0; i++) {
@@ -402,7 +407,7 @@ static void lights_print(struct front_panel *panel, const uint8_t *lights, float
     }
 }
 
-/* The scattering of lens and glass, at widths that are in proportion to the lights. */
+/* Light scattered by lens and glass, with blur widths in proportion to the lights. */
 static void blooms_make(struct front_panel *panel)
 {
     sheet_shrink(&panel->direct, &panel->bloom[0]);
@@ -456,7 +461,8 @@ enum display_status front_panel_draw(struct front_panel *panel,
             for (int k = 0; k < SCENE_GLOWS; k++)
                 light += s->glow[k] * doors[k];
             light *= bright;
-            /* A hash of the place: the same in every picture, so that a film does not flicker. */
+            /* The dither is a hash of the pixel's place: the same in every picture, so that
+             * a film does not flicker. */
             uint32_t hash = ((uint32_t)x * 0x9e3779b1u) ^ ((uint32_t)y * 0x85ebca77u);
             hash ^= hash >> 15;
             hash *= 0x2c1b3c6du;

@@ -1,7 +1,7 @@
-/* front_panel_scene.c - rays into a room with a cube of eight boxes with rounded edges. It is
- * symmetric, so a point is folded into one eighth and its distance to one box is the distance to
- * all. All is black and polished: what one sees are reflections of two soft lamps, along edges and
- * on the floor. */
+/* front_panel_scene.c - ray marching in a room with a cube of eight boxes with rounded
+ * edges. The cube is symmetric, so a point is folded into one eighth, and its distance to
+ * one box is its distance to all. Everything is black and polished: only reflections of two
+ * soft lamps are visible, along edges and on the floor. */
 #include "front_panel_scene.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ static float step_smooth(float from, float to, float x)
 struct scene_camera scene_camera_make(const struct front_panel_config *config)
 {
     struct vec eye = {3.3f, 2.15f, 6.5f}, target = {0.0f, -0.30f, 0.0f};
-    float seen = 3.95f; /* height of what the picture shows at the target's distance */
+    float seen = 3.95f; /* height of the picture's section at the target's distance */
     if (config->view == FRONT_PANEL_FRONT) {
         eye = (struct vec){0, 0, 14};
         target = (struct vec){0, 0, 0};
@@ -81,7 +81,7 @@ void scene_project(const struct scene_camera *c, struct vec p, float *x, float *
     *y = c->centre_y - k * dot(d, c->up);
 }
 
-/* Doors are at 0.5 from the middle, and their lights take DOOR_LIGHTS of a side's half. */
+/* Doors are 0.5 from the middle, and their lights cover DOOR_LIGHTS of half a side. */
 #define DOOR_LIGHTS 0.415f
 
 struct vec scene_front_point(float column, float row)
@@ -111,7 +111,8 @@ static float distance_to(struct vec p)
 {
     struct vec eighth = {fabsf(p.x) - 0.5f, fabsf(p.y) - 0.5f, fabsf(p.z) - 0.5f};
     float boxes = box_distance(eighth, (struct vec){BOX_HALF, BOX_HALF, BOX_HALF}, BOX_ROUND);
-    struct vec core = {0.96f, 0.96f, 0.96f}; /* the grooves have a ground */
+    struct vec core = {0.96f, 0.96f, 0.96f}; /* the inner block that closes the grooves at
+                                              * their bottom */
     float inside = box_distance(p, core, 0.01f);
     struct vec under = {p.x, p.y - (SCENE_FLOOR - 1) * 0.5f, p.z};
     float base = box_distance(
@@ -132,7 +133,7 @@ static struct vec normal_at(struct vec p)
     return length > 0 ? unit(n) : (struct vec){0, 1, 0};
 }
 
-/* The way to the cube along a ray; negative if it passes by. */
+/* The distance to the cube along a ray; negative if the ray misses it. */
 static float cube_hit(struct vec from, struct vec way)
 {
     float near = 0, far = 1e9f;
@@ -167,7 +168,7 @@ static float lamp(struct vec way, struct vec at, struct vec across, float width,
     return expf(-r * 0.9f);
 }
 
-/* What comes from the room, in this direction. */
+/* The light that comes from the room in this direction. */
 static void room(struct vec way, float *rgb)
 {
     float up = clamp(way.y, -1, 1);
@@ -191,7 +192,8 @@ static float fresnel(float cosine, float straight)
     return straight + (1 - straight) * k * k * k * k * k;
 }
 
-/* The cube's own look: panels framed by a fine line, doors with the boards' edges behind them. */
+/* The cube's own surface: panels framed by a fine line, and doors with the boards' edges
+ * behind them. */
 static void cube_shade(struct vec p, struct vec way, float *rgb)
 {
     struct vec n = normal_at(p);
@@ -212,14 +214,14 @@ static void cube_shade(struct vec p, struct vec way, float *rgb)
     float lit = clamp(0.25f + 0.55f * n.y - 0.25f * n.x + 0.25f * n.z, 0.05f, 1);
     float ground = door ? 0.0016f : 0.0075f;
     if (door && front) {
-        float board = u * 16 / DOOR_LIGHTS; /* edges of the boards, hardly to be seen */
+        float board = u * 16 / DOOR_LIGHTS; /* edges of the boards, hardly visible */
         float stripe = 0.5f + 0.5f * cosf(6.2831853f * board);
         bool behind = fabsf(u) < DOOR_LIGHTS + 0.008f && fabsf(v) < DOOR_LIGHTS + 0.008f;
         ground += behind ? 0.0014f + 0.0022f * stripe : 0;
     }
     float groove =
         flat ? 1 - 0.75f * (1 - step_smooth(0.001f, 0.005f, fabsf(edge - DOOR_HALF))) : 1;
-    /* Deep in the grooves between the boxes little light comes in. */
+    /* Little light reaches the bottom of the grooves between the boxes. */
     float outside = fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
     float depth = step_smooth(0.955f, 0.985f, outside);
     float low = p.y < -0.986f ? 0.12f : 1;
@@ -302,7 +304,8 @@ struct scene_pixel scene_pixel_trace(const struct scene_camera *camera,
             ray_trace(camera, view, (float)x + ((float)(i % samples) + 0.5f) / (float)samples,
                       (float)y + ((float)(i / samples) + 0.5f) / (float)samples);
         for (int k = 0; k < 3; k++)
-            sum.rgb[k] += fminf(one.rgb[k], 1.2f) * share; /* a lamp's edge has no stairs */
+            sum.rgb[k] += fminf(one.rgb[k], 1.2f) * share; /* clamped, so that a lamp's edge
+                                                            * is antialiased */
         sum.mirror += one.mirror * share;
         for (int k = 0; k < SCENE_GLOWS; k++)
             sum.glow[k] += one.glow[k] * share;

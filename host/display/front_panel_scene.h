@@ -1,6 +1,6 @@
-/* front_panel_scene.h - the cube in its dark room, without its lights: the camera, and what each
- * pixel sees. Lengths are in half edges of the cube, which is [-1,1]^3; x right, y up, z towards
- * the one who looks at its front. */
+/* front_panel_scene.h - the cube in its dark room, without its lights: the camera, and what
+ * each pixel sees. Lengths are in half edges of the cube, which is [-1,1]^3; x right, y up,
+ * z from the front towards the viewer. */
 #ifndef LUTETIA_FRONT_PANEL_SCENE_H
 #define LUTETIA_FRONT_PANEL_SCENE_H
 
@@ -22,8 +22,8 @@ enum { SCENE_GLOWS = 4 };     /* doors that light the floor */
 
 struct scene_pixel {
     float rgb[3];            /* linear */
-    float mirror;            /* how much of a mirrored light is seen here, on the floor */
-    float glow[SCENE_GLOWS]; /* what a door whose lights are all on adds */
+    float mirror;            /* how much of a mirrored light is visible here, on the floor */
+    float glow[SCENE_GLOWS]; /* the light that a door adds when all its lights are on */
 };
 
 struct scene_camera scene_camera_make(const struct front_panel_config *config);

@@ -5,7 +5,8 @@
 #include <string.h>
 #include <time.h>
 
-/* Places kept for events that end something, and of those the ones kept for a size and closing. */
+/* Places reserved for events that end something, and, among these, places reserved for
+ * INPUT_SIZE and INPUT_CLOSE. */
 enum { ENDS_RESERVED = 64, LAST_RESERVED = 2 };
 
 double input_now_s(void)
@@ -33,7 +34,7 @@ static bool waits_once(enum input_kind kind)
     return kind == INPUT_SIZE || kind == INPUT_CLOSE;
 }
 
-/* How many may wait before such an event. */
+/* How many events may wait before such an event is refused. */
 static int room_for(enum input_kind kind)
 {
     if (waits_once(kind))
@@ -43,7 +44,7 @@ static int room_for(enum input_kind kind)
     return INPUT_EVENTS_MAX - (ends ? LAST_RESERVED : ENDS_RESERVED);
 }
 
-/* An event that waits and that the new one takes the place of; NULL: there is none. */
+/* A waiting event that the new one replaces; NULL if there is none. */
 static struct input_event *replaceable(struct input_queue *q, const struct input_event *event)
 {
     for (int i = 0; waits_once(event->kind) && i < q->count; i++)

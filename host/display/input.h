@@ -1,4 +1,5 @@
-/* input.h - what people do, as events in a queue: pointers and pens, wheels, keys, text, files dropped.
+/* input.h - user input as events in a queue: pointers and pens, wheels, keys, text, files
+ * dropped.
  *
  *     struct input_queue queue = {0};
  *     struct input_event event;
@@ -8,12 +9,15 @@
  *             grab(event.x_px, event.y_px, event.pressure);
  *     input_queue_finish(&queue);
  *
- * One kind of event comes from every source: a GLFW window, a test, a recording. Each event carries its time and the state
- * of the pointer and of the modifiers at that time, so that whoever takes it need remember nothing.
+ * Every source (a GLFW window, a test, a recording) gives the same kind of events. Each event
+ * carries its time and the state of the pointer and of the modifiers at that time, so that the
+ * receiver need not keep state.
  *
- * Units. Places are pixels of the window, y downwards, fractions possible. Times are seconds of input_now_s(). Pressure is
- * 0..1; tilt is -1..1, the lean of a pen to the right and towards the person, 1 being all that the pen measures.
- * Threads. A queue belongs to one thread at a time. */
+ * Units. Places are pixels of the window, y downwards, fractions possible. Times are seconds
+ * of input_now_s(). Pressure is 0..1; tilt is -1..1, the lean of a pen to the right and
+ * towards the person, 1 being all that the pen measures. Threads. A queue belongs to one
+ * thread at a time.
+ */
 #ifndef LUTETIA_INPUT_H
 #define LUTETIA_INPUT_H
 
@@ -27,14 +31,15 @@ enum input_kind {
     INPUT_POINTER_UP,
     INPUT_POINTER_LEAVE, /* the pointer left the window */
     INPUT_SCROLL,
-    INPUT_TEXT, /* a character was written: what the keyboard's layout makes of keys */
+    INPUT_TEXT, /* text was entered: a character, after the keyboard layout */
     INPUT_KEY_DOWN,
     INPUT_KEY_REPEAT, /* the key is held */
     INPUT_KEY_UP,
     INPUT_DROP,       /* a file was dropped on the window; of several, one event each */
-    INPUT_FOCUS_LOST, /* keys and buttons that are held will not be seen to go up */
+    INPUT_FOCUS_LOST, /* the window lost the focus: no event will come for releases of held
+                       * keys and buttons */
     INPUT_SIZE,       /* the window has another size */
-    INPUT_CLOSE       /* someone wants the window closed */
+    INPUT_CLOSE       /* the user asks to close the window */
 };
 
 /* As bits in `buttons`: 1u << button. */
@@ -69,10 +74,10 @@ struct input_event {
     double time_s;
     /* The pointer, in every event. */
     double x_px, y_px;
-    double pressure, tilt_x, tilt_y; /* of a pen; 0 without one */
+    double pressure, tilt_x, tilt_y; /* of a pen; 0 if the pointer is no pen */
     bool pen;                        /* the pointer is a pen that reports its pressure */
-    unsigned buttons;                /* that are held after the event */
-    unsigned modifiers;              /* INPUT_SHIFT and so on that are held */
+    unsigned buttons;                /* buttons that are held after the event */
+    unsigned modifiers;              /* modifiers (INPUT_SHIFT, ...) that are held */
     /* Of some kinds. */
     int button; /* POINTER_DOWN, POINTER_UP */
     double scroll_x,
@@ -80,7 +85,7 @@ struct input_event {
     int key;            /* KEY_: an INPUT_KEY_ or a character */
     uint32_t character; /* TEXT: Unicode */
     int width_px, height_px; /* SIZE */
-    char *path;              /* DROP: the queue's, until the next event is taken */
+    char *path;              /* DROP: owned by the queue, until the next event is taken */
 };
 
 enum { INPUT_EVENTS_MAX = 1024 };
@@ -89,21 +94,23 @@ enum { INPUT_EVENTS_MAX = 1024 };
 struct input_queue {
     struct input_event events[INPUT_EVENTS_MAX];
     int first, count;
-    char *path;      /* of the event that was taken last */
+    char *path;      /* the path of the event that was taken last */
     long lost_count; /* events that found no room */
 };
 
 void input_queue_finish(struct input_queue *queue); /* frees paths; zeros it */
 
-/* Puts an event at the end; a path is copied. Where many events wait, a move of the pointer replaces one that is the last.
- * Of sizes and of closing only the newest waits, and these are never refused. A full queue refuses and counts moves, keys down, text
- * and so on before it refuses what ends something (button and key up, leave, focus lost), for which room is kept. False: it was refused. */
+/* Appends an event; its path is copied. If many events wait and the last is a pointer move,
+ * a new move replaces it. Only the newest INPUT_SIZE and the newest INPUT_CLOSE wait, and
+ * these are never refused. A full queue refuses and counts moves, keys down, text and so on.
+ * Room is reserved for events that end something (button and key up, leave, focus lost).
+ * False: the event was refused. */
 bool input_queue_put(struct input_queue *queue, const struct input_event *event);
 
-/* The first event that waits. False: there is none, and *event is NONE. */
+/* Takes the first waiting event. False if there is none; *event is then NONE. */
 bool input_queue_take(struct input_queue *queue, struct input_event *event);
 
-/* Seconds since some moment, never going back. */
+/* Seconds of a monotonic clock. */
 double input_now_s(void);
 
 #endif

@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* How many bytes the thing that begins with those held has; 0: it cannot be said yet. */
+/* The length in bytes of the item that begins the held bytes; 0 if more bytes are needed to
+ * tell. */
 static size_t length_of(const struct light_reader *reader)
 {
     size_t looked = reader->held < LIGHT_RECORDING_LINE_BYTES

@@ -33,22 +33,23 @@ struct light_frame {
 };
 
 struct light_reader {
-    /* Is given each frame; returns 0 to be given no more. */
+    /* Receives each frame; returns 0 to stop. */
     int (*take)(void *context, const struct light_frame *frame);
     void *context;
 
     uint64_t frames; /* taken so far */
     uint64_t read;   /* bytes understood so far */
     uint8_t begun;   /* the first line has been read */
-    uint8_t stopped; /* take() said so: what follows is passed over */
-    size_t held;     /* bytes of what is not whole yet */
+    uint8_t stopped; /* take() has stopped: the rest is ignored */
+    size_t held;     /* bytes of an incomplete item */
     uint8_t bytes[LIGHT_RECORDING_FRAME_BYTES];
 };
 
-/* Errors: BAD_FILE where it is no recording. */
+/* Errors: BAD_FILE if the bytes are no recording. */
 enum display_status light_reader_feed(struct light_reader *reader, const uint8_t *bytes,
                                       size_t count);
-/* Errors: BAD_FILE where it ends within a frame, or before the first line does. */
+/* Errors: BAD_FILE if the recording ends within a frame, or before the first line is
+ * complete. */
 enum display_status light_reader_end(const struct light_reader *reader);
 
 #endif

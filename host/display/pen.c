@@ -1,4 +1,4 @@
-/* pen.c - see pen.h. What is read off a report; pen_x11.c gets reports. */
+/* pen.c - see pen.h. Interprets the reports that pen_x11.c receives. */
 #include "pen.h"
 
 #include <math.h>

@@ -10,12 +10,12 @@ enum { DEVICES_MAX = 64 };
 
 struct pen {
     Display *display;
-    int opcode; /* of the extension's events */
+    int opcode; /* the first event code of the extension */
     Atom pressure, tilt_x, tilt_y;
     struct {
         int id;
         struct pen_axes axes;
-    } devices[DEVICES_MAX]; /* those that measure pressure */
+    } devices[DEVICES_MAX]; /* devices that measure pressure */
     int devices_count;
     struct pen_state state;
 };
@@ -70,7 +70,8 @@ static void events_select(struct pen *pen)
 
 struct pen *pen_open(void)
 {
-    int first_event, first_error, major = 2, minor = 1; /* 2.1: raw events during grabs, too */
+    int first_event, first_error, major = 2, minor = 1; /* version 2.1 sends raw events
+                                                         * during grabs, too */
     struct pen *pen = calloc(1, sizeof *pen);
     if (!pen)
         return NULL;

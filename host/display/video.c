@@ -25,7 +25,7 @@
 
 enum { SIDE_MOST = 16384, FPS_MOST = 240 };
 
-/* What a name may end with, and what ffmpeg calls that; NULL: written by us. */
+/* The endings of names, with ffmpeg's name of the container; NULL: written by us. */
 static const struct container {
     const char *ending, *format;
     bool sounds; /* it can hold sound */
@@ -37,15 +37,15 @@ static const struct container {
 enum { CONTAINERS = sizeof containers / sizeof *containers, OURS = CONTAINERS - 1 };
 
 struct video {
-    char *path; /* its name in the end */
+    char *path; /* the file's final name */
     struct output_file out;
     const struct container *container;
     int width, height;
     int sound; /* a descriptor of a WAV file; -1: it is silent */
     long frames;
     FILE *file;      /* out's stream, or the pipe to ffmpeg */
-    pid_t encoder;   /* 0: none, the file is written by us */
-    FILE *complaint; /* what ffmpeg says */
+    pid_t encoder;   /* 0: no ffmpeg, the file is written by us */
+    FILE *complaint; /* ffmpeg's messages */
     uint8_t *planes;
     bool failed;
 };
@@ -69,8 +69,9 @@ static bool program_is_there(const char *name)
     return there;
 }
 
-/* ffmpeg is given no name: it reads from a pipe, and writes to a descriptor of ours by the system's name for it, in a format
- * that is said. So nothing in a film's name can be an option, a pattern of names or a protocol to it. */
+/* ffmpeg gets no file name. It reads from a pipe and writes, in a given format, to a
+ * descriptor of ours through /proc or /dev/fd. So nothing in a film's name can act as an
+ * option, a pattern or a protocol. */
 _Noreturn static void encoder_become(const struct video *v, int input, int fps)
 {
     enum { OUTPUT = 3, SOUND = 4, WORDS_MAX = 48 };
@@ -148,7 +149,7 @@ static enum display_status encoder_start(struct video *v, int fps)
                         strerror(error));
 }
 
-/* Waits for it; the last line that it said, or how it ended, in `said`. False: it failed. */
+/* Waits for ffmpeg; `said` gets its last line, or how it ended. False: ffmpeg failed. */
 static bool encoder_end(struct video *v, char said[200])
 {
     int status = 0;
@@ -218,7 +219,8 @@ static enum display_status io_failed(struct video *v, int error)
     return display_fail(DISPLAY_IO_FAILED, "%s: cannot write: %s", v->path, strerror(error));
 }
 
-/* The name's ending says what the file is; a name without one gets .mp4. Where there is no ffmpeg, all become .y4m. */
+/* The name's ending selects the format; a name without one gets .mp4. Without ffmpeg the
+ * ending becomes .y4m. */
 static enum display_status name_make(struct video *v, const char *path)
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
@@ -246,7 +248,7 @@ static enum display_status name_make(struct video *v, const char *path)
     return display_fail(DISPLAY_NO_MEMORY, "no memory for a video");
 }
 
-/* That the file can be made is known at once, not when ffmpeg gets there. */
+/* The file is made at once, so that a failure is known before ffmpeg starts writing. */
 static enum display_status video_open(struct video *v, int fps)
 {
     signal(SIGPIPE, SIG_IGN);

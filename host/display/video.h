@@ -1,5 +1,5 @@
-/* video.h - pictures in a row to a file: MP4, Matroska, WebM, QuickTime, AVI, Ogg and GIF by ffmpeg, where it is installed, and
- * YUV4MPEG2 (.y4m) by us.
+/* video.h - writes pictures as a film: MP4, Matroska, WebM, QuickTime, AVI, Ogg and GIF by
+ * ffmpeg, where it is installed, and YUV4MPEG2 (.y4m) without it.
  *
  *     struct video *video;
  *     if (video_create("film.mp4", 640, 480, 30, &video) != DISPLAY_OK)
@@ -10,11 +10,13 @@
  *     if (video_finish(video) != DISPLAY_OK)
  *         die(display_error());
  *
- * The file is written beside its name first (output_file.h); video_finish() puts the whole file there. ffmpeg never sees the
- * name. A name's ending says what the file is (.mp4 .m4v .mkv .webm .mov .avi .ogv .gif .y4m; none: .mp4); where ffmpeg is
- * missing, film.mp4 becomes film.y4m (video_path() tells), which every player and encoder takes.
+ * The film is written to a part file first (output_file.h); video_finish() renames it. ffmpeg
+ * never sees the name. The name's ending selects the format (.mp4 .m4v .mkv .webm .mov .avi
+ * .ogv .gif .y4m; none: .mp4); where ffmpeg is missing, film.mp4 becomes film.y4m (video_path()
+ * returns the name), which most players and encoders read.
  *
- * Errors and threads: as display.h says; SIGPIPE is ignored from the first video on. */
+ * Errors and threads: as display.h says; SIGPIPE is ignored from the first video on.
+ */
 #ifndef LUTETIA_DISPLAY_VIDEO_H
 #define LUTETIA_DISPLAY_VIDEO_H
 
@@ -32,18 +34,18 @@ enum display_status video_create(const char *path, int width_px, int height_px, 
  * The caller may close it at once. Pictures and sound begin together. */
 enum display_status video_create_with_sound(const char *path, int width_px, int height_px,
                                             int fps, int sound, struct video **out);
-/* Whether there is sound in it: none in .gif and .y4m. */
+/* Whether the film can hold sound: .gif and .y4m cannot. */
 bool video_sounds(const struct video *video);
 /* Adds a picture. Shape: height * width * 3 bytes of display values. Errors: IO_FAILED (a full disk; ffmpeg failed or was
  * killed: what it said). */
 enum display_status video_add(struct video *video, const uint8_t *rgb);
-/* Ends the file and puts it under its name; without pictures there is none. Frees the video, also when it fails: then nothing
- * is left. Errors: IO_FAILED. */
+/* Ends the film and renames it; a film without pictures leaves no file. Frees the video,
+ * also on failure; then no file is left. Errors: IO_FAILED. */
 enum display_status video_finish(struct video *video);
-/* Nothing is left of it. NULL is fine. */
+/* Removes the part file and frees the video. NULL is fine. */
 void video_abandon(struct video *video);
 
-/* Where it will be. Owns: the video. */
+/* The film's final name. Owns: the video. */
 const char *video_path(const struct video *video);
 long video_frames(const struct video *video);
 

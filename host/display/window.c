@@ -1,12 +1,13 @@
 /* window.c - windows by GLFW; the image is a texture on one rectangle.
  *
- * The rectangle fills a viewport that has the image's ratio and lies on whole pixels, so there are
- * no matrices, and an image of the viewport's size is copied texel by texel.  OpenGL 2.1 without
- * shaders is enough for that, and every driver has it.  Its functions are asked of GLFW at run time:
- * the program is not linked with libGL and starts where there is none.
+ * The rectangle fills a viewport that has the image's ratio and lies on whole pixels, so there
+ * are no matrices, and an image of the viewport's size is copied texel by texel.  OpenGL 2.1
+ * without shaders is enough for that, and every driver has it.  Its functions are asked of GLFW
+ * at run time: the program is not linked with libGL and starts where there is none.
  *
- * GLFW is never terminated: it would unload the driver, and what drivers keep to the end of the
- * process would be lost with each last window. */
+ * GLFW is never terminated: terminating it with each last window would unload the driver,
+ * and leak the resources that drivers keep to the end of the process.
+ */
 #include "display_internal.h"
 #include "window_internal.h"
 
@@ -26,14 +27,15 @@ bool window_possible(void)
     return (x && *x) || (wayland && *wayland);
 }
 
-/* A display finer than this is said to be fine; below, a pixel is a pixel. */
+/* Screens with a scale below this count as 1: a pixel is a pixel. */
 #define SCALE_LEAST 1.5f
 
 /* ---- drawing ---- */
 
 static void rectangle_draw(const struct gl *gl)
 {
-    static const float corners[4][2] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}}; /* of the texture */
+    static const float corners[4][2] = {
+        {0, 1}, {1, 1}, {1, 0}, {0, 0}}; /* texture coordinates */
     gl->Begin(GL_QUADS);
     for (int i = 0; i < 4; i++) {
         gl->TexCoord2f(corners[i][0], corners[i][1]);
@@ -42,7 +44,8 @@ static void rectangle_draw(const struct gl *gl)
     gl->End();
 }
 
-/* Pixel for pixel, or between them; of a shrunk image, means of what is left out. */
+/* Nearest texel for an image of the viewport's size, bilinear otherwise; mipmaps for a
+ * shrunk image. */
 static void filter_choose(struct window *window, double scale)
 {
     const struct gl *gl = &window->gl;
@@ -220,7 +223,7 @@ static bool functions_find(struct gl *gl)
     gl->GetError = (GLenum(*)(void))glfwGetProcAddress("glGetError");
     gl->GenerateMipmap = (void (*)(GLenum))glfwGetProcAddress("glGenerateMipmap");
     GLint major = 0;
-    if (all && gl->GetError) /* a driver may name functions that it does not have */
+    if (all && gl->GetError) /* a driver may return functions that it does not implement */
         gl->GetIntegerv(GL_MAJOR_VERSION, &major);
     if (all && gl->GetError && gl->GetError() != GL_NO_ERROR)
         major = 0;

@@ -1,4 +1,4 @@
-/* window.h - a window that shows images, and what happens to it: what people do there (input.h).
+/* window.h - a window that shows images, with its input events (input.h).
  *
  *     struct window_config config = window_config_default();
  *     struct window *window;
@@ -12,14 +12,15 @@
  *             window_close(window);
  *     window_destroy(window);
  *
- * An image is as large as fits, its sides keep their ratio, and what is left is black. One as large
- * as the window is shown pixel for pixel. The window shows its image again by itself when it is
- * uncovered or resized, as long as events are taken.
+ * An image is scaled to fit, with the ratio of its sides kept; the rest of the window is black.
+ * An image as large as the window is shown pixel for pixel. The window redraws its image when
+ * it is uncovered or resized, as long as events are taken.
  *
- * Units. A window's size is asked for in pixels of a screen of 96 dpi; where the screen is finer the
- * window has as many more pixels. Sizes in events are pixels.
- * Errors. As in display.h.
- * Threads. All calls from the main thread. Each makes its window's GL context the current one. */
+ * Units. A window's size is given in pixels of a screen of 96 dpi; on a finer screen the
+ * window has proportionally more pixels. Sizes in events are pixels. Errors. As in
+ * display.h. Threads. All calls from the main thread. Each makes its window's GL context the
+ * current one.
+ */
 #ifndef LUTETIA_WINDOW_H
 #define LUTETIA_WINDOW_H
 
@@ -34,14 +35,16 @@ struct window_config {
     const char *title; /* UTF-8, copied; "lutetia" */
     int width_px,
         height_px;        /* WINDOW_SIDE_MIN..MAX; 960x960. Made smaller where the screen is */
-    bool vsync;           /* a picture waits for the screen to be ready for it; true */
-    bool drawn_by_caller; /* not window_show() but the caller draws, see below; false */
+    bool vsync;           /* wait for the screen's refresh before showing a picture; true */
+    bool drawn_by_caller; /* the caller draws instead of calling window_show(), see below;
+                           * false */
 };
 struct window_config window_config_default(void);
 
 struct window;
 
-/* A display there may be: DISPLAY or WAYLAND_DISPLAY is set and this build has windows. */
+/* Whether there may be a display: DISPLAY or WAYLAND_DISPLAY is set, and this build has
+ * windows. */
 bool window_possible(void);
 
 /* Errors: NO_WINDOW where there is no display, or none that can draw, or the build has no windows;
@@ -51,20 +54,21 @@ void window_destroy(struct window *window); /* NULL is fine */
 
 void window_title_set(struct window *window, const char *title);
 
-/* Shows an image: one channel is gray, three are red, green, blue, and a fourth is how much of the
- * black behind is covered. The image is copied. Errors: BAD_ARGUMENT where it has no pixels, or more
- * on a side than the graphics card takes; what was shown stays. */
+/* Shows an image: one channel is gray, three are red, green, blue, and a fourth is how much
+ * of the black behind is covered. The image is copied. Errors: BAD_ARGUMENT where it has no
+ * pixels, or more on a side than the graphics card supports; the image shown before stays. */
 enum display_status window_show(struct window *window, const struct display_image *image);
 
-/* Pixels there are to draw on. */
+/* The size of the area to draw on, in pixels. */
 void window_size(const struct window *window, int *width_px, int *height_px);
 
-/* Someone closed it, or window_close() did. The window is there until it is destroyed. */
+/* True after the user closed the window, or window_close() was called. The window exists
+ * until it is destroyed. */
 bool window_closing(const struct window *window);
 void window_close(struct window *window);
 
-/* The next event of the window (input.h), waiting for one wait_s seconds at most (0: not at all). False: there is none, and
- * *event is NONE. */
+/* Takes the window's next event (input.h), waiting wait_s seconds at most (0: not at all).
+ * False if there is none; *event is then NONE. */
 bool window_input_take(struct window *window, double wait_s, struct input_event *event);
 
 /* ---- windows that another draws in: config.drawn_by_caller ----
@@ -74,15 +78,16 @@ bool window_input_take(struct window *window, double wait_s, struct input_event 
  *     window_frame_end(window);     // and it is seen
  */
 
-/* Finds functions of OpenGL by their names, while a window's context is the current one. */
+/* The function that finds OpenGL's functions by name while a window's context is current. */
 void (*(*window_functions(void))(const char *name))(void);
 void window_frame_begin(struct window *window);
 void window_frame_end(struct window *window);
 
-/* Pixels in one of a screen of 96 dpi: lines are drawn so much wider. 1 on screens that are not fine. */
+/* How many pixels correspond to one of a 96 dpi screen; line widths are multiplied by it. 1
+ * on screens that are not fine. */
 double window_scale(const struct window *window);
 
-/* Fills the screen, or goes back to where and how large the window was. */
+/* Fills the screen, or restores the window's place and size. */
 void window_fullscreen_set(struct window *window, bool full);
 bool window_fullscreen(const struct window *window);
 

@@ -1,6 +1,8 @@
 /* window_input.c - GLFW's callbacks as events in the window's queue.
  *
- * GLFW says where the pointer is in its own screen coordinates; where the screen is fine they are fewer than pixels. */
+ * GLFW gives the pointer in screen coordinates; on fine screens one such unit is several
+ * pixels.
+ */
 #include "window_internal.h"
 
 #include <stdlib.h>
@@ -11,7 +13,7 @@ static struct window *window_of(GLFWwindow *glfw)
     return glfwGetWindowUserPointer(glfw);
 }
 
-/* What happens now, where the pointer is. */
+/* Appends an event of the present time, at the pointer's present place. */
 static void put(struct window *window, struct input_event event)
 {
     struct pen_state pen = pen_now(window->pen);
@@ -103,7 +105,8 @@ static void enter_take(GLFWwindow *glfw, int entered)
         put(window_of(glfw), (struct input_event){.kind = INPUT_POINTER_LEAVE});
 }
 
-/* Where the pointer was then is what the last move said: GLFW, asked, would say where it is now. */
+/* The event's place is that of the last move. Asked now, GLFW would give the present place,
+ * not that of the press. */
 static void button_take(GLFWwindow *glfw, int button, int action, int modifiers)
 {
     struct window *window = window_of(glfw);
@@ -159,7 +162,7 @@ static int key_of(int key)
     return INPUT_KEY_OTHER;
 }
 
-/* The modifiers after a key went down or up: X11 says what they were before. */
+/* The modifiers after a key went down or up; X11 reports the modifiers before the event. */
 static unsigned modifiers_after(int key, int action, int modifiers)
 {
     unsigned held = modifiers_of(modifiers), own = 0;
@@ -220,7 +223,8 @@ bool window_input_take(struct window *window, double wait_s, struct input_event 
             window_draw(window);
         double left_s = until_s - input_now_s();
         if (input_queue_take(&window->queue, event)) {
-            if (event->kind == INPUT_SIZE) /* several became one: it says what is now */
+            if (event->kind == INPUT_SIZE) /* several size events were merged: use the
+                                            * present size */
                 window_size(window, &event->width_px, &event->height_px);
             return true;
         }

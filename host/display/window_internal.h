@@ -49,18 +49,19 @@ struct window {
     GLuint texture;
     int side_max_px;
     int image_width_px, image_height_px, channels; /* of the texture; 0: there is none */
-    bool mipmaps;                                  /* those of the present image are made */
-    bool stale;                                    /* must be drawn again */
+    bool mipmaps;                                  /* mipmaps of the present image have been
+                                                    * made */
+    bool stale;                                    /* the window must be redrawn */
     /* Events. */
     struct input_queue queue;
     struct input_event pointer; /* the pointer and the modifiers as they are now */
-    struct pen *pen;            /* NULL: no pen reports its pressure here */
+    struct pen *pen;            /* NULL: no pen with pressure */
     /* Where the window was before it filled the screen. */
     bool fullscreen;
     int before[4];
 };
 
-/* Draws the image again, as large as fits. */
+/* Redraws the image, scaled to fit. */
 void window_draw(struct window *window);
 
 /* Sets the callbacks that put events into the queue. */

@@ -1,5 +1,5 @@
-/* window_none.c - stands for window.c where Lutetia is built without GLFW: window_create() says so,
- * and what takes a window is never called. */
+/* window_none.c - replaces window.c in builds without GLFW: window_create() fails with a
+ * message, and functions that take a window are never called. */
 #include "display_internal.h"
 #include "window.h"
 

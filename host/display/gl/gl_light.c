@@ -1,4 +1,5 @@
-/* gl_light.c - see gl_light.h. A driver may name functions that it does not have: its version says which. */
+/* gl_light.c - see gl_light.h. A driver may return functions that it does not implement, so
+ * the version is checked. */
 #include "gl_light.h"
 
 #include <GL/gl.h>

@@ -1,8 +1,10 @@
 /* gl_offscreen.c - see gl_offscreen.h.
  *
- * libEGL and libOSMesa stay loaded: drivers keep things to the end of the process.
+ * libEGL and libOSMesa stay loaded, because drivers keep resources to the end of the process.
  *
- * Either way what is drawn to is a framebuffer object. OSMesa wants memory of its own to draw to as well; nothing is drawn there. */
+ * In both ways, drawing goes to a framebuffer object. OSMesa also needs memory of its own as
+ * a target; nothing is drawn there.
+ */
 #include "gl_offscreen.h"
 #include "display_internal.h"
 
@@ -62,7 +64,7 @@ struct osmesa {
     void (*DestroyContext)(OSMesaContext);
     function (*GetProcAddress)(const char *);
     OSMesaContext context;
-    uint8_t unused[4]; /* its own picture, of one pixel */
+    uint8_t unused[4]; /* OSMesa's own target, of one pixel */
 };
 #endif
 
@@ -273,7 +275,7 @@ enum display_status gl_offscreen_read(struct gl_offscreen *s, struct display_ima
     if (status != DISPLAY_OK)
         return status;
     s->f.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    for (int y = 0; y < s->height_px; y++) /* OpenGL's rows begin at the bottom */
+    for (int y = 0; y < s->height_px; y++) /* OpenGL's rows are from the bottom up */
         s->f.ReadPixels(0, s->height_px - 1 - y, s->width_px, 1, GL_RGB, GL_UNSIGNED_BYTE,
                         image->pixels + (size_t)y * (size_t)s->width_px * 3);
     return DISPLAY_OK;

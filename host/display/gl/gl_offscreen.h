@@ -1,4 +1,4 @@
-/* gl_offscreen.h - OpenGL without a window: what a display would show, as an image.
+/* gl_offscreen.h - OpenGL without a window; the result is read as an image.
  *
  *     struct gl_offscreen *screen;
  *     if (gl_offscreen_create(640, 480, &screen) != DISPLAY_OK)
@@ -7,11 +7,14 @@
  *     gl_offscreen_read(screen, &image);
  *     gl_offscreen_destroy(screen);
  *
- * There are two ways to a context. EGL makes one without a surface and takes the graphics card if it can. OSMesa is a library that
- * draws by itself: it wants no display, no EGL and no graphics card. Each is looked for when one is asked for: the program
- * starts where there is neither. What is drawn to is encoded as sRGB: with GL_FRAMEBUFFER_SRGB enabled colours are light, and light is mixed.
+ * A context is made in one of two ways. EGL makes one without a surface, and uses the graphics
+ * card if it can. OSMesa is a software renderer in a library: it needs no display, no EGL and
+ * no graphics card. The libraries are loaded when a context is made, so the program starts
+ * without them. The framebuffer is encoded as sRGB: with GL_FRAMEBUFFER_SRGB enabled, colours
+ * are linear light and blending mixes light.
  *
- * Threads. The context belongs to the thread that created it, which can have one at a time. */
+ * Threads. The context belongs to the thread that created it, which can have one at a time.
+ */
 #ifndef LUTETIA_GL_OFFSCREEN_H
 #define LUTETIA_GL_OFFSCREEN_H
 
@@ -27,22 +30,24 @@ enum display_status gl_offscreen_create(int width_px, int height_px, struct gl_o
 void gl_offscreen_destroy(struct gl_offscreen *screen); /* NULL is fine */
 
 enum gl_offscreen_way { GL_OFFSCREEN_EGL, GL_OFFSCREEN_OSMESA };
-/* The same in one way or the other; gl_offscreen_create() is by EGL. Errors: NO_WINDOW says what is missing, which may be that
- * this lutetia was built without OSMesa. */
+/* The same in a given way; gl_offscreen_create() uses EGL. Errors: NO_WINDOW says what is
+ * missing, for example that this lutetia was built without OSMesa. */
 enum display_status gl_offscreen_create_by(enum gl_offscreen_way way, int width_px,
                                            int height_px, struct gl_offscreen **out);
 
-/* What finds functions of OpenGL by their names: that of the screen's own way. */
+/* The function that finds OpenGL's functions by name in this screen's way. */
 typedef void (*gl_offscreen_find(const char *name))(void);
 gl_offscreen_find *gl_offscreen_functions(const struct gl_offscreen *screen);
 
-/* EGL's, without a screen: of OpenGL, by its name; NULL: there is none. */
+/* Finds a function of OpenGL by its name through EGL, without a screen; NULL if there is
+ * none. */
 void (*gl_offscreen_function(const char *name))(void);
 
-/* All of one colour, 0..1, as numbers of sRGB. */
+/* Fills the screen with one colour, given as sRGB numbers 0..1. */
 void gl_offscreen_clear(struct gl_offscreen *screen, const double color[3]);
 
-/* What has been drawn: red, green, blue. Errors: NO_MEMORY. Owns: the caller destroys *image. */
+/* Reads the picture as red, green, blue. Errors: NO_MEMORY. Owns: the caller destroys
+ * *image. */
 enum display_status gl_offscreen_read(struct gl_offscreen *screen, struct display_image *image);
 
 #endif

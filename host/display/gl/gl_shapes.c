@@ -57,8 +57,8 @@ static const char vertex_text[] = "#version 120\n"
                                   "    gl_Position = gl_Vertex;\n"
                                   "}\n";
 
-/* Depth is the distance to the edge, positive inside; a pixel covers depths half a pixel to both sides, and the bar those
- * from 0 to its thickness. */
+/* Depth is the distance to the edge, positive inside. A pixel covers depths of half a pixel
+ * to both sides; the bar covers depths from 0 to its thickness. */
 static const char fragment_text[] =
     "#version 120\n"
     "varying vec4 place;\n"
@@ -97,7 +97,7 @@ static bool program_make(struct gl_shapes *s)
         gl->ShaderSource(shader, 1, &texts[i], NULL);
         gl->CompileShader(shader);
         gl->AttachShader(s->program, shader);
-        gl->DeleteShader(shader); /* goes with the program */
+        gl->DeleteShader(shader); /* freed with the program */
     }
     gl->LinkProgram(s->program);
     gl->GetProgramiv(s->program, GL_LINK_STATUS, &linked);
@@ -138,7 +138,8 @@ void gl_shapes_begin(struct gl_shapes *s, int width_px, int height_px)
     s->gl.Viewport(0, 0, width_px, height_px);
 }
 
-/* A part of a colour, as the framebuffer mixes it: light of a number of sRGB. Source: IEC 61966-2-1. */
+/* Converts a colour's component to the numbers that the framebuffer mixes: linear light, if
+ * it mixes light. Source: IEC 61966-2-1. */
 static float mixed(const struct gl_shapes *s, float number)
 {
     if (!s->light)
@@ -149,7 +150,7 @@ static float mixed(const struct gl_shapes *s, float number)
 void gl_shapes_clear(struct gl_shapes *s, const float color[3])
 {
     s->gl.ClearColor(color[0], color[1], color[2],
-                     1); /* without GL_FRAMEBUFFER_SRGB: as it is */
+                     1); /* unchanged without GL_FRAMEBUFFER_SRGB */
     s->gl.Clear(GL_COLOR_BUFFER_BIT);
 }
 

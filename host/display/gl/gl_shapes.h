@@ -7,21 +7,23 @@
  *     gl_shapes_bars(shapes, bars, count);
  *     gl_shapes_destroy(shapes);
  *
- * All are one shape, a bar: a box with round corners, turned. A fragment's part of it is found from the distance to its
- * edge, so that a bar thinner than a pixel is as much fainter, and nothing depends on multisampling.
+ * Every shape is a bar: a rotated box with round corners. A fragment's coverage is computed
+ * from the distance to the bar's edge, so a bar thinner than a pixel is fainter in proportion,
+ * and nothing depends on multisampling.
  *
  *                      half_length
  *               ,-------------+-------------.
  *              (   radius     | half_width   )  --> (ux, uy)
  *               `---------------------------'
  *
- * A line has half_width as its radius; a disc half_length, too; a box has radius 0. With `ring` above 0 only the outline is
- * drawn, so wide, its middle on the edge.
+ * A line has radius = half_width; a disc has radius = half_width = half_length; a box has
+ * radius 0. With `ring` above 0 only an outline of that width is drawn, centred on the edge.
  *
- * OpenGL 2.1 is enough. Blending, the program and the current colour are left changed. Where the framebuffer is encoded as
- * sRGB light is mixed, else numbers.
+ * OpenGL 2.1 is enough. The calls change the blend state, the program and the current colour.
+ * If the framebuffer is encoded as sRGB, light is mixed, else numbers.
  *
- * Threads. That of the context, which must be the same, and current, in all calls. */
+ * Threads. That of the context, which must be the same, and current, in all calls.
+ */
 #ifndef LUTETIA_GL_SHAPES_H
 #define LUTETIA_GL_SHAPES_H
 
@@ -31,7 +33,7 @@ struct gl_bar {
     float x_px, y_px; /* the middle; y downwards */
     float ux, uy;     /* along its length; of length 1 */
     float half_length_px, half_width_px, radius_px, ring_px;
-    float color[4]; /* 0..1, as numbers of sRGB; and how much it covers of what is behind it */
+    float color[4]; /* sRGB numbers 0..1, and opacity */
 };
 
 struct gl_shapes;
@@ -46,7 +48,7 @@ void gl_shapes_begin(struct gl_shapes *shapes, int width_px, int height_px);
 /* The whole picture in one colour. */
 void gl_shapes_clear(struct gl_shapes *shapes, const float color[3]);
 
-/* Bars, one over the other in that order. */
+/* Draws the bars in order, later ones over earlier ones. */
 void gl_shapes_bars(struct gl_shapes *shapes, const struct gl_bar *bars, int count);
 
 #endif

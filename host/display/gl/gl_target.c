@@ -1,4 +1,5 @@
-/* gl_target.c - see gl_target.h. Copied without GL_FRAMEBUFFER_SRGB, numbers stay what they are. */
+/* gl_target.c - see gl_target.h. GL_FRAMEBUFFER_SRGB is disabled for copies, so numbers are
+ * copied unchanged. */
 #include "gl_target.h"
 #include "display_internal.h"
 
@@ -116,7 +117,7 @@ enum display_status gl_target_read(struct gl_target *t, struct display_image *im
     }
     t->gl.BindFramebuffer(GL_FRAMEBUFFER, t->framebuffer);
     t->gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    for (int y = 0; y < h; y++) /* OpenGL's rows begin at the bottom */
+    for (int y = 0; y < h; y++) /* OpenGL's rows are from the bottom up */
         t->gl.ReadPixels(0, h - 1 - y, w, 1, GL_RGB, GL_UNSIGNED_BYTE,
                          image->pixels + (size_t)y * (size_t)w * 3);
     return DISPLAY_OK;

@@ -1,5 +1,6 @@
-/* gl_target.h - a picture that is drawn to in place of a window's own, and then shown there: so that colours mix as light
- * whatever the window has, and what is shown can be read.
+/* gl_target.h - a framebuffer that is drawn to in place of a window's own, and then copied to
+ * the window. So colours are mixed as light whatever the window's format is, and the picture
+ * can be read back.
  *
  *     struct gl_target *target;
  *     if (gl_target_create(glfwGetProcAddress, &target) != DISPLAY_OK)
@@ -9,7 +10,8 @@
  *     gl_target_show(target);                                // into the window's framebuffer
  *     gl_target_destroy(target);
  *
- * Threads. That of the context, which must be the same, and current, in all calls. */
+ * Threads. That of the context, which must be the same, and current, in all calls.
+ */
 #ifndef LUTETIA_GL_TARGET_H
 #define LUTETIA_GL_TARGET_H
 
@@ -21,14 +23,15 @@ enum display_status gl_target_create(void (*(*function)(const char *name))(void)
                                      struct gl_target **out);
 void gl_target_destroy(struct gl_target *target); /* NULL is fine */
 
-/* What is drawn from now on goes there. Errors: NO_MEMORY (of the graphics card: so large a picture). */
+/* Directs drawing to the target. Errors: NO_MEMORY (the graphics card's, for so large a
+ * picture). */
 enum display_status gl_target_begin(struct gl_target *target, int width_px, int height_px);
 
-/* The picture into the window, which is drawn to from now on. */
+/* Copies the picture into the window, to which drawing then goes. */
 void gl_target_show(struct gl_target *target);
 
-/* What has been drawn: red, green, blue. An image of that size is used again, else one is created. Errors: NO_MEMORY.
- * Owns: the caller destroys *image. */
+/* Reads the picture as red, green, blue. An image of the same size is reused, else one is
+ * created. Errors: NO_MEMORY. Owns: the caller destroys *image. */
 enum display_status gl_target_read(struct gl_target *target, struct display_image *image);
 
 #endif

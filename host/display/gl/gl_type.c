@@ -1,5 +1,6 @@
-/* gl_type.c - see gl_type.h. A page of the atlas is a texture of coverage; a vertex is given in pixels and turned to the
- * viewport here, so there are no matrices, and quads of all pages go through one pass for each page. */
+/* gl_type.c - see gl_type.h. A page of the atlas is a texture of coverage; vertices are
+ * given in pixels and converted to the viewport here, so there are no matrices. Quads are
+ * drawn page by page. */
 #include "gl_type.h"
 #include "display_internal.h"
 #include "gl_light.h"
@@ -47,9 +48,9 @@ struct gl_type {
     GLuint textures[PAGES_MAX];
     int textures_count;
     int width_px, height_px; /* of the viewport */
-    bool light;              /* it is encoded as sRGB */
+    bool light;              /* the framebuffer is encoded as sRGB */
     struct font_quad quads[QUADS];
-    float colors[QUADS][4]; /* of quads that have their own */
+    float colors[QUADS][4]; /* colours of quads that have their own */
 };
 
 struct gl_type_def gl_type_def_default(void)
@@ -130,7 +131,7 @@ void gl_type_begin(struct gl_type *t, int width_px, int height_px)
     font_atlas_begin(t->atlas);
 }
 
-/* What is new on the atlas's pages. */
+/* Copies what is new on the atlas's pages into the textures. */
 static enum display_status textures_update(struct gl_type *t)
 {
     const struct gl *gl = &t->gl;
@@ -187,13 +188,13 @@ static void quads_draw(const struct gl_type *t, int count)
     }
 }
 
-/* A part of a colour, as the framebuffer mixes it. */
+/* Converts a colour's component to the numbers that the framebuffer mixes. */
 static float mixed(const struct gl_type *t, double number)
 {
     return (float)(t->light ? font_light(number, 0) : number);
 }
 
-/* Quads in their order, each in its colour. */
+/* Draws quads in their order, each in its own colour. */
 static void quads_draw_in_order(const struct gl_type *t, int count)
 {
     int bound = -1;
@@ -235,7 +236,7 @@ static void state_reset(const struct gl_type *t)
         t->gl.Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-/* The quads' colours, of the layout's inks. */
+/* Sets the quads' colours from the layout's inks. */
 static enum display_status inks_set(struct gl_type *t, const struct font_layout *layout,
                                     const double ink[3], int count)
 {
@@ -258,7 +259,7 @@ enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *la
                                  const double ink[3])
 {
     enum display_status status = DISPLAY_OK;
-    bool emptied = false; /* nothing has been asked of the atlas since */
+    bool emptied = false; /* the atlas was emptied, and nothing has been requested since */
     int first = 0;
     state_set(t);
     t->gl.Color3f(mixed(t, ink[0]), mixed(t, ink[1]), mixed(t, ink[2]));
@@ -278,7 +279,7 @@ enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *la
         else if (status == DISPLAY_OK)
             quads_draw(t, count);
         emptied = placed == FONT_FULL;
-        if (emptied) /* what has been drawn may go */
+        if (emptied) /* glyphs that have been drawn may be dropped */
             font_atlas_begin(t->atlas);
     }
     state_reset(t);
@@ -301,7 +302,8 @@ static struct font_quad quad_of(const struct gl_type *t, const struct font_atlas
                               .page = slot->page};
 }
 
-/* Asks the atlas for glyphs from *first on, as many as there is room for. FONT_FULL: draw them, begin again, go on. */
+/* Requests glyphs from *first on, as many as the atlas has room for. On FONT_FULL the caller
+ * draws them, empties the atlas, and goes on. */
 static enum font_status glyphs_place(struct gl_type *t, const struct gl_type_glyph *glyphs,
                                      int glyphs_count, int *first, int *count, int *left_out)
 {

@@ -1,4 +1,5 @@
-/* gl_type.h - text on a display, by OpenGL: glyphs of fontpipe's atlas as textures on rectangles.
+/* gl_type.h - text on a display, by OpenGL: glyphs of fontpipe's atlas as textures on
+ * rectangles.
  *
  *     struct gl_type *type;
  *     struct gl_type_def def = gl_type_def_default();
@@ -10,15 +11,17 @@
  *     gl_type_draw(type, &another, &map, 0, 0, red);
  *     gl_type_destroy(type);
  *
- * Pixels of the text are those of the picture: y goes down, and a glyph lies on whole pixels, its place between them being
- * one of the atlas's. What the atlas has drawn anew is copied into the textures; all else stays there from frame to
- * frame. Where a framebuffer is encoded as sRGB, coverage mixes light (as font_painter_layout() does), else numbers.
+ * The text's pixels are the picture's: y goes down. A glyph's rectangle lies on whole pixels;
+ * its fraction of a pixel is one of the atlas's positions. Only glyphs that the atlas has newly
+ * drawn are copied into the textures; the others stay from frame to frame. If the framebuffer
+ * is encoded as sRGB, coverage mixes light (as font_painter_layout() does), else numbers.
  *
- * OpenGL 2.1 is enough. Blending, the texture that is bound, the colour and the alignment of what is unpacked are left
- * changed.
+ * OpenGL 2.1 is enough. The calls change the blend state, the bound texture, the current colour
+ * and the unpack alignment.
  *
  * Errors. What fontpipe says is passed on as BAD_ARGUMENT, its text in display_error().
- * Threads. That of the context, which must be the same, and current, in all calls. */
+ * Threads. That of the context, which must be the same, and current, in all calls.
+ */
 #ifndef LUTETIA_GL_TYPE_H
 #define LUTETIA_GL_TYPE_H
 
@@ -48,17 +51,18 @@ enum display_status gl_type_draw(struct gl_type *type, const struct font_layout 
                                  const struct font_map *map, double x_px, double y_px,
                                  const double ink[3]);
 
-/* Glyphs one by one, each through a map and in a colour of its own, one over the other in that order. */
+/* Glyphs, each through its own map and in its own colour, drawn in order, later ones over
+ * earlier ones. */
 struct gl_type_glyph {
     struct font_face *face;
     uint32_t glyph;
     double size_px;
     struct font_map map; /* as font_atlas_get() has it */
     double x_px, y_px;   /* of the origin; 0 where the map is a distortion */
-    float color[4]; /* 0..1, as numbers of sRGB; and how much it covers of what is behind it */
+    float color[4];      /* sRGB numbers 0..1, and opacity */
 };
-/* A glyph that a distortion sends beyond the horizon, or that is larger than a page, is left out; *left_out counts them.
- * Errors: as gl_type_draw(). */
+/* A glyph that a distortion maps beyond the horizon, or that is larger than a page, is not
+ * drawn; *left_out counts these. Errors: as gl_type_draw(). */
 enum display_status gl_type_glyphs(struct gl_type *type, const struct gl_type_glyph *glyphs,
                                    int count, int *left_out);
 
