@@ -1,4 +1,5 @@
-/* kit.h - what any program in C/Paris begins and ends with: attaching the machine, and its complaints as a status.
+/* kit.h - the frame of a program in C/Paris: attaching the machine, and Paris's error messages
+ * as a status.
  *
  *     if (kit_attach() != KIT_OK)
  *         die(kit_error());
@@ -8,7 +9,8 @@
  *     if (kit_leave() != KIT_OK)           and the first complaint is what the caller hears
  *         die(kit_error());
  *
- * Threads. Paris's calls belong to one thread, and so do these. */
+ * Threads. All calls of Paris and of this header are made by one thread.
+ */
 #ifndef LUTETIA_PARIS_KIT_H
 #define LUTETIA_PARIS_KIT_H
 
@@ -22,19 +24,21 @@ enum kit_status {
     KIT_WRONG_CALL     /* the program called Paris as it may not */
 };
 
-/* Attaches the machine if nothing has yet, and takes Paris's complaints from then on. Errors: NO_DEVICE, NO_MEMORY. */
+/* Attaches the machine if it is not attached yet, and handles Paris's error messages from
+ * then on. Errors: NO_DEVICE, NO_MEMORY. */
 enum kit_status kit_attach(void);
 
-/* Forgets what failed before. */
+/* Forgets earlier failures. */
 void kit_begin(void);
-/* ... and makes the VP set current. */
+/* kit_begin(), and makes the VP set current. */
 void kit_enter(CM_vp_set_id_t set);
 /* The first failure since kit_begin(); OK if there was none. */
 enum kit_status kit_leave(void);
-/* Computes what is pending and waits for it, as between kit_enter() and kit_leave(). */
+/* Computes everything pending and waits for it; includes kit_enter() and kit_leave(). */
 enum kit_status kit_finish(CM_vp_set_id_t set);
 
-/* The failure that kit_attach(), kit_leave() or kit_finish() returned, in one line. */
+/* The message, in one line, of the failure that kit_attach(), kit_leave() or kit_finish()
+ * returned. */
 const char *kit_error(void);
 
 #endif

@@ -72,8 +72,9 @@ static inline void kit_f_least(CM_field_id_t d, CM_field_id_t a, double n)
     CM_f_max_constant_3_1L(d, a, n, KIT_F);
 }
 
-/* Rounds d to a whole number: adding 3 * 2^22 leaves no place for a fraction. To the nearest up to 2^22, to an even one near
- * it up to 2^24; nothing is rounded away from that. */
+/* Rounds d to a whole number: adding 3 * 2^22 leaves no place for a fraction. Numbers up to
+ * 2^22 are rounded to the nearest whole number, numbers up to 2^24 to a near even one.
+ * Larger numbers are whole already. */
 #define KIT_WHOLE 12582912.0
 static inline void kit_f_whole(CM_field_id_t d)
 {
@@ -91,13 +92,15 @@ static inline void kit_f_set(CM_field_id_t d, double n)
     CM_f_move_constant_1L(d, n, KIT_F);
 }
 
-/* d = a of the neighbour whose coordinate along the axis is one greater; the last one's is the first. */
+/* d = a of the neighbour whose coordinate along the axis is one greater; the last
+ * processor's neighbour is the first. */
 static inline void kit_f_next(CM_field_id_t d, CM_field_id_t a, unsigned axis)
 {
     CM_get_from_news_1L(d, a, axis, CM_upward, KIT_FLOAT_BITS);
 }
 
-/* ... one less; the first one's is the last. */
+/* d = a of the neighbour whose coordinate is one less; the first processor's neighbour is
+ * the last. */
 static inline void kit_f_previous(CM_field_id_t d, CM_field_id_t a, unsigned axis)
 {
     CM_get_from_news_1L(d, a, axis, CM_downward, KIT_FLOAT_BITS);

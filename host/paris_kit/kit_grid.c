@@ -34,7 +34,7 @@ void kit_grid_make(struct kit_grid *g, int width, int height)
 void kit_grid_free(struct kit_grid *g)
 {
     if (g->vp_set)
-        CM_deallocate_vp_set(g->vp_set); /* its fields go too */
+        CM_deallocate_vp_set(g->vp_set); /* deallocates the set's fields, too */
     if (g->geometry)
         CM_deallocate_geometry(g->geometry);
     *g = (struct kit_grid){0};

@@ -22,22 +22,23 @@ struct kit_grid {
     CM_vp_set_id_t vp_set;
     CM_geometry_id_t geometry;
     CM_field_id_t x_coord, y_coord; /* of x_bits, y_bits: unsigned */
-    CM_field_id_t context;          /* put aside by kit_grid_narrow(); 1 bit */
+    CM_field_id_t context;          /* the context that kit_grid_narrow() saved; 1 bit */
 };
 
 /* The bits that hold the coordinates 0..length-1. */
 int kit_coordinate_bits(int length);
 
-/* Makes the VP set and its fields, and kit_enter()s it; every processor is active. */
+/* Makes the VP set and its fields, and calls kit_enter(); every processor is active. */
 void kit_grid_make(struct kit_grid *g, int width, int height);
-/* Gives the VP set back with all fields in it. A grid of zeros is fine. */
+/* Deallocates the VP set with all its fields. A grid of zeros is fine. */
 void kit_grid_free(struct kit_grid *g);
 
-/* Puts the context aside and narrows it to x1 <= x < x2, y1 <= y < y2, cut off at the grid's edges. */
+/* Saves the context and narrows it to x1 <= x < x2, y1 <= y < y2, clipped to the grid. */
 void kit_grid_narrow(const struct kit_grid *g, int x1, int y1, int x2, int y2);
 void kit_grid_widen(const struct kit_grid *g);
 
-/* Whole fields, whatever the context: single floats, or unsigned numbers of `bits` that are of `type` (CM_32_bit...) in the array. */
+/* Writes a whole field, whatever the context: single floats, or unsigned numbers of `bits`
+ * bits whose type in the array is `type` (CM_32_bit...). */
 void kit_grid_f_write(const struct kit_grid *g, CM_field_id_t d, const void *floats);
 void kit_grid_f_read(const struct kit_grid *g, void *floats, CM_field_id_t a);
 void kit_grid_u_write(const struct kit_grid *g, CM_field_id_t d, unsigned bits,
