@@ -86,14 +86,18 @@ static enum midi_status sounds_take(struct spring_sound *s, struct stage *stage)
     return status;
 }
 
-enum midi_status spring_sound_hear(struct stage *stage, int fps, double seconds,
-                                   struct spring_sound **out)
+enum midi_status
+spring_sound_hear(struct stage *stage, int fps, double seconds,
+                  enum stage_status (*before)(void *context, struct stage *stage, double now_s),
+                  void *context, struct spring_sound **out)
 {
     const int last = (int)lround(seconds * fps);
     enum midi_status status = spring_sound_create((double)(last + 1) / fps, out);
     stage_clock(stage)->frame_max_s = INFINITY; /* as a film has it: no frame is too late */
     for (int frame = 0; frame <= last && status == MIDI_OK; frame++) {
-        if (stage_frame(stage, (double)frame / fps, NULL) != STAGE_OK)
+        const double now_s = (double)frame / fps;
+        if ((before && before(context, stage, now_s) != STAGE_OK) ||
+            stage_frame(stage, now_s, NULL) != STAGE_OK)
             status = midi_fail(MIDI_BAD_ARGUMENT, "%s", stage_error());
         else
             status = sounds_take(*out, stage);

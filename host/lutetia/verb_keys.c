@@ -1,4 +1,5 @@
 /* verb_keys.c - `lutetia keys`: letters that the keys of a song play, as a sheet of moments, a line, frames or a film. */
+#include "keys_live.h"
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
@@ -21,8 +22,11 @@ struct keys_work {
     const char *text, *map, *font, *axes;
     const char *poster, *sheet, *still, *frames, *video, *sound;
     double size_px[2], second_px, at_s;
-    int picture[2], fps;
-    bool silent;
+    int picture[2], fps, range[2];
+    bool silent, played; /* by a map in Lua */
+    const char *range_text, *theme;
+    struct option_texts sets;
+    struct live_options live;
     struct keys_def def;
     struct keys_type_def type;
     /* made */
@@ -32,13 +36,86 @@ struct keys_work {
     struct font_face *face;
 };
 
-static int options_read(struct keys_work *w, int argc, char **argv, const char **song)
+static bool is_script(const char *map)
+{
+    const size_t length = map ? strlen(map) : 0;
+    return length > 4 && strcmp(map + length - 4, ".lua") == 0;
+}
+
+static bool pictures_wanted(const struct keys_work *w)
+{
+    return w->poster || w->sheet || w->still || w->frames || w->video || w->sound;
+}
+
+static int options_check(struct keys_work *w, const struct option_words *words,
+                         const char **song)
+{
+    *song = words->count ? words->words[0] : NULL;
+    if (words->count > 1)
+        return fail_usage("keys", "it takes one Standard MIDI File, or none for a window");
+    if (w->picture[0] % 2 || w->picture[1] % 2)
+        return fail_usage("keys", "--picture must be even (got %dx%d)", w->picture[0],
+                          w->picture[1]);
+    if (w->size_px[1] > 0 && w->size_px[1] < w->size_px[0])
+        return fail_usage("keys", "--size is the least and the most (got %g,%g)", w->size_px[0],
+                          w->size_px[1]);
+    if (!keys_live_range(w->range_text, w->range))
+        return fail_usage("keys",
+                          "--range must be two notes, an octave or more: c3-c5 (got '%.40s')",
+                          w->range_text);
+    w->played = is_script(w->map);
+    if (w->played) {
+        w->live.map = w->map;
+        w->map = NULL;
+    }
+    if (!*song)
+        return pictures_wanted(w)
+                   ? fail_usage("keys",
+                                "pictures and films are of a song: lutetia keys SONG.mid")
+                   : EXIT_SUCCESS;
+    if (w->played && (w->poster || w->sheet || !(w->still || w->frames || w->video)))
+        return fail_usage("keys",
+                          "what a map in Lua makes of a song is seen by --still, --frames "
+                          "and --video");
+    if (!pictures_wanted(w))
+        w->poster = "out.png";
+    return EXIT_SUCCESS;
+}
+
+static void usage(const struct option_row *rows)
+{
+    puts("usage: lutetia keys [options]\n"
+         "       lutetia keys SONG.mid [options]\n");
+    options_help(rows);
+    puts("\nA key is a letter, its velocity and aftertouch how large it is, its release how "
+         "it goes. Without a song there\nis a window, where what the MIDI server hears plays "
+         "(`lutetia midi serve`), and where there is none the\ncomputer's own keyboard. "
+         "SONG.mid is a Standard MIDI File; `lutetia midi record` makes one of what is "
+         "played.\nA --map that ends in .lua is a script that turns any message into any "
+         "control.");
+}
+
+static int options_read(struct keys_work *w, int argc, char **argv, const char **song,
+                        bool *help)
 {
     const struct option_row rows[] = {
         {"text", 't', OPTION_TEXT, "TEXT",
          "its letters go to the keys played, from the lowest (note names)", &w->text, 0, 0, 0},
-        {"map", 0, OPTION_TEXT, "FILE", "what a key plays: lines like 'c4 A'", &w->map, 0, 0,
+        {"map", 0, OPTION_TEXT, "FILE",
+         "what a key plays: lines like 'c4 A'; or a script, .lua", &w->map, 0, 0, 0},
+        {"param", 0, OPTION_TEXTS, "KEY=VALUE", "for the map's param()", &w->live.params, 0, 0,
          0},
+        {"set", 's', OPTION_TEXTS, "NAME=VALUE", "a control, in a window and through a map",
+         &w->sets, 0, 0, 0},
+        {"range", 0, OPTION_TEXT, "C3-C5", "the keys that have places in a window (c3-c5)",
+         &w->range_text, 0, 0, 0},
+        {"server", 0, OPTION_TEXT, "ADDRESS", "a MIDI server's socket (the user's own)",
+         &w->live.server, 0, 0, 0},
+        {"device", 0, OPTION_TEXT, "NAME", "one of the server's devices (all)", &w->live.device,
+         0, 0, 0},
+        {"filter", 0, OPTION_TEXT, "WORDS",
+         "what is heard of it: channels=1, transpose=12, ...", &w->live.filters, 0, 0, 0},
+        {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours of a window", &w->theme, 0, 0, 0},
         {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
         {"sheet", 0, OPTION_TEXT, "FILE", "twenty moments, PNG", &w->sheet, 0, 0, 0},
@@ -51,8 +128,8 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
         {"sound", 0, OPTION_TEXT, "FILE.wav", "the song as sound, as long as the film",
          &w->sound, 0, 0, 0},
         {"fps", 0, OPTION_INTEGER, "N", "frames a second (30)", &w->fps, 1, 240, 0},
-        {"picture", 0, OPTION_SIZE, "WxH", "of a moment, even (960x360)", w->picture, 2, 8192,
-         0},
+        {"picture", 0, OPTION_SIZE, "WxH", "of a moment or a window, even (960x360)",
+         w->picture, 2, 8192, 0},
         {"font", 0, OPTION_TEXT, "F",
          "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
         {"axes", 0, OPTION_TEXT, "A=V,..", "a variable font's axes: wght=700", &w->axes, 0, 0,
@@ -73,27 +150,10 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
     struct option_words words;
     if (!options_parse("keys", rows, argc, argv, &words))
         return EXIT_USAGE;
-    *song = words.count ? words.words[0] : NULL;
-    if (words.help) {
-        puts("usage: lutetia keys SONG.mid [options]\n");
-        options_help(rows);
-        puts(
-            "\nA key is a letter, its velocity and aftertouch how large it is, its release how "
-            "it goes. SONG.mid is a\nStandard MIDI File; `lutetia midi record` makes one of "
-            "what is played.");
-        *song = NULL;
-        return EXIT_SUCCESS;
-    }
-    if (words.count != 1)
-        return fail_usage("keys", "it takes one Standard MIDI File");
-    if (w->picture[0] % 2 || w->picture[1] % 2)
-        return fail_usage("keys", "--picture must be even (got %dx%d)", w->picture[0],
-                          w->picture[1]);
-    if (w->size_px[1] > 0 && w->size_px[1] < w->size_px[0])
-        return fail_usage("keys", "--size is the least and the most (got %g,%g)", w->size_px[0],
-                          w->size_px[1]);
-    if (!w->poster && !w->sheet && !w->still && !w->frames && !w->video && !w->sound)
-        w->poster = "out.png";
+    *help = words.help;
+    if (!words.help)
+        return options_check(w, &words, song);
+    usage(rows);
     return EXIT_SUCCESS;
 }
 
@@ -340,23 +400,83 @@ static int all_write(struct keys_work *w)
     return status;
 }
 
+/* ---- on a stage ---- */
+
+static struct keys_live live_of(const struct keys_work *w)
+{
+    return (struct keys_live){.face = w->face,
+                              .letters = w->map ? &w->letters : NULL,
+                              .text = w->text,
+                              .theme = w->theme,
+                              .range = {w->range[0], w->range[1]},
+                              .keys = w->def,
+                              .sets = w->sets,
+                              .live = w->live,
+                              .size = {w->picture[0], w->picture[1]}};
+}
+
+static int window_open(struct keys_work *w)
+{
+    char why[300];
+    if (w->map && !keys_letters_file(w->map, &w->letters, why, sizeof why))
+        return fail("keys", "--map: %s", why);
+    int status = type_face_open("keys", w->font, 0, w->axes, &w->face);
+    const struct keys_live live = live_of(w);
+    return status == EXIT_SUCCESS ? keys_live_window(&live) : status;
+}
+
+/* A song through a map in Lua. */
+static int played_write(struct keys_work *w)
+{
+    struct keys_live live = live_of(w);
+    struct sound_def sound = sound_def_default();
+    live.letters = &w->letters;
+    live.text = NULL; /* its letters are given already */
+    live.score = &w->score;
+    live.song = w->song;
+    live.film = stage_film_def_default();
+    live.film.width_px = w->picture[0];
+    live.film.height_px = w->picture[1];
+    live.film.fps = w->fps;
+    live.film.seconds = w->still && !w->frames && !w->video ? w->at_s : seconds_of(w);
+    live.film.still = w->still;
+    live.film.frames = w->frames;
+    live.film.video = w->video;
+    sound.room = true;
+    if (w->frames && folder_make("keys", w->frames) != EXIT_SUCCESS)
+        return EXIT_FAILED;
+    if (w->video && !w->silent &&
+        sound_render_open(&sound, w->song, seconds_of(w), &live.film.sound) != MIDI_OK)
+        fprintf(stderr, "lutetia keys: the film is silent: %s\n", midi_error());
+    int status = keys_live_film(&live);
+    if (live.film.sound >= 0)
+        close(live.film.sound);
+    if (status == EXIT_SUCCESS && w->sound &&
+        sound_render(&sound, w->song, seconds_of(w), w->sound) != MIDI_OK)
+        status = fail("keys", "--sound: %s", midi_error());
+    return status;
+}
+
 int verb_keys(int argc, char **argv)
 {
     static struct keys_work w;
     const char *song = NULL;
+    bool help = false;
     w = (struct keys_work){.font = "EBGaramond12-Regular",
                            .second_px = 160,
                            .picture = {960, 360},
+                           .range_text = "c3-c5",
                            .fps = 30,
                            .def = keys_def_default(),
                            .type = keys_type_def_default()};
-    int status = options_read(&w, argc, argv, &song);
-    if (status != EXIT_SUCCESS || !song)
+    int status = options_read(&w, argc, argv, &song, &help);
+    if (status != EXIT_SUCCESS || help)
         return status;
     interrupt_catch();
-    status = song_take(&w, song);
+    if (song)
+        status = song_take(&w, song);
     if (status == EXIT_SUCCESS)
-        status = all_write(&w);
+        status = !song ? window_open(&w) : w.played ? played_write(&w) : all_write(&w);
     font_face_close(w.face);
     keys_score_finish(&w.score);
     midi_song_destroy(w.song);

@@ -1,4 +1,5 @@
 /* verb_spring.c - `lutetia spring`: words on springs, in a window, in stills and in films. */
+#include "live.h"
 #include "lutetia.h"
 #include "options.h"
 #include "spring_scene.h"
@@ -21,8 +22,12 @@ struct spring {
     struct option_texts sets;
     const char *way, *frames, *save, *session, *replay, *sound_path;
     int size[2];
+    const char *song_path;
     bool controls, silent;
     struct progress progress;
+    struct live_options live_options;
+    struct midi_song *song;
+    struct live live;
 };
 
 static int fail_stage(void)
@@ -53,6 +58,12 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "a word or --network FILE, not both");
     if ((s->film.strip[0] != 1 || s->film.strip[1] != 1) && !s->film.still)
         return fail_usage("spring", "--strip is for a --still");
+    if (s->live_options.map && s->replay)
+        return fail_usage("spring", "a session says what is done: --replay has no --map");
+    if (!s->live_options.map && (s->song_path || s->live_options.server))
+        return fail_usage("spring", "what is played goes through a --map FILE.lua");
+    if (s->live_options.map && !s->song_path && (s->film.still || s->film.video || s->frames))
+        return fail_usage("spring", "a film through a --map is of a --song FILE.mid");
     if (s->sound_path && !s->film.still && !s->film.video && !s->frames)
         return fail_usage("spring", "--sound goes with --video, --frames or --still");
     const double *v = s->scene.view;
@@ -114,8 +125,15 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          &s->scene.column, 0, 1000, 0},
         {"circle", 0, OPTION_NUMBER, "RADIUS", "the baseline goes round a circle",
          &s->scene.circle, 0, 1000, 0},
-        {"script", 0, OPTION_TEXT, "FILE", "clamps that lead masses", &s->scene.script, 0, 0,
+        {"script", 0, OPTION_TEXT, "FILE", "clamps lead masses", &s->scene.script, 0, 0, 0},
+        {"map", 0, OPTION_TEXT, "FILE.lua", "a script: what is played, to controls",
+         &s->live_options.map, 0, 0, 0},
+        {"param", 0, OPTION_TEXTS, "KEY=VALUE", "its param()s", &s->live_options.params, 0, 0,
          0},
+        {"song", 0, OPTION_TEXT, "FILE.mid", "what is played (what the server hears)",
+         &s->song_path, 0, 0, 0},
+        {"server", 0, OPTION_TEXT, "ADDRESS", "a MIDI server's socket (the user's own)",
+         &s->live_options.server, 0, 0, 0},
         {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours and widths", &s->scene.theme, 0,
          0, 0},
         {"size", 0, OPTION_SIZE, "WxH", "pixels of the window or the picture (1280x720)",
@@ -134,13 +152,12 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
          "how pictures are drawn: filtered, or by OpenGL", &s->way, 0, 0, 0},
         {"filter", 0, OPTION_TEXT, "NAME", "of exact pictures (gaussian-fast)", &s->film.filter,
          0, 0, 0},
-        {"sound", 0, OPTION_TEXT, "FILE.wav",
-         "what is heard in the film: clanks, clicks, twangs", &s->sound_path, 0, 0, 0},
+        {"sound", 0, OPTION_TEXT, "FILE.wav", "what is heard in the film", &s->sound_path, 0, 0,
+         0},
         {"silent", 0, OPTION_FLAG, NULL, "no sound in the film", &s->silent, 0, 0, 0},
-        {"save", 0, OPTION_TEXT, "FILE", "the masses and springs at the end; Control S",
-         &s->save, 0, 0, 0},
-        {"session", 0, OPTION_TEXT, "FILE", "what is done in the window, written at its end",
-         &s->session, 0, 0, 0},
+        {"save", 0, OPTION_TEXT, "FILE", "masses and springs at the end; Control S", &s->save,
+         0, 0, 0},
+        {"session", 0, OPTION_TEXT, "FILE", "what is done in the window", &s->session, 0, 0, 0},
         {"replay", 0, OPTION_TEXT, "FILE", "do a session again, in a window or a film",
          &s->replay, 0, 0, 0},
         {"record", 0, OPTION_TEXT, "FILE", "where V in the window records (spring.mp4)",
@@ -178,6 +195,22 @@ static int controls_print(struct stage *stage)
     return EXIT_SUCCESS;
 }
 
+/* ---- what is played ---- */
+
+static int map_begin(struct spring *s, struct stage *stage)
+{
+    enum { LOWEST = 48 };
+    if (!s->live_options.map || s->live.source)
+        return EXIT_SUCCESS;
+    return live_begin("spring", &s->live_options, s->song, LOWEST, NULL, stage, &s->live);
+}
+
+static enum stage_status frame_before(void *context, struct stage *stage, double now_s)
+{
+    const struct spring *s = context;
+    return s->live.player ? live_player_before(s->live.player, stage, now_s) : STAGE_OK;
+}
+
 static bool frame_after(void *context, int frame, int frames)
 {
     struct spring *s = context;
@@ -199,8 +232,13 @@ static int sound_make(struct spring *s)
         spring_scene_finish(&ahead);
         return fail_stage();
     }
+    if (map_begin(s, ahead.stage) != EXIT_SUCCESS) {
+        spring_scene_finish(&ahead);
+        return EXIT_FAILED;
+    }
     enum midi_status status =
-        spring_sound_hear(ahead.stage, s->film.fps, s->film.seconds, &sound);
+        spring_sound_hear(ahead.stage, s->film.fps, s->film.seconds, frame_before, s, &sound);
+    live_end(&s->live); /* another one plays the film */
     spring_scene_finish(&ahead);
     if (status == MIDI_OK && s->film.video && !s->silent)
         status = spring_sound_open(sound, &s->film.sound);
@@ -222,9 +260,10 @@ static int film_make(struct spring *s, struct stage *stage)
     if (s->frames && folder_make("spring", s->frames) != EXIT_SUCCESS)
         return EXIT_FAILED;
     s->film.frames = s->frames;
+    s->film.before = frame_before;
     s->film.after = frame_after;
     s->film.context = s;
-    if (sound_make(s) != EXIT_SUCCESS)
+    if (sound_make(s) != EXIT_SUCCESS || map_begin(s, stage) != EXIT_SUCCESS)
         return EXIT_FAILED;
     enum stage_status status = stage_film(stage, &s->film);
     progress_end(&s->progress);
@@ -237,21 +276,12 @@ static int film_make(struct spring *s, struct stage *stage)
 
 static int window_run(struct spring *s, struct stage *stage)
 {
-    struct stage_window *window;
     s->window.save_path = s->save ? s->save : "spring.springs";
-    enum stage_status status = stage_window_create(stage, &s->window, &window);
-    if (status == STAGE_NO_DISPLAY)
-        return fail("spring",
-                    "%s; run it where there is a desktop, or take --still FILE or --video FILE",
-                    stage_error());
-    if (status != STAGE_OK)
-        return fail_stage();
-    while (status == STAGE_OK && stage_window_open(window) && !interrupted())
-        status = stage_window_turn(window);
-    if (status != STAGE_OK)
-        fail_stage();
-    stage_window_destroy(window);
-    return status == STAGE_OK ? EXIT_SUCCESS : EXIT_FAILED;
+    s->live.verb = "spring";
+    if (map_begin(s, stage) != EXIT_SUCCESS)
+        return EXIT_FAILED;
+    return live_window(&s->live, stage, &s->window,
+                       "run it where there is a desktop, or take --still FILE or --video FILE");
 }
 
 static int spring_run(struct spring *s, struct stage *stage)
@@ -262,6 +292,8 @@ static int spring_run(struct spring *s, struct stage *stage)
         return fail_stage();
     interrupt_catch();
     bool film = s->film.still || s->film.video || s->frames;
+    if (s->song_path && midi_song_read(s->song_path, &s->song) != MIDI_OK)
+        return fail("spring", "--song: %s", midi_error());
     int status = film ? film_make(s, stage) : window_run(s, stage);
     if (status == EXIT_SUCCESS && film && s->save && stage_save(stage, s->save) != STAGE_OK)
         status = fail_stage();
@@ -294,6 +326,8 @@ int verb_spring(int argc, char **argv)
     if (made != STAGE_OK)
         return fail_stage();
     status = spring_run(&s, scene.stage);
+    live_end(&s.live);
+    midi_song_destroy(s.song);
     spring_scene_finish(&scene);
     return status;
 }

@@ -21,6 +21,9 @@ void script_stop_if_due(lua_State *L, int level)
     char text[96];
     if (script_interrupted(script))
         snprintf(text, sizeof text, "interrupted");
+    else if (late(script) && script->answers)
+        snprintf(text, sizeof text, "stopped after %g seconds: an answer takes less",
+                 script->config->timeout_s);
     else if (late(script))
         snprintf(text, sizeof text,
                  "stopped after %g seconds; --timeout says how long a script may take",

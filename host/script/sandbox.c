@@ -80,6 +80,11 @@ static void hook(lua_State *L, lua_Debug *event)
     }
 }
 
+void script_hook_set(lua_State *L)
+{
+    lua_sethook(L, hook, LUA_MASKCOUNT, 1000);
+}
+
 /* setmetatable: as Lua's, but nothing gets a finalizer. One would run in the midst of whatever allocates, and Lua calls no hook
  * there: nothing but the end of the process would stop it. Lua looks for __gc only here; a __gc that a metatable gets later
  * is never called. */
@@ -338,5 +343,5 @@ void script_sandbox_open(lua_State *L)
     lua_pushinteger(L, (lua_Integer)script->config->seed);
     lua_call(L, 1, 0);
     lua_pop(L, 1);
-    lua_sethook(L, hook, LUA_MASKCOUNT, 1000);
+    script_hook_set(L);
 }

@@ -24,7 +24,7 @@ struct script_config script_config_default(const char *path)
 /* ---- memory ---- */
 
 /* Lua's memory is counted with the rest. */
-static void *allocate(void *context, void *block, size_t old, size_t new)
+void *script_allocate(void *context, void *block, size_t old, size_t new)
 {
     struct script *script = context;
     old = block ? old : 0;
@@ -46,7 +46,7 @@ static void *allocate(void *context, void *block, size_t old, size_t new)
 /* ---- the run ---- */
 
 /* Errors that are no text. */
-static int message(lua_State *L)
+int script_message(lua_State *L)
 {
     if (lua_type(L, 1) != LUA_TSTRING)
         lua_pushfstring(L, "error: (a %s)", luaL_typename(L, 1));
@@ -66,10 +66,25 @@ static void one_line(char *text)
     }
 }
 
+void script_failure_tell(lua_State *L, int status)
+{
+    struct script *script = script_of(L);
+    const char *text = lua_tostring(L, -1);
+    char line[1200];
+    if (status == LUA_ERRMEM ||
+        (script->memory_short && text && strcmp(text, "not enough memory") == 0))
+        snprintf(line, sizeof line, "%s: not enough memory; --memory allows %.0f MB",
+                 script->config->path, (double)script->config->memory_bytes * 1e-6);
+    else
+        snprintf(line, sizeof line, "%s", text ? text : "error");
+    one_line(line);
+    script_error_tell(script, line);
+}
+
 static enum script_status perform(struct script *script, lua_State *L)
 {
     const char *path = script->config->path;
-    lua_pushcfunction(L, message);
+    lua_pushcfunction(L, script_message);
     lua_pushcfunction(L, script_open);
     int status = lua_pcall(L, 0, 0, 1);
     if (status == LUA_OK)
@@ -78,16 +93,7 @@ static enum script_status perform(struct script *script, lua_State *L)
         status = lua_pcall(L, 0, 0, 1);
     if (status == LUA_OK)
         return SCRIPT_OK;
-    const char *text = lua_tostring(L, -1);
-    char line[1200];
-    if (status == LUA_ERRMEM ||
-        (script->memory_short && text && strcmp(text, "not enough memory") == 0))
-        snprintf(line, sizeof line, "%s: not enough memory; --memory allows %.0f MB", path,
-                 (double)script->config->memory_bytes * 1e-6);
-    else
-        snprintf(line, sizeof line, "%s", text ? text : "error");
-    one_line(line);
-    script_error_tell(script, line);
+    script_failure_tell(L, status);
     return script_interrupted(script) ? SCRIPT_INTERRUPTED : SCRIPT_FAILED;
 }
 
@@ -142,7 +148,7 @@ enum script_status script_run(const struct script_config *config,
     }
     if (config->timeout_s > 0)
         script.deadline_s = script.began_s + config->timeout_s;
-    lua_State *L = lua_newstate(allocate, self);
+    lua_State *L = lua_newstate(script_allocate, self);
     if (!L) {
         snprintf(text, sizeof text, "no memory for Lua; --memory must be more than %zu bytes",
                  config->memory_bytes);

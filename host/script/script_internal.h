@@ -37,7 +37,9 @@ struct script {
     double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
     size_t memory_bytes;        /* taken */
     bool memory_short;          /* Lua was refused some */
-    bool over;                  /* only finalizers run, which can call the library no more */
+    bool
+        answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
+    bool over; /* only finalizers run, which can call the library no more */
     bool asked[SCRIPT_WORDS_MAX], words_checked;
     int papers_made;
     uint64_t seeds;                                /* taken by what happens by chance */
@@ -72,6 +74,14 @@ void script_watchdog_end(struct script *script);
 void script_watchdog_pause(struct script *script, bool paused);
 /* While papers are at work, which look at the clock between their steps, it waits longer: kernels may have to be compiled. */
 void script_at_work(struct script *script, bool at_work);
+
+/* Lua's allocator, whose context is the script; the handler of errors that are no text; and what the host is told of an error that
+ * is on the top, once a call has failed with that status. */
+void *script_allocate(void *context, void *block, size_t old, size_t new);
+int script_message(lua_State *L);
+void script_failure_tell(lua_State *L, int status);
+/* Looks at the clock every thousand instructions from here on. */
+void script_hook_set(lua_State *L);
 
 /* ---- what the host is told ---- */
 
@@ -169,6 +179,10 @@ void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *she
                           double *amount);
 int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
                                    const char *name);
+/* Pushes a message of an instrument's as a table. */
+struct midi_message;
+void script_midi_push(lua_State *L, const struct midi_message *m);
+
 /* ---- the library ---- */
 
 /* Makes the metatable of a kind of userdata; gc may be NULL. */
@@ -187,14 +201,14 @@ extern const char script_mask_type[], script_papers_type[], script_paper_type[],
     script_brush_type[], script_picture_type[], script_spring_type[], script_network_type[];
 
 /* The rows of each file. */
-extern const luaL_Reg script_sandbox_functions[], script_mask_makers[], script_mask_methods[],
-    script_mask_operators[], script_papers_operators[], script_papers_functions[],
-    script_paper_methods[], script_paper_look_methods[], script_paper_time_methods[],
-    script_paper_time_functions[], script_brush_paper_methods[], script_brush_methods[],
-    script_stroke_methods[], script_stroke_functions[], script_technique_methods[],
-    script_picture_paper_methods[], script_picture_functions[], script_picture_methods[],
-    script_spring_makers[], script_spring_word_makers[], script_network_methods[],
-    script_network_word_methods[], script_network_key_methods[];
+extern const luaL_Reg script_sandbox_functions[], script_song_functions[], script_mask_makers[],
+    script_mask_methods[], script_mask_operators[], script_papers_operators[],
+    script_papers_functions[], script_paper_methods[], script_paper_look_methods[],
+    script_paper_time_methods[], script_paper_time_functions[], script_brush_paper_methods[],
+    script_brush_methods[], script_stroke_methods[], script_stroke_functions[],
+    script_technique_methods[], script_picture_paper_methods[], script_picture_functions[],
+    script_picture_methods[], script_spring_makers[], script_spring_word_makers[],
+    script_network_methods[], script_network_word_methods[], script_network_key_methods[];
 
 /* All of them: what a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

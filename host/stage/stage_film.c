@@ -154,7 +154,11 @@ static enum stage_status frames_run(struct film *f)
     int last = (int)lround(def->seconds * def->fps);
     enum stage_status status = STAGE_OK;
     for (int frame = 0; frame <= last && status == STAGE_OK; frame++) {
-        status = stage_frame(f->stage, (double)frame / def->fps, NULL);
+        const double now_s = (double)frame / def->fps;
+        if (def->before)
+            status = def->before(def->context, f->stage, now_s);
+        if (status == STAGE_OK)
+            status = stage_frame(f->stage, now_s, NULL);
         if (status == STAGE_OK)
             status = frame_put(f, frame, last);
         if (status == STAGE_OK && def->after && def->after(def->context, frame + 1, last + 1))

@@ -29,6 +29,8 @@ struct stage_film_def {
     double seconds;          /* 5 */
     enum stage_film_way way; /* EXACT */
     const char *filter;      /* of exact pictures; "gaussian-fast" */
+    /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */
+    enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     /* Called after each picture; true: no more, what is whole by then is kept. NULL: nothing is called. */
     bool (*after)(void *context, int frame, int frames);
     void *context;

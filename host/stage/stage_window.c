@@ -230,6 +230,7 @@ static const struct {
     {'U', false, false, "U", "undo", key_undo},
     {INPUT_KEY_TAB, false, false, "Tab", "the panel of controls", key_panel},
     {'V', false, false, "V", "record a film, and end it", key_record},
+    {'V', false, true, "Control V", "record, where keys play letters", key_record},
     {'S', false, true, "Control S", "save", key_save},
     {'O', false, true, "Control O", "load what was saved", key_load},
     {'F', false, false, "F", "fill the screen", key_full},
@@ -281,6 +282,10 @@ static void hand_take(struct stage_window *w, const struct input_event *e)
 
 static void event_take(struct stage_window *w, const struct input_event *e)
 {
+    const bool key = e->kind == INPUT_KEY_DOWN || e->kind == INPUT_KEY_UP ||
+                     e->kind == INPUT_KEY_REPEAT || e->kind == INPUT_FOCUS_LOST;
+    if (key && w->def.key && w->def.key(w->def.context, e))
+        return;
     if (stage_panel_input(w->panel, w->stage, e)) {
         if (stage_panel_message(w->panel)[0])
             say(w, "%s", stage_panel_message(w->panel));
@@ -371,7 +376,10 @@ enum stage_status stage_window_turn(struct stage_window *w)
         wait_s = fmax(0, w->pace.due_s - input_now_s());
     }
     double began_s = input_now_s();
-    enum stage_status status = stage_frame(w->stage, began_s, NULL);
+    enum stage_status status =
+        w->def.before ? w->def.before(w->def.context, w->stage, began_s) : STAGE_OK;
+    if (status == STAGE_OK)
+        status = stage_frame(w->stage, began_s, NULL);
     if (status == STAGE_OK)
         status = frame_draw(w, began_s);
     recording_add(w, began_s);
@@ -439,6 +447,16 @@ const char *stage_window_recorded(const struct stage_window *w)
 const char *stage_window_message(const struct stage_window *w)
 {
     return w->message;
+}
+
+enum stage_status stage_window_picture(struct stage_window *w, struct display_image *image)
+{
+    return stage_renderer_read(w->renderer, image);
+}
+
+void stage_window_say(struct stage_window *w, const char *text)
+{
+    say(w, "%s", text);
 }
 
 struct stage_panel *stage_window_panel(struct stage_window *w)

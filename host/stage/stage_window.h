@@ -15,6 +15,9 @@
 #ifndef LUTETIA_STAGE_WINDOW_H
 #define LUTETIA_STAGE_WINDOW_H
 
+#include <display.h>
+#include <input.h>
+
 #include "panel.h"
 #include "stage.h"
 
@@ -25,6 +28,11 @@ struct stage_window_def {
     const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
     const char *font;        /* of the panel; "DejaVuSans" */
     double fps;              /* pictures a second at most; 60 */
+    /* Before a turn's steps: whoever plays the stage besides hands does so here; what it does is in the same picture. And first
+     * of all for a key that goes down or up: true, it was taken. NULL: nobody does. */
+    enum stage_status (*before)(void *context, struct stage *stage, double now_s);
+    bool (*key)(void *context, const struct input_event *event);
+    void *context;
 };
 struct stage_window_def stage_window_def_default(void);
 
@@ -47,6 +55,12 @@ const char *stage_window_recorded(const struct stage_window *w);
 
 /* What was said last on the screen; "" if nothing was. */
 const char *stage_window_message(const struct stage_window *w);
+
+/* What the last turn drew, as rgb; the image is made larger or smaller as needed. Errors: NO_MEMORY. */
+enum stage_status stage_window_picture(struct stage_window *w, struct display_image *image);
+
+/* Says something on the screen for some seconds. */
+void stage_window_say(struct stage_window *w, const char *text);
 
 /* Its panel, for tests. */
 struct stage_panel *stage_window_panel(struct stage_window *w);

@@ -5,16 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUSTAIN = 64 };
+enum { SUSTAIN = 64, ALL_SOUND_OFF = 120, ALL_NOTES_OFF = 123 };
+
+/* Of the most size: nobody sees what is less. */
+#define FADED 1e-3
 
 struct keys_def keys_def_default(void)
 {
     return (struct keys_def){.attack_s = 0.03, .release_s = 0.25, .pressure = 1};
 }
 
-/* What a song does, as it goes by. */
-struct reading {
-    struct keys_score *score;
+/* What is down, as messages go by. */
+struct keys_hands {
     int notes_room, pressures_room;
     int sounding[MIDI_CHANNELS][MIDI_NOTES]; /* 1 + the note's index; 0: none */
     bool kept[MIDI_CHANNELS][MIDI_NOTES];    /* let go, and the pedal is down */
@@ -23,7 +25,7 @@ struct reading {
     bool failed;
 };
 
-static void *one_more(struct reading *r, void *items, int count, int *room, size_t bytes)
+static void *one_more(struct keys_hands *r, void *items, int count, int *room, size_t bytes)
 {
     if (count < *room)
         return items;
@@ -37,19 +39,20 @@ static void *one_more(struct reading *r, void *items, int count, int *room, size
     return grown;
 }
 
-static void note_end(struct reading *r, int channel, int note)
+static void note_end(struct keys_score *s, int channel, int note)
 {
+    struct keys_hands *r = s->hands;
     const int index = r->sounding[channel][note] - 1;
     if (index >= 0)
-        r->score->notes[index].end_s = r->time_s;
+        s->notes[index].end_s = r->time_s;
     r->sounding[channel][note] = 0;
     r->kept[channel][note] = false;
 }
 
-static void note_begin(struct reading *r, int channel, int note, int velocity)
+static void note_begin(struct keys_score *s, int channel, int note, int velocity)
 {
-    struct keys_score *s = r->score;
-    note_end(r, channel, note);
+    struct keys_hands *r = s->hands;
+    note_end(s, channel, note);
     s->notes = one_more(r, s->notes, s->notes_count, &r->notes_room, sizeof *s->notes);
     if (r->failed)
         return;
@@ -62,29 +65,31 @@ static void note_begin(struct reading *r, int channel, int note, int velocity)
     r->sounding[channel][note] = s->notes_count;
 }
 
-static void note_let_go(struct reading *r, int channel, int note, int velocity)
+static void note_let_go(struct keys_score *s, int channel, int note, int velocity)
 {
+    struct keys_hands *r = s->hands;
     const int index = r->sounding[channel][note] - 1;
     if (index < 0)
         return;
-    r->score->notes[index].release = velocity / 127.0;
+    s->notes[index].release = velocity / 127.0;
     if (r->pedal[channel])
         r->kept[channel][note] = true;
     else
-        note_end(r, channel, note);
+        note_end(s, channel, note);
 }
 
-static void pedal_set(struct reading *r, int channel, bool down)
+static void pedal_set(struct keys_score *s, int channel, bool down)
 {
+    struct keys_hands *r = s->hands;
     r->pedal[channel] = down;
     for (int i = 0; i < MIDI_NOTES && !down; i++)
         if (r->kept[channel][i])
-            note_end(r, channel, i);
+            note_end(s, channel, i);
 }
 
-static void pressure_add(struct reading *r, int channel, int note, int value)
+static void pressure_add(struct keys_score *s, int channel, int note, int value)
 {
-    struct keys_score *s = r->score;
+    struct keys_hands *r = s->hands;
     s->pressures =
         one_more(r, s->pressures, s->pressures_count, &r->pressures_room, sizeof *s->pressures);
     if (!r->failed)
@@ -92,32 +97,87 @@ static void pressure_add(struct reading *r, int channel, int note, int value)
             (struct keys_pressure){r->time_s, value / 127.0, note, channel};
 }
 
-static void message_take(struct reading *r, const struct midi_song_event *e)
+static void control_take(struct keys_score *s, int channel, int control, int value)
 {
-    const int channel = e->bytes[0] & 15, data = e->bytes[1];
-    switch (e->bytes[0] & 0xf0) {
+    if (control == SUSTAIN)
+        pedal_set(s, channel, value >= 64);
+    if (control != ALL_SOUND_OFF && control != ALL_NOTES_OFF)
+        return;
+    for (int i = 0; i < MIDI_NOTES; i++)
+        note_let_go(s, channel, i, 64);
+}
+
+bool keys_score_take(struct keys_score *s, double time_s, const uint8_t *bytes)
+{
+    const int channel = bytes[0] & 15, data = bytes[1];
+    s->hands->time_s = time_s;
+    switch (bytes[0] & 0xf0) {
     case MIDI_NOTE_ON:
-        if (e->bytes[2])
-            note_begin(r, channel, data, e->bytes[2]);
+        if (bytes[2])
+            note_begin(s, channel, data, bytes[2]);
         else
-            note_let_go(r, channel, data, 64);
+            note_let_go(s, channel, data, 64);
         break;
     case MIDI_NOTE_OFF:
-        note_let_go(r, channel, data, e->bytes[2]);
+        note_let_go(s, channel, data, bytes[2]);
         break;
     case MIDI_POLY_PRESSURE:
-        pressure_add(r, channel, data, e->bytes[2]);
+        pressure_add(s, channel, data, bytes[2]);
         break;
     case MIDI_PRESSURE:
-        pressure_add(r, channel, -1, data);
+        pressure_add(s, channel, -1, data);
         break;
     case MIDI_CONTROL:
-        if (data == SUSTAIN)
-            pedal_set(r, channel, e->bytes[2] >= 64);
+        control_take(s, channel, data, bytes[2]);
         break;
     default:
         break;
     }
+    return !s->hands->failed;
+}
+
+bool keys_score_begin(const struct keys_def *def, struct keys_score *out)
+{
+    *out = (struct keys_score){.def = *def, .hands = calloc(1, sizeof *out->hands)};
+    return out->hands != NULL;
+}
+
+void keys_score_range(struct keys_score *s, int lowest, int highest)
+{
+    s->keys_count = 0;
+    for (int i = 0; i < MIDI_NOTES; i++) {
+        const bool in = i >= lowest && i <= highest;
+        s->rank[i] = in ? s->keys_count : -1;
+        if (in)
+            s->keys[s->keys_count++] = i;
+    }
+}
+
+/* Of a sounding note all pressures since its beginning count. */
+static void pressures_forget(struct keys_score *s, double before_s)
+{
+    int kept = 0;
+    for (int i = 0; i < s->pressures_count; i++)
+        if (s->pressures[i].time_s >= before_s)
+            s->pressures[kept++] = s->pressures[i];
+    s->pressures_count = kept;
+}
+
+void keys_score_forget(struct keys_score *s, double time_s)
+{
+    double first_s = time_s;
+    int kept = 0;
+    for (int i = 0; i < s->notes_count; i++) {
+        const struct keys_note n = s->notes[i];
+        if (n.end_s < time_s && keys_note_level(s, i, time_s) < FADED)
+            continue;
+        if (s->hands->sounding[n.channel][n.note] == i + 1)
+            s->hands->sounding[n.channel][n.note] = kept + 1;
+        first_s = fmin(first_s, n.begin_s);
+        s->notes[kept++] = n;
+    }
+    s->notes_count = kept;
+    pressures_forget(s, first_s);
 }
 
 /* Which keys are played, from the lowest; notes that nobody let go end with the song. */
@@ -138,18 +198,16 @@ static void keys_find(struct keys_score *s)
 bool keys_score_make(const struct keys_def *def, struct midi_song *song, struct keys_score *out,
                      bool *empty)
 {
-    struct reading r = {.score = out};
-    *out = (struct keys_score){.def = *def};
     const struct midi_song_info info = midi_song_info(song);
-    for (size_t i = 0; i < info.events_count && !r.failed; i++) {
+    bool good = keys_score_begin(def, out);
+    for (size_t i = 0; good && i < info.events_count; i++) {
         const struct midi_song_event e = midi_song_event(song, i);
-        r.time_s = (double)e.time_ns / 1e9;
         if (e.kind == MIDI_SONG_MESSAGE)
-            message_take(&r, &e);
+            good = keys_score_take(out, (double)e.time_ns / 1e9, e.bytes);
     }
     out->seconds = (double)info.end_ns / 1e9;
-    *empty = !r.failed && out->notes_count == 0;
-    if (r.failed || *empty) {
+    *empty = good && out->notes_count == 0;
+    if (!good || *empty) {
         keys_score_finish(out);
         return false;
     }
@@ -161,6 +219,7 @@ void keys_score_finish(struct keys_score *s)
 {
     free(s->notes);
     free(s->pressures);
+    free(s->hands);
     *s = (struct keys_score){0};
 }
 

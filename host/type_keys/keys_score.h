@@ -42,12 +42,26 @@ struct keys_score {
     int keys[MIDI_NOTES], keys_count; /* those that are played, from the lowest */
     int rank[MIDI_NOTES];             /* where a key is among them; -1: it is not played */
     double seconds;
+    struct keys_hands *hands; /* what is down, as messages go by */
 };
 
 /* False: no memory (*empty false), or no note is in the song (*empty true). Owns: the caller finishes *out. */
 bool keys_score_make(const struct keys_def *def, struct midi_song *song, struct keys_score *out,
                      bool *empty);
 void keys_score_finish(struct keys_score *score);
+
+/* ---- as it is played ---- */
+
+/* No note yet, and no key. False: no memory. Owns: the caller finishes *out, also then. */
+bool keys_score_begin(const struct keys_def *def, struct keys_score *out);
+/* These keys are those that are played. */
+void keys_score_range(struct keys_score *score, int lowest, int highest);
+/* A message with its status byte; times never go back. False: no memory. */
+bool keys_score_take(struct keys_score *score, double time_s, const uint8_t *bytes);
+/* Notes that have ended and faded are forgotten: what is played for hours takes no more memory than its loudest minute. */
+void keys_score_forget(struct keys_score *score, double time_s);
+
+/* ---- how large ---- */
 
 /* 0..1. */
 double keys_note_level(const struct keys_score *score, int index, double time_s);

@@ -32,6 +32,7 @@ static const struct {
      "language:S anchor:n "
      "right_to_left:b axes:S darken:n corners:t warp:S"},
     {NULL, "image", "snn", ""},
+    {NULL, "song", "S", ""},
     {NULL, "mask", "iif", ""},
     {NULL, "path", "Dn", ""},
     {NULL, "svg", "Sn", ""},

@@ -1,0 +1,331 @@
+/* keys_actor.c - see keys_actor.h. */
+#include "keys_actor.h"
+
+#include <keys_picture.h>
+#include <text.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OCTAVE = 12, OWN_ROWS = 5, AXES = 2, CHANNEL_COLORS = 4 };
+
+static const double FILL = 0.94; /* of a picture's width is for letters, as in keys_picture.c */
+static const double FORGET_S = 0.5; /* between looks for notes that have faded */
+
+/* All doubles, for the table's sake. */
+struct settings {
+    double size, attack, release, pressure, slant, axis[AXES];
+};
+
+struct keys_actor {
+    struct font_face *face;
+    struct font_shaper *shaper;
+    struct keys_score score;
+    struct keys_letters letters;
+    struct settings set;
+    struct stage_control rows[OWN_ROWS + AXES];
+    int rows_count;
+    const char *axes[AXES]; /* tags of the rows behind the own ones */
+    double time_s, forgotten_s;
+    int fit_px[2]; /* the picture that fit_size_px is for */
+    double fit_size_px;
+};
+
+struct keys_actor_def keys_actor_def_default(void)
+{
+    return (struct keys_actor_def){.range = {48, 72}, .keys = keys_def_default()};
+}
+
+/* ---- controls ---- */
+
+static double *setting(struct keys_actor *k, int index)
+{
+    struct settings *s = &k->set;
+    double *const all[OWN_ROWS] = {&s->size, &s->attack, &s->release, &s->pressure, &s->slant};
+    return index < OWN_ROWS ? all[index] : &s->axis[index - OWN_ROWS];
+}
+
+static double row_read(void *actor, int index)
+{
+    return *setting(actor, index);
+}
+
+static enum stage_status row_write(void *actor, int index, double value)
+{
+    struct keys_actor *k = actor;
+    *setting(k, index) = value;
+    k->score.def = (struct keys_def){
+        .attack_s = k->set.attack, .release_s = k->set.release, .pressure = k->set.pressure};
+    if (index >= OWN_ROWS &&
+        font_face_axis_set(k->face, k->axes[index - OWN_ROWS], value) != FONT_OK)
+        return stage_fail(STAGE_FAILED, "%s", font_error());
+    return STAGE_OK;
+}
+
+static const struct stage_control own_rows[OWN_ROWS] = {
+    {"size", "", 0.05, 4, 1, STAGE_LOGARITHMIC, NULL, "of all letters; 1 is as large as fits",
+     row_read, row_write, 0},
+    {"attack", "s", 0, 2, 0.03, STAGE_LINEAR, NULL,
+     "until a letter is as large as its velocity", row_read, row_write, 1},
+    {"release", "s", 0, 10, 0.25, STAGE_LOGARITHMIC, NULL, "until it is a third, once let go",
+     row_read, row_write, 2},
+    {"pressure", "", 0, 1, 1, STAGE_LINEAR, NULL, "what aftertouch adds", row_read, row_write,
+     3},
+    {"slant", "", -1, 1, 0, STAGE_LINEAR, NULL, "to the right for each up", row_read, row_write,
+     4}};
+
+/* The rows of the axes that the face has. */
+static void axes_find(struct keys_actor *k)
+{
+    static const char *const tags[AXES] = {"wght", "wdth"}, *const names[AXES] = {"weight",
+                                                                                  "width"};
+    struct font_face_info info;
+    struct font_axis axis;
+    font_face_describe(k->face, &info);
+    for (int i = 0; i < AXES; i++)
+        for (int a = 0; a < info.axes_count; a++) {
+            if (font_face_axis(k->face, a, &axis) != FONT_OK || strcmp(axis.tag, tags[i]) != 0)
+                continue;
+            const int row = k->rows_count, at = row - OWN_ROWS;
+            k->axes[at] = tags[i];
+            k->set.axis[at] = axis.value;
+            k->rows[row] = (struct stage_control){
+                names[i],   "",           axis.least, axis.most,
+                axis.usual, STAGE_LINEAR, NULL,       "of the font's letters",
+                row_read,   row_write,    row};
+            k->rows_count++;
+            break;
+        }
+}
+
+static const struct stage_control *keys_controls(void *actor, int *count)
+{
+    const struct keys_actor *k = actor;
+    *count = k->rows_count;
+    return k->rows;
+}
+
+/* ---- time ---- */
+
+static enum stage_status keys_step(void *actor, double dt_s)
+{
+    struct keys_actor *k = actor;
+    k->time_s += dt_s;
+    if (k->time_s > k->forgotten_s + FORGET_S) {
+        keys_score_forget(&k->score, k->time_s);
+        k->forgotten_s = k->time_s;
+    }
+    return STAGE_OK;
+}
+
+/* Nothing sounds any more; its keys have their places still. */
+static enum stage_status silence(struct keys_actor *k)
+{
+    struct keys_score fresh;
+    if (!keys_score_begin(&k->score.def, &fresh)) {
+        keys_score_finish(&fresh);
+        return stage_fail(STAGE_NO_MEMORY, "no memory for notes");
+    }
+    memcpy(fresh.keys, k->score.keys, sizeof fresh.keys);
+    memcpy(fresh.rank, k->score.rank, sizeof fresh.rank);
+    fresh.keys_count = k->score.keys_count;
+    keys_score_finish(&k->score);
+    k->score = fresh;
+    return STAGE_OK;
+}
+
+static enum stage_status keys_keep(void *actor, void **state)
+{
+    const struct keys_actor *k = actor;
+    struct settings *kept = malloc(sizeof *kept);
+    *state = kept;
+    if (!kept)
+        return stage_fail(STAGE_NO_MEMORY, "no memory to keep letters as they are");
+    *kept = k->set;
+    return STAGE_OK;
+}
+
+static enum stage_status keys_restore(void *actor, const void *state)
+{
+    struct keys_actor *k = actor;
+    const struct settings kept = *(const struct settings *)state;
+    enum stage_status status = silence(k);
+    for (int i = 0; status == STAGE_OK && i < k->rows_count; i++) {
+        k->set = kept;
+        status = row_write(k, i, *setting(k, i));
+    }
+    return status;
+}
+
+/* ---- pictures ---- */
+
+static void size_fit(struct keys_actor *k, const struct stage_look *look)
+{
+    if (k->fit_px[0] == look->width_px && k->fit_px[1] == look->height_px)
+        return;
+    k->fit_px[0] = look->width_px;
+    k->fit_px[1] = look->height_px;
+    if (keys_type_fit(k->face, &k->score, &k->letters, look->width_px, look->height_px,
+                      &k->fit_size_px) != FONT_OK)
+        k->fit_size_px = look->height_px / 4.0;
+}
+
+/* Sheared along its baseline. */
+static void slant_from(struct stage_draw_list *list, int begin, double slant)
+{
+    for (int i = begin; i < list->count; i++)
+        list->items[i].glyph.map = (struct font_map){FONT_AFFINE, {1, -slant, 0, 0, 1, 0}};
+}
+
+static void letter_draw(struct keys_actor *k, int key, double size, double x, double y,
+                        const struct stage_look *look, struct stage_color color,
+                        struct stage_draw_list *list)
+{
+    struct font_layout layout = {0};
+    const char *letter = k->letters.of[key];
+    if (size < 0.5 || !letter[0])
+        return;
+    size = fmin(size, FONT_SIDE_MAX / 2);
+    if (font_shaper_layout(k->shaper, letter, strlen(letter), size, NULL, &layout) == FONT_OK) {
+        const double half = layout.width_px / 2; /* whole, also at the edges */
+        const int begin = list->count;
+        x = fmax(half, fmin(x, look->width_px - half)) - half;
+        stage_draw_text(list, &layout, x, y, color);
+        slant_from(list, begin, k->set.slant);
+    }
+    font_layout_finish(&layout);
+}
+
+static void keys_draw(void *actor, const struct stage_look *look, struct stage_draw_list *list)
+{
+    static const enum stage_theme_color inks[CHANNEL_COLORS] = {
+        STAGE_COLOR_LETTER, STAGE_COLOR_SPRING_STRETCHED, STAGE_COLOR_SPRING_SQUEEZED,
+        STAGE_COLOR_MASS_HELD};
+    struct keys_actor *k = actor;
+    const double time_s = k->time_s + look->fraction * look->step_s;
+    size_fit(k, look);
+    const double most = k->fit_size_px * k->set.size,
+                 part = FILL * look->width_px / k->score.keys_count;
+    const double left = (1 - FILL) / 2 * look->width_px;
+    stage_draw_view(list, STAGE_VIEW_PIXELS);
+    for (int i = 0; i < k->score.keys_count; i++) {
+        int note;
+        const double level = keys_key_level(&k->score, k->score.keys[i], time_s, &note);
+        const int channel = note < 0 ? 0 : k->score.notes[note].channel;
+        letter_draw(k, k->score.keys[i], most * level, left + (i + 0.5) * part,
+                    look->height_px / 2.0 + 0.25 * most, look,
+                    look->theme->colors[inks[channel % CHANNEL_COLORS]], list);
+    }
+}
+
+/* ---- an actor ---- */
+
+static void keys_destroy(void *actor)
+{
+    struct keys_actor *k = actor;
+    font_shaper_destroy(k->shaper);
+    keys_score_finish(&k->score);
+    free(k);
+}
+
+static const struct stage_actor_kind keys_kind = {.name = "keys",
+                                                  .controls = keys_controls,
+                                                  .step = keys_step,
+                                                  .draw = keys_draw,
+                                                  .keep = keys_keep,
+                                                  .restore = keys_restore,
+                                                  .forget = free,
+                                                  .destroy = keys_destroy};
+
+static enum stage_status letters_give(struct keys_actor *k, const struct keys_actor_def *def)
+{
+    keys_letters_names(&k->letters);
+    if (def->text && !keys_letters_text(&k->score, def->text, &k->letters))
+        return stage_fail(STAGE_BAD_ARGUMENT, "there is no letter in the text");
+    for (int i = 0; def->letters && i < MIDI_NOTES; i++)
+        if (def->letters->of[i][0])
+            memcpy(k->letters.of[i], def->letters->of[i], KEYS_LETTER_BYTES);
+    return STAGE_OK;
+}
+
+static enum stage_status keys_place(struct keys_actor *k, const struct keys_actor_def *def)
+{
+    if (def->score) {
+        memcpy(k->score.keys, def->score->keys, sizeof k->score.keys);
+        memcpy(k->score.rank, def->score->rank, sizeof k->score.rank);
+        k->score.keys_count = def->score->keys_count;
+        return STAGE_OK;
+    }
+    if (def->range[0] < 0 || def->range[1] >= MIDI_NOTES ||
+        def->range[1] - def->range[0] < OCTAVE - 1)
+        return stage_fail(STAGE_BAD_ARGUMENT,
+                          "the keys must be an octave or more, of notes 0..127 (got %d to %d)",
+                          def->range[0], def->range[1]);
+    keys_score_range(&k->score, def->range[0], def->range[1]);
+    return STAGE_OK;
+}
+
+enum stage_status keys_actor_create(const struct keys_actor_def *def, struct stage_actor *out)
+{
+    *out = (struct stage_actor){0};
+    struct keys_actor *k = calloc(1, sizeof *k);
+    if (!k)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for letters");
+    k->face = def->face;
+    k->set = (struct settings){.size = 1,
+                               .attack = def->keys.attack_s,
+                               .release = def->keys.release_s,
+                               .pressure = def->keys.pressure};
+    memcpy(k->rows, own_rows, sizeof own_rows);
+    k->rows_count = OWN_ROWS;
+    axes_find(k);
+    enum stage_status status = STAGE_OK;
+    if (!keys_score_begin(&def->keys, &k->score) ||
+        font_shaper_create(k->face, &k->shaper) != FONT_OK)
+        status = stage_fail(STAGE_NO_MEMORY, "no memory for letters");
+    if (status == STAGE_OK)
+        status = keys_place(k, def);
+    if (status == STAGE_OK)
+        status = letters_give(k, def);
+    if (status != STAGE_OK) {
+        keys_destroy(k);
+        return status;
+    }
+    *out = (struct stage_actor){&keys_kind, k};
+    return STAGE_OK;
+}
+
+/* A key that has a place: octaves away, where it has none. */
+static int key_within(const struct keys_score *s, int key)
+{
+    for (int away = 0; away < MIDI_NOTES; away += OCTAVE) {
+        if (key - away >= 0 && s->rank[key - away] >= 0)
+            return key - away;
+        if (key + away < MIDI_NOTES && s->rank[key + away] >= 0)
+            return key + away;
+    }
+    return key;
+}
+
+enum stage_status keys_actor_play(const struct stage_actor *actor, const uint8_t *bytes)
+{
+    struct keys_actor *k = actor->self;
+    uint8_t played[3] = {bytes[0], bytes[1], 0};
+    if (bytes[0] < MIDI_NOTE_OFF || bytes[0] >= MIDI_SYSEX)
+        return STAGE_OK;
+    const int kind = bytes[0] & 0xf0;
+    if (kind != MIDI_PRESSURE && kind != MIDI_PROGRAM)
+        played[2] = bytes[2];
+    if (kind == MIDI_NOTE_ON || kind == MIDI_NOTE_OFF || kind == MIDI_POLY_PRESSURE)
+        played[1] = (uint8_t)key_within(&k->score, bytes[1]);
+    return keys_score_take(&k->score, k->time_s, played)
+               ? STAGE_OK
+               : stage_fail(STAGE_NO_MEMORY, "no memory for notes");
+}
+
+double keys_actor_level(const struct stage_actor *actor, int key)
+{
+    const struct keys_actor *k = actor->self;
+    return keys_key_level(&k->score, key, k->time_s, NULL);
+}

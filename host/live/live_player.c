@@ -1,0 +1,164 @@
+/* live_player.c - see live_player.h. */
+#include "live_player.h"
+
+#include "keys_actor.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGES_OF_A_TURN = 2000 }; /* more wait for the next picture: nobody can hold it up */
+
+struct live_player {
+    struct live_player_def def;
+    struct stage *stage;
+    struct stage_actor keys;
+    struct script_map *map;
+    uint64_t last_ns;
+    double began_s; /* when the first picture was due */
+    bool began;
+    char told[300]; /* what was told last: once is enough */
+};
+
+static void tell(struct live_player *p, const char *text)
+{
+    if (strcmp(p->told, text) == 0)
+        return;
+    snprintf(p->told, sizeof p->told, "%s", text);
+    if (p->def.tell)
+        p->def.tell(p->def.context, text);
+}
+
+/* ---- what a script may do ---- */
+
+static void map_tell(void *context, const char *text)
+{
+    tell(context, text);
+}
+
+static const struct stage_control *row_of(struct live_player *p, const char *name)
+{
+    int count;
+    const struct stage_control *rows = stage_controls(p->stage, &count);
+    return stage_control_find(rows, count, name);
+}
+
+static const char *map_set(void *context, const char *name, const char *text)
+{
+    struct live_player *p = context;
+    double value;
+    const struct stage_control *row = row_of(p, name);
+    if (!row || stage_control_parse(row, text, &value) != STAGE_OK ||
+        stage_control_write(row, p->stage, value) != STAGE_OK)
+        return stage_error();
+    return NULL;
+}
+
+static const char *map_along(void *context, const char *name, double along)
+{
+    struct live_player *p = context;
+    const struct stage_control *row = row_of(p, name);
+    if (!row || stage_control_write(row, p->stage, stage_control_at(row, along)) != STAGE_OK)
+        return stage_error();
+    return NULL;
+}
+
+static const char *map_get(void *context, const char *name, double *value)
+{
+    struct live_player *p = context;
+    const struct stage_control *row = row_of(p, name);
+    if (!row)
+        return stage_error();
+    *value = stage_control_read(row, p->stage);
+    return NULL;
+}
+
+static enum stage_status map_open(struct live_player *p)
+{
+    struct script_map_def def = {.path = p->def.script,
+                                 .words = p->def.words,
+                                 .words_count = p->def.words_count,
+                                 .set = map_set,
+                                 .along = map_along,
+                                 .get = map_get,
+                                 .tell = map_tell,
+                                 .context = p};
+    return script_map_open(&def, &p->map) == SCRIPT_OK
+               ? STAGE_OK
+               : stage_fail(STAGE_BAD_FILE, "%s",
+                            p->told[0] ? p->told : "the map cannot be read");
+}
+
+/* ---- a player ---- */
+
+enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
+                                     struct live_player **out)
+{
+    struct live_player *p = calloc(1, sizeof *p);
+    *out = NULL;
+    if (!p)
+        return stage_fail(STAGE_NO_MEMORY, "no memory for a player");
+    p->def = *def;
+    p->stage = stage;
+    if (def->keys)
+        p->keys = *def->keys;
+    enum stage_status status = STAGE_OK;
+    if (def->script) {
+        void (*told)(void *context, const char *text) = p->def.tell;
+        p->def.tell = NULL; /* what it says before it plays is the error */
+        status = map_open(p);
+        p->def.tell = told;
+    }
+    if (status != STAGE_OK) {
+        live_player_destroy(p);
+        return status;
+    }
+    *out = p;
+    return STAGE_OK;
+}
+
+void live_player_destroy(struct live_player *p)
+{
+    if (!p)
+        return;
+    script_map_close(p->map);
+    free(p);
+}
+
+enum stage_status live_player_before(void *player, struct stage *stage, double now_s)
+{
+    struct live_player *p = player;
+    struct midi_message m;
+    enum stage_status status = STAGE_OK;
+    (void)stage;
+    if (!p->began)
+        p->began_s = now_s;
+    p->began = true;
+    now_s -= p->began_s; /* a song's second 0 is the first picture's */
+    for (int i = 0; i < MESSAGES_OF_A_TURN && status == STAGE_OK; i++) {
+        if (!live_source_next(p->def.source, now_s, &m))
+            break;
+        p->last_ns = m.time_ns;
+        if (p->keys.self)
+            status = keys_actor_play(&p->keys, m.bytes);
+        if (p->map)
+            script_map_message(p->map, &m);
+    }
+    if (p->map)
+        script_map_frame(p->map, now_s);
+    const char *said = live_source_said(p->def.source);
+    if (said)
+        tell(p, said);
+    return status;
+}
+
+bool live_player_key(void *player, const struct input_event *event)
+{
+    struct live_player *p = player;
+    return live_source_key(p->def.source, event);
+}
+
+uint64_t live_player_last_ns(const struct live_player *p)
+{
+    return p->last_ns;
+}

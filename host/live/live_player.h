@@ -1,0 +1,41 @@
+/* live_player.h - plays a stage: what comes from a source goes to letters and, through a script, to any control.
+ *
+ *     struct live_player *player;
+ *     live_player_create(&def, stage, &player);
+ *     window.before = live_player_before, window.key = live_player_key, window.context = player;
+ *
+ * A script (script_map.h) is handed each message, and sets controls of the stage and its actor by their names. */
+#ifndef LUTETIA_LIVE_PLAYER_H
+#define LUTETIA_LIVE_PLAYER_H
+
+#include <script_map.h>
+#include <stage.h>
+
+#include "live_source.h"
+
+struct live_player_def {
+    struct live_source *source;
+    const struct stage_actor
+        *keys;                /* letters (keys_actor.h) that take what is played; NULL: none */
+    const char *script;       /* a file; NULL: none */
+    const char *const *words; /* key=value for the script's param() */
+    int words_count;
+    /* A line for whoever looks: an error of the script's, what it prints, what the server does. */
+    void (*tell)(void *context, const char *text);
+    void *context;
+};
+
+struct live_player;
+/* Borrows the source and the stage. Errors: BAD_FILE (what the script says while it is read has been told), NO_MEMORY. */
+enum stage_status live_player_create(const struct live_player_def *def, struct stage *stage,
+                                     struct live_player **out);
+void live_player_destroy(struct live_player *player); /* NULL is fine */
+
+/* For stage_window_def and stage_film_def; context: the player. */
+enum stage_status live_player_before(void *player, struct stage *stage, double now_s);
+bool live_player_key(void *player, const struct input_event *event);
+
+/* When the message that was taken last was sent, by its own time (CLOCK_MONOTONIC); 0: none was yet. */
+uint64_t live_player_last_ns(const struct live_player *player);
+
+#endif

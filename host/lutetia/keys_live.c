@@ -1,0 +1,109 @@
+/* keys_live.c - see keys_live.h. */
+#include "keys_live.h"
+
+#include "lutetia.h"
+
+#include <keys_actor.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool keys_live_range(const char *text, int range[2])
+{
+    char lowest[16];
+    const char *dash = strchr(text, '-');
+    while (dash && dash[1] >= '0' && dash[1] <= '9' && strchr(dash + 1, '-'))
+        dash = strchr(dash + 1, '-'); /* c-1-c5 */
+    if (!dash || dash - text >= (ptrdiff_t)sizeof lowest)
+        return false;
+    memcpy(lowest, text, (size_t)(dash - text));
+    lowest[dash - text] = '\0';
+    range[0] = midi_note_read(lowest);
+    range[1] = midi_note_read(dash + 1);
+    return range[0] >= 0 && range[1] >= range[0] + 11;
+}
+
+static int stage_make(const struct keys_live *def, struct stage **out)
+{
+    struct keys_actor_def actor = keys_actor_def_default();
+    struct stage_def stage = stage_def_default();
+    *out = NULL;
+    actor.face = def->face;
+    memcpy(actor.range, def->range, sizeof actor.range);
+    actor.score = def->score;
+    actor.text = def->text;
+    actor.letters = def->letters;
+    actor.keys = def->keys;
+    if (def->theme)
+        stage.theme = def->theme;
+    enum stage_status status = keys_actor_create(&actor, &stage.actor);
+    if (status == STAGE_OK)
+        status = stage_create(&stage, out);
+    for (int i = 0; status == STAGE_OK && i < def->sets.count; i++)
+        status = stage_set(*out, def->sets.texts[i]);
+    if (status == STAGE_BAD_ARGUMENT)
+        return fail_usage("keys", "%s", stage_error());
+    return status == STAGE_OK ? EXIT_SUCCESS : fail("keys", "%s", stage_error());
+}
+
+static int both_make(const struct keys_live *def, struct stage **stage, struct live *live)
+{
+    *live = (struct live){.verb = "keys"};
+    int status = stage_make(def, stage);
+    if (status != EXIT_SUCCESS)
+        return status;
+    const struct stage_actor actor = stage_actor(*stage);
+    return live_begin("keys", &def->live, def->song, def->range[0], &actor, *stage, live);
+}
+
+int keys_live_window(const struct keys_live *def)
+{
+    struct stage *stage;
+    struct live live;
+    struct stage_window_def window = stage_window_def_default();
+    window.title = "keys";
+    window.width_px = def->size[0];
+    window.height_px = def->size[1];
+    window.record_path = "keys.mp4";
+    int status = both_make(def, &stage, &live);
+    if (status == EXIT_SUCCESS)
+        status =
+            live_window(&live, stage, &window,
+                        "run it where there is a desktop, or take a song and --video FILE");
+    live_end(&live);
+    stage_destroy(stage);
+    return status;
+}
+
+static bool stopped(void *context, int frame, int frames)
+{
+    (void)context;
+    (void)frame;
+    (void)frames;
+    return interrupted();
+}
+
+static enum stage_status song_before(void *context, struct stage *stage, double now_s)
+{
+    const struct live *live = context;
+    return live_player_before(live->player, stage, now_s);
+}
+
+int keys_live_film(const struct keys_live *def)
+{
+    struct stage *stage;
+    struct live live;
+    struct stage_film_def film = def->film;
+    int status = both_make(def, &stage, &live);
+    film.before = song_before;
+    film.after = stopped;
+    film.context = &live;
+    if (status == EXIT_SUCCESS && stage_film(stage, &film) != STAGE_OK)
+        status = fail("keys", "%s", stage_error());
+    if (status == EXIT_SUCCESS && interrupted())
+        status = EXIT_FAILED;
+    live_end(&live);
+    stage_destroy(stage);
+    return status;
+}

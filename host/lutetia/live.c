@@ -1,0 +1,74 @@
+/* live.c - see live.h. */
+#include "live.h"
+
+#include "lutetia.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static void said(void *context, const char *text)
+{
+    const struct live *live = context;
+    if (live->window)
+        stage_window_say(live->window, text);
+    else
+        fprintf(stderr, "lutetia %s: %s\n", live->verb, text);
+}
+
+int live_begin(const char *verb, const struct live_options *options, struct midi_song *song,
+               int lowest, const struct stage_actor *keys, struct stage *stage,
+               struct live *out)
+{
+    const struct live_source_def source = {.song = song,
+                                           .server = options->server,
+                                           .device = options->device,
+                                           .filters = options->filters,
+                                           .lowest = lowest};
+    *out = (struct live){.verb = verb};
+    if (live_source_open(&source, &out->source) != MIDI_OK)
+        return fail(verb, "%s", midi_error());
+    const struct live_player_def player = {.source = out->source,
+                                           .keys = keys,
+                                           .script = options->map,
+                                           .words = options->params.texts,
+                                           .words_count = options->params.count,
+                                           .tell = said,
+                                           .context = out};
+    return live_player_create(&player, stage, &out->player) == STAGE_OK
+               ? EXIT_SUCCESS
+               : fail(verb, "%s", stage_error());
+}
+
+void live_end(struct live *live)
+{
+    live_player_destroy(live->player);
+    live_source_close(live->source);
+    *live = (struct live){.verb = live->verb};
+}
+
+int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
+                const char *no_display)
+{
+    struct stage_window *window;
+    if (live->player) {
+        def->before = live_player_before;
+        def->key = live_player_key;
+        def->context = live->player;
+    }
+    enum stage_status status = stage_window_create(stage, def, &window);
+    if (status == STAGE_NO_DISPLAY)
+        return fail(live->verb, "%s; %s", stage_error(), no_display);
+    if (status != STAGE_OK)
+        return fail(live->verb, "%s", stage_error());
+    live->window = window;
+    if (live->source && live_source_by_computer(live->source))
+        stage_window_say(window, "no MIDI server: the computer's keys play, from Z and from Q");
+    while (status == STAGE_OK && stage_window_open(window) && !interrupted())
+        status = stage_window_turn(window);
+    if (status != STAGE_OK)
+        fail(live->verb, "%s", stage_error());
+    live->window = NULL;
+    stage_window_destroy(window);
+    return status == STAGE_OK ? EXIT_SUCCESS : EXIT_FAILED;
+}

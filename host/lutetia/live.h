@@ -1,0 +1,34 @@
+/* live.h - verbs whose stage is played: by the messages of a MIDI server, a song, or the computer's keyboard, through a map in Lua. */
+#ifndef LUTETIA_LIVE_H
+#define LUTETIA_LIVE_H
+
+#include "options.h"
+
+#include <live_player.h>
+#include <stage_film.h>
+#include <stage_window.h>
+
+struct live_options {
+    const char *map, *server, *device, *filters;
+    struct option_texts params;
+};
+
+struct live {
+    struct live_source *source;
+    struct live_player *player;
+    const char *verb;
+    struct stage_window *window; /* where lines are said; NULL: standard error */
+};
+
+/* song: NULL: live. lowest: the computer's lowest key; keys: the actor that takes notes, or NULL. An exit status; what is wrong has been
+ * said. The caller ends *out, also then. */
+int live_begin(const char *verb, const struct live_options *options, struct midi_song *song,
+               int lowest, const struct stage_actor *keys, struct stage *stage,
+               struct live *out);
+void live_end(struct live *live);
+
+/* Opens a window for the stage and plays until somebody closes it. no_display: what to do where there is none. */
+int live_window(struct live *live, struct stage *stage, struct stage_window_def *def,
+                const char *no_display);
+
+#endif

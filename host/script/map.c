@@ -1,0 +1,235 @@
+/* map.c - see script_map.h. */
+#include "script_map.h"
+
+#include "script_internal.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An answer takes no longer, nor does the file's reading; and all of the map takes no more memory. */
+static const double answer_s = 0.1;
+static const size_t memory_bytes = (size_t)64 << 20;
+
+struct script_map {
+    struct script script;
+    struct script_config config;
+    struct script_host host;
+    struct script_map_def def;
+    lua_State *L;
+    bool frames; /* there is a function `frame` */
+};
+
+static struct script_map *map_of(lua_State *L)
+{
+    return script_of(L)->host->context;
+}
+
+/* ---- what a map reaches ---- */
+
+static void refuse(lua_State *L, const char *why)
+{
+    if (why)
+        luaL_error(L, "%s", why);
+}
+
+/* set(control, value): a number, true or false, or a choice by its name */
+static int map_set(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    const char *name = luaL_checkstring(L, 1);
+    char text[64];
+    if (lua_type(L, 2) == LUA_TBOOLEAN)
+        snprintf(text, sizeof text, "%s", lua_toboolean(L, 2) ? "on" : "off");
+    else if (lua_type(L, 2) == LUA_TNUMBER)
+        snprintf(text, sizeof text, "%.17g", lua_tonumber(L, 2));
+    else
+        snprintf(text, sizeof text, "%s", luaL_checkstring(L, 2));
+    refuse(L, map->def.set(map->def.context, name, text));
+    return 0;
+}
+
+/* along(control, part): as far along its range as a slider would be, 0..1 */
+static int map_along(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    const char *name = luaL_checkstring(L, 1);
+    refuse(L, map->def.along(map->def.context, name,
+                             script_arg_at(L, 2, "how far along it is", 0, 1)));
+    return 0;
+}
+
+/* get(control): a number */
+static int map_get(lua_State *L)
+{
+    const struct script_map *map = map_of(L);
+    double value = 0;
+    refuse(L, map->def.get(map->def.context, luaL_checkstring(L, 1), &value));
+    lua_pushnumber(L, value);
+    return 1;
+}
+
+static const luaL_Reg functions[] = {
+    {"set", map_set}, {"along", map_along}, {"get", map_get}, {NULL, NULL}};
+
+/* ---- what a map is told ---- */
+
+static void host_print(void *context, const char *text, size_t length)
+{
+    const struct script_map *map = context;
+    char line[300];
+    snprintf(line, sizeof line, "%.*s",
+             (int)(length && text[length - 1] == '\n' ? length - 1 : length), text);
+    map->def.tell(map->def.context, line);
+}
+
+static void host_error(void *context, const char *text)
+{
+    const struct script_map *map = context;
+    map->def.tell(map->def.context, text);
+}
+
+static void host_overdue(void *context)
+{
+    const struct script_map *map = context;
+    map->def.overdue(map->def.context);
+}
+
+/* ---- a map ---- */
+
+/* Calls with an answer's time; what is on the stack is popped. */
+static bool answer(struct script_map *map, lua_CFunction function, void *argument)
+{
+    lua_State *L = map->L;
+    map->script.deadline_s = script_clock_s() + answer_s;
+    map->script.memory_short = false;
+    script_hook_set(L);
+    script_watchdog_pause(&map->script, false);
+    lua_pushcfunction(L, script_message);
+    lua_pushcfunction(L, function);
+    lua_pushlightuserdata(L, argument);
+    const int status = lua_pcall(L, 1, 0, 1);
+    script_watchdog_pause(&map->script, true);
+    if (status != LUA_OK)
+        script_failure_tell(L, status);
+    lua_settop(L, 0);
+    return status == LUA_OK;
+}
+
+static int open_protected(lua_State *L)
+{
+    struct script_map *map = lua_touserdata(L, 1);
+    script_sandbox_open(L);
+    lua_pushglobaltable(L);
+    script_functions_set(L, script_sandbox_functions);
+    script_functions_set(L, functions);
+    lua_settop(L, 0);
+    if (script_load(L, map->config.path) != LUA_OK)
+        lua_error(L);
+    lua_call(L, 0, 0);
+    if (lua_getglobal(L, "message") != LUA_TFUNCTION)
+        luaL_error(L, "%s: a map has a function message(m)", map->config.path);
+    map->frames = lua_getglobal(L, "frame") == LUA_TFUNCTION;
+    return 0;
+}
+
+static int message_protected(lua_State *L)
+{
+    const struct midi_message *m = lua_touserdata(L, 1);
+    if (lua_getglobal(L, "message") == LUA_TFUNCTION) {
+        script_midi_push(L, m);
+        lua_call(L, 1, 0);
+    }
+    return 0;
+}
+
+static int frame_protected(lua_State *L)
+{
+    const double *time_s = lua_touserdata(L, 1);
+    if (lua_getglobal(L, "frame") == LUA_TFUNCTION) {
+        lua_pushnumber(L, *time_s);
+        lua_call(L, 1, 0);
+    }
+    return 0;
+}
+
+bool script_map_message(struct script_map *map, const struct midi_message *m)
+{
+    struct midi_message copy = *m;
+    return answer(map, message_protected, &copy);
+}
+
+bool script_map_frame(struct script_map *map, double time_s)
+{
+    return !map->frames || answer(map, frame_protected, &time_s);
+}
+
+static enum script_status words_end(const struct script_map *map)
+{
+    char line[400];
+    for (int i = 0; i < map->config.words_count; i++)
+        if (!map->script.asked[i]) {
+            snprintf(line, sizeof line, "%s asked for no '%.*s'", map->config.path,
+                     (int)strcspn(map->config.words[i], "="), map->config.words[i]);
+            map->def.tell(map->def.context, line);
+            return SCRIPT_FAILED;
+        }
+    return SCRIPT_OK;
+}
+
+static void map_configure(struct script_map *map, const struct script_map_def *def)
+{
+    map->def = *def;
+    map->config = script_config_default(def->path);
+    map->config.timeout_s = answer_s;
+    map->config.memory_bytes = memory_bytes;
+    map->config.words = def->words;
+    map->config.words_count = def->words_count;
+    map->host = (struct script_host){.context = map, .print = host_print, .error = host_error};
+    if (def->overdue)
+        map->host.overdue = host_overdue;
+    map->script = (struct script){.config = &map->config,
+                                  .host = &map->host,
+                                  .began_s = script_clock_s(),
+                                  .answers = true};
+}
+
+enum script_status script_map_open(const struct script_map_def *def, struct script_map **out)
+{
+    *out = NULL;
+    struct script_map *map = calloc(1, sizeof *map);
+    if (!map || def->words_count > SCRIPT_WORDS_MAX) {
+        def->tell(def->context, map ? "too many key=value for a map" : "no memory for a map");
+        free(map);
+        return SCRIPT_FAILED;
+    }
+    map_configure(map, def);
+    struct script *self = &map->script;
+    map->L = lua_newstate(script_allocate, self);
+    bool good = map->L && script_watchdog_start(self);
+    if (good) {
+        memcpy(lua_getextraspace(map->L), &self, sizeof self);
+        good = answer(map, open_protected, map) && words_end(map) == SCRIPT_OK;
+    } else {
+        def->tell(def->context, "no memory for a map");
+    }
+    if (!good) {
+        script_map_close(map);
+        return SCRIPT_FAILED;
+    }
+    *out = map;
+    return SCRIPT_OK;
+}
+
+void script_map_close(struct script_map *map)
+{
+    if (!map)
+        return;
+    map->script.over = true;
+    if (map->L)
+        lua_close(map->L);
+    script_watchdog_end(&map->script);
+    assert(map->script.memory_bytes == 0);
+    free(map);
+}
