@@ -1,9 +1,9 @@
 -- A chord tightens a word, the pedal lets it hang, the wheel turns gravity.
 --
---   lutetia spring chord --preset jelly --map examples/maps/chord.lua
---   lutetia spring chord --preset jelly --map examples/maps/chord.lua --song chord.mid --video chord.mp4
+--   lutetia spring chord --preset heavy --map examples/maps/chord.lua
+--   lutetia spring chord --preset heavy --map examples/maps/chord.lua --song chord.mid --video chord.mp4
 
-local loose, tight = param("loose", 15), param("tight", 900) -- kg/s2, of the springs
+local loose, tight = param("loose", 120), param("tight", 4000) -- kg/s2, of the springs
 local held, count, stiffness = {}, 0, loose
 
 local function note(key, down)
