@@ -17,7 +17,7 @@
 #ifndef LUTETIA_MACHINE_NODE_OPS_H
 #define LUTETIA_MACHINE_NODE_OPS_H
 
-#include "machine.h"
+#include "base/types.h"
 
 /* The operations that callers name have the numbers of enum machine_op; the graph's own follow. */
 enum node_op {
@@ -111,7 +111,7 @@ extern const struct node_words node_words[NODE_OP_COUNT];
 static inline int node_cost(int op, struct machine_type type)
 {
     bool rounds = type.s && node_ops[op].inputs && op != NODE_SELECT;
-    return node_ops[op].cost + (rounds ? type.s <= 24 && type.e <= 9 ? 8 : 40 : 0);
+    return node_ops[op].cost + (rounds ? type_is_short(type) ? 8 : 40 : 0);
 }
 
 static inline bool op_has(int op, enum op_flags flag)
@@ -128,6 +128,15 @@ static inline bool op_is_integer(int op)
 {
     return node_ops[op].spell == SPELL_INTEGER;
 }
+
+/* Floats of other formats than single and double: how a kernel comes to their rounding. */
+enum op_soft {
+    OP_SOFT_NOT,     /* there is nothing to round, or the type is single or double */
+    OP_SOFT_LANES,   /* kernels/soft.cl, lane by lane */
+    OP_SOFT_VECTORS, /* the double's result, rounded again by kernels/formats.cl */
+};
+/* Of an operation with that result, of an operand of type from. */
+enum op_soft op_soft(int op, struct machine_type type, struct machine_type from);
 
 /* A caller's operation on so many operands of that type? */
 static inline bool op_suits(enum machine_op op, int inputs, struct machine_type type)

@@ -9,6 +9,14 @@ static inline bool type_equal(struct machine_type a, struct machine_type b)
     return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
 }
 
+/* A format whose sums, products, quotients and roots a double holds well enough to be rounded again: with s <= 24 it has
+ * 2 (s + 1) + 2 bits, so that a second rounding never sees a tie that the first one made; with e <= 9 no result has been
+ * rounded as a subnormal double. */
+static inline bool type_is_short(struct machine_type t)
+{
+    return t.s <= 24 && t.e <= 9;
+}
+
 size_t type_bytes(struct machine_type type); /* in a buffer */
 
 bool type_good(struct machine_type type); /* s and e are what they may be, or 0 */

@@ -82,7 +82,7 @@ static int pointer_of(struct emitter *e, int node, int row)
     if (e->failed)
         return 0;
     struct machine_type type = e->g->nodes[node].type;
-    e->seen_pointers[e->pointers_count] = (struct pointer){.node = node, .row = row};
+    e->seen_pointers[e->pointers_count] = (struct access){.node = node, .row = row};
     if (e->bare)
         return e->pointers_count++;
     text_put(&e->pointers,
@@ -261,17 +261,6 @@ static void emit_generated(struct emitter *e, char *out, size_t size, const stru
     }
 }
 
-/* Some of it may be a NaN whose bits are the program's, not an operation's. */
-static bool holds_bits(const struct plan_graph *g, int node)
-{
-    const struct plan_node *n = &g->nodes[node];
-    if (!n->maybe_nan)
-        return true;
-    if (n->leaf || n->op != NODE_SELECT)
-        return n->op == NODE_SHIFT && !n->leaf ? holds_bits(g, n->in[0]) : n->leaf;
-    return holds_bits(g, n->in[1]) || holds_bits(g, n->in[2]);
-}
-
 static struct operand named(int name)
 {
     struct operand o;
@@ -445,18 +434,18 @@ static void emit_operation(struct emitter *e, char *out, size_t size, const stru
     e->ops++;
     e->cost += node_cost(n->op, n->type);
     e->wide = e->wide || spell_letter(from) == 'Q';
-    enum spell_soft soft = spell_soft(out, size, n, from, in[0].text, in[1].text);
-    bool spelt = soft != SPELL_SOFT_NOT;
+    enum op_soft soft = op_soft(n->op, n->type, from);
+    bool spelt = spell_soft(out, size, n, from, in[0].text, in[1].text);
     if (e->lane < LANE_WIDE) {
         narrow_spell(out, size, e->g, n, e->lane, in[0].text, in[1].text, in[2].text);
         spelt = true;
     } else if (!spelt) {
         spell_operation(e, out, size, n, in);
     }
-    if (!spelt)
-        soft = spell_soft_rounding(out, size, n);
-    e->soft = e->soft || soft == SPELL_SOFT_SCALAR;
-    e->formats = e->formats || soft == SPELL_SOFT_VECTOR;
+    if (!spelt && soft != OP_SOFT_NOT)
+        spell_soft_rounding(out, size, n->type);
+    e->soft = e->soft || soft == OP_SOFT_LANES;
+    e->formats = e->formats || soft == OP_SOFT_VECTORS;
 }
 
 /* What an array, or a row of a ring, has there. */
@@ -466,7 +455,7 @@ static void emit_load(struct emitter *e, char *out, size_t size, const struct pl
     int p = pointer_of(e, node, row);
     if (e->failed)
         return;
-    struct pointer *seen = &e->seen_pointers[p];
+    struct access *seen = &e->seen_pointers[p];
     seen->low = dx < seen->low ? dx : seen->low;
     seen->high = dx > seen->high ? dx : seen->high;
     e->reach = abs(dx) > e->reach ? abs(dx) : e->reach;
@@ -506,7 +495,7 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
         bool along_row = n->axis == e->set->rank - 1;
         int moved_row = along_row ? row : row_moved(e, row, n->axis, n->detail);
         return emit_value(e, n->in[0], moved_row, along_row ? dx + n->detail : dx, canonical);
-    } else if (canonical && !(n->op == NODE_SELECT && holds_bits(e->g, node))) {
+    } else if (canonical && !(n->op == NODE_SELECT && accesses_holds_bits(e->g, node))) {
         struct operand a = emit_value(e, node, row, dx, false);
         snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
     } else if (node_ops[n->op].inputs == 0) {

@@ -7,6 +7,7 @@
 
 #include "codegen/codegen.h"
 #include "codegen/text.h"
+#include "plan/accesses.h"
 
 struct arguments {
     struct kernel_argument *list;
@@ -18,15 +19,6 @@ struct variable {
     bool canonical;
     int name;
     uint32_t next; /* in its chain, + 1 */
-};
-
-struct row_offset {
-    int d[MACHINE_AXES_MAX]; /* the last axis is always 0 here */
-};
-
-struct pointer {
-    int node, row;
-    int low, high; /* columns that are looked at, from where we are */
 };
 
 /* Several stages in one loop over a row's columns, where each finds what another has just computed. In the row
@@ -55,7 +47,7 @@ struct emitter {
     uint32_t variables_count, variables_capacity, chains[1024];
     struct row_offset *row_offsets;
     int rows_count, rows_capacity;
-    struct pointer *seen_pointers;
+    struct access *seen_pointers;
     int pointers_count, pointers_capacity;
     int *input_number, *constant_number; /* of a node: + 1 */
     struct arguments arguments;
@@ -88,9 +80,7 @@ void emit_argument(struct arguments *to, int kind, int node, int size, bool *fai
 /* "int c0 = ...": coordinates along all axes but the last, where rows need them. */
 void emit_axes(const struct emitter *e, struct text *t);
 /* How far down the row is that the pointer looks at, the short way round; of two axes. */
-int emit_rows_down(const struct emitter *e, const struct pointer *p);
-/* Whose NaNs are looked at bit by bit when they have been kept for a later stage. In arrays all are canonical. */
-void emit_find_bits(const struct plan_graph *g, bool *bits_matter);
+int emit_rows_down(const struct emitter *e, const struct access *p);
 /* How a kernel's argument is declared that is a number, or its upper half; *count: numbers so far. */
 void emit_number(struct text *t, const struct plan_graph *g, const struct kernel_argument *a,
                  int *count);

@@ -75,26 +75,9 @@ void emit_number(struct text *t, const struct plan_graph *g, const struct kernel
                  (*count)++);
 }
 
-/* Row offsets are modulo the height. */
-int emit_rows_down(const struct emitter *e, const struct pointer *p)
+int emit_rows_down(const struct emitter *e, const struct access *p)
 {
-    int height = e->set->dimensions[0], down = e->row_offsets[p->row].d[0] % height;
-    return down > height / 2 ? down - height : down < -(height / 2) ? down + height : down;
-}
-
-void emit_find_bits(const struct plan_graph *g, bool *bits_matter)
-{
-    for (int i = g->count - 1; i >= 0; i--) {
-        const struct plan_node *n = &g->nodes[i];
-        bool bits =
-            n->op == NODE_REINTERPRET ||
-            ((n->op == NODE_SELECT || n->op == NODE_SHIFT) && (n->target || bits_matter[i]));
-        for (int k = 0; bits && !n->leaf && k < node_ops[n->op].inputs; k++) {
-            bits_matter[n->in[k]] = true;
-            if (n->instead[k] >= 0)
-                bits_matter[n->instead[k]] = true;
-        }
-    }
+    return row_down(e->set, &e->row_offsets[p->row]);
 }
 
 void emit_collect(struct arguments *to, const struct emitter *e, int *number, int *count,

@@ -2,8 +2,7 @@
 #include "codegen/strips.h"
 
 /* Of the rows of an array that a pass reads, the one that it comes to first. */
-static bool comes_first(const struct strips *s, const struct pass *pass,
-                        const struct pointer *p)
+static bool comes_first(const struct strips *s, const struct pass *pass, const struct access *p)
 {
     const struct emitter *e = &pass->e;
     bool newest = s->g->nodes[p->node].leaf;
@@ -15,7 +14,7 @@ static bool comes_first(const struct strips *s, const struct pass *pass,
     return newest;
 }
 
-static bool is_fetched(const struct strips *s, const struct pass *pass, const struct pointer *p)
+static bool is_fetched(const struct strips *s, const struct pass *pass, const struct access *p)
 {
     return pass->inside[p->node] && comes_first(s, pass, p);
 }
@@ -51,7 +50,7 @@ void prefetch_beyond(const struct strips *s, struct pass *pass, struct text *t)
 {
     const struct emitter *e = &pass->e;
     for (int i = 0; i < e->pointers_count; i++) {
-        const struct pointer *p = &e->seen_pointers[i];
+        const struct access *p = &e->seen_pointers[i];
         if (comes_first(s, pass, p) && p->low < 0)
             text_put(t, "    PREFETCH(p%d %c PITCH + first - %d, 0);\n", i, next_row(s),
                      pass->before + 1);

@@ -36,12 +36,10 @@ void spell_conversion(char *out, size_t size, const struct plan_node *n,
 
 /* ---- spell_soft.c ---- */
 
-/* Operations on floats of other formats. NOT: as for doubles; else which kernel file they call,
- * soft.cl or formats.cl. */
-enum spell_soft { SPELL_SOFT_NOT, SPELL_SOFT_SCALAR, SPELL_SOFT_VECTOR };
-enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
-                           struct machine_type from, const char *a, const char *b);
-/* Rounds the double that is spelt in text, where n asks for it. */
-enum spell_soft spell_soft_rounding(char *text, size_t size, const struct plan_node *n);
+/* Operations on floats of other formats. False: as for doubles. */
+bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machine_type from,
+                const char *a, const char *b);
+/* Rounds the double that is spelt in text to the type. */
+void spell_soft_rounding(char *text, size_t size, struct machine_type t);
 
 #endif

@@ -1,9 +1,7 @@
 /* spell_soft.c - operations on floats of other formats than single and double.
  *
- * Sums, products, quotients and roots are the double's, rounded again, where that can do no harm: if
- * s <= 24 a double has 2 (s + 1) + 2 bits and a second rounding never sees a tie that the first
- * one made; and if e <= 9 no result has been rounded as a subnormal double. Elsewhere they are
- * whole-number arithmetic. */
+ * Sums, products, quotients and roots are the double's, rounded again, where that can do no harm: see type_is_short().
+ * Elsewhere they are whole-number arithmetic. */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,19 +9,14 @@
 #include "base/node_ops.h"
 #include "codegen/spell.h"
 
-static bool is_short(struct machine_type t)
-{
-    return t.s <= 24 && t.e <= 9;
-}
-
 /* Whole numbers that a double need not hold. */
-static enum spell_soft spell_whole(char *out, size_t size, const struct plan_node *n,
-                                   struct machine_type from, const char *a)
+static bool spell_whole(char *out, size_t size, const struct plan_node *n,
+                        struct machine_type from, const char *a)
 {
     char inner[200];
     int s = n->type.s, e = n->type.e;
     if (from.width <= 32)
-        return SPELL_SOFT_NOT;
+        return false;
     if (from.width > 64 && n->op == NODE_U_TO_F) {
         snprintf(out, size, "as_double(soft_whole(0, %s.lo, %s.hi, %d, %d))", a, a, s, e);
     } else if (from.width > 64) {
@@ -36,33 +29,32 @@ static enum spell_soft spell_whole(char *out, size_t size, const struct plan_nod
         snprintf(out, size, "SOFT_FROM_S((AS_M(%s << %dUL) >> %dL), %d, %d)", a,
                  64 - from.width, 64 - from.width, s, e);
     }
-    return SPELL_SOFT_SCALAR;
+    return true;
 }
 
-enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
-                           struct machine_type from, const char *a, const char *b)
+bool spell_soft(char *out, size_t size, const struct plan_node *n, struct machine_type from,
+                const char *a, const char *b)
 {
     const struct node_words *words = &node_words[n->op];
     struct machine_type t = n->type.s ? n->type : from;
     int s = t.s, e = t.e;
     if (!s)
-        return SPELL_SOFT_NOT;
-    bool vectors = is_short(t);
-    enum spell_soft kind = vectors ? SPELL_SOFT_VECTOR : SPELL_SOFT_SCALAR;
+        return false;
+    bool vectors = type_is_short(t);
     switch (n->op) {
     case MACHINE_FADD:
     case MACHINE_FSUB:
     case MACHINE_FMUL:
     case MACHINE_FDIV:
         if (vectors)
-            return SPELL_SOFT_NOT;
+            return false;
         snprintf(out, size, "%s(%s, %s, %d, %d)", words->second, a, b, s, e);
-        return kind;
+        return true;
     case MACHINE_FSQRT:
         if (vectors)
-            return SPELL_SOFT_NOT;
+            return false;
         snprintf(out, size, "%s(%s, %d, %d)", words->second, a, s, e);
-        return kind;
+        return true;
     case NODE_OVERFLOW_FADD:
     case NODE_OVERFLOW_FSUB:
     case NODE_OVERFLOW_FMUL:
@@ -74,7 +66,7 @@ enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
         else
             snprintf(out, size, "INFINITE_D(%s(%s, %s, %d, %d)) & FINITE_D(%s) & FINITE_D(%s)",
                      words->second, a, b, s, e, a, b);
-        return kind;
+        return true;
     case NODE_PACK:
         if (n->type.width <= 32)
             snprintf(out, size, "CONVERT(uint, %s(%s, %d, %d))",
@@ -82,42 +74,27 @@ enum spell_soft spell_soft(char *out, size_t size, const struct plan_node *n,
         else
             snprintf(out, size, "%s(%s, %d, %d)", vectors ? "short_pack" : "SOFT_PACK", a, s,
                      e);
-        return kind;
+        return true;
     case NODE_UNPACK:
         snprintf(out, size, "%s(CONVERT(ulong, %s), %d, %d)",
                  vectors ? "short_unpack" : "SOFT_UNPACK", a, s, e);
-        return kind;
+        return true;
     case NODE_U_TO_F:
     case NODE_S_TO_F:
         return spell_whole(out, size, n, from, a);
     default:
-        return SPELL_SOFT_NOT;
+        return false;
     }
 }
 
-enum spell_soft spell_soft_rounding(char *text, size_t size, const struct plan_node *n)
+void spell_soft_rounding(char *text, size_t size, struct machine_type t)
 {
-    struct machine_type t = n->type;
-    if (!t.s)
-        return SPELL_SOFT_NOT;
-    switch (n->op) {
-    case MACHINE_FNEG:
-    case MACHINE_FABS:
-    case MACHINE_FMIN:
-    case MACHINE_FMAX:
-    case NODE_SELECT:
-    case NODE_REINTERPRET:
-        return SPELL_SOFT_NOT;
-    default: {
-        const char *begin = is_short(t) ? "short_fit(" : "SOFT_FIT(";
-        char end[24];
-        snprintf(end, sizeof end, ", %d, %d)", t.s, t.e);
-        size_t length = strlen(text), before = strlen(begin);
-        INVARIANT(length + before + sizeof end < size);
-        memmove(text + before, text, length + 1);
-        memcpy(text, begin, before);
-        strcat(text, end);
-        return is_short(t) ? SPELL_SOFT_VECTOR : SPELL_SOFT_SCALAR;
-    }
-    }
+    const char *begin = type_is_short(t) ? "short_fit(" : "SOFT_FIT(";
+    char end[24];
+    snprintf(end, sizeof end, ", %d, %d)", t.s, t.e);
+    size_t length = strlen(text), before = strlen(begin);
+    INVARIANT(length + before + sizeof end < size);
+    memmove(text + before, text, length + 1);
+    memcpy(text, begin, before);
+    strcat(text, end);
 }

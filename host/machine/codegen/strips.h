@@ -40,7 +40,7 @@
  * Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold anything, and nobody looks
  * at them.
  *
- * Stages of which the same text comes again and again are turns of a loop, and each turn is a pass: a function,
+ * Stages that compute the same again and again are turns of a loop, and each turn is a pass: a function,
  * which all turns with the same text share. */
 #ifndef LUTETIA_MACHINE_STRIPS_H
 #define LUTETIA_MACHINE_STRIPS_H
@@ -48,13 +48,13 @@
 #include "codegen/body.h"
 
 struct stage {
-    struct emitter e; /* of it alone */
+    struct accesses looks; /* of it alone */
     int pass;
 };
 
 /* Values that a stage stores, and that are computed together. */
 struct unit {
-    struct emitter e; /* of it alone: what it looks at */
+    struct accesses looks; /* of it alone */
     int stage;
     int delay, above, below, left, right;
     int ahead; /* vectors, the way that x goes */

@@ -109,9 +109,9 @@ static void overwritten_loads(struct strips *s, struct pass *pass, int node)
         const struct unit *to = &s->units[k];
         if (to->stage <= stage || to->stage > pass->last)
             continue;
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
-            int down = (pass->delay - to->delay) * s->downward + emit_rows_down(&to->e, p),
+        for (int i = 0; i < to->looks.count; i++) {
+            const struct access *p = &to->looks.list[i];
+            int down = (pass->delay - to->delay) * s->downward + accesses_down(&to->looks, p),
                 apart = down - s->down[node];
             e->stage = to->stage;
             if (p->node == node && apart && apart % s->ring_rows[node] == 0)

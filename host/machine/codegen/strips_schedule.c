@@ -16,17 +16,16 @@ enum {
 
 /* ---- what stages look at ---- */
 
-/* The text of a stage alone: whether it is one again that came before, and what it costs, tells which passes there are. */
-static void stage_values(struct strips *s, int k)
+/* A stage alone: whether it is one again that came before, and what it costs, tells which passes there are. */
+static void stage_accesses(struct strips *s, int k)
 {
-    struct stage *stage = &s->stages[k];
-    emitter_init(&stage->e, s->g, s->set, k);
-    stage->e.lane = s->lane;
-    stage->e.bare = true;
-    for (int i = 0; i < s->stores_count && !stage->e.failed; i++)
+    struct accesses *looks = &s->stages[k].looks;
+    accesses_begin(looks, s->g, s->set, k);
+    for (int i = 0; i < s->stores_count && !looks->failed; i++)
         if (s->g->nodes[s->stores[i]].stage == k)
-            emit_value(&stage->e, s->stores[i], 0, 0, true);
-    s->failed = s->failed || stage->e.failed;
+            accesses_add(looks, s->stores[i], true);
+    accesses_end(looks);
+    s->failed = s->failed || looks->failed;
 }
 
 /* What costs next to nothing to compute twice: it depends on where a processor is, and on nothing else. */
@@ -83,15 +82,13 @@ static void units_of_stage(struct strips *s, const struct marks *m, int stage)
             continue;
         if (root == i) {
             s->unit[node] = s->units_count;
-            emitter_init(&s->units[s->units_count].e, s->g, s->set, stage);
-            s->units[s->units_count].e.lane = s->lane;
-            s->units[s->units_count].e.bare = true;
+            accesses_begin(&s->units[s->units_count].looks, s->g, s->set, stage);
             s->units[s->units_count++].stage = stage;
         }
         struct unit *unit = &s->units[s->unit[s->stores[root]]];
         s->unit[node] = s->unit[s->stores[root]];
-        emit_value(&unit->e, node, 0, 0, true);
-        s->failed = s->failed || unit->e.failed;
+        accesses_add(&unit->looks, node, true);
+        s->failed = s->failed || unit->looks.failed;
     }
 }
 
@@ -105,6 +102,8 @@ static void make_units(struct strips *s)
         find_places(s, only_place);
     for (int k = 0; k < s->stages_count && !s->failed; k++)
         units_of_stage(s, &m, k);
+    for (int k = 0; k < s->units_count; k++)
+        accesses_end(&s->units[k].looks);
     free(only_place);
     free(m.owner);
     free(m.with);
@@ -124,7 +123,7 @@ static struct turns find_turns(const struct strips *s)
     int best_length = s->stages_count / 3;
     for (int turn = 1; 2 * turn < s->stages_count; turn++)
         for (int k = turn, length = 0; k < s->stages_count; k++) {
-            bool same = text_same(&s->stages[k].e.body, &s->stages[k - turn].e.body);
+            bool same = accesses_same(&s->stages[k].looks, &s->stages[k - turn].looks);
             length = same ? length + 1 : 0;
             if (length > best_length && length >= turn) {
                 best_length = length;
@@ -139,10 +138,10 @@ static void make_passes(struct strips *s)
     struct turns turns = find_turns(s);
     for (int k = 0, cost = 0, begun = 0; k < s->stages_count; k++) {
         bool turn = turns.stages && k % turns.stages == turns.begin;
-        cost += s->stages[k].e.cost;
+        cost += s->stages[k].looks.cost;
         if (k == 0 || turn || (cost > PASS_COST && k > begun)) {
             s->passes[s->passes_count++].first = begun = k;
-            cost = s->stages[k].e.cost;
+            cost = s->stages[k].looks.cost;
         }
         s->stages[k].pass = s->passes_count - 1;
         s->passes[s->passes_count - 1].last = k;
@@ -168,11 +167,11 @@ static void find_delays(struct strips *s, bool aligned)
         int most = 0;
         for (; stage < s->units_count && s->units[stage].stage == s->units[k].stage; stage++) {
             struct unit *to = &s->units[stage];
-            for (int i = 0; i < to->e.pointers_count; i++) {
-                const struct pointer *p = &to->e.seen_pointers[i];
+            for (int i = 0; i < to->looks.count; i++) {
+                const struct access *p = &to->looks.list[i];
                 if (!s->g->nodes[p->node].leaf)
                     widen(&to->delay, s->units[s->unit[p->node]].delay +
-                                          emit_rows_down(&to->e, p) * s->downward);
+                                          accesses_down(&to->looks, p) * s->downward);
             }
             widen(&most, to->delay);
         }
@@ -182,10 +181,10 @@ static void find_delays(struct strips *s, bool aligned)
 }
 
 /* How many rows of a ring there are from the one that is made to that which the unit looks at. */
-static int rows_between(const struct strips *s, const struct unit *to, const struct pointer *p)
+static int rows_between(const struct strips *s, const struct unit *to, const struct access *p)
 {
     const struct unit *from = &s->units[s->unit[p->node]];
-    return to->delay - from->delay - emit_rows_down(&to->e, p) * s->downward + 1;
+    return to->delay - from->delay - accesses_down(&to->looks, p) * s->downward + 1;
 }
 
 static bool same_pass(const struct strips *s, const struct unit *a, const struct unit *b)
@@ -198,8 +197,8 @@ static void find_ring_rows(struct strips *s)
 {
     for (int k = 0; k < s->units_count; k++) {
         const struct unit *to = &s->units[k];
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
+        for (int i = 0; i < to->looks.count; i++) {
+            const struct access *p = &to->looks.list[i];
             if (s->g->nodes[p->node].leaf)
                 continue;
             const struct unit *from = &s->units[s->unit[p->node]];
@@ -226,12 +225,12 @@ static int schedule(struct strips *s, struct way way)
     find_delays(s, way.aligned);
     for (int k = s->units_count - 1; k >= 0; k--) {
         struct unit *to = &s->units[k];
-        for (int i = 0; i < to->e.pointers_count; i++) {
-            const struct pointer *p = &to->e.seen_pointers[i];
+        for (int i = 0; i < to->looks.count; i++) {
+            const struct access *p = &to->looks.list[i];
             if (s->g->nodes[p->node].leaf)
                 continue;
             struct unit *from = &s->units[s->unit[p->node]];
-            int down = emit_rows_down(&to->e, p);
+            int down = accesses_down(&to->looks, p);
             bool variable = same_pass(s, from, to) && rows_between(s, to, p) == 1;
             widen(&from->above, to->above - down);
             widen(&from->below, to->below + down);
@@ -316,16 +315,16 @@ static bool suits(const struct strips *s)
 {
     int rows = 0;
     for (int k = 0; k < s->stages_count; k++)
-        if (s->stages[k].e.wide || s->stages[k].e.soft)
+        if (s->stages[k].looks.wide || s->stages[k].looks.soft)
             return false;
     for (int k = 0; k < s->units_count; k++) {
         const struct unit *unit = &s->units[k];
         int behind = unit->delay - s->passes[s->stages[unit->stage].pass].delay;
-        for (int i = 0; i < unit->e.pointers_count; i++) {
-            const struct pointer *p = &unit->e.seen_pointers[i];
+        for (int i = 0; i < unit->looks.count; i++) {
+            const struct access *p = &unit->looks.list[i];
             if (unit->left - p->low > s->set->halo || unit->right + p->high > s->set->halo)
                 return false;
-            widen(&rows, abs(emit_rows_down(&unit->e, p)) + behind);
+            widen(&rows, abs(accesses_down(&unit->looks, p)) + behind);
         }
     }
     return s->set->halo && s->set->width >= 2 * s->vector && s->set->dimensions[0] >= 2 * rows;
@@ -340,11 +339,11 @@ static bool may_replace(const struct strips *s, int output, int leaf)
     const struct unit *out = &s->units[s->unit[output]];
     for (int k = 0; k < s->units_count; k++) {
         const struct unit *u = &s->units[k];
-        for (int i = 0; i < u->e.pointers_count; i++) {
-            const struct pointer *p = &u->e.seen_pointers[i];
+        for (int i = 0; i < u->looks.count; i++) {
+            const struct access *p = &u->looks.list[i];
             if (p->node != leaf)
                 continue;
-            int late = u->delay - emit_rows_down(&u->e, p) * s->downward - out->delay;
+            int late = u->delay - accesses_down(&u->looks, p) * s->downward - out->delay;
             bool there = u == out && !p->low && !p->high && !u->left && !u->right;
             if (late > 0 || (late == 0 && !there))
                 return false;
@@ -382,8 +381,8 @@ static void pair_add(struct strips *s, int output, int leaf)
 static bool is_read(const struct strips *s, int leaf)
 {
     for (int k = 0; k < s->units_count; k++)
-        for (int i = 0; i < s->units[k].e.pointers_count; i++)
-            if (s->units[k].e.seen_pointers[i].node == leaf)
+        for (int i = 0; i < s->units[k].looks.count; i++)
+            if (s->units[k].looks.list[i].node == leaf)
                 return true;
     return false;
 }
@@ -405,8 +404,8 @@ static void find_pairs(struct strips *s)
         const struct unit *u = &s->units[k];
         const struct pass *pass = &s->passes[s->stages[u->stage].pass];
         int own = (pass->delay - u->delay) * s->downward;
-        for (int i = 0; i < u->e.pointers_count; i++) {
-            int down = own + emit_rows_down(&u->e, &u->e.seen_pointers[i]);
+        for (int i = 0; i < u->looks.count; i++) {
+            int down = own + accesses_down(&u->looks, &u->looks.list[i]);
             widen(&in->above, pass->above - down);
             widen(&in->below, pass->below + down);
         }
@@ -441,11 +440,11 @@ static void choose_way(struct strips *s)
 bool strips_schedule(struct strips *s, const struct device_shape *shape)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
-        stage_values(s, k);
+        stage_accesses(s, k);
     make_units(s);
     if (s->failed)
         return false;
-    emit_find_bits(s->g, s->bits_matter);
+    accesses_find_bits(s->g, s->bits_matter);
     make_passes(s);
     /* the last vector may reach beyond the row, but not beyond its halo */
     int over = s->set->width % s->vector;
@@ -469,7 +468,7 @@ bool strips_find_margin(struct strips *s)
         const struct pass *pass = &s->passes[k];
         int low = 0, high = 0;
         for (int i = 0; i < pass->e.pointers_count; i++) {
-            const struct pointer *p = &pass->e.seen_pointers[i];
+            const struct access *p = &pass->e.seen_pointers[i];
             low = p->low < low ? p->low : low;
             widen(&high, p->high);
         }

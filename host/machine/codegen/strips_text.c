@@ -149,7 +149,7 @@ static void pass_call(struct strips *s, struct text *t, int k)
              "inside%d",
              pass->same, k);
     for (int i = 0; i < e->pointers_count; i++) {
-        const struct pointer *p = &e->seen_pointers[i];
+        const struct access *p = &e->seen_pointers[i];
         int row = emit_rows_down(e, p) - lowest, border = strips_border_of(s, p->node);
         if (border >= 0)
             bordered_row(s, t, border, row);
@@ -253,12 +253,10 @@ static void describe(const struct strips *s, const struct device_shape *shape,
 static void strips_finish(struct strips *s)
 {
     for (int k = 0; s->stages && k < s->stages_count; k++) {
-        emitter_finish(&s->stages[k].e);
-        free(s->stages[k].e.arguments.list);
+        accesses_finish(&s->stages[k].looks);
     }
     for (int k = 0; s->units && k < s->units_count; k++) {
-        emitter_finish(&s->units[k].e);
-        free(s->units[k].e.arguments.list);
+        accesses_finish(&s->units[k].looks);
     }
     for (int k = 0; s->passes && k < s->passes_count; k++) {
         emitter_finish(&s->passes[k].e);

@@ -9,6 +9,7 @@
 #include "plan/tiles.h"
 
 struct stage {
+    struct accesses looks;
     struct emitter e;
     struct text text; /* of its function, but for its name */
     int same;         /* the first stage with that text */
@@ -45,31 +46,22 @@ static bool is_near(const struct tiles *s, int node)
     return a->last > a->stage;
 }
 
-static void stage_begin(struct tiles *s, int k)
-{
-    struct emitter *e = &s->stages[k].e;
-    emitter_finish(e);
-    free(e->arguments.list);
-    emitter_init(e, s->g, s->set, k);
-    e->bare = e->near = true;
-}
-
 /* Of what there is both a canonical form and another: where the array in global memory has the one, local memory may have
  * it, too. */
-static struct operand stored_value(struct tiles *s, int k, int node)
+static bool is_canonical(const struct tiles *s, int node)
 {
-    return emit_value(&s->stages[k].e, node, 0, 0,
-                      s->g->nodes[node].target || s->bits_matter[node]);
+    return s->g->nodes[node].target || s->bits_matter[node];
 }
 
-static void stage_values(struct tiles *s, int k)
+static void stage_accesses(struct tiles *s, int k)
 {
-    struct emitter *e = &s->stages[k].e;
-    stage_begin(s, k);
-    for (int i = 0; i < s->stores_count && !e->failed; i++)
+    struct accesses *looks = &s->stages[k].looks;
+    accesses_begin(looks, s->g, s->set, k);
+    for (int i = 0; i < s->stores_count && !looks->failed; i++)
         if (is_of(s, i, k))
-            stored_value(s, k, s->stores[i]);
-    s->failed = s->failed || e->failed;
+            accesses_add(looks, s->stores[i], is_canonical(s, s->stores[i]));
+    accesses_end(looks);
+    s->failed = s->failed || looks->failed;
 }
 
 /* All that is stored; what nobody loads is begun, and no more. */
@@ -91,11 +83,11 @@ static void find_arrays(struct tiles *s)
 static void find_extents(struct tiles *s)
 {
     for (int k = 0; k < s->stages_count; k++) {
-        const struct emitter *e = &s->stages[k].e;
-        for (int i = 0; i < e->pointers_count; i++) {
-            const struct pointer *p = &e->seen_pointers[i];
+        const struct accesses *looks = &s->stages[k].looks;
+        for (int i = 0; i < looks->count; i++) {
+            const struct access *p = &looks->list[i];
             const struct plan_node *n = &s->g->nodes[p->node];
-            int down = emit_rows_down(e, p);
+            int down = accesses_down(looks, p);
             tiling_look(&s->tiling, (struct tile_look){.to = k,
                                                        .from = n->leaf ? -1 : n->stage,
                                                        .left = -p->low,
@@ -115,11 +107,11 @@ static void find_costs(struct tiles *s)
 {
     const struct device_shape *shape = s->shape;
     for (int k = 0; k < s->stages_count; k++) {
-        const struct emitter *e = &s->stages[k].e;
+        const struct accesses *looks = &s->stages[k].looks;
         struct tile_stage *stage = &s->tiling.stages[k];
-        stage->ns = (e->cost + e->loads) * shape->op_ns;
-        for (int i = 0; i < e->pointers_count; i++) {
-            int node = e->seen_pointers[i].node;
+        stage->ns = (looks->cost + looks->loads) * shape->op_ns;
+        for (int i = 0; i < looks->count; i++) {
+            int node = looks->list[i].node;
             bool leaf = s->g->nodes[node].leaf;
             double bytes = (double)type_bytes(s->g->nodes[node].type);
             if (leaf && !s->number[node])
@@ -137,6 +129,11 @@ static void find_costs(struct tiles *s)
 }
 
 /* ---- the text of a stage ---- */
+
+static struct operand stored_value(struct tiles *s, int k, int node)
+{
+    return emit_value(&s->stages[k].e, node, 0, 0, is_canonical(s, node));
+}
 
 /* What it takes besides the numbers: the sheet, the work-item; where it begins, how large it is, where in it the tile is, and
  * how much of that is on the sheet; then a pointer for each array and row that it loads, and for each that it stores. */
@@ -173,7 +170,7 @@ static void head(const struct tiles *s, int k, struct text *t)
 static void pointers(const struct tiles *s, const struct emitter *e, struct text *t)
 {
     for (int i = 0; i < e->pointers_count; i++) {
-        const struct pointer *p = &e->seen_pointers[i];
+        const struct access *p = &e->seen_pointers[i];
         const char *type = memory_type(s->g->nodes[p->node].type);
         if (s->g->nodes[p->node].leaf)
             text_put(t, "        const __global %s *const p%d = b%d + (size_t)r%d * PITCH;\n",
@@ -231,7 +228,8 @@ static void stage_text(struct tiles *s, int k)
     struct stage *stage = &s->stages[k];
     struct emitter *e = &stage->e;
     struct text *t = &stage->text;
-    stage_begin(s, k);
+    emitter_init(e, s->g, s->set, k);
+    e->bare = e->near = true;
     outputs(s, k);
     head(s, k, t);
     /* The only quotients: they are dear. */
@@ -310,7 +308,7 @@ static void stage_call(const struct tiles *s, struct text *t, int k)
              s->stages[k].same, to->left, to->above, s->tiling.width + to->left + to->right,
              to->above + to->below, to->left, to->above);
     for (int i = 0; i < e->pointers_count; i++) {
-        const struct pointer *p = &e->seen_pointers[i];
+        const struct access *p = &e->seen_pointers[i];
         if (s->g->nodes[p->node].leaf) {
             text_put(t, ", b%d", p->node);
             continue;
@@ -384,7 +382,7 @@ static void describe(const struct tiles *s, struct kernel_text *out)
 static bool suits(const struct tiles *s)
 {
     for (int k = 0; k < s->stages_count; k++)
-        if (s->stages[k].e.wide || s->stages[k].e.soft)
+        if (s->stages[k].looks.wide || s->stages[k].looks.soft)
             return false;
     return !s->set->halo;
 }
@@ -392,6 +390,7 @@ static bool suits(const struct tiles *s)
 static void tiles_finish(struct tiles *s)
 {
     for (int k = 0; s->stages && k < s->stages_count; k++) {
+        accesses_finish(&s->stages[k].looks);
         emitter_finish(&s->stages[k].e);
         free(s->stages[k].e.arguments.list);
         free(s->stages[k].text.data);
@@ -405,9 +404,9 @@ static void tiles_finish(struct tiles *s)
 
 static bool schedule(struct tiles *s)
 {
-    emit_find_bits(s->g, s->bits_matter);
+    accesses_find_bits(s->g, s->bits_matter);
     for (int k = 0; k < s->stages_count && !s->failed; k++)
-        stage_values(s, k);
+        stage_accesses(s, k);
     if (s->failed || !suits(s))
         return false;
     find_arrays(s);

@@ -1,0 +1,34 @@
+/* hand_graph.h - graphs for planner and codegen that no program has made: by chance, or node by node. */
+#ifndef LUTETIA_TESTS_HAND_GRAPH_H
+#define LUTETIA_TESTS_HAND_GRAPH_H
+
+#include "plan/plan.h"
+
+enum { HAND_NODES_MOST = 400 };
+
+struct hand_graph {
+    struct plan_graph g;
+    struct plan_node nodes[HAND_NODES_MOST];
+    uint32_t chance;
+    int kind; /* which types there are */
+};
+
+/* What the next number is drawn from 0 .. n - 1. */
+int hand_below(struct hand_graph *h, int n);
+void hand_begin(struct hand_graph *h, uint32_t seed);
+/* Each returns the node's number. */
+int hand_leaf(struct hand_graph *h, struct machine_type type);
+int hand_number(struct hand_graph *h, struct machine_type type);
+int hand_coordinate(struct hand_graph *h, int axis, int width);
+int hand_node(struct hand_graph *h, int op, struct machine_type type, int a, int b, int c);
+int hand_shift(struct hand_graph *h, int a, int axis, int distance);
+/* So many nodes more by chance, of all operations and many types, on a set with so many axes; the last ones are targets. */
+void hand_by_chance(struct hand_graph *h, int count, int rank);
+/* What no target wants goes: planner and codegen are given no such nodes. */
+void hand_prune(struct hand_graph *h);
+
+struct vpset hand_set(int rank, const int *dimensions, int halo);
+/* A CPU with vectors of 8. */
+struct device_shape hand_shape(void);
+
+#endif
