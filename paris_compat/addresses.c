@@ -19,19 +19,25 @@ static bool axis_good(const struct paris_geometry *g, unsigned int axis)
 }
 
 static bool coordinate_good(const struct paris_geometry *g, unsigned int axis,
-                            unsigned int coordinate)
+                            unsigned int *coordinate)
 {
-    if (coordinate < (unsigned int)g->dimensions[axis])
+    unsigned int length = (unsigned int)g->dimensions[axis];
+    if (*coordinate < length)
         return true;
+    if (paris_let_pass("coordinate: must be 0..%u on axis %u; %u is taken modulo", length - 1,
+                       axis, *coordinate)) {
+        *coordinate %= length;
+        return true;
+    }
     paris_fail("coordinate: must be 0..%d on axis %u (got %d)", g->dimensions[axis] - 1, axis,
-               (int)coordinate);
+               (int)*coordinate);
     return false;
 }
 
 static bool address_index(const struct paris_geometry *g, unsigned int send_address,
                           uint64_t *index)
 {
-    *index = paris_index_of_address(g, send_address);
+    *index = paris_index_let_pass(g, send_address);
     if (*index != UINT64_MAX)
         return true;
     paris_fail("send_address: there is no processor %u in this geometry of %llu", send_address,
@@ -44,7 +50,7 @@ unsigned int CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int 
 {
     paris_the.call = "CM_fe_make_news_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
-    if (!axis_good(g, axis) || !coordinate_good(g, axis, coordinate))
+    if (!axis_good(g, axis) || !coordinate_good(g, axis, &coordinate))
         return 0;
     return (unsigned int)paris_address_of_index(g, coordinate * axis_stride(g, axis));
 }
@@ -55,7 +61,7 @@ unsigned int CM_fe_deposit_news_coordinate(CM_geometry_id_t geometry, unsigned i
     paris_the.call = "CM_fe_deposit_news_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
     uint64_t index;
-    if (!axis_good(g, axis) || !coordinate_good(g, axis, coordinate) ||
+    if (!axis_good(g, axis) || !coordinate_good(g, axis, &coordinate) ||
         !address_index(g, send_address, &index))
         return 0;
     uint64_t stride = axis_stride(g, axis);

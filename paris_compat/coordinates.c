@@ -140,11 +140,13 @@ void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_
         return;
     if (self->op == 0) {
         v = load(m, coordinate, slen, "coordinate");
-    } else if (coordinate >= (unsigned int)g->dimensions[axis]) {
+    } else if (coordinate >= (unsigned int)g->dimensions[axis] &&
+               !paris_let_pass("value: must be 0..%d on axis %u; %u is taken modulo",
+                               g->dimensions[axis] - 1, axis, coordinate)) {
         paris_fail("value: must be 0..%d on axis %u (got %u)", g->dimensions[axis] - 1, axis,
                    coordinate);
     } else {
-        v = number(m, coordinate);
+        v = number(m, coordinate % (unsigned int)g->dimensions[axis]);
     }
     if (!v)
         return;
@@ -196,7 +198,7 @@ unsigned int CM_fe_extract_multi_coordinate(CM_geometry_id_t geometry, unsigned 
 {
     paris_the.call = "CM_fe_extract_multi_coordinate";
     const struct paris_geometry *g = paris_geometry_of(geometry);
-    uint64_t sum = 0, index = g ? paris_index_of_address(g, send_address) : 0;
+    uint64_t sum = 0, index = g ? paris_index_let_pass(g, send_address) : 0;
     if (!g)
         return 0;
     if (index == UINT64_MAX) {

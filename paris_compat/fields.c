@@ -5,6 +5,11 @@ static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t
                               enum machine_region region)
 {
     struct machine *m = paris_inquire(name);
+    if (len == 0 && region == MACHINE_HEAP &&
+        !paris_let_pass("len: a field of 0 bits on the heap")) {
+        paris_fail("len: a field on the heap has 1 bit or more (got 0)");
+        return CM_no_field;
+    }
     uint32_t field =
         machine_field_allocate(m, vp_set ? vp_set : machine_vpset_current(m), len, region);
     if (field == MACHINE_NO_FIELD)

@@ -108,3 +108,15 @@ uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_ad
                          : send_address % g->ratio * physical + send_address / g->ratio;
     return send_address < physical * g->ratio && index < g->count ? index : UINT64_MAX;
 }
+
+uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address)
+{
+    uint64_t index = paris_index_of_address(g, send_address);
+    if (index != UINT64_MAX ||
+        !paris_let_pass(
+            "send_address: there is no processor %llu among %llu; it is taken modulo",
+            (unsigned long long)send_address, (unsigned long long)g->count))
+        return index;
+    index = paris_index_of_address(g, send_address % (CM_physical_processors_limit * g->ratio));
+    return index != UINT64_MAX ? index : send_address % g->count;
+}

@@ -16,7 +16,10 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
                    role, CM_maximum_significand_length, CM_maximum_exponent_length, a.len, a.e);
         return false;
     }
-    unsigned int least = a.letter == 's' && paris_the.safety ? 2 : 1;
+    unsigned int least = a.letter == 's' ? 2 : 1;
+    if (a.letter == 's' && a.len == 1 &&
+        paris_let_pass("%s: a number of one bit with a sign", role))
+        least = 1;
     if (a.len < least || a.len > PARIS_INTEGER_MAX) {
         paris_fail("%s: length must be %u..%d bits (got %u)", role, least, PARIS_INTEGER_MAX,
                    a.len);
@@ -31,9 +34,14 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
 {
     /* What is long goes in pieces: the first must not be stored when the last cannot be. */
-    if (!paris_the.safety && bits <= PARIS_INTEGER_MAX)
-        return true;
     struct machine_field_info info;
+    if (paris_runs_over(field, bits, role))
+        return true;
+    if (!paris_the.safety && bits <= PARIS_INTEGER_MAX) {
+        int set = paris_the.lenient ? 0 : machine_field_vpset(paris_the.machine, field);
+        if (!set || set == CM_current_vp_set)
+            return true; /* what else may be wrong the machine says */
+    }
     if (field == CM_no_field) {
         paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or "
                    "CM_allocate_heap_field",

@@ -26,6 +26,10 @@ struct machine *paris_machine(void);
  * paris_error() says why; there is no machine then. config NULL: from the environment. */
 bool paris_reset(const struct machine_config *config);
 
+/* The mode that programs begin in: strict, but without what CM_set_safety_mode (1) adds; lenient if
+ * LUTETIA_LENIENT=1. CM_set_safety_mode (0) is lenient. */
+void paris_safety_usual(void);
+
 /* The text of the last failure, one line; "" if none. */
 const char *paris_error(void);
 

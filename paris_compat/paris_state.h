@@ -110,6 +110,7 @@ struct paris_state {
     struct machine *machine;
     const char *call; /* the name of the instruction under way, for messages */
     unsigned int safety;
+    bool lenient; /* what the real machine let pass is let pass: safety.c */
     bool attached;
     bool pristine;                     /* nothing allocated since CM_init */
     struct paris_geometry *geometries; /* by id - 1 */
@@ -234,6 +235,13 @@ bool paris_check_overlap(struct paris_operand dest, struct paris_operand source)
 /* dest as an instruction stores into it that has these sources (one: twice the same); *type: its. */
 bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct paris_operand b,
                       struct machine_type *type);
+/* In lenient mode: says once on the standard error what is let pass, and gives true. */
+bool paris_let_pass(const char *format, ...) PARIS_PRINTF(1, 2);
+/* Whether a lenient machine goes on past the field's end here; that is said. */
+bool paris_runs_over(CM_field_id_t field, unsigned int bits, const char *role);
+/* The mode is put into effect on a machine that has just been made. */
+void paris_safety_begin(struct machine *m);
+
 /* These say no in either mode. */
 bool paris_check_axis(unsigned int axis);
 const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
@@ -283,6 +291,8 @@ enum machine_order paris_geometry_order(const struct paris_geometry *g);
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);
 /* UINT64_MAX where there is no such processor. */
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address);
+/* The same; a lenient machine takes it modulo, and says so. */
+uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address);
 unsigned int paris_address_bits(const struct paris_geometry *g);
 void paris_sets_reset(void); /* no geometries, no VP sets but the default one */
 void paris_sets_forget(void);

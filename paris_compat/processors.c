@@ -39,18 +39,19 @@ static bool processor_index(struct machine *m, CM_sendaddr_t send_address,
                             struct paris_operand field, const char *role,
                             struct machine_type *type, uint64_t *index)
 {
-    struct machine_field_info info;
-    if (!paris_type(field, role, type) || !paris_check_operand(field, role))
+    if (!paris_type(field, role, type) ||
+        (paris_the.safety && !paris_check_operand(field, role)))
         return false;
-    if (!machine_field_lookup(m, field.field, &info)) {
+    paris_runs_over(field.field, paris_operand_bits(field), role);
+    int set = machine_field_vpset(m, field.field);
+    if (!set) {
         paris_fail("%s: %u is not a field: it was never allocated, has been deallocated, or an "
                    "offset led out of it",
                    role, field.field);
         return false;
     }
-    const struct paris_geometry *g =
-        &paris_the.geometries[paris_the.set_geometry[info.vpset] - 1];
-    *index = paris_index_of_address(g, send_address);
+    const struct paris_geometry *g = &paris_the.geometries[paris_the.set_geometry[set] - 1];
+    *index = paris_index_let_pass(g, send_address);
     if (*index == UINT64_MAX) {
         paris_fail("send_address: there is no processor %u in this VP set of %llu",
                    send_address, (unsigned long long)g->count);

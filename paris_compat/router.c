@@ -8,6 +8,8 @@ bool paris_check_field_anywhere(CM_field_id_t field, unsigned int bits, const ch
 {
     struct machine_field_info info;
     if (machine_field_lookup(paris_the.machine, field, &info)) {
+        if (paris_runs_over(field, bits, role))
+            return true;
         if (bits <= info.bits - info.offset)
             return true;
         paris_fail("%s: %u bits reach beyond its field, which has %u from here (%u in all): "

@@ -11,18 +11,6 @@ unsigned int CM_physical_processors_length = 0;
 static struct machine_config config_now;
 static bool config_given;
 
-void CM_set_safety_mode(unsigned int on)
-{
-    if (paris_the.machine)
-        machine_calls_forget(paris_the.machine);
-    paris_the.safety = on;
-}
-
-unsigned int CM_safety_mode(void)
-{
-    return paris_the.safety;
-}
-
 /* ---- the machine ---- */
 
 static void machine_forget(void)
@@ -61,6 +49,7 @@ static bool machine_make(void)
         registered = atexit(leave) == 0;
     paris_explain_begin(m);
     paris_the.machine = m;
+    paris_safety_begin(m);
     paris_the.attached = true;
     CM_physical_processors_limit = (unsigned int)machine_processors_count(m);
     CM_physical_processors_length = 0;

@@ -283,6 +283,18 @@ struct machine_field_info {
 /* false: there is no such field (any more). Does not set the error. */
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out);
+/* The VP set of the field that the id is in; 0: it is in none. */
+int machine_field_vpset(const struct machine *m, uint32_t field);
+
+/* ---- lenient ----
+ *
+ * With it, what is read or stored past a field's end is in the field of the same VP set and region
+ * that was allocated next after it; past the last one bits are 0, and what is stored there is lost.
+ * Without, which is how a machine begins unless LUTETIA_LENIENT=1, that is an error. */
+void machine_lenient_set(struct machine *m, bool on);
+bool machine_lenient(const struct machine *m);
+/* Whether so many bits from there on run past a field's end, and a lenient machine goes on after it. */
+bool machine_field_runs_over(const struct machine *m, uint32_t field, uint32_t bits);
 
 /* ---- aliases ---- */
 

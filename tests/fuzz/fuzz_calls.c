@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "paris_internal.h"
 #include <cm/paris.h>
 
 #include "fuzz_calls.h"
@@ -287,10 +288,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     struct fuzz f = {.at = bytes, .end = bytes + count};
     call_now = "none is wrong here";
-    CM_set_safety_mode(0);
+    paris_safety_usual();
     begin(&f);
     unsigned int mode = byte(&f);
-    CM_set_safety_mode(mode & 1);
+    if (mode & 2)
+        CM_set_safety_mode(mode & 1); /* lenient, or safe */
+    else if (mode & 1)
+        CM_set_safety_mode(1);
     for (int i = 0; i < CALLS_MAX && f.at < f.end; i++) {
         unsigned int row = byte(&f) << 8;
         row = (row | byte(&f)) % ROWS;

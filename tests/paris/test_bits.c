@@ -174,10 +174,10 @@ static void bits_move_in_safety_mode(void **unused)
     CM_u_rem_2_1L(AT(0), AT(40), 129);
     assert_string_equal(device_message,
                         "CM_u_rem_2_1L: dest: length must be 1..128 bits (got 129)");
-    CM_set_safety_mode(0);
+    paris_safety_usual();
     CM_s_s_shift_2_2L(AT(0), AT(40), 32, 0);
     assert_string_equal(device_message,
-                        "CM_s_s_shift_2_2L: source2: length must be 1..128 bits (got 0)");
+                        "CM_s_s_shift_2_2L: source2: length must be 2..128 bits (got 0)");
     CM_swap_2_1L(AT(0), AT(40), 50);
     assert_string_equal(device_message,
                         "CM_swap_2_1L: fields that overlap in part cannot change "

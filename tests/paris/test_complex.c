@@ -425,7 +425,7 @@ static void the_rest_agrees(void **unused)
     CM_set_safety_mode(1);
     CM_c_add_2_1L(next, wide, 16, 11);
     device_said("CM_c_add_2_1L", "dest");
-    CM_set_safety_mode(0);
+    paris_safety_usual();
     CM_c_move_zero_1L(wide + 16, 52, 11); /* the second part does not fit: neither is stored */
     device_said("CM_c_move_zero_1L", "beyond its field");
     parts_of((struct format){52, 11}, wide, out);
@@ -434,7 +434,7 @@ static void the_rest_agrees(void **unused)
     CM_set_safety_mode(1);
     CM_c_sqrt_2_1L(c, wide, 10, 1);
     device_said("CM_c_sqrt_2_1L", "exponent 2..11");
-    CM_set_safety_mode(0);
+    paris_safety_usual();
 }
 
 static void functions_agree(struct format f)

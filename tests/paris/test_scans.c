@@ -460,7 +460,7 @@ static void what_is_wrong_is_said(void **unused)
     fields_new(&s, 160);
     CM_set_error_handler(device_error_catch);
     for (unsigned int mode = 0; mode < 2; mode++) {
-        CM_set_safety_mode(mode);
+        mode ? CM_set_safety_mode(1) : paris_safety_usual();
         CM_scan_with_u_add_1L(s.dest, s.source, 3, 32, 0, 1, 0, CM_no_field);
         device_said("CM_scan_with_u_add_1L", "axis: must be 0..2");
         CM_scan_with_u_add_1L(s.dest, s.source, 1, 32, 2, 1, 0, CM_no_field);
@@ -492,7 +492,7 @@ static void what_is_wrong_is_said(void **unused)
         CM_scan_with_logior_1L(s.dest, s.source, 1, 0, 0, 1, 0, CM_no_field); /* nothing */
         assert_true(device_message[0] == 0);
     }
-    CM_set_safety_mode(0);
+    paris_safety_usual();
     CM_set_error_handler(NULL);
     set_free(&s);
 }

@@ -1,4 +1,5 @@
 /* fields.c - what a field holds: looked at and stored. */
+#include "access/beyond.h"
 #include "access/settle.h"
 #include "alias/alias.h"
 #include "base/errors.h"
@@ -54,6 +55,40 @@ static struct field *field_part(struct machine *m, uint32_t id, struct machine_t
     return f;
 }
 
+/* The two that follow, past a field's end: in pieces, each in a field. */
+static struct machine_value *value_beyond(struct machine *m, uint32_t id,
+                                          struct machine_type type, enum machine_scope scope)
+{
+    struct machine_value *sum = NULL;
+    uint32_t bits = (uint32_t)machine_type_bits(type);
+    for (uint32_t at = 0, n; at < bits; at += n) {
+        n = bits - at;
+        uint32_t part = beyond_part(m, id, at, &n);
+        struct machine_value *piece =
+            part ? machine_field_value(m, part, MACHINE_UINT((int)n), scope)
+                 : slot_zero(m, (int)n);
+        sum = sum && piece ? machine_concat(m, sum, piece) : piece;
+        if (!sum)
+            return NULL;
+    }
+    return machine_reinterpret(m, sum, type);
+}
+
+static enum machine_status store_beyond(struct machine *m, uint32_t id,
+                                        struct machine_value *value, enum machine_scope scope)
+{
+    uint32_t bits = (uint32_t)value->type.width;
+    value = machine_reinterpret(m, value, MACHINE_UINT((int)bits));
+    for (uint32_t at = 0, n; at < bits && value; at += n) {
+        n = bits - at;
+        uint32_t part = beyond_part(m, id, at, &n);
+        struct machine_value *piece = machine_extract(m, value, (int)at, (int)n);
+        if (!piece || (part && machine_field_store(m, part, piece, scope)))
+            return m->status;
+    }
+    return value ? MACHINE_OK : m->status;
+}
+
 struct machine_value *machine_field_value(struct machine *m, uint32_t field,
                                           struct machine_type type, enum machine_scope scope)
 {
@@ -63,6 +98,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
         return soft_unpacked(
             m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope),
             type);
+    if (m->settings.lenient && beyond_field(m, field, (uint32_t)machine_type_bits(type)))
+        return value_beyond(m, field, type, scope);
     struct field *f = field_part(m, field, type, &offset);
     if (!f || !alias_bring(m, f, false, false))
         return NULL;
@@ -84,6 +121,8 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
         value = soft_packed(m, value);
     if (!value)
         return m->status;
+    if (m->settings.lenient && beyond_field(m, field, (uint32_t)value->type.width))
+        return store_beyond(m, field, value, scope);
     uint32_t offset;
     struct field *f = field_part(m, field, value->type, &offset);
     if (!f)

@@ -17,7 +17,8 @@ struct settings {
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     uint64_t strips, in_place, scatter, narrow, keeps_nan;
-    uint64_t tile; /* width << 16 | height */
+    uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
+    uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
     uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
     uint64_t keep;    /* programs on disk */

@@ -11,6 +11,8 @@
 
 #define ID_SPACE 0x7fff0000u
 
+enum { GAP_LENIENT = 4096 }; /* how far an offset may lead past a field's end */
+
 /* The first field whose base is above id. */
 static int fields_above(const struct machine *m, uint32_t id)
 {
@@ -64,10 +66,8 @@ void fields_finish(struct machine *m)
 
 /* Where a new field of that many bits goes: on from the last one, and round once the space is
  * used up. */
-static uint32_t find_room(struct machine *m, uint32_t bits)
+static uint32_t find_room(struct machine *m, uint32_t room)
 {
-    uint32_t room =
-        (bits + 128) / 64 * 64; /* a gap between fields: an id never runs into the next one */
     for (int round = 0; round < 2; round++) {
         uint32_t base = m->memory->next_base;
         for (int i = fields_above(m, base); base <= ID_SPACE - room; i++) {
@@ -97,7 +97,9 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
                      bits);
         return MACHINE_NO_FIELD;
     }
-    uint32_t base = find_room(m, bits);
+    /* A gap between fields: an id never runs into the next one. */
+    uint32_t room = (bits + 128) / 64 * 64 + (m->settings.lenient ? GAP_LENIENT : 0);
+    uint32_t base = find_room(m, room);
     struct field *f = base ? calloc(1, sizeof *f) : NULL;
     if (f && m->memory->fields_count == m->memory->fields_capacity) {
         int capacity = m->memory->fields_capacity ? 2 * m->memory->fields_capacity : 64;
@@ -117,6 +119,7 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
     }
     *f = (struct field){.base = base,
                         .bits = bits,
+                        .room = room,
                         .vpset = vpset,
                         .region = region,
                         .serial = m->memory->serial++};
@@ -157,6 +160,27 @@ bool machine_field_lookup(const struct machine *m, uint32_t field,
                                        .vpset = f->vpset,
                                        .region = f->region};
     return true;
+}
+
+struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset)
+{
+    int i = fields_above(m, id) - 1;
+    if (i < 0 || id - m->memory->fields[i]->base >= m->memory->fields[i]->room)
+        return NULL;
+    *offset = id - m->memory->fields[i]->base;
+    return m->memory->fields[i];
+}
+
+int machine_field_vpset(const struct machine *m, uint32_t id)
+{
+    int i = m->memory->last_found;
+    if (!(i < m->memory->fields_count && m->memory->fields[i]->base <= id &&
+          id - m->memory->fields[i]->base < m->memory->fields[i]->bits))
+        i = fields_above(m, id) - 1;
+    if (i < 0)
+        return 0;
+    const struct field *f = m->memory->fields[i];
+    return id - f->base < (m->settings.lenient ? f->room : f->bits) ? f->vpset : 0;
 }
 
 struct field *field_exact(struct machine *m, uint32_t id)

@@ -27,6 +27,7 @@ struct view {
 struct field {
     uint32_t base; /* its id */
     uint32_t bits;
+    uint32_t room; /* ids from base on that are no other field's */
     int vpset;
     enum machine_region region;
     uint64_t serial;    /* order of allocation */
@@ -71,6 +72,8 @@ static inline struct flags *flags_of(const struct machine *m, const struct vpset
 
 void fields_finish(struct machine *m);
 struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset);
+/* The field that the id is in, or past the end of but not yet in the next; NULL if there is none. */
+struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset);
 /* The field that begins at the id; NULL if none does. */
 struct field *field_exact(struct machine *m, uint32_t id);
 /* Whether the field may have so many bits without running into the next one's ids. */

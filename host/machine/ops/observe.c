@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "access/beyond.h"
 #include "access/settle.h"
 #include "base/errors.h"
 #include "base/scalar.h"
@@ -23,8 +24,13 @@ static struct field *part(struct machine *m, uint32_t id, struct machine_type ty
                           uint32_t *offset)
 {
     settle(m);
-    struct field *f = field_find(m, id, offset);
     int bits = machine_type_bits(type);
+    struct field *beyond = beyond_field(m, id, (uint32_t)bits);
+    if (beyond) {
+        *offset = id - beyond->base;
+        return beyond;
+    }
+    struct field *f = field_find(m, id, offset);
     if (f && *offset + (uint32_t)bits > f->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT,
                      "%d bits from bit %u on run over the end of a field of %u bits", bits,

@@ -1,0 +1,81 @@
+/* safety.c - how strict the calls are.
+ *
+ *     as programs begin       what is wrong is an error
+ *     CM_set_safety_mode (1)  every argument is looked at too, before the machine is
+ *     CM_set_safety_mode (0)  lenient, as LUTETIA_LENIENT=1: what the real machine let pass is let pass,
+ *                             and said once
+ *
+ * In each of them nothing outside the machine's own memory is read or written. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "paris_state.h"
+#include "visible_text.h"
+
+static enum { USUAL, LENIENT, SAFE } mode;
+
+static void mode_set(unsigned int which)
+{
+    mode = which;
+    paris_the.safety = mode == SAFE;
+    if (paris_the.machine) {
+        machine_calls_forget(paris_the.machine);
+        paris_safety_begin(paris_the.machine);
+    }
+}
+
+/* LUTETIA_LENIENT is the machine's own setting. */
+void paris_safety_begin(struct machine *m)
+{
+    static bool asked, by_environment;
+    if (!asked)
+        by_environment = machine_lenient(m);
+    asked = true;
+    paris_the.lenient = mode == LENIENT || (mode == USUAL && by_environment);
+    machine_lenient_set(m, paris_the.lenient);
+}
+
+void CM_set_safety_mode(unsigned int on)
+{
+    mode_set(on ? SAFE : LENIENT);
+}
+
+unsigned int CM_safety_mode(void)
+{
+    return paris_the.safety;
+}
+
+void paris_safety_usual(void)
+{
+    mode_set(USUAL);
+}
+
+bool paris_let_pass(const char *format, ...)
+{
+    static bool said;
+    if (!paris_the.lenient)
+        return false;
+    if (!said) {
+        char text[400], line[2 * sizeof text];
+        va_list args;
+        va_start(args, format);
+        vsnprintf(text, sizeof text, format, args);
+        va_end(args);
+        visible_text(line, sizeof line, text);
+        fflush(stdout);
+        fprintf(stderr,
+                "%s: %s. This and more of the kind is let pass (said once); "
+                "CM_set_safety_mode (1) makes it an error\n",
+                paris_the.call, line);
+    }
+    return said = true;
+}
+
+bool paris_runs_over(CM_field_id_t field, unsigned int bits, const char *role)
+{
+    return paris_the.lenient && machine_field_runs_over(paris_the.machine, field, bits) &&
+           paris_let_pass(
+               "%s: %u bits from %u on run over the end of a field and go on in what "
+               "lies after it",
+               role, bits, field);
+}
