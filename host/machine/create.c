@@ -136,6 +136,7 @@ void machine_stats_get(const struct machine *m, struct machine_stats *out)
                                .kernels_built = m->device->kernels_built,
                                .kernels_built_background = m->device->kernels_built_background,
                                .kernels_run = m->device->kernels_run,
+                               .interpreted = m->plans->interpreted,
                                .kernels_in_place = m->plans->kernels_in_place,
                                .kernels_in_strips = m->plans->kernels_in_strips,
                                .kernels_in_tiles = m->plans->kernels_in_tiles,

@@ -206,6 +206,7 @@ struct machine_stats {
     uint64_t kernels_built;  /* compiled, or loaded from the disk cache */
     uint64_t kernels_built_background; /* of these: while others ran (LUTETIA_BACKGROUND) */
     uint64_t kernels_run;
+    uint64_t interpreted; /* stages of plans that ran without a kernel (LUTETIA_INTERPRET) */
     uint64_t kernels_in_place;  /* of these: over old values that nobody wants any more */
     uint64_t kernels_in_strips; /* of these: several stages at once */
     uint64_t kernels_in_tiles;  /* likewise, in local memory */

@@ -14,6 +14,7 @@ struct settings {
     uint64_t flush_after; /* values waiting */
     /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
     uint64_t optimise_after, box_after;
+    uint64_t interpret;  /* plans run as byte code: 0 never, 1 until kernels pay, 2 always */
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     uint64_t strips, in_place, scatter, narrow, keeps_nan;

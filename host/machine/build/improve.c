@@ -22,6 +22,8 @@ enum quality plan_quality_after(const struct machine *m, uint64_t worked)
 bool plan_is_due(const struct machine *m, const struct plan *p)
 {
     enum quality quality = plan_quality_after(m, p->worked);
+    if (p->quality == INTERPRETED)
+        return interpreted_is_due(m, p) && !background_busy(m);
     return quality > p->quality && (quality != OPTIMISED || p->could_be_optimised) &&
            (quality != BOXED || p->could_be_optimised || p->could_be_boxed ||
             p->could_be_strips) &&
@@ -48,9 +50,10 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     plan_free(better);
 }
 
-void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q)
+void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,
+                  enum quality quality)
 {
-    struct plan *better = plan_make(m, q, plan_quality_after(m, p->worked), false);
+    struct plan *better = plan_make(m, q, quality, false);
     p->quality = BOXED; /* not again, unless it says so itself */
     if (better)
         plan_becomes(m, p, better);
@@ -98,6 +101,20 @@ bool improve_begin(struct machine *m, struct plan *p, const struct plan_request 
     machine_error_clear(m);
     better_give_up(m, p);
     return false;
+}
+
+void plan_promote(struct machine *m, struct plan *p, const struct plan_request *q)
+{
+    enum quality quality = plan_quality_after(m, p->worked);
+    quality = quality < OPTIMISED ? OPTIMISED : quality;
+    if (!p->asked) {
+        struct plan *better = interpreted_at_hand(m, q);
+        p->asked = true;
+        if (better)
+            plan_becomes(m, p, better);
+    } else if (!improve_begin(m, p, q, quality)) {
+        plan_improve(m, p, q, quality);
+    }
 }
 
 uint32_t plan_version(const struct machine *m, const struct plan *p)

@@ -18,7 +18,9 @@ void plan_free(struct plan *p)
     if (!p)
         return;
     for (int i = 0; i < p->launches_count; i++) {
-        free(p->launches[i].arguments);
+        if (!p->launches[i].program) /* else they are its */
+            free(p->launches[i].arguments);
+        byte_code_free(p->launches[i].program);
         free(p->launches[i].in_place.pairs);
     }
     plan_free(p->better);
@@ -149,8 +151,7 @@ static void plan_dump_text(struct machine *m, const struct kernel_text *k)
     dump_text(m, m->plans->dump_count++, ".cl", said, k->text);
 }
 
-/* Room for one more. False: no memory. */
-static bool launches_grow(struct plan *p)
+bool plan_launches_grow(struct plan *p)
 {
     struct launch *launches =
         realloc(p->launches, (size_t)(p->launches_count + 1) * sizeof *launches);
@@ -174,6 +175,8 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                                        k->text};
     if (many_streams(m, set, k))
         strcat(k->options, " -DAHEAD=128");
+    if (p->only_at_hand && !device_kernel_at_hand(m, parts, k->options, "k"))
+        return false;
     bool quick = p->quality == QUICK && !much_math(m, k, set) &&
                  !device_kernel_at_hand(m, parts, k->options, "k");
     if (quick)
@@ -237,12 +240,12 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         watch_span(m, WATCH_GENERATE, start, "\"operations\":%d,\"loads\":%d", k.ops, k.loads);
     if (m->plans->dump_dir)
         plan_dump_text(m, &k);
-    bool good = launches_grow(p) && plan_build(m, p, g, stores, stores_count, &k);
+    bool good = plan_launches_grow(p) && plan_build(m, p, g, stores, stores_count, &k);
     kernel_text_finish(&k);
     return good;
 }
 
-static bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
+bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
 {
     const struct reach *r = q->reach;
     const struct targets *t = q->targets;
@@ -268,8 +271,7 @@ static bool plan_graph_init(struct plan_graph *g, const struct plan_request *q)
     return g->nodes != NULL;
 }
 
-/* What is stored in that stage (-1: in all) and VP set; in stages' order. */
-static int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
+int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
 {
     int count = 0;
     for (int i = 0; i < g->count; i++)
@@ -280,8 +282,8 @@ static int plan_stores(const struct plan_graph *g, int stage, int set, int *stor
 }
 
 /* In strips, what only neighbours look at is in no array. */
-static void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
-                        const int *stores, int count)
+void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
+                 const int *stores, int count)
 {
     for (int i = 0; i < count; i++) {
         const struct plan_node *n = &g->nodes[stores[i]];
@@ -295,7 +297,7 @@ static void plan_arrays(const struct machine *m, struct plan *p, const struct pl
 }
 
 /* Of a stage that was split, each launch stores a part. */
-static void find_last_launches(struct plan *p)
+void plan_last_launches(struct plan *p)
 {
     for (int i = 0; i < p->stored_count; i++)
         for (int l = p->arrays[i].first + 1; l < p->launches_count; l++)
@@ -328,7 +330,7 @@ static bool plan_kernels(struct machine *m, struct plan *p, const struct plan_gr
             if (count && !plan_kernel(m, p, g, stores, count))
                 return false;
         }
-    find_last_launches(p);
+    plan_last_launches(p);
     return true;
 }
 
@@ -343,6 +345,7 @@ static struct plan *plan_attempt(struct machine *m, const struct plan_request *q
     if (good) {
         p->quality = quality;
         p->later = later;
+        p->only_at_hand = q->use == PLAN_TO_RUN_AT_HAND;
         p->stored = calloc(count, sizeof *p->stored);
         p->arrays = calloc(count, sizeof *p->arrays);
         good = p->stored && p->arrays;

@@ -1,6 +1,7 @@
 /* plan_run.c - plans run: buffers for what they store, and their kernels' launches. */
 #include <math.h>
 
+#include "base/errors.h"
 #include "build/background.h"
 #include "build/plans.h"
 #include "device/call.h"
@@ -183,6 +184,27 @@ static enum machine_status launch(struct machine *m, const struct launch *l,
     return status;
 }
 
+/* On the front end's own thread, when the device has done what came before. */
+static enum machine_status interpret(struct machine *m, struct plan *p, const struct launch *l,
+                                     struct device_buffer *const *buffers,
+                                     struct machine_value *const *nodes)
+{
+    enum machine_status status = device_settle(m);
+    if (status)
+        return status;
+    double start = clock_s();
+    m->inside++;
+    bool good =
+        blocks_run(&m->plans->room, l->program, &m->values->sets[l->set], buffers, nodes);
+    m->inside--;
+    p->spent_s += clock_s() - start;
+    m->plans->interpreted++;
+    if (m->watch)
+        watch_interpreted(m, l->note, start);
+    return good ? MACHINE_OK
+                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to interpret a plan");
+}
+
 /* What the only kernel of a plan may write over, so that caches have one array less to hold. With more kernels one of them
  * could fail when another has written there, and the calls could not be performed after all. NULL: there is none. */
 static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
@@ -236,7 +258,9 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     uint32_t in_place = take_places(m, p, buffers, fates ? fates->dies : NULL);
     for (int i = 0; i < p->launches_count && !status; i++) {
         status = arrays_get(m, p, i, buffers, fates);
-        if (!status)
+        if (!status && p->launches[i].program)
+            status = interpret(m, p, &p->launches[i], buffers, nodes);
+        else if (!status)
             status = launch(m, &p->launches[i], buffers, nodes, in_place);
         if (!status && fates)
             arrays_let_go(m, p, i, buffers, fates->kept);
@@ -246,7 +270,9 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
     m->plans->kernels_in_tiles += !status && p->launches_count && p->launches[0].group;
     m->plans->predicted_s += status ? 0 : p->predicted_s;
     p->worked += p->work;
-    device_flush(m);
+    p->runs++;
+    if (!p->launches_count || !p->launches[0].program)
+        device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
     status = status

@@ -18,6 +18,7 @@ void plans_finish(struct machine *m)
             plan_free(p);
         }
     free(m->plans->table);
+    blocks_room_free(&m->plans->room);
 }
 
 /* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
@@ -126,10 +127,18 @@ struct plan *plan_get(struct machine *m, const struct plan_request *q)
         return plan_rehearse(m, p, q, hash);
     if (p && p->empty)
         return plan_fill(m, p, q) ? p : NULL;
-    if (p && plan_is_due(m, p) && !improve_begin(m, p, q, plan_quality_after(m, p->worked)))
-        plan_improve(m, p, q);
+    if (p && plan_is_due(m, p)) {
+        enum quality quality = plan_quality_after(m, p->worked);
+        if (p->quality == INTERPRETED)
+            plan_promote(m, p, q);
+        else if (!improve_begin(m, p, q, quality))
+            plan_improve(m, p, q, quality);
+    }
     if (p)
         return p;
+    p = interpreted_make(m, q);
+    if (p)
+        return plan_keep(m, p, q, hash) ? p : NULL;
     p = plan_make(m, q, q->use == PLAN_TO_RUN_OFTEN ? BOXED : plan_quality_after(m, 0), false);
     return p && plan_keep(m, p, q, hash) ? p : NULL;
 }

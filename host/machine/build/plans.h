@@ -4,15 +4,22 @@
 
 #include "build/describe.h"
 #include "codegen/codegen.h"
+#include "interpret/blocks.h"
 #include "watch/sums.h"
 
 /* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
-enum quality { QUICK, OPTIMISED, BOXED };
+enum quality {
+    INTERPRETED, /* no kernels: byte code, see interpreted.c */
+    QUICK,
+    OPTIMISED,
+    BOXED
+};
 
 struct launch {
-    cl_kernel kernel;         /* NULL: it is compiled in the background */
-    int number;               /* ... there */
-    struct kernel_note *note; /* for those who watch; may be NULL */
+    cl_kernel kernel; /* NULL: it is compiled in the background, or there is a program */
+    struct byte_code *program; /* what is interpreted; NULL: a kernel */
+    int number;                /* ... there */
+    struct kernel_note *note;  /* for those who watch; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
     int strip_margin, strip_columns;
@@ -44,6 +51,10 @@ struct plan {
     bool could_be_optimised, could_be_boxed, could_be_strips;
     int turns_most;
     double predicted_s;  /* of a run */
+    uint64_t runs;       /* while it is interpreted */
+    double spent_s;      /* ... by these */
+    bool asked;          /* ... whether its kernels are at hand */
+    bool only_at_hand;   /* while it is made: nothing is compiled */
     bool later;          /* its kernels are compiled in the background */
     struct plan *better; /* that one's are; it takes this one's place */
     bool empty;          /* there is nothing yet but a better one */
@@ -62,13 +73,14 @@ struct background;
 /* What a plan is wanted for. */
 enum plan_use {
     PLAN_TO_RUN,
+    PLAN_TO_RUN_AT_HAND, /* if its kernels need not be compiled; else there is no plan, nor an error */
     PLAN_TO_RUN_OFTEN, /* so its kernels are made as well as they can be */
     PLAN_TO_REHEARSE, /* its kernels are seen to, in the background where there is one; none runs now */
     PLAN_TO_REHEARSE_TURNS, /* likewise, of many turns of a loop, which must be one kernel */
 };
 static inline bool plan_use_runs(enum plan_use use)
 {
-    return use == PLAN_TO_RUN || use == PLAN_TO_RUN_OFTEN;
+    return use == PLAN_TO_RUN || use == PLAN_TO_RUN_AT_HAND || use == PLAN_TO_RUN_OFTEN;
 }
 
 /* Plans kept, and their kernels. */
@@ -78,8 +90,10 @@ struct plans {
     struct background *background; /* background.c; NULL: nothing was wanted so far */
     struct plan *improving;        /* whose better kernels are being compiled there */
     struct describing describing;
-    char *dump_dir; /* NULL: nothing is dumped */
+    struct blocks_room room; /* of the interpreter */
+    char *dump_dir;          /* NULL: nothing is dumped */
     int dump_count;
+    uint64_t interpreted; /* programs run, of one stage and VP set each */
     uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
     double predicted_s; /* of the plans that ran */
 };
@@ -149,12 +163,35 @@ enum quality plan_quality_after(const struct machine *m, uint64_t worked);
 bool plan_is_due(const struct machine *m, const struct plan *p);
 void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
 /* The same plan with better kernels, now. What cannot be had is done without. */
-void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q);
+void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,
+                  enum quality quality);
+/* One that is interpreted gets kernels: those at hand, or such as are compiled now or in the background. */
+void plan_promote(struct machine *m, struct plan *p, const struct plan_request *q);
 /* What is being compiled in the background is not wanted any more. */
 void improve_give_up(struct machine *m);
 /* Better kernels for it are going to be compiled in the background. False: not so. */
 bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
                    enum quality quality);
+/* ---- plan_kernels.c, for interpreted.c ---- */
+
+bool plan_graph_init(struct plan_graph *g, const struct plan_request *q);
+/* What is stored in that stage (-1: in all) and VP set, in stages' order; how many. */
+int plan_stores(const struct plan_graph *g, int stage, int set, int *stores);
+/* These get arrays, by the next launch. */
+void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
+                 const int *stores, int count);
+bool plan_launches_grow(struct plan *p); /* room for one more; false: no memory */
+void plan_last_launches(struct plan *p); /* finds which launch is the last to take an array */
+
+/* ---- interpreted.c ---- */
+
+/* A plan that is run as byte code. NULL: that cannot be, or does not pay; there is no error. */
+struct plan *interpreted_make(struct machine *m, const struct plan_request *q);
+/* What its runs have cost, and are likely to cost, is worth a look at kernels, or compiling them. */
+bool interpreted_is_due(const struct machine *m, const struct plan *p);
+/* The same with kernels that need not be compiled; NULL: there are none. */
+struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q);
+
 void dump_text(struct machine *m, int number, const char *suffix, const char *options,
                const char *text);
 void dump_graph(struct machine *m, int number, const struct plan_graph *g);

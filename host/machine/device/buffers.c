@@ -37,12 +37,13 @@ static void CL_CALLBACK memory_free(cl_mem memory, void *address)
 
 /* A CPU reads and writes many rows of many arrays at the same time, each in a page of its own: large ones are in
  * large pages where the system has them, or looking for pages takes as long as computing. */
-static cl_mem memory_get(const struct device *d, struct rows rows, cl_int *error)
+static cl_mem memory_get(const struct device *d, struct rows rows, void **host, cl_int *error)
 {
     void *address;
+    *host = NULL;
     size_t bytes = rows.bytes, skipped = -rows.first % LINE_BYTES;
     bool large = bytes >= LARGE_PAGE_BYTES;
-    if (!d->is_cpu || (!large && !skipped))
+    if (!d->is_cpu || (!d->is_pocl && !large && !skipped))
         return clCreateBuffer(d->context, CL_MEM_READ_WRITE, bytes, NULL, error);
     *error = CL_OUT_OF_HOST_MEMORY;
     if (posix_memalign(&address, large ? LARGE_PAGE_BYTES : DEVICE_GUARD_BYTES,
@@ -55,6 +56,8 @@ static cl_mem memory_get(const struct device *d, struct rows rows, cl_int *error
                                    (char *)address + skipped, error);
     if (!*error)
         *error = clSetMemObjectDestructorCallback(memory, memory_free, address);
+    if (!*error && d->is_pocl) /* it computes where the memory is */
+        *host = (char *)address + skipped;
     if (!*error)
         return memory;
     if (memory)
@@ -108,13 +111,14 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
     }
     struct device_buffer *b = calloc(1, sizeof *b);
     cl_int error = CL_OUT_OF_HOST_MEMORY;
-    cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
+    void *host = NULL;
+    cl_mem parent = b ? memory_get(d, (struct rows){whole, rows.first}, &host, &error) : NULL;
     if (error && d->pool_count) {
         m->inside++;
         clFinish(d->queue);
         m->inside--;
         device_pool_empty(d);
-        parent = b ? memory_get(d, (struct rows){whole, rows.first}, &error) : NULL;
+        parent = b ? memory_get(d, (struct rows){whole, rows.first}, &host, &error) : NULL;
     }
     if (!error) {
         cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES +
@@ -127,6 +131,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
             b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                        &region, &error);
         }
+        b->host = host && !error ? (char *)host + region.origin : NULL;
         clReleaseMemObject(parent); /* lives as long as the part of it does */
     }
     if (error) {

@@ -19,6 +19,7 @@ struct rows {
 struct device_buffer {
     cl_mem mem;
     size_t bytes, first; /* see struct rows */
+    void *host;    /* where it is for the front end; NULL: the device has memory of its own */
     uint32_t refs; /* a buffer goes back to the pool at 0; the queue is in order, so at once */
     uint32_t mark, number; /* of the last walk that came by: run/states.c */
 };
@@ -46,6 +47,7 @@ struct device {
     int unstarted_count, unstarted_capacity;
     const char *options;
     bool is_pocl;           /* on a CPU */
+    bool queued;            /* commands that nobody has waited for may be in the queue */
     bool keeps_programs;    /* on disk */
     cl_event fence;         /* see device_pace(); NULL: none yet */
     uint64_t fence_kernels; /* run before it */
@@ -118,6 +120,8 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what);
 void device_flush(struct machine *m); /* what is in the queue begins */
+/* Waits until all that is in the queue is done: the front end may look at buffers (device_buffer.host) then. */
+enum machine_status device_settle(struct machine *m);
 
 /* After kernels were started: waits where the front end is so many of them ahead of the device, for each that waits in the
  * queue takes memory. */

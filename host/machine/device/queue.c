@@ -25,6 +25,7 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 {
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
+    m->device->queued = true;
     cl_int error = clEnqueueFillBuffer(m->device->queue, b->mem, pattern, pattern_bytes, 0,
                                        b->bytes, 0, NULL, done);
     m->inside--;
@@ -38,6 +39,7 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
 {
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
+    m->device->queued = true;
     cl_int error =
         clEnqueueCopyBuffer(m->device->queue, from->mem, to->mem, 0, 0, bytes, 0, NULL, done);
     m->inside--;
@@ -51,6 +53,15 @@ void device_flush(struct machine *m)
     m->inside++;
     clFlush(m->device->queue);
     m->inside--;
+}
+
+enum machine_status device_settle(struct machine *m)
+{
+    if (!m->device->queued)
+        return MACHINE_OK;
+    m->device->queued = false;
+    double start = device_wait_begin(m);
+    return device_wait_end(m, clFinish(m->device->queue), start, "waiting for the device");
 }
 
 /* A fence is put behind so many kernels, and the one before it waited for. */
@@ -94,6 +105,7 @@ enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int er
     m->inside++;
     double start = watch_clock(m);
     cl_event *done = m->watch ? watch_command(m, start) : NULL;
+    d->queued = true;
     if (!error)
         error = clEnqueueNDRangeKernel(d->queue, kernel, dimensions, NULL, global,
                                        local       ? local

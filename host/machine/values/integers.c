@@ -147,7 +147,7 @@ static number fold_counted(int op, int width, number a)
     }
 }
 
-static number folded(enum machine_op op, int width, number a, number b)
+number integer_fold(enum machine_op op, int width, number a, number b)
 {
     switch (node_ops[op].fold) {
     case FOLD_QUOTIENT:
@@ -181,8 +181,8 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
     bool gives_bit = node_ops[op].gives == GIVES_BIT, keeps_sign = op_has((int)op, OP_SIGNED);
     struct machine_type type = gives_bit ? MACHINE_BIT : a->type;
     if (a->op == NODE_CONSTANT && (!b || b->op == NODE_CONSTANT))
-        return machine_constant(m, type,
-                                scalar(folded(op, width, number_of(a), b ? number_of(b) : 0)));
+        return machine_constant(
+            m, type, scalar(integer_fold(op, width, number_of(a), b ? number_of(b) : 0)));
     if (width == 1 && op_has((int)op, OP_BIT_KEPT))
         return a;
     if (width > 1)

@@ -20,6 +20,7 @@ const char *const watch_phase_names[WATCH_PHASES_COUNT] = {
     [WATCH_BUILD_LOAD] = "build: from the disk cache",
     [WATCH_BUILD_FIRST] = "build: first start",
     [WATCH_LAUNCH] = "launch",
+    [WATCH_INTERPRET] = "interpret",
     [WATCH_NOTE] = "note calls",
     [WATCH_REPLAY] = "replay",
     [WATCH_WAIT] = "wait",
@@ -30,7 +31,8 @@ static const char *const categories[WATCH_PHASES_COUNT] = {
     [WATCH_TARGETS] = "evaluate", [WATCH_SIGNATURE] = "evaluate", [WATCH_LOOKUP] = "evaluate",
     [WATCH_PLAN] = "plan",        [WATCH_GENERATE] = "generate",  [WATCH_BUILD] = "build",
     [WATCH_BUILD_LOAD] = "build", [WATCH_BUILD_FIRST] = "build",  [WATCH_LAUNCH] = "run",
-    [WATCH_NOTE] = "replay",      [WATCH_REPLAY] = "replay",      [WATCH_WAIT] = "wait",
+    [WATCH_INTERPRET] = "run",    [WATCH_NOTE] = "replay",        [WATCH_REPLAY] = "replay",
+    [WATCH_WAIT] = "wait",
 };
 
 bool watch_open(struct machine *m, const struct machine_config *config)
@@ -100,6 +102,16 @@ void watch_span(struct machine *m, enum watch_phase phase, double start, const c
         va_end(arguments);
     }
     watch_span_named(m, phase, watch_phase_names[phase], start, end, text);
+}
+
+void watch_interpreted(struct machine *m, struct kernel_note *note, double start)
+{
+    watch_span(m, WATCH_INTERPRET, start, NULL);
+    if (!note)
+        return;
+    note->facts.runs++;
+    note->facts.runs_timed++;
+    note->facts.time_s += clock_s() - start;
 }
 
 /* It is no time of the front end's. */

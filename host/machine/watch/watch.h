@@ -44,6 +44,7 @@ enum watch_phase {
     WATCH_BUILD_LOAD,  /* of the disk cache's binary */
     WATCH_BUILD_FIRST, /* a kernel's first start, which waits for its end */
     WATCH_LAUNCH,      /* a plan's kernels are put into the queue */
+    WATCH_INTERPRET,   /* ... or performed by the front end itself */
     WATCH_NOTE,        /* calls seen before, noted; the program's own time between them too */
     WATCH_REPLAY,      /* ... and performed */
     WATCH_WAIT,        /* for the device */
@@ -94,6 +95,8 @@ void watch_background(struct machine *m, double start, double end, const char *o
 /* Commands. Which kernel the next device_launch() starts: a generated one, or one by hand that was given so
  * many bytes of arrays. Then where its event goes, and what it was; after an error, nothing. */
 void watch_launch(struct machine *m, struct kernel_note *note);
+/* One that the front end performed itself, from start to now. */
+void watch_interpreted(struct machine *m, struct kernel_note *note, double start);
 void watch_arrays(struct machine *m, size_t bytes);
 cl_event *watch_command(struct machine *m, double start); /* 0: now */
 

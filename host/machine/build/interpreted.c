@@ -1,0 +1,149 @@
+/* interpreted.c - plans that are run as byte code, and when they get kernels instead.
+ *
+ * A compiler wins a factor of two on arithmetic, and takes 0.04 to 1.6 s to win it. So a plan that is seen for the first time is
+ * interpreted (interpret/), and goes on so until
+ *  - its runs have cost more than looking whether an earlier program had its kernels compiled: those are used at once;
+ *  - what kernels would have saved is more than compiling takes: they are compiled, in the background where there is one.
+ * What is likely to come is as much as there has been. A small set's plan, which is done before a kernel has begun, stays. */
+#include <stdlib.h>
+
+#include "base/errors.h"
+#include "build/background.h"
+#include "build/plans.h"
+
+/* Seconds: a kernel's launch and wait, as in docs/engine.md; the search for a plan and its text; a compiler's for a kernel, and
+ * for each operation in it. */
+static const double launch_s = 12e-6, ask_s = 1e-3, compile_s = 0.1, compile_op_s = 2e-3;
+/* What a kernel takes of the interpreter's time. */
+static const double kernel_part = 0.4;
+/* Many turns of a loop can be one kernel of a plan of that time; of a shorter one the calls take longer. */
+static const double turns_from_s = 4e-6;
+
+static double compile_time(const struct plan *p)
+{
+    double s = 0;
+    for (int i = 0; i < p->launches_count; i++)
+        s += compile_s + compile_op_s * p->launches[i].program->ops;
+    return s;
+}
+
+static bool could_be(const struct machine *m, const struct plan_request *q)
+{
+    if (!m->settings.interpret || !m->device->is_pocl || !plan_use_runs(q->use))
+        return false;
+    for (int i = 0; i < q->reach->count; i++)
+        if (q->reach->nodes[i]->buffer && !q->reach->nodes[i]->buffer->host)
+            return false;
+    return m->settings.interpret > 1 ||
+           (q->use == PLAN_TO_RUN && m->settings.optimise_after && m->settings.box_after);
+}
+
+static bool launch_add(struct machine *m, struct plan *p, const struct plan_graph *g,
+                       const int *stores, int count)
+{
+    int set_id = g->nodes[stores[0]].set;
+    const struct vpset *set = &m->values->sets[set_id];
+    struct byte_code *program =
+        plan_launches_grow(p)
+            ? byte_code_make(g, stores, count, set, m->values->processors_log2)
+            : NULL;
+    if (!program)
+        return false;
+    struct kernel_text said = {.arguments = program->arguments,
+                               .arguments_count = program->arguments_count,
+                               .vector = m->device->shape.vector,
+                               .ops = program->ops,
+                               .cost = program->cost};
+    struct kernel_note *note =
+        m->watch ? describe_kernel(m, NULL, g, stores, count, &said, "interpreted") : NULL;
+    p->launches[p->launches_count++] =
+        (struct launch){.number = -1,
+                        .note = note,
+                        .set = set_id,
+                        .program = program,
+                        .arguments = program->arguments,
+                        .arguments_count = program->arguments_count};
+    p->work += set->count;
+    p->predicted_s += program->lane_s * (double)set->count;
+    return true;
+}
+
+static bool programs_make(struct machine *m, struct plan *p, struct plan_graph *g, int *stores)
+{
+    int last = 0;
+    byte_code_stages(g);
+    for (int i = 0; i < g->count; i++)
+        if (g->nodes[i].stored && g->nodes[i].stage > last)
+            last = g->nodes[i].stage;
+    for (int stage = 0; stage <= last; stage++)
+        for (int set = 1; set < m->values->sets_count; set++) {
+            int count = plan_stores(g, stage, set, stores);
+            plan_arrays(m, p, g, stores, count);
+            if (count && !launch_add(m, p, g, stores, count))
+                return false;
+        }
+    plan_last_launches(p);
+    return true;
+}
+
+static struct plan *plan_interpreted(struct machine *m, const struct plan_request *q)
+{
+    struct plan_graph g;
+    size_t count = (size_t)q->reach->count;
+    struct plan *p = calloc(1, sizeof *p);
+    int *stores = calloc(count, sizeof *stores);
+    bool good = plan_graph_init(&g, q) && p && stores;
+    if (good) {
+        p->quality = INTERPRETED;
+        p->turns_most = 1;
+        p->stored = calloc(count, sizeof *p->stored);
+        p->arrays = calloc(count, sizeof *p->arrays);
+        good = p->stored && p->arrays && programs_make(m, p, &g, stores);
+    }
+    free(g.nodes);
+    free(stores);
+    if (!good) {
+        plan_free(p);
+        return NULL;
+    }
+    return p;
+}
+
+struct plan *interpreted_at_hand(struct machine *m, const struct plan_request *q)
+{
+    struct plan_request asked = *q;
+    asked.use = PLAN_TO_RUN_AT_HAND;
+    struct plan *made = plan_make(m, &asked, OPTIMISED, false);
+    machine_error_clear(m);
+    return made;
+}
+
+struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
+{
+    double start = watch_clock(m);
+    struct plan *p = could_be(m, q) ? plan_interpreted(m, q) : NULL;
+    if (!p || m->settings.interpret > 1 || p->predicted_s < ask_s)
+        return p;
+    struct plan *better = interpreted_at_hand(m, q);
+    p->asked = true;
+    if (better || p->predicted_s > compile_time(p)) {
+        plan_free(p);
+        return better;
+    }
+    if (m->watch)
+        watch_span(m, WATCH_PLAN, start, "\"interpreted\":true");
+    return p;
+}
+
+bool interpreted_is_due(const struct machine *m, const struct plan *p)
+{
+    if (m->settings.interpret != 1 || !p->runs)
+        return false;
+    if (!p->asked && p->spent_s > ask_s)
+        return true;
+    double mean = p->spent_s / (double)p->runs,
+           saved = mean - kernel_part * mean - launch_s * p->launches_count;
+    if (p->worked >= m->settings.box_after && mean > turns_from_s)
+        return true;
+    return saved * (double)p->runs > compile_time(p);
+}

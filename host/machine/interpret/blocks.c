@@ -1,0 +1,283 @@
+/* blocks.c - a program's steps, block after block: see blocks.h.
+ *
+ * A block is a part of a row, or, where rows are short, several whole rows with their halos: these are one after the other in
+ * memory, so that a single processor of each row or all of them make no difference to a step.
+ *
+ *     long rows     | ---block--- | ---block--- | --b-- |     and after the row its halos
+ *     short rows    halo row halo pad halo row halo pad       one block; halos anew where something was moved */
+#include "interpret/blocks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "values/values.h"
+
+enum { LINE = 64 };
+
+/* Lanes of a block: from column x of a row on, or whole rows. */
+struct block {
+    uint64_t row;
+    int rows; /* whole ones; 0: a part of one */
+    int x, lanes;
+};
+
+struct run {
+    const struct byte_code *p;
+    const struct vpset *set;
+    struct device_buffer *const *buffers;
+    struct blocks_room *room;
+};
+
+void blocks_room_free(struct blocks_room *room)
+{
+    free(room->registers);
+    free(room->at);
+    *room = (struct blocks_room){.registers = NULL};
+}
+
+static bool room_ready(struct blocks_room *room, const struct byte_code *p)
+{
+    if (room->registers_bytes < p->registers_bytes) {
+        size_t bytes = (p->registers_bytes + 4095) / 4096 * 4096;
+        free(room->registers);
+        room->registers = aligned_alloc(LINE, bytes);
+        room->registers_bytes = room->registers ? bytes : 0;
+        if (!room->registers)
+            return false;
+        memset(room->registers, 0, bytes);
+    }
+    if (room->at_count < p->places_count) {
+        void **at = realloc(room->at, (size_t)p->places_count * sizeof *at);
+        if (!at)
+            return false;
+        room->at = at;
+        room->at_count = p->places_count;
+    }
+    return true;
+}
+
+static void fill(void *to, struct machine_scalar x, int bytes, int lanes)
+{
+    unsigned char raw[16];
+    memcpy(raw, &x.lo, 8);
+    memcpy(raw + 8, &x.hi, 8);
+    if (bytes == 1) {
+        memset(to, raw[0], (size_t)lanes);
+        return;
+    }
+    for (int i = 0; i < lanes; i++)
+        memcpy((unsigned char *)to + i * bytes, raw, (size_t)bytes);
+}
+
+/* Places that are the same for all blocks. */
+static void places_begin(const struct run *r, struct machine_value *const *nodes, int lanes)
+{
+    for (int i = 0; i < r->p->places_count; i++) {
+        const struct place *place = &r->p->places[i];
+        void *at = (char *)r->room->registers + place->offset;
+        if (place->kind == PLACE_ARRAY || place->kind == PLACE_MOVED)
+            continue;
+        if (place->kind == PLACE_NUMBER)
+            fill(at, nodes[place->node]->imm, place->bytes, lanes);
+        else if (place->kind == PLACE_DRAW)
+            memcpy(at, (uint64_t[2]){nodes[place->node]->imm.lo, nodes[place->node]->imm.hi},
+                   16);
+        r->room->at[i] = at;
+    }
+}
+
+/* ---- neighbours ---- */
+
+static int wrapped(int64_t c, int length)
+{
+    c %= length;
+    return (int)(c < 0 ? c + length : c);
+}
+
+/* The row that is so much further along all axes but the last. */
+static uint64_t row_moved(const struct vpset *s, uint64_t row, const int32_t *further)
+{
+    uint64_t moved = 0, stride = 1;
+    for (int a = s->rank - 2; a >= 0; a--) {
+        uint64_t length = (uint64_t)s->dimensions[a], c = row % length;
+        row /= length;
+        if (further[a])
+            c = (uint64_t)wrapped((int64_t)c + further[a], s->dimensions[a]);
+        moved += c * stride;
+        stride *= length;
+    }
+    return moved;
+}
+
+static char *row_begin(const struct run *r, const struct place *place, uint64_t row)
+{
+    return (char *)r->buffers[place->node]->host +
+           (row * r->set->pitch + (size_t)r->set->halo) * place->bytes;
+}
+
+/* lanes columns of a row from column x on, which may lie beyond its ends. */
+static void columns_copy(char *to, const char *row, int64_t x, int lanes, int width, int bytes)
+{
+    int from = wrapped(x, width);
+    while (lanes > 0) {
+        int part = width - from < lanes ? width - from : lanes;
+        memcpy(to, row + (size_t)from * (size_t)bytes, (size_t)part * (size_t)bytes);
+        to += (size_t)part * (size_t)bytes;
+        lanes -= part;
+        from = 0;
+    }
+}
+
+/* Where a block's neighbours are: in the array itself if they are there side by side, else brought together. */
+static void *moved(const struct run *r, const struct place *place, const struct block *b)
+{
+    const struct vpset *s = r->set;
+    int dx = place->further[s->rank - 1], reach = s->halo;
+    uint64_t first = row_moved(s, b->row, place->further);
+    char *together = (char *)r->room->registers + place->offset;
+    if (dx > s->width / 2)
+        dx -= s->width;
+    if (dx < -(s->width / 2))
+        dx += s->width;
+    if (!b->rows) {
+        char *row = row_begin(r, place, first);
+        if (b->x + dx >= -reach && b->x + b->lanes + dx <= s->width + reach)
+            return row + (ptrdiff_t)(b->x + dx) * place->bytes;
+        columns_copy(together, row, (int64_t)b->x + dx, b->lanes, s->width, place->bytes);
+        return together;
+    }
+    bool apart = dx > reach || dx < -reach;
+    for (int i = 1; i < b->rows && !apart; i++)
+        apart = row_moved(s, b->row + (uint64_t)i, place->further) != first + (uint64_t)i;
+    if (!apart)
+        return row_begin(r, place, first) + (ptrdiff_t)(dx - s->halo) * place->bytes;
+    for (int i = 0; i < b->rows; i++)
+        columns_copy(together + ((size_t)i * s->pitch + (size_t)s->halo) * place->bytes,
+                     row_begin(r, place, row_moved(s, b->row + (uint64_t)i, place->further)),
+                     dx, s->width, s->width, place->bytes);
+    return together;
+}
+
+static void places_move(const struct run *r, const struct block *b)
+{
+    for (int i = 0; i < r->p->places_count; i++) {
+        const struct place *place = &r->p->places[i];
+        if (place->kind == PLACE_ARRAY)
+            r->room->at[i] = row_begin(r, place, b->row) +
+                             (ptrdiff_t)(b->rows ? -r->set->halo : b->x) * place->bytes;
+        else if (place->kind == PLACE_MOVED)
+            r->room->at[i] = moved(r, place, b);
+    }
+}
+
+/* ---- coordinates ---- */
+
+/* Along an axis that is not the last. */
+static uint32_t coordinate(const struct vpset *s, uint64_t row, int axis)
+{
+    for (int a = s->rank - 2; a > axis; a--)
+        row /= (uint64_t)s->dimensions[a];
+    return (uint32_t)(row % (uint64_t)s->dimensions[axis]);
+}
+
+static void row_generate(const struct vpset *s, const struct lanes_step *step, uint64_t row,
+                         int x, uint32_t *to, int lanes)
+{
+    bool along = step->op == NODE_INDEX || step->axis == s->rank - 1;
+    uint32_t first = step->op == NODE_INDEX ? (uint32_t)row * (uint32_t)s->width
+                     : along                ? 0
+                                            : coordinate(s, row, step->axis);
+    if (!along)
+        for (int i = 0; i < lanes; i++)
+            to[i] = first;
+    else if (x >= 0 && x + lanes <= s->width)
+        for (int i = 0; i < lanes; i++)
+            to[i] = first + (uint32_t)(x + i);
+    else
+        for (int i = 0; i < lanes; i++)
+            to[i] = first + (uint32_t)wrapped((int64_t)x + i, s->width);
+}
+
+static void generate(const struct run *r, const struct lanes_step *step, const struct block *b)
+{
+    uint32_t *to = r->room->at[step->to];
+    if (!b->rows)
+        row_generate(r->set, step, b->row, b->x, to, b->lanes);
+    for (int i = 0; i < b->rows; i++)
+        row_generate(r->set, step, b->row + (uint64_t)i, -r->set->halo,
+                     to + (size_t)i * r->set->pitch, (int)r->set->pitch);
+}
+
+/* ---- blocks ---- */
+
+static void block_run(const struct run *r, const struct block *b)
+{
+    places_move(r, b);
+    for (int i = 0; i < r->p->steps_count; i++) {
+        const struct lanes_step *s = &r->p->steps[i];
+        if (s->run)
+            s->run(s, r->room->at, b->lanes);
+        else
+            generate(r, s, b);
+    }
+}
+
+/* The other end of each row, on both sides. */
+static void halos_make(const struct run *r, uint64_t row, uint64_t rows)
+{
+    const struct vpset *s = r->set;
+    for (int i = 0; i < r->p->arguments_count && s->halo; i++) {
+        const struct kernel_argument *a = &r->p->arguments[i];
+        if (a->kind != ARGUMENT_OUTPUT)
+            continue;
+        const struct device_buffer *buffer = r->buffers[a->node];
+        size_t element = (buffer->bytes) / (s->pitch * s->rows + 16),
+               width = (size_t)s->width * element, halo = (size_t)s->halo * element;
+        for (uint64_t k = row; k < row + rows; k++) {
+            char *begin = (char *)buffer->host + k * s->pitch * element + halo;
+            memcpy(begin - halo, begin + width - halo, halo);
+            memcpy(begin + width, begin, halo);
+        }
+    }
+}
+
+static void long_rows(const struct run *r)
+{
+    const struct vpset *s = r->set;
+    for (uint64_t row = 0; row < s->rows; row++) {
+        for (int x = 0; x < s->width; x += BLOCK_LANES) {
+            int lanes = s->width - x < BLOCK_LANES ? s->width - x : BLOCK_LANES;
+            block_run(r, &(struct block){.row = row, .x = x, .lanes = lanes});
+        }
+        halos_make(r, row, 1);
+    }
+}
+
+static void short_rows(const struct run *r)
+{
+    const struct vpset *s = r->set;
+    uint64_t at_once = BLOCK_LANES / s->pitch;
+    for (uint64_t row = 0; row < s->rows; row += at_once) {
+        uint64_t rows = s->rows - row < at_once ? s->rows - row : at_once;
+        block_run(
+            r, &(struct block){.row = row, .rows = (int)rows, .lanes = (int)(rows * s->pitch)});
+        if (r->p->moves)
+            halos_make(r, row, rows);
+    }
+}
+
+bool blocks_run(struct blocks_room *room, const struct byte_code *p, const struct vpset *set,
+                struct device_buffer *const *buffers, struct machine_value *const *nodes)
+{
+    const struct run r = {.p = p, .set = set, .buffers = buffers, .room = room};
+    bool are_short = set->pitch <= BLOCK_LANES;
+    uint64_t most = are_short ? set->pitch * set->rows : (uint64_t)set->width;
+    if (!room_ready(room, p))
+        return false;
+    places_begin(&r, nodes, most < BLOCK_LANES ? (int)most : BLOCK_LANES);
+    if (are_short)
+        short_rows(&r);
+    else
+        long_rows(&r);
+    return true;
+}

@@ -1,0 +1,51 @@
+/* byte_code.h - what the interpreter performs: the nodes of one stage and VP set as byte code.
+ *
+ *     place    what an operand is           moves from block to block?
+ *     ARRAY    a part of an array           yes
+ *     MOVED    of an array, NEWS further    yes; a register where rows have to be put together
+ *     REGISTER lanes in the nearest cache   no
+ *     NUMBER   a register full of a number  no
+ *     DRAW     a random draw's key, limit   no
+ *
+ * Steps name places by their number. */
+#ifndef LUTETIA_MACHINE_BYTE_CODE_H
+#define LUTETIA_MACHINE_BYTE_CODE_H
+
+#include "codegen/codegen.h"
+#include "interpret/lanes.h"
+
+/* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. */
+enum { BLOCK_LANES = 512 };
+
+enum place_kind { PLACE_ARRAY, PLACE_MOVED, PLACE_REGISTER, PLACE_NUMBER, PLACE_DRAW };
+
+struct place {
+    uint8_t kind;     /* enum place_kind */
+    uint8_t bytes;    /* of a lane */
+    int32_t node;     /* of an array, a number, a draw */
+    size_t offset;    /* of a register among the registers */
+    int32_t *further; /* of a MOVED: along each axis; owned */
+};
+
+struct byte_code {
+    struct place *places;
+    int places_count, places_capacity;
+    struct lanes_step *steps; /* with run NULL: a coordinate or index, see blocks.c */
+    int steps_count, steps_capacity;
+    size_t registers_bytes;
+    struct kernel_argument *arguments; /* arrays: inputs, outputs */
+    int arguments_count, arguments_capacity;
+    int ops, cost; /* as of struct kernel_text */
+    double lane_s; /* how long a lane takes, about */
+    bool moves;    /* there is a MOVED */
+    bool failed;   /* no memory */
+};
+
+/* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at, and what a later stage does. */
+void byte_code_stages(struct plan_graph *g);
+/* What stores those nodes, all of that stage and set. NULL: no memory. */
+struct byte_code *byte_code_make(const struct plan_graph *g, const int *stores, int count,
+                                 const struct vpset *set, int processors_log2);
+void byte_code_free(struct byte_code *p);
+
+#endif

@@ -1,0 +1,78 @@
+/* lanes.h - the operations of the interpreter: each a loop over the lanes of a block.
+ *
+ * Lanes are held as in memory: bits in the least of 8, 16, 32, 64 or 128 bits that have room for them, unused high bits 0; a single
+ * bit as 0 or 1; floats as they are. So an operand may be a register, which is in the nearest cache, or a part of an array itself.
+ *
+ *     lanes_function *add = lanes_find(MACHINE_ADD, LANES_U32);
+ *     add(&step, at, n);          at[step.to][i] = at[step.in[0]][i] + at[step.in[1]][i], for n lanes
+ *
+ * lanes_kernel.h has the loops; it is compiled once for each instruction set. What has no loop there is done lane by lane
+ * (lane.c). Both give the same bits as generated kernels. */
+#ifndef LUTETIA_MACHINE_LANES_H
+#define LUTETIA_MACHINE_LANES_H
+
+#include "base/node_ops.h"
+
+typedef unsigned __int128 lanes_wide;
+
+/* How a lane is held. */
+enum lanes_class {
+    LANES_U8,
+    LANES_U16,
+    LANES_U32,
+    LANES_U64,
+    LANES_U128,
+    LANES_F32,
+    LANES_F64,
+    LANES_CLASSES,
+    LANES_INTEGERS = LANES_F32
+};
+enum lanes_class lanes_class_of(struct machine_type type);
+/* The same bytes as bits. */
+enum lanes_class lanes_bits_of(enum lanes_class c);
+size_t lanes_bytes(enum lanes_class c);
+
+/* Operations of the interpreter beside those of the graph. */
+enum lanes_op {
+    LANES_COPY = NODE_OP_COUNT, /* of bits */
+    LANES_JOIN,                 /* a | b << detail */
+    LANES_CANONICAL,            /* NaNs of `to` become the one that operations give */
+    LANES_FIT,                  /* `to`, doubles, rounded to the format of type */
+    LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
+    LANES_DRAW, /* a row-major index becomes a random number: see NODE_RANDOM */
+    LANES_OP_COUNT
+};
+
+struct lanes_step;
+typedef void lanes_function(const struct lanes_step *s, void *const *at, int n);
+
+struct lanes_step {
+    lanes_function *run;
+    uint16_t op;              /* enum machine_op, node_op or lanes_op */
+    uint16_t to, in[3];       /* places: which of at[] */
+    struct machine_type from; /* of in[0] */
+    struct machine_type type; /* of the result */
+    int32_t detail;
+    uint8_t axis;
+    lanes_wide mask; /* the bits of the result that may be 1 */
+};
+
+/* Of operands of that class; of a select and of what is beside the graph, of that result. NULL: there is no loop. */
+lanes_function *lanes_find(int op, enum lanes_class c);
+/* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S, F_TO_F. */
+lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_class to);
+
+/* Lane by lane, any operation: the slow twin of all loops. lane.c */
+lanes_function lane_each;
+
+/* The tables of one instruction set. */
+struct lanes_table {
+    lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
+    lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
+};
+extern const struct lanes_table lanes_table_plain;
+#ifdef LANES_X86
+extern const struct lanes_table lanes_table_avx2, lanes_table_avx512;
+#endif
+
+#endif
