@@ -2,6 +2,7 @@
 #include "lutetia.h"
 #include "options.h"
 #include "type_common.h"
+#include "voice_live.h"
 
 #include <display.h>
 #include <output_file.h>
@@ -25,6 +26,8 @@ enum { SHEET_COLUMNS = 5, SHEET_ROWS = 4, LABEL_PX = 11 };
 struct voice_work {
     const char *sound_path, *text, *font, *axes, *map;
     const char *poster, *sheet, *envelope, *still, *frames, *video;
+    const char *microphone;
+    double seconds;
     bool cry;
     double size_px[2], rise_em, slant, paper[3], inks[9], second_px, at_s;
     int picture[2], fps;
@@ -39,17 +42,25 @@ struct voice_work {
     struct font_face *face;
 };
 
+static bool pictures_wanted(const struct voice_work *w)
+{
+    return w->poster || w->sheet || w->envelope || w->still || w->frames || w->video;
+}
+
 static int words_take(struct voice_work *w, const struct option_words *words)
 {
-    int wanted = w->cry ? 1 : 2;
+    int wanted = w->cry || w->microphone ? 1 : 2;
+    if (w->cry && w->microphone)
+        return fail_usage("voice", "--cry or --microphone, not both");
     if (words->count != wanted)
         return fail_usage("voice",
                           words->count < wanted
-                              ? (w->cry ? "give a text" : "give a sound and a text")
+                              ? (wanted == 1 ? "give a text" : "give a sound and a text")
                               : "there is one %s; put it in quotes (then came '%.60s')",
-                          w->cry ? "text, and no sound with --cry" : "sound and one text",
+                          wanted == 1 ? "text, and no sound with --cry or --microphone"
+                                      : "sound and one text",
                           words->count ? words->words[words->count - 1] : "");
-    w->sound_path = w->cry ? NULL : words->words[0];
+    w->sound_path = wanted == 1 ? NULL : words->words[0];
     w->text = words->words[wanted - 1];
     if (w->picture[0] % 2 || w->picture[1] % 2)
         return fail_usage("voice", "--picture must be even (got %dx%d)", w->picture[0],
@@ -60,7 +71,7 @@ static int words_take(struct voice_work *w, const struct option_words *words)
     char why[200];
     if (w->map && !voice_mapping_read(&w->def.mapping, w->map, why, sizeof why))
         return fail_usage("voice", "--map: %s", why);
-    if (!w->poster && !w->sheet && !w->envelope && !w->still && !w->frames && !w->video)
+    if (!w->microphone && !pictures_wanted(w))
         w->poster = "out.png";
     return EXIT_SUCCESS;
 }
@@ -82,6 +93,9 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
          0},
         {"cry", 0, OPTION_FLAG, NULL, "a cry of our own making, in place of a file", &w->cry, 0,
          0, 0},
+        {"microphone", 0, OPTION_TEXT, "jack|pulse|any",
+         "in place of a file: a window, or pictures of --seconds", &w->microphone, 0, 0, 0},
+        {"seconds", 0, OPTION_NUMBER, "S", "of a microphone (5)", &w->seconds, 0.5, 1800, 0},
         {"map", 0, OPTION_TEXT, "P=F,..", "what plays what (size=envelope)", &w->map, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F",
          "a font file, its name, or a family (EBGaramond12-Regular)", &w->font, 0, 0, 0},
@@ -105,7 +119,8 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
     *help = words.help;
     if (words.help) {
         puts("usage: lutetia voice SOUND \"Text\" [options]\n"
-             "       lutetia voice --cry \"Text\" [options]\n");
+             "       lutetia voice --cry \"Text\" [options]\n"
+             "       lutetia voice --microphone any \"Text\" [options]\n");
         options_help(rows);
         puts("\nSOUND is a file (WAV, FLAC, ...). A text of one word is played as it is; more "
              "words "
@@ -121,9 +136,30 @@ static int options_read(struct voice_work *w, int argc, char **argv, bool *help)
 
 /* ---- hearing ---- */
 
+static int microphone_begin(const struct voice_work *w, struct microphone **out)
+{
+    char why[500];
+    const char *source = strcmp(w->microphone, "any") == 0 ? NULL : w->microphone;
+    return microphone_open(source, out, why, sizeof why) ? EXIT_SUCCESS
+                                                         : fail("voice", "%s", why);
+}
+
+static int microphone_record(struct voice_work *w)
+{
+    struct microphone *microphone;
+    int status = microphone_begin(w, &microphone);
+    if (status != EXIT_SUCCESS)
+        return status;
+    status = voice_live_record(microphone, w->seconds, &w->sound);
+    microphone_close(microphone);
+    return status;
+}
+
 static int sound_take(struct voice_work *w)
 {
     char why[300];
+    if (w->microphone)
+        return microphone_record(w);
     if (!w->cry)
         return voice_sound_read(w->sound_path, &w->sound, why, sizeof why)
                    ? EXIT_SUCCESS
@@ -144,7 +180,8 @@ static int hear(struct voice_work *w)
                       &w->heard, &w->heard_count))
         return fail("voice", "no memory for the sound");
     if (!voice_score_make(w->heard, w->heard_count, w->def.silence, &w->score, &empty))
-        return empty ? fail("voice", "%s: nothing can be heard in it", w->sound_path)
+        return empty ? fail("voice", "%s: nothing can be heard in it",
+                            w->sound_path ? w->sound_path : "the microphone")
                      : fail("voice", "no memory for the sound");
     if (!voice_words_make(w->text, &w->words, &empty))
         return empty ? fail_usage("voice", "the text is empty: there is nothing to play")
@@ -188,7 +225,16 @@ static int size_fit(struct voice_work *w)
     return EXIT_SUCCESS;
 }
 
-static int type_prepare(struct voice_work *w)
+static void type_def_take(struct voice_work *w)
+{
+    memcpy(w->def.size_px, w->size_px, sizeof w->size_px);
+    w->def.rise_em = w->rise_em;
+    w->def.slant = w->slant;
+    memcpy(w->def.paper, w->paper, sizeof w->paper);
+    memcpy(w->def.inks, w->inks, 6 * sizeof *w->inks);
+}
+
+static int face_take(struct voice_work *w)
 {
     int status = type_face_open("voice", w->font, 0, w->axes, &w->face);
     if (status != EXIT_SUCCESS)
@@ -197,14 +243,33 @@ static int type_prepare(struct voice_work *w)
         return fail_usage("voice",
                           "%s has no axis of weight to play; choose a variable font with wght",
                           w->font);
-    if (w->size_px[1] == 0 && (status = size_fit(w)) != EXIT_SUCCESS)
-        return status;
-    memcpy(w->def.size_px, w->size_px, sizeof w->size_px);
-    w->def.rise_em = w->rise_em;
-    w->def.slant = w->slant;
-    memcpy(w->def.paper, w->paper, sizeof w->paper);
-    memcpy(w->def.inks, w->inks, 6 * sizeof *w->inks);
     return EXIT_SUCCESS;
+}
+
+static int type_prepare(struct voice_work *w)
+{
+    int status = face_take(w);
+    if (status == EXIT_SUCCESS && w->size_px[1] == 0)
+        status = size_fit(w);
+    type_def_take(w);
+    return status;
+}
+
+/* While it is heard. */
+static int live_play(struct voice_work *w)
+{
+    struct voice_live_def def = {
+        .text = w->text, .hearing = w->hearing, .picture = {w->picture[0], w->picture[1]}};
+    int status = face_take(w);
+    type_def_take(w);
+    def.face = w->face;
+    def.type = w->def;
+    if (status == EXIT_SUCCESS)
+        status = microphone_begin(w, &def.microphone);
+    if (status == EXIT_SUCCESS)
+        status = voice_live_window(&def);
+    microphone_close(def.microphone);
+    return status;
 }
 
 static int player_make(const struct voice_work *w, double scale, struct voice_type **out)
@@ -461,6 +526,25 @@ static int still_write(const struct voice_work *w)
     return status;
 }
 
+static int pictures_write(struct voice_work *w)
+{
+    int status = hear(w);
+    if (status == EXIT_SUCCESS)
+        status = type_prepare(w);
+    const struct {
+        const char *path;
+        int (*write)(const struct voice_work *);
+    } pictures[] = {{w->poster, poster_write},
+                    {w->sheet, sheet_write_moments},
+                    {w->envelope, envelope_write},
+                    {w->still, still_write},
+                    {w->frames ? w->frames : w->video, moments_film}};
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && status == EXIT_SUCCESS; i++)
+        if (pictures[i].path)
+            status = pictures[i].write(w);
+    return status;
+}
+
 int verb_voice(int argc, char **argv)
 {
     static struct voice_work w;
@@ -472,6 +556,7 @@ int verb_voice(int argc, char **argv)
                             .paper = {1, 1, 1},
                             .second_px = 480,
                             .at_s = -1,
+                            .seconds = 5,
                             .picture = {960, 540},
                             .fps = 30,
                             .def = voice_type_def_default(),
@@ -481,20 +566,7 @@ int verb_voice(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
     interrupt_catch();
-    status = hear(&w);
-    if (status == EXIT_SUCCESS)
-        status = type_prepare(&w);
-    const struct {
-        const char *path;
-        int (*write)(const struct voice_work *);
-    } pictures[] = {{w.poster, poster_write},
-                    {w.sheet, sheet_write_moments},
-                    {w.envelope, envelope_write},
-                    {w.still, still_write},
-                    {w.frames ? w.frames : w.video, moments_film}};
-    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && status == EXIT_SUCCESS; i++)
-        if (pictures[i].path)
-            status = pictures[i].write(&w);
+    status = w.microphone && !pictures_wanted(&w) ? live_play(&w) : pictures_write(&w);
     font_face_close(w.face);
     voice_words_finish(&w.words);
     voice_score_finish(&w.score);

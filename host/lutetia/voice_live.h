@@ -1,0 +1,24 @@
+/* voice_live.h - `lutetia voice --microphone`: letters that a voice plays in a window, while it is heard. */
+#ifndef LUTETIA_VOICE_LIVE_H
+#define LUTETIA_VOICE_LIVE_H
+
+#include <microphone.h>
+#include <voice_picture.h>
+#include <voice_sound.h>
+
+struct voice_live_def {
+    struct microphone *microphone;
+    const char *text;
+    struct font_face *face;
+    struct voice_def hearing;
+    struct voice_type_def type; /* its most size 0: as fits */
+    int picture[2];
+};
+
+/* Until somebody closes the window. Each sound that begins shows the text's next word. Exit statuses; what is wrong has been said. */
+int voice_live_window(const struct voice_live_def *def);
+
+/* So many seconds of it. */
+int voice_live_record(struct microphone *microphone, double seconds, struct voice_sound *out);
+
+#endif

@@ -1,0 +1,299 @@
+/* test_microphone.c - a microphone of JACK's, on a JACK server of the test's own with the dummy driver: a sound that this program plays is
+ * what is heard, and letters in a window follow it. Skips where there is no jackd. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <jack_library.h>
+#include <microphone.h>
+#include <voice.h>
+
+#include "../display/scratch.h"
+#include "../lutetia/child.h"
+#include "clock.h"
+#include "xvfb.h"
+
+#include <fcntl.h>
+#include <glob.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define AUDIO_TYPE "32 bit float mono audio"
+enum { RATE_HZ = 48000, PITCH_HZ = 220 };
+
+static char server_name[32];
+static const char *lutetia;
+
+/* ---- a sound that is played ---- */
+
+static struct {
+    const struct jack_library *jack;
+    void *client, *port;
+    _Atomic int level; /* thousandths of full scale */
+    uint64_t at;
+} player;
+
+/* A buzz of ten harmonics: it has a pitch, and attacks where it begins. */
+static int play(uint32_t frames, void *context)
+{
+    (void)context;
+    float *out = player.jack->jack_port_get_buffer(player.port, frames);
+    const double level = player.level / 1000.0;
+    for (uint32_t i = 0; i < frames; i++, player.at++) {
+        double sum = 0;
+        for (int k = 1; k <= 10; k++)
+            sum += sin(2 * M_PI * PITCH_HZ * k * (double)(player.at % RATE_HZ) / RATE_HZ) / k;
+        out[i] = (float)(level * sum / 2);
+    }
+    return 0;
+}
+
+static pid_t jackd_begin(void)
+{
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        const int quiet = open("/dev/null", O_RDWR);
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        dup2(quiet, STDOUT_FILENO);
+        dup2(quiet, STDERR_FILENO);
+        execlp("jackd", "jackd", "--no-realtime", "-n", server_name, "-d", "dummy", "-r",
+               "48000", "-p", "512", (char *)NULL);
+        _exit(127);
+    }
+    return child;
+}
+
+/* False: there is no jackd, or it does not start here. */
+static bool player_begin(pid_t jackd)
+{
+    const double until_s = clock_now_s() + 5;
+    while (!player.client && clock_now_s() < until_s && waitpid(jackd, NULL, WNOHANG) == 0) {
+        poll(NULL, 0, 50);
+        player.client = player.jack->jack_client_open("player", JACK_NO_START, NULL);
+    }
+    if (!player.client)
+        return false;
+    player.port =
+        player.jack->jack_port_register(player.client, "out", AUDIO_TYPE, JACK_PORT_OUT, 0);
+    assert_non_null(player.port);
+    assert_int_equal(player.jack->jack_set_process_callback(player.client, play, NULL), 0);
+    assert_int_equal(player.jack->jack_activate(player.client), 0);
+    return true;
+}
+
+/* Until the microphone's port is there. */
+static void player_connect(void)
+{
+    const double until_s = clock_now_s() + 10;
+    while (player.jack->jack_connect(player.client, "player:out", "lutetia-voice:in") != 0) {
+        if (clock_now_s() > until_s)
+            fail_msg("there is no port lutetia-voice:in");
+        poll(NULL, 0, 20);
+    }
+}
+
+static void leftovers_remove(void)
+{
+    char pattern[100];
+    glob_t found;
+    snprintf(pattern, sizeof pattern, "/dev/shm/jack*%s*", server_name);
+    if (glob(pattern, 0, NULL, &found) != 0)
+        return;
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        unlink(found.gl_pathv[i]);
+    globfree(&found);
+}
+
+/* ---- what is heard ---- */
+
+static size_t hear(struct microphone *m, float *samples, size_t count)
+{
+    size_t at = 0;
+    const double until_s = clock_now_s() + 10;
+    while (at < count && clock_now_s() < until_s) {
+        at += microphone_take(m, samples + at, count - at);
+        poll(NULL, 0, 5);
+    }
+    return at;
+}
+
+static void what_is_played_is_heard(void)
+{
+    enum { COUNT = RATE_HZ };
+    struct microphone *m;
+    char why[300];
+    float *samples = calloc(COUNT, sizeof *samples);
+    struct voice_frame *frames;
+    int frames_count;
+    if (!microphone_open("jack", &m, why, sizeof why))
+        fail_msg("%s", why);
+    assert_int_equal(microphone_rate_hz(m), RATE_HZ);
+    player_connect();
+    player.level = 500;
+    (void)hear(m, samples, COUNT / 4); /* until it arrives */
+    assert_int_equal(hear(m, samples, COUNT), COUNT);
+    assert_int_equal(microphone_lost(m), 0);
+    const struct voice_def def = voice_def_default();
+    assert_true(voice_frames(&def, samples, COUNT, RATE_HZ, &frames, &frames_count));
+    int right = 0;
+    for (int i = 10; i < frames_count - 10; i++)
+        right += fabs(frames[i].pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ &&
+                 frames[i].level > 0.1 && frames[i].level < 0.6;
+    assert_true(right > 0.8 * (frames_count - 20)); /* a busy machine may leave periods out */
+    player.level = 0;
+    (void)hear(m, samples, COUNT / 4);
+    assert_true(hear(m, samples, COUNT / 8) > 0);
+    for (int i = 0; i < COUNT / 8; i++)
+        assert_true(samples[i] == 0);
+    free(frames);
+    free(samples);
+    microphone_close(m);
+}
+
+static void recordings_become_pictures(void)
+{
+    static const char *const ways[] = {"jack", "any"};
+    for (int i = 0; i < 2; i++) {
+        const char *still = scratch_path("cry.png");
+        const pid_t pid = fork();
+        assert_true(pid >= 0);
+        if (pid == 0) {
+            execl(lutetia, lutetia, "voice", "--microphone", ways[i], "Aagh", "--seconds", "1",
+                  "--still", still, "--picture", "200x100", (char *)NULL);
+            _exit(127);
+        }
+        player.level = 500;
+        player_connect();
+        int status;
+        assert_int_equal(waitpid(pid, &status, 0), pid);
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+        struct display_image image = {0};
+        assert_int_equal(display_png_read_rgb(still, &image), DISPLAY_OK);
+        display_image_destroy(&image);
+        player.level = 0;
+    }
+}
+
+static long ink_of(Window window)
+{
+    struct display_image image;
+    long ink = 0;
+    screen_read(window, &image);
+    for (int i = 0; image.pixels && i < 3 * image.width_px * image.height_px; i += 3)
+        ink += image.pixels[i] < 128;
+    display_image_destroy(&image);
+    return ink;
+}
+
+/* Waits until the window's ink is within bounds. */
+static long ink_wait(Window window, long least, long most)
+{
+    const double until_s = clock_now_s() + 15;
+    long ink = -1;
+    while (clock_now_s() < until_s) {
+        ink = ink_of(window);
+        if (ink >= least && ink <= most)
+            return ink;
+        poll(NULL, 0, 20);
+    }
+    fail_msg("%ld pixels of ink; wanted %ld to %ld", ink, least, most);
+    return 0;
+}
+
+static void letters_in_a_window_follow(void)
+{
+    const pid_t pid = fork();
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        execl(lutetia, lutetia, "voice", "--microphone", "jack", "Aagh", "--picture", "480x240",
+              (char *)NULL);
+        _exit(127);
+    }
+    Window window = screen_window("voice", 15);
+    assert_true(window != 0);
+    player_connect();
+    (void)ink_wait(window, 0, 50); /* nothing is heard: nothing is seen */
+    player.level = 500;
+    const long loud = ink_wait(window, 3000, 480 * 240);
+    player.level = 100;
+    (void)ink_wait(window, 20, loud / 3);
+    player.level = 500;
+    (void)ink_wait(window, loud / 2, 480 * 240);
+    player.level = 0;
+    (void)ink_wait(window, 0, 300);
+    kill(pid, SIGINT);
+    int status;
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFEXITED(status));
+}
+
+static void without_a_server_that_is_said(void **unused)
+{
+    (void)unused;
+    const struct {
+        const char *way, *said;
+        int status;
+    } rows[] = {{"jack", "no JACK server runs", 1},
+                {"pulse", "PulseAudio", 1},
+                {"any", "no microphone: ", 1},
+                {"none", "known ones are jack, pulse", 1}};
+    setenv("JACK_DEFAULT_SERVER", "lutetia-none", 1);
+    setenv("PULSE_SERVER", "/nowhere/pulse", 1);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct child child = {
+            .arguments = {lutetia, "voice", "--microphone", rows[i].way, "Aagh"}};
+        child_run(&child);
+        if (child.status != rows[i].status || !strstr(child.errors, rows[i].said))
+            fail_msg("%s: exit %d: %s", rows[i].way, child.status, child.errors);
+        assert_true(strchr(child.errors, '\n') == child.errors + strlen(child.errors) - 1);
+    }
+}
+
+static void sound_goes_through_jack(void **unused)
+{
+    (void)unused;
+    snprintf(server_name, sizeof server_name, "lutetia-v%d", (int)getpid());
+    setenv("JACK_DEFAULT_SERVER", server_name, 1);
+    if (jack_load(&player.jack) != MIDI_OK)
+        skip();
+    const pid_t jackd = jackd_begin();
+    if (!player_begin(jackd)) {
+        kill(jackd, SIGKILL);
+        waitpid(jackd, NULL, 0);
+        leftovers_remove();
+        skip();
+    }
+    what_is_played_is_heard();
+    recordings_become_pictures();
+    letters_in_a_window_follow();
+    player.jack->jack_client_close(player.client);
+    kill(jackd, SIGTERM);
+    waitpid(jackd, NULL, 0);
+    leftovers_remove();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_a_server_that_is_said),
+        cmocka_unit_test(sound_goes_through_jack),
+    };
+    lutetia = getenv("LUTETIA");
+    if (!lutetia || !screen_start("1000x800"))
+        return 77;
+    const int failed = cmocka_run_group_tests_name("microphone", tests, NULL, NULL);
+    screen_end();
+    return failed;
+}
