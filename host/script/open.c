@@ -5,6 +5,7 @@ const struct script_functions script_functions[] = {
     {NULL, script_sandbox_functions, false},
     {NULL, script_song_functions, false},
     {NULL, script_mask_makers, false},
+    {NULL, script_page_makers, false},
     {NULL, script_paper_time_functions, false},
     {NULL, script_stroke_functions, false},
     {NULL, script_picture_functions, false},

@@ -202,13 +202,14 @@ extern const char script_mask_type[], script_papers_type[], script_paper_type[],
 
 /* The rows of each file. */
 extern const luaL_Reg script_sandbox_functions[], script_song_functions[], script_mask_makers[],
-    script_mask_methods[], script_mask_operators[], script_papers_operators[],
-    script_papers_functions[], script_paper_methods[], script_paper_look_methods[],
-    script_paper_time_methods[], script_paper_time_functions[], script_brush_paper_methods[],
-    script_brush_methods[], script_stroke_methods[], script_stroke_functions[],
-    script_technique_methods[], script_picture_paper_methods[], script_picture_functions[],
-    script_picture_methods[], script_spring_makers[], script_spring_word_makers[],
-    script_network_methods[], script_network_word_methods[], script_network_key_methods[];
+    script_page_makers[], script_mask_methods[], script_mask_operators[],
+    script_papers_operators[], script_papers_functions[], script_paper_methods[],
+    script_paper_look_methods[], script_paper_time_methods[], script_paper_time_functions[],
+    script_brush_paper_methods[], script_brush_methods[], script_stroke_methods[],
+    script_stroke_functions[], script_technique_methods[], script_picture_paper_methods[],
+    script_picture_functions[], script_picture_methods[], script_spring_makers[],
+    script_spring_word_makers[], script_network_methods[], script_network_word_methods[],
+    script_network_key_methods[];
 
 /* All of them: what a script can call (open.c). Ended by a row without functions. */
 struct script_functions {

@@ -31,6 +31,11 @@ static const struct {
      "size:n font:S x:n y:n align:S tracking:n filter:S angle:n width:n leading:n features:S "
      "language:S anchor:n "
      "right_to_left:b axes:S darken:n corners:t warp:S"},
+    {NULL, "page", "SO",
+     "width:n height:n margin:n columns:i gap:n size:n font:S italic:S bold:S leading:n "
+     "align:S "
+     "indent:n notes:n page:i hyphenate:b language:S features:S protrude:n expand:n vertical:b "
+     "around:t inside:t x:n y:n filter:S darken:n"},
     {NULL, "image", "snn", ""},
     {NULL, "song", "S", ""},
     {NULL, "mask", "iif", ""},

@@ -153,6 +153,14 @@ static const struct {
     {"text('a', {corners = {{0, 0}, {9, 0}, {9, 9}}})", "four points", "", false},
     {"text('a', {corners = {{0, 0}, {9, 0}, {9, 9}, {0, 9}}, x = 3})", "go without x", "",
      false},
+    {"page('a', {columns = 99})", "columns must be", "", false},
+    {"page('a', {size = 30, width = 20})", "too small for letters", "", false},
+    {"page('a', {around = {{1, 2}}})", "3..400 points", "", false},
+    {"page('a', {font = '/etc/passwd'})", "not a file", "", false},
+    {"local m, n = page(('a marsh '):rep(900), {width = 200, height = 200, hyphenate = true, "
+     "around = {{90, 90}, {120, 90}, {100, 130}}}); assert(n > 3); "
+     "local x, y, w, h = m:bounds(); assert(w == 200 and h == 200)",
+     NULL, "", false},
     {"text('a', {axes = 'wght'})", "axes must be like", "", false},
     {"text('a', {warp = 'round'})", "warp must be", "", false},
     {"local m = text('a', {size = 9, corners = {{0, 0}, {99, 0}, {99, 50}, {0, 50}}}); "
