@@ -21,7 +21,25 @@ struct output {
     int *inks; /* of the layout, by style; 0: not yet */
     struct font_map last;
     int last_number;
+    /* What the page says, where it is asked for: paragraphs' texts; the one that is written begins at `begin`. */
+    char *said;
+    int said_count, said_capacity, begin;
+    bool says;
 };
+
+static bool paragraph_say(struct output *o, const struct paragraph *p)
+{
+    if (!o->says)
+        return true;
+    if (!array_reserve(&o->said, &o->said_capacity, o->said_count + p->bytes + 2, 1))
+        return false;
+    o->begin = o->said_count;
+    memcpy(o->said + o->begin, p->text, (size_t)p->bytes);
+    o->said_count += p->bytes;
+    o->said[o->said_count++] = '\n';
+    o->said[o->said_count] = '\0';
+    return true;
+}
 
 static int ink_of(struct output *o, int style)
 {
@@ -65,50 +83,79 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
         const struct set_run *run = &p->runs[g->run];
         const struct style *style = o->t->styles[run->style];
         struct font_placed *to = &out->glyphs[out->glyphs_count++];
-        *to = (struct font_placed){.face = style->shaper->faces[run->face].face,
-                                   .glyph = g->glyph,
-                                   .cluster = g->letter >= 0 ? p->letters[g->letter].byte : 0,
-                                   .line = line,
-                                   .size_px = (float)style->look.size_px,
-                                   .ink = ink_of(o, run->style),
-                                   .map = map_of(o, frame->vertical, run->upright, g->scale)};
+        *to = (struct font_placed){
+            .face = style->shaper->faces[run->face].face,
+            .glyph = g->glyph,
+            .cluster = o->begin + (g->letter >= 0 ? p->letters[g->letter].byte : p->bytes),
+            .line = line,
+            .size_px = (float)style->look.size_px,
+            .ink = ink_of(o, run->style),
+            .map = map_of(o, frame->vertical, run->upright, g->scale)};
         slot_point(o->template, slot, slot->u0 + (double)g->u, base - (double)g->v, &to->x_px,
                    &to->y_px);
     }
     return true;
 }
 
-enum font_status page_layout(struct page_text *t, int page, struct font_layout *out)
+static enum font_status page_put(struct page_text *t, int page, struct output *o)
 {
-    *out = (struct font_layout){0};
-    enum font_status status = flow_fill(t, page);
-    if (status != FONT_OK)
-        return status;
     struct set_line l = {0};
-    struct output o = {.t = t, .template = flow_template(t, page), .out = out};
-    o.inks = calloc((size_t)t->styles_count + 1, sizeof *o.inks);
-    bool ok = o.inks != NULL;
-    out->width_px = o.template->width_px;
-    out->size_px = t->styles_count ? t->styles[0]->look.size_px : 1;
     const struct page *from = &t->pages[page];
+    enum font_status status = FONT_OK;
+    bool ok = true;
+    int line = 0;
     for (int i = 0; ok && status == FONT_OK && i < from->pieces_count; i++) {
         const struct piece *piece = &from->pieces[i];
+        ok = paragraph_say(o, piece->paragraph);
         for (int k = piece->begin; ok && status == FONT_OK && k < piece->end; k++) {
             const struct slot *slot = &from->slots[piece->slots_begin + k - piece->begin];
             status = line_set(t, piece->paragraph, &piece->paragraph->lines[k],
                               slot->u1 - slot->u0, &l);
-            ok =
-                status != FONT_OK || line_put(&o, piece->paragraph, &l, slot, out->lines_count);
-            out->lines_count++;
+            ok = status != FONT_OK || line_put(o, piece->paragraph, &l, slot, line++);
         }
     }
-    out->lines_count = 0; /* lines of a page are not those of a column: it lists none */
-    free(o.inks);
     set_line_finish(&l);
-    if (status == FONT_OK && !ok)
-        status = font_fail(FONT_NO_MEMORY, "no memory for a page");
+    return status == FONT_OK && !ok ? font_fail(FONT_NO_MEMORY, "no memory for a page")
+                                    : status;
+}
+
+static enum font_status page_output(struct page_text *t, int page, struct output *o)
+{
+    *o->out = (struct font_layout){0};
+    enum font_status status = flow_fill(t, page);
     if (status != FONT_OK)
+        return status;
+    o->template = flow_template(t, page);
+    o->inks = calloc((size_t)t->styles_count + 1, sizeof *o->inks);
+    o->out->width_px = o->template->width_px;
+    o->out->size_px = t->styles_count ? t->styles[0]->look.size_px : 1;
+    status = o->inks ? page_put(t, page, o) : font_fail(FONT_NO_MEMORY, "no memory for a page");
+    free(o->inks);
+    if (status != FONT_OK)
+        font_layout_finish(o->out);
+    return status;
+}
+
+enum font_status page_layout(struct page_text *t, int page, struct font_layout *out)
+{
+    struct output o = {.t = t, .out = out};
+    return page_output(t, page, &o);
+}
+
+enum font_status page_layout_text(struct page_text *t, int page, struct font_layout *out,
+                                  char **utf8, size_t *bytes)
+{
+    struct output o = {.t = t, .out = out, .says = true};
+    enum font_status status = page_output(t, page, &o);
+    if (status == FONT_OK && !o.said && !(o.said = calloc(1, 1)))
+        status = font_fail(FONT_NO_MEMORY, "no memory for a page");
+    if (status != FONT_OK) {
+        free(o.said);
+        o.said = NULL;
         font_layout_finish(out);
+    }
+    *utf8 = o.said;
+    *bytes = (size_t)o.said_count;
     return status;
 }
 

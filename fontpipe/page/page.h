@@ -156,6 +156,9 @@ enum font_status page_templates_set(struct page_text *text,
 /* All of a page: glyphs in its pixels, each with its size, ink and map; clusters are bytes of the glyph's paragraph. Errors: NO_MEMORY,
  * BAD_ARGUMENT for a page that there is not. Owns: the caller finishes *out. */
 enum font_status page_layout(struct page_text *text, int page, struct font_layout *out);
+/* The same with what the page says, paragraph after paragraph: clusters are then bytes of that. Owns: the caller frees *utf8. */
+enum font_status page_layout_text(struct page_text *text, int page, struct font_layout *out,
+                                  char **utf8, size_t *bytes);
 /* How many pages all of the text needs: sets them. */
 enum font_status page_count(struct page_text *text, int *count);
 /* Where a letter is: its page, and the number of its line there. */

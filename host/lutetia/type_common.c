@@ -3,6 +3,7 @@
 #include "lutetia.h"
 
 #include <input_file.h>
+#include <output_file.h>
 
 #include <math.h>
 #include <stdarg.h>
@@ -43,10 +44,32 @@ struct font_picture type_picture(const struct display_image *image)
                                  image->pixels};
 }
 
-bool type_out_good(const char *path)
+enum type_out type_out_of(const char *path)
 {
     const char *base = strrchr(path, '/'), *ending = strrchr(base ? base : path, '.');
-    return !ending || strcasecmp(ending, ".png") == 0;
+    return !ending || strcasecmp(ending, ".png") == 0 ? TYPE_OUT_PNG
+           : strcasecmp(ending, ".svg") == 0          ? TYPE_OUT_SVG
+           : strcasecmp(ending, ".pdf") == 0          ? TYPE_OUT_PDF
+                                                      : TYPE_OUT_NONE;
+}
+
+int type_drawing_write(const char *verb, const char *path, const struct font_drawing *drawing,
+                       const struct font_layout *layout, const struct font_map *map,
+                       double x_px, double y_px)
+{
+    struct output_file out;
+    if (!output_file_open(&out, path))
+        return fail(verb, "%s: cannot write: %s", path, out.why);
+    enum font_status status =
+        type_out_of(path) == TYPE_OUT_PDF
+            ? font_drawing_pdf(drawing, layout, map, x_px, y_px, out.stream)
+            : font_drawing_svg(drawing, layout, map, x_px, y_px, out.stream);
+    if (status != FONT_OK) {
+        output_file_abandon(&out);
+        return fail_font(verb);
+    }
+    return output_file_commit(&out) ? EXIT_SUCCESS
+                                    : fail(verb, "%s: cannot write: %s", path, out.why);
 }
 
 int type_image_write(const char *verb, const char *path, const struct display_image *image)

@@ -3,6 +3,7 @@
 #define LUTETIA_TYPE_COMMON_H
 
 #include <display.h>
+#include <drawing.h>
 #include <paint.h>
 
 #include <stdbool.h>
@@ -14,8 +15,13 @@ int fail_font(const char *verb);
 int type_image_create(const char *verb, double width, double height,
                       struct display_image *image);
 struct font_picture type_picture(const struct display_image *image);
-/* Whether a picture's name ends as PNGs do, or has no ending. */
-bool type_out_good(const char *path);
+/* What a file's name says that it is to be: a PNG without an ending, too. */
+enum type_out { TYPE_OUT_NONE, TYPE_OUT_PNG, TYPE_OUT_SVG, TYPE_OUT_PDF };
+enum type_out type_out_of(const char *path);
+/* A layout as SVG or PDF, by the name. */
+int type_drawing_write(const char *verb, const char *path, const struct font_drawing *drawing,
+                       const struct font_layout *layout, const struct font_map *map,
+                       double x_px, double y_px);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
 /* Opens a font and sets axes, "wght=700,wdth=80". */

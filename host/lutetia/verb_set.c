@@ -29,7 +29,8 @@ struct set {
 static int set_options(struct set *s, int argc, char **argv, const char **path, bool *help)
 {
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (page.png)", &s->out_path, 0, 0, 0},
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture: .png, .svg or .pdf (page.png)",
+         &s->out_path, 0, 0, 0},
         {"page", 0, OPTION_INTEGER, "N", "which page (1)", &s->page, 1, 99999, 0},
         {"all", 0, OPTION_FLAG, NULL, "all pages: page-1.png, page-2.png, ..", &s->all, 0, 0,
          0},
@@ -97,8 +98,8 @@ static int set_options(struct set *s, int argc, char **argv, const char **path, 
                                       : "give a file with the text, or -%s",
                           words.count ? words.words[1] : "");
     *path = words.words[0];
-    if (!type_out_good(s->out_path))
-        return fail_usage("set", "-o names a picture in PNG: FILE.png (got '%.80s')",
+    if (type_out_of(s->out_path) == TYPE_OUT_NONE)
+        return fail_usage("set", "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
                           s->out_path);
     return EXIT_SUCCESS;
 }
@@ -161,12 +162,33 @@ static int shapes_make(struct set *s)
     return EXIT_SUCCESS;
 }
 
+/* As SVG or PDF, with what the page says. */
+static int page_write(const struct set *s, struct page_text *text, int page, const char *path)
+{
+    struct font_layout layout;
+    char *said;
+    size_t bytes;
+    if (page_layout_text(text, page, &layout, &said, &bytes) != FONT_OK)
+        return fail_font("set");
+    const struct font_drawing drawing = {.width_px = s->page_px[0],
+                                         .height_px = s->page_px[1],
+                                         .ink = {s->ink[0], s->ink[1], s->ink[2]},
+                                         .text = said,
+                                         .bytes = bytes};
+    int status = type_drawing_write("set", path, &drawing, &layout, NULL, 0, 0);
+    font_layout_finish(&layout);
+    free(said);
+    return status;
+}
+
 static int page_draw(const struct set *s, struct page_text *text, int page, const char *path)
 {
     struct font_painter_def def = font_painter_def_default();
     struct font_painter *painter = NULL;
     struct font_layout layout = {0};
     struct display_image image = {0};
+    if (type_out_of(path) != TYPE_OUT_PNG)
+        return page_write(s, text, page, path);
     def.filter = s->filter;
     def.darken_px = s->darken_px;
     memcpy(def.ink, s->ink, sizeof def.ink);

@@ -35,7 +35,8 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
 {
     const double far = FONT_SIDE_MAX;
     const struct option_row rows[] = {
-        {"out", 'o', OPTION_TEXT, "FILE", "the picture, PNG (out.png)", &t->out_path, 0, 0, 0},
+        {"out", 'o', OPTION_TEXT, "FILE", "the picture: .png, .svg or .pdf (out.png)",
+         &t->out_path, 0, 0, 0},
         {"font", 0, OPTION_TEXT, "F", "a font file, its name, or a family (DejaVuSans)",
          &t->font, 0, 0, 0},
         {"face", 0, OPTION_INTEGER, "N", "of a collection (0)", &t->face, 0, 65535, 0},
@@ -118,9 +119,12 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
         return fail_usage("type", "--gl goes without --gamma, --stripes and --compare");
     if (t->compare && t->stripes)
         return fail_usage("type", "--compare goes without --stripes: it shows gray");
-    if (!type_out_good(t->out_path))
-        return fail_usage("type", "-o names a picture in PNG: FILE.png (got '%.80s')",
+    enum type_out kind = type_out_of(t->out_path);
+    if (kind == TYPE_OUT_NONE)
+        return fail_usage("type", "-o names a picture: FILE.png, .svg or .pdf (got '%.80s')",
                           t->out_path);
+    if (kind != TYPE_OUT_PNG && (t->gl || t->compare || t->stripes))
+        return fail_usage("type", "--gl, --compare and --stripes make pixels: -o FILE.png");
     if (t->warp && strcmp(t->warp, "projective") != 0 && strcmp(t->warp, "bilinear") != 0)
         return fail_usage("type", "--warp must be projective or bilinear (got '%.60s')",
                           t->warp);
@@ -186,6 +190,15 @@ static int type_draw(const struct type *t, struct font_painter *painter,
     double x = ceil(t->margin_px - box.x0), y = ceil(t->margin_px - box.y0);
     if (t->corners.count)
         x = y = 0;
+    if (type_out_of(t->out_path) != TYPE_OUT_PNG) {
+        const struct font_drawing drawing = {.width_px = ceil(x + box.x1 + t->margin_px + 1),
+                                             .height_px = ceil(y + box.y1 + t->margin_px + 1),
+                                             .ink = {t->ink[0], t->ink[1], t->ink[2]},
+                                             .text = t->text,
+                                             .bytes = strlen(t->text)};
+        return type_drawing_write("type", t->out_path, &drawing, layout, map, x + t->place[0],
+                                  y + t->place[1]);
+    }
     int status = type_image_create("type", ceil(x + box.x1 + t->margin_px + 1),
                                    ceil(y + box.y1 + t->margin_px + 1), &image);
     struct font_picture picture = type_picture(&image);

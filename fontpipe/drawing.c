@@ -1,0 +1,180 @@
+/* drawing.c - outlines as paths, and which glyphs there are: see drawing_internal.h. */
+#include "drawing_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void drawn_finish(struct drawn *d)
+{
+    free(d->glyphs);
+    free(d->of);
+    *d = (struct drawn){0};
+}
+
+enum font_status drawn_find(const struct font_layout *layout, struct drawn *out)
+{
+    enum { BUCKETS = 1024 };
+    int heads[BUCKETS], *next = malloc(((size_t)layout->glyphs_count + 1) * sizeof *next);
+    *out = (struct drawn){0};
+    out->of = malloc(((size_t)layout->glyphs_count + 1) * sizeof *out->of);
+    bool good = next && out->of;
+    for (int i = 0; i < BUCKETS; i++)
+        heads[i] = -1;
+    for (int i = 0; good && i < layout->glyphs_count; i++) {
+        const struct font_placed *g = &layout->glyphs[i];
+        uint64_t key[2] = {font_face_version(g->face), g->glyph};
+        uint32_t bucket = font_hash(key, sizeof key) % BUCKETS;
+        int k = heads[bucket];
+        while (k >= 0 && (out->glyphs[k].face != g->face || out->glyphs[k].glyph != g->glyph))
+            k = next[k];
+        if (k < 0) {
+            k = out->count;
+            good = array_reserve(&out->glyphs, &out->capacity, k + 1, sizeof *out->glyphs);
+            if (!good)
+                break;
+            out->glyphs[out->count++] =
+                (struct drawn_glyph){.face = g->face, .glyph = g->glyph, .first = i};
+            next[k] = heads[bucket];
+            heads[bucket] = k;
+        }
+        out->of[i] = k;
+    }
+    free(next);
+    if (good)
+        return FONT_OK;
+    drawn_finish(out);
+    return font_fail(FONT_NO_MEMORY, "no memory for a drawing");
+}
+
+enum font_status drawn_map(const struct font_layout *layout, int i, const struct font_map *map,
+                           double x_px, double y_px, struct font_map *out)
+{
+    const struct font_placed *g = &layout->glyphs[i];
+    struct font_face_info info;
+    struct font_map pixels;
+    double x, y;
+    font_face_describe(g->face, &info);
+    struct font_map own = font_map_size(font_placed_size(layout, g), info.units_per_em);
+    enum font_status status = font_placed_map(layout, i, map, x_px, y_px, &pixels, &x, &y);
+    if (status == FONT_OK)
+        status = font_map_compose(&own, &pixels, out);
+    const struct font_map move = {FONT_AFFINE, {1, 0, x, 0, 1, y}};
+    if (status == FONT_OK)
+        *out = font_map_then(*out, move);
+    return status;
+}
+
+const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font_layout *layout,
+                                 int i, struct font_ink *own)
+{
+    int number = layout->glyphs[i].ink;
+    *own = font_ink_plain(d->ink[0], d->ink[1], d->ink[2], 1);
+    return number > 0 ? &layout->inks[number - 1] : own;
+}
+
+enum font_status drawn_inks_check(const struct font_layout *layout)
+{
+    for (int i = 0; i < layout->inks_count; i++)
+        if (layout->inks[i].kind == FONT_INK_PICTURE)
+            return font_fail(FONT_BAD_ARGUMENT,
+                             "a picture as ink is drawn in pixels: write a PNG");
+    return FONT_OK;
+}
+
+void drawn_text(const struct font_drawing *d, const struct font_layout *layout, int i,
+                size_t *begin, size_t *end)
+{
+    const struct font_placed *g = layout->glyphs;
+    *begin = *end = 0;
+    if (!d->text || (size_t)g[i].cluster >= d->bytes ||
+        (i > 0 && g[i - 1].line == g[i].line && g[i - 1].cluster == g[i].cluster))
+        return;
+    size_t next = d->bytes;
+    /* Clusters rise or fall along a line, and the next one in the text is among the neighbours. */
+    for (int step = -1; step <= 1; step += 2)
+        for (int k = i + step; k >= 0 && k < layout->glyphs_count; k += step)
+            if (g[k].cluster != g[i].cluster) {
+                if (g[k].cluster > g[i].cluster && (size_t)g[k].cluster < next)
+                    next = (size_t)g[k].cluster;
+                break;
+            }
+    *begin = (size_t)g[i].cluster;
+    *end = next;
+    while (*end > *begin && (d->text[*end - 1] == '\n' || d->text[*end - 1] == '\r'))
+        --*end;
+}
+
+/* ---- paths ---- */
+
+static bool point_of(const struct font_map *map, struct font_point p, struct font_point *out)
+{
+    double jacobian[4];
+    *out = p;
+    return !map || font_map_point(map, p, out, jacobian);
+}
+
+static void point_put(FILE *f, bool pdf, const char *before, struct font_point p)
+{
+    fprintf(f, pdf ? "%s%.7g %.7g" : "%s%.7g,%.7g", before, p.x, p.y);
+}
+
+/* One curve, from where the pen is. A curve of degree 2 is one of degree 3 in PDF. */
+static bool curve_put(const struct font_segment *s, const struct font_map *map, bool pdf,
+                      FILE *f)
+{
+    struct font_point p[4];
+    for (int i = 0; i <= s->degree; i++)
+        if (!point_of(map, s->p[i], &p[i]))
+            return false;
+    if (s->degree == 1) {
+        point_put(f, pdf, pdf ? "" : "L", p[1]);
+        fputs(pdf ? " l\n" : "", f);
+    } else if (s->degree == 2 && !pdf) {
+        point_put(f, pdf, "Q", p[1]);
+        point_put(f, pdf, " ", p[2]);
+    } else {
+        struct font_point a = p[1], b = p[2];
+        if (s->degree == 2) {
+            a = (struct font_point){p[0].x + (p[1].x - p[0].x) * 2 / 3,
+                                    p[0].y + (p[1].y - p[0].y) * 2 / 3};
+            b = (struct font_point){p[2].x + (p[1].x - p[2].x) * 2 / 3,
+                                    p[2].y + (p[1].y - p[2].y) * 2 / 3};
+        }
+        point_put(f, pdf, pdf ? "" : "C", a);
+        point_put(f, pdf, " ", b);
+        point_put(f, pdf, " ", p[s->degree]);
+        fputs(pdf ? " c\n" : "", f);
+    }
+    return true;
+}
+
+enum font_status drawn_path(const struct font_outline *o, const struct font_map *map, bool pdf,
+                            FILE *f)
+{
+    enum { PIECES = 16 }; /* of a curve that is distorted: it is none of its kind any more */
+    bool distorted = map && map->kind != FONT_AFFINE;
+    for (int i = 0; i < o->segments_count; i++) {
+        const struct font_segment *s = &o->segments[i];
+        bool begins = i == 0 || s[-1].contour != s->contour;
+        bool ends = i + 1 == o->segments_count || s[1].contour != s->contour;
+        struct font_point start;
+        bool good = point_of(map, s->p[0], &start);
+        if (good && begins) {
+            point_put(f, pdf, pdf ? "" : "M", start);
+            fputs(pdf ? " m\n" : "", f);
+        }
+        int pieces = distorted ? PIECES : 1;
+        for (int k = 0; good && k < pieces; k++) {
+            struct font_segment part =
+                font_segment_part(s, (double)k / pieces, (double)(k + 1) / pieces);
+            part.contour = s->contour;
+            good = curve_put(&part, map, pdf, f);
+        }
+        if (!good)
+            return font_fail(FONT_BAD_ARGUMENT,
+                             "a distortion sends a letter beyond the horizon");
+        if (ends)
+            fputs(pdf ? "h\n" : "Z", f);
+    }
+    return FONT_OK;
+}

@@ -1,0 +1,36 @@
+/* drawing.h - a layout as a drawing in a file: SVG and PDF, with the letters' own outlines, and the text that they show.
+ *
+ *     struct font_drawing d = {.width_px = 600, .height_px = 800, .ink = {0, 0, 0}};
+ *     font_drawing_svg(&d, &layout, NULL, 0, 0, file);
+ *
+ * Outlines are the fonts': no filter, no pixels. In SVG each letter's outline is a path that is there once and used wherever it
+ * stands, under its own map; what maps distort is a path of its own. In PDF letters that are not distorted are glyphs of fonts (Type 3: outlines
+ * as they are), so that the text can be looked for and copied; others are paths. A pixel is 1/96 inch in SVG, and 0.75 points in PDF. Plain
+ * inks keep their translucency; gradients do in SVG, and are their first colour in PDF; pictures as ink are refused.
+ *
+ * Errors: BAD_ARGUMENT (such an ink, a distortion that sends a letter beyond the horizon), BAD_FILE where the file cannot be
+ * written, NO_MEMORY. */
+#ifndef LUTETIA_FONT_DRAWING_H
+#define LUTETIA_FONT_DRAWING_H
+
+#include "edges.h"
+#include "text.h"
+
+#include <stdio.h>
+
+struct font_drawing {
+    double width_px, height_px;
+    double ink[3]; /* sRGB numbers, of letters that have none of the layout's */
+    const char
+        *text; /* that the layout's clusters are bytes of; NULL: none is written with it */
+    size_t bytes;
+};
+
+enum font_status font_drawing_svg(const struct font_drawing *drawing,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x_px, double y_px, FILE *file);
+enum font_status font_drawing_pdf(const struct font_drawing *drawing,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x_px, double y_px, FILE *file);
+
+#endif

@@ -1,0 +1,40 @@
+/* drawing_internal.h - what drawing.c, drawing_svg.c and drawing_pdf.c share. */
+#ifndef LUTETIA_FONT_DRAWING_INTERNAL_H
+#define LUTETIA_FONT_DRAWING_INTERNAL_H
+
+#include "drawing.h"
+#include "internal.h"
+
+/* A glyph that is used, each once. */
+struct drawn_glyph {
+    struct font_face *face;
+    uint32_t glyph;
+    int first;      /* the layout's first that is it */
+    int font, code; /* PDF: of which font which letter */
+};
+
+struct drawn {
+    struct drawn_glyph *glyphs;
+    int *of; /* of each of the layout's glyphs: which */
+    int count, capacity;
+};
+
+enum font_status drawn_find(const struct font_layout *layout, struct drawn *out);
+void drawn_finish(struct drawn *drawn);
+
+/* The outline as a path, its points through a map (NULL: as they are), curves cut finely where the map distorts. pdf: its operators,
+ * else SVG's letters. */
+enum font_status drawn_path(const struct font_outline *outline, const struct font_map *map,
+                            bool pdf, FILE *file);
+/* The map of a layout's glyph from its font's units to the picture's pixels, its place within. */
+enum font_status drawn_map(const struct font_layout *layout, int i, const struct font_map *map,
+                           double x_px, double y_px, struct font_map *out);
+/* A glyph's ink; own: room for the drawing's. */
+const struct font_ink *drawn_ink(const struct font_drawing *d, const struct font_layout *layout,
+                                 int i, struct font_ink *own);
+enum font_status drawn_inks_check(const struct font_layout *layout);
+/* The bytes of the text that the layout's glyph i shows: up to the next cluster's. Only the first glyph of a cluster has any. */
+void drawn_text(const struct font_drawing *d, const struct font_layout *layout, int i,
+                size_t *begin, size_t *end);
+
+#endif

@@ -1,0 +1,298 @@
+/* drawing_pdf.c - a layout as PDF: see drawing.h.
+ *
+ * Letters are glyphs of Type 3 fonts, up to 255 in each: a glyph is its outline in the font's units, and a table says which text it
+ * shows. Objects are written one after the other; the table at the end says where each begins. */
+#include "drawing_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LETTERS_MAX = 255, FIRST_CODE = 1 };
+
+static const double point_px = 0.75; /* points in a pixel */
+
+struct pdf_font {
+    struct font_face *face;
+    int count, glyphs[LETTERS_MAX]; /* of the drawn */
+};
+
+struct pdf {
+    const struct font_drawing *d;
+    const struct font_layout *layout;
+    struct drawn drawn;
+    struct pdf_font *fonts;
+    int fonts_count, fonts_capacity;
+    bool covers[256]; /* translucencies that are used */
+    FILE *f;
+    long *offsets;
+    int objects, offsets_capacity;
+};
+
+static enum font_status no_memory(void)
+{
+    return font_fail(FONT_NO_MEMORY, "no memory for a drawing");
+}
+
+static bool fonts_find(struct pdf *p)
+{
+    for (int k = 0; k < p->drawn.count; k++) {
+        struct drawn_glyph *g = &p->drawn.glyphs[k];
+        int i = p->fonts_count - 1;
+        while (i >= 0 && (p->fonts[i].face != g->face || p->fonts[i].count == LETTERS_MAX))
+            i--;
+        if (i < 0) {
+            if (!array_reserve(&p->fonts, &p->fonts_capacity, p->fonts_count + 1,
+                               sizeof *p->fonts))
+                return false;
+            i = p->fonts_count++;
+            p->fonts[i].face = g->face;
+            p->fonts[i].count = 0;
+        }
+        g->font = i;
+        g->code = p->fonts[i].count;
+        p->fonts[i].glyphs[p->fonts[i].count++] = k;
+    }
+    return true;
+}
+
+/* Begins the next object; they are numbered from 1 on. */
+static bool object_begin(struct pdf *p)
+{
+    if (!array_reserve(&p->offsets, &p->offsets_capacity, p->objects + 1, sizeof *p->offsets))
+        return false;
+    p->offsets[p->objects++] = ftell(p->f);
+    fprintf(p->f, "%d 0 obj\n", p->objects);
+    return true;
+}
+
+static bool stream_put(struct pdf *p, const char *bytes, size_t count)
+{
+    bool good = object_begin(p);
+    fprintf(p->f, "<< /Length %zu >>\nstream\n", count);
+    fwrite(bytes, 1, count, p->f);
+    fputs("\nendstream\nendobj\n", p->f);
+    return good;
+}
+
+/* ---- what is on the page ---- */
+
+static void ink_put(struct pdf *p, int i, FILE *f)
+{
+    struct font_ink own;
+    const struct font_ink *ink = drawn_ink(p->d, p->layout, i, &own);
+    const double *c = ink->kind == FONT_INK_PLAIN ? ink->rgba : ink->stops[0].rgba;
+    int cover = (int)lrint(255 * c[3]);
+    p->covers[cover] = true;
+    fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
+}
+
+static enum font_status letter_put(struct pdf *p, int i, const struct font_map *map, double x,
+                                   double y, FILE *f)
+{
+    const struct font_placed *g = &p->layout->glyphs[i];
+    const struct drawn_glyph *drawn = &p->drawn.glyphs[p->drawn.of[i]];
+    struct font_face_info info;
+    struct font_map whole;
+    double height = p->d->height_px;
+    enum font_status status = drawn_map(p->layout, i, map, x, y, &whole);
+    if (status != FONT_OK)
+        return status;
+    if (i == 0 || p->layout->glyphs[i - 1].ink != g->ink)
+        ink_put(p, i, f);
+    if (whole.kind == FONT_AFFINE) {
+        font_face_describe(g->face, &info);
+        double em = info.units_per_em * point_px;
+        const double *m = whole.m;
+        fprintf(f, "BT /F%d 1 Tf %.7g %.7g %.7g %.7g %.7g %.7g Tm <%02x> Tj ET\n", drawn->font,
+                m[0] * em, -m[3] * em, m[1] * em, -m[4] * em, m[2] * point_px,
+                (height - m[5]) * point_px, (unsigned)(drawn->code + FIRST_CODE));
+        return FONT_OK;
+    }
+    struct font_outline outline;
+    status = font_face_outline_raw(g->face, g->glyph, &outline);
+    if (status != FONT_OK)
+        return status;
+    fprintf(f, "q %g 0 0 %g 0 %.7g cm\n", point_px, -point_px, height * point_px);
+    status = drawn_path(&outline, &whole, true, f);
+    fputs("f Q\n", f);
+    font_outline_finish(&outline);
+    return status;
+}
+
+/* ---- fonts ---- */
+
+static enum font_status glyph_put(struct pdf *p, const struct drawn_glyph *g)
+{
+    char *bytes = NULL;
+    size_t count = 0;
+    FILE *f = open_memstream(&bytes, &count);
+    struct font_outline outline;
+    if (!f)
+        return no_memory();
+    enum font_status status = font_face_outline_raw(g->face, g->glyph, &outline);
+    if (status == FONT_OK) {
+        struct font_box box = font_outline_box(&outline);
+        fprintf(f, "%.7g 0 %.7g %.7g %.7g %.7g d1\n", outline.advance, box.x0, box.y0, box.x1,
+                box.y1);
+        status = drawn_path(&outline, NULL, true, f);
+        fputs("f", f);
+        font_outline_finish(&outline);
+    }
+    bool whole = fclose(f) == 0;
+    if (status == FONT_OK && (!whole || !stream_put(p, bytes, count)))
+        status = no_memory();
+    free(bytes);
+    return status;
+}
+
+static void utf16_put(const char *text, size_t begin, size_t end, FILE *f)
+{
+    const char *at = text + begin, *last = text + end;
+    while (at < last) {
+        uint32_t c;
+        font_utf8_next(&at, last, &c);
+        if (c > 0xffff)
+            fprintf(f, "%04X%04X", (unsigned)(0xd800 + ((c - 0x10000) >> 10)),
+                    (unsigned)(0xdc00 + ((c - 0x10000) & 0x3ff)));
+        else
+            fprintf(f, "%04X", (unsigned)c);
+    }
+}
+
+/* Which text each letter of the font shows, as it was when it was first used. */
+static enum font_status texts_put(struct pdf *p, const struct pdf_font *font)
+{
+    char *bytes = NULL;
+    size_t count = 0;
+    FILE *f = open_memstream(&bytes, &count);
+    if (!f)
+        return no_memory();
+    fputs("/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n/CMapType 2 def\n"
+          "/CMapName /Lutetia def\n1 begincodespacerange\n<00> <FF>\nendcodespacerange\n",
+          f);
+    for (int i = 0; i < font->count; i++) {
+        size_t begin, end;
+        drawn_text(p->d, p->layout, p->drawn.glyphs[font->glyphs[i]].first, &begin, &end);
+        if (begin == end || end - begin > 64)
+            continue;
+        fprintf(f, "1 beginbfchar\n<%02X> <", (unsigned)(i + FIRST_CODE));
+        utf16_put(p->d->text, begin, end, f);
+        fputs(">\nendbfchar\n", f);
+    }
+    fputs("endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend", f);
+    bool good = fclose(f) == 0 && stream_put(p, bytes, count);
+    free(bytes);
+    return good ? FONT_OK : no_memory();
+}
+
+/* Objects: its letters, its texts, itself. *number: its own. */
+static enum font_status font_put(struct pdf *p, const struct pdf_font *font, int *number)
+{
+    struct font_face_info info;
+    enum font_status status = FONT_OK;
+    font_face_describe(font->face, &info);
+    int letters = p->objects + 1;
+    for (int i = 0; i < font->count && status == FONT_OK; i++)
+        status = glyph_put(p, &p->drawn.glyphs[font->glyphs[i]]);
+    if (status == FONT_OK)
+        status = texts_put(p, font);
+    if (status == FONT_OK && !object_begin(p))
+        status = no_memory();
+    if (status != FONT_OK)
+        return status;
+    *number = p->objects;
+    fprintf(
+        p->f,
+        "<< /Type /Font /Subtype /Type3 /FontBBox [0 0 0 0] /FontMatrix [%.9g 0 0 %.9g 0 0]\n"
+        "/FirstChar %d /LastChar %d /ToUnicode %d 0 R /Resources << >>\n/CharProcs <<",
+        1 / info.units_per_em, 1 / info.units_per_em, FIRST_CODE, FIRST_CODE + font->count - 1,
+        letters + font->count);
+    for (int i = 0; i < font->count; i++)
+        fprintf(p->f, " /g%d %d 0 R", i, letters + i);
+    fprintf(p->f, " >>\n/Encoding << /Type /Encoding /Differences [%d", FIRST_CODE);
+    for (int i = 0; i < font->count; i++)
+        fprintf(p->f, " /g%d", i);
+    fputs("] >>\n/Widths [", p->f);
+    for (int i = 0; i < font->count; i++) {
+        double advance = 0;
+        font_face_advance(font->face, p->drawn.glyphs[font->glyphs[i]].glyph, &advance);
+        fprintf(p->f, " %.6g", advance);
+    }
+    fputs(" ] >>\nendobj\n", p->f);
+    return FONT_OK;
+}
+
+/* Object 1 is what is on the page; then the fonts; then the page, the list of pages, the document. */
+static enum font_status objects_put(struct pdf *p, const char *content, size_t count)
+{
+    enum font_status status = FONT_OK;
+    int *numbers = calloc((size_t)p->fonts_count + 1, sizeof *numbers);
+    bool good = numbers && stream_put(p, content, count);
+    for (int i = 0; good && i < p->fonts_count && status == FONT_OK; i++)
+        status = font_put(p, &p->fonts[i], &numbers[i]);
+    good = good && object_begin(p);
+    int page = p->objects;
+    fprintf(p->f,
+            "<< /Type /Page /Parent %d 0 R /MediaBox [0 0 %.7g %.7g] /Contents 1 0 "
+            "R\n/Resources << "
+            "/Font <<",
+            page + 1, p->d->width_px * point_px, p->d->height_px * point_px);
+    for (int i = 0; good && i < p->fonts_count; i++)
+        fprintf(p->f, " /F%d %d 0 R", i, numbers[i]);
+    fputs(" >> /ExtGState <<", p->f);
+    for (int i = 0; i < 256; i++)
+        if (p->covers[i])
+            fprintf(p->f, " /A%d << /ca %.5g >>", i, i / 255.0);
+    fputs(" >> >> >>\nendobj\n", p->f);
+    good = good && object_begin(p);
+    fprintf(p->f, "<< /Type /Pages /Kids [%d 0 R] /Count 1 >>\nendobj\n", page);
+    good = good && object_begin(p);
+    fprintf(p->f, "<< /Type /Catalog /Pages %d 0 R >>\nendobj\n", page + 1);
+    long table = ftell(p->f);
+    fprintf(p->f, "xref\n0 %d\n0000000000 65535 f \n", p->objects + 1);
+    for (int i = 0; good && i < p->objects; i++)
+        fprintf(p->f, "%010ld 00000 n \n", p->offsets[i]);
+    fprintf(p->f, "trailer\n<< /Size %d /Root %d 0 R >>\nstartxref\n%ld\n%%%%EOF\n",
+            p->objects + 1, p->objects, table);
+    free(numbers);
+    return status == FONT_OK && !good ? no_memory() : status;
+}
+
+enum font_status font_drawing_pdf(const struct font_drawing *d,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x, double y, FILE *file)
+{
+    struct pdf p = {.d = d, .layout = layout};
+    char *content = NULL, *whole = NULL;
+    size_t content_bytes = 0, whole_bytes = 0;
+    enum font_status status = drawn_inks_check(layout);
+    if (status == FONT_OK)
+        status = drawn_find(layout, &p.drawn);
+    if (status == FONT_OK && !fonts_find(&p))
+        status = no_memory();
+    FILE *f = status == FONT_OK ? open_memstream(&content, &content_bytes) : NULL;
+    for (int i = 0; f && i < layout->glyphs_count && status == FONT_OK; i++)
+        status = letter_put(&p, i, map, x, y, f);
+    if (status == FONT_OK && !f)
+        status = no_memory();
+    if (f && fclose(f) != 0 && status == FONT_OK)
+        status = no_memory();
+    p.f = status == FONT_OK ? open_memstream(&whole, &whole_bytes) : NULL;
+    if (p.f) {
+        fputs("%PDF-1.5\n%\xe2\xe3\xcf\xd3\n", p.f);
+        status = objects_put(&p, content, content_bytes);
+        if (fclose(p.f) != 0 && status == FONT_OK)
+            status = no_memory();
+    } else if (status == FONT_OK) {
+        status = no_memory();
+    }
+    if (status == FONT_OK && fwrite(whole, 1, whole_bytes, file) != whole_bytes)
+        status = font_fail(FONT_BAD_FILE, "the drawing cannot be written");
+    free(content);
+    free(whole);
+    free(p.fonts);
+    free(p.offsets);
+    drawn_finish(&p.drawn);
+    return status;
+}

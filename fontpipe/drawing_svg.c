@@ -1,0 +1,161 @@
+/* drawing_svg.c - a layout as SVG: see drawing.h. */
+#include "drawing_internal.h"
+
+#include <math.h>
+
+static int byte_of(double number)
+{
+    return (int)lrint(255 * fmin(1, fmax(0, number)));
+}
+
+static void text_put(const char *text, size_t begin, size_t end, FILE *f)
+{
+    for (size_t i = begin; i < end; i++) {
+        unsigned char c = (unsigned char)text[i];
+        if (c == '<' || c == '>' || c == '&' || c == '"')
+            fprintf(f, "&#%d;", c);
+        else
+            fputc(c < ' ' ? ' ' : c, f);
+    }
+}
+
+static void gradient_put(const struct font_ink *ink, int number, double x, double y, FILE *f)
+{
+    bool round = ink->kind == FONT_INK_RADIAL;
+    if (round)
+        fprintf(f,
+                "<radialGradient id=\"i%d\" gradientUnits=\"userSpaceOnUse\" cx=\"%.7g\" "
+                "cy=\"%.7g\" "
+                "r=\"%.7g\">",
+                number, x + ink->x0, y + ink->y0, ink->x1);
+    else
+        fprintf(f,
+                "<linearGradient id=\"i%d\" gradientUnits=\"userSpaceOnUse\" x1=\"%.7g\" "
+                "y1=\"%.7g\" "
+                "x2=\"%.7g\" y2=\"%.7g\">",
+                number, x + ink->x0, y + ink->y0, x + ink->x1, y + ink->y1);
+    for (int i = 0; i < ink->stops_count; i++) {
+        const double *c = ink->stops[i].rgba;
+        fprintf(f, "<stop offset=\"%.6g\" stop-color=\"rgb(%d,%d,%d)\" stop-opacity=\"%.6g\"/>",
+                ink->stops[i].at, byte_of(c[0]), byte_of(c[1]), byte_of(c[2]), c[3]);
+    }
+    fputs(round ? "</radialGradient>\n" : "</linearGradient>\n", f);
+}
+
+static void fill_put(const struct font_drawing *d, const struct font_layout *layout, int i,
+                     FILE *f)
+{
+    struct font_ink own;
+    const struct font_ink *ink = drawn_ink(d, layout, i, &own);
+    if (ink->kind != FONT_INK_PLAIN)
+        fprintf(f, " fill=\"url(#i%d)\"", layout->glyphs[i].ink);
+    else if (ink != &own)
+        fprintf(f, " fill=\"rgb(%d,%d,%d)\" fill-opacity=\"%.6g\"", byte_of(ink->rgba[0]),
+                byte_of(ink->rgba[1]), byte_of(ink->rgba[2]), ink->rgba[3]);
+}
+
+/* A letter: its outline used at its place; or a path where it is distorted, or has an ink whose places are the picture's. */
+static enum font_status letter_put(const struct font_drawing *d,
+                                   const struct font_layout *layout, const struct drawn *drawn,
+                                   int i, const struct font_map *map, double x, double y,
+                                   FILE *f)
+{
+    struct font_map whole;
+    struct font_outline outline;
+    struct font_ink own;
+    enum font_status status = drawn_map(layout, i, map, x, y, &whole);
+    if (status != FONT_OK)
+        return status;
+    if (whole.kind == FONT_AFFINE && drawn_ink(d, layout, i, &own)->kind == FONT_INK_PLAIN) {
+        const double *m = whole.m;
+        fprintf(f, "<use href=\"#g%d\" transform=\"matrix(%.7g %.7g %.7g %.7g %.7g %.7g)\"",
+                drawn->of[i], m[0], m[3], m[1], m[4], m[2], m[5]);
+        fill_put(d, layout, i, f);
+        fputs("/>\n", f);
+        return FONT_OK;
+    }
+    status = font_face_outline_raw(layout->glyphs[i].face, layout->glyphs[i].glyph, &outline);
+    if (status != FONT_OK)
+        return status;
+    fputs("<path", f);
+    fill_put(d, layout, i, f);
+    fputs(" d=\"", f);
+    status = drawn_path(&outline, &whole, false, f);
+    fputs("\"/>\n", f);
+    font_outline_finish(&outline);
+    return status;
+}
+
+static enum font_status outlines_put(const struct drawn *drawn, FILE *f)
+{
+    for (int k = 0; k < drawn->count; k++) {
+        struct font_outline outline;
+        enum font_status status =
+            font_face_outline_raw(drawn->glyphs[k].face, drawn->glyphs[k].glyph, &outline);
+        if (status != FONT_OK)
+            return status;
+        fprintf(f, "<path id=\"g%d\" d=\"", k);
+        status = drawn_path(&outline, NULL, false, f);
+        fputs("\"/>\n", f);
+        font_outline_finish(&outline);
+        if (status != FONT_OK)
+            return status;
+    }
+    return FONT_OK;
+}
+
+/* The text itself, unseen, each piece where it stands: programs find it and copy it. */
+static void words_put(const struct font_drawing *d, const struct font_layout *layout,
+                      const struct font_map *map, double x, double y, FILE *f)
+{
+    fputs("<g opacity=\"0\" font-family=\"sans-serif\">\n", f);
+    for (int i = 0; i < layout->glyphs_count; i++) {
+        struct font_map pixels;
+        size_t begin, end;
+        double gx, gy;
+        drawn_text(d, layout, i, &begin, &end);
+        if (begin == end || font_placed_map(layout, i, map, x, y, &pixels, &gx, &gy) != FONT_OK)
+            continue;
+        struct font_point at = {0, 0};
+        double jacobian[4];
+        if (!font_map_point(&pixels, at, &at, jacobian))
+            continue;
+        fprintf(f, "<text x=\"%.7g\" y=\"%.7g\" font-size=\"%.6g\" xml:space=\"preserve\">",
+                gx + at.x, gy + at.y, font_placed_size(layout, &layout->glyphs[i]));
+        text_put(d->text, begin, end, f);
+        fputs("</text>\n", f);
+    }
+    fputs("</g>\n", f);
+}
+
+enum font_status font_drawing_svg(const struct font_drawing *d,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x, double y, FILE *f)
+{
+    struct drawn drawn = {0};
+    enum font_status status = drawn_inks_check(layout);
+    if (status == FONT_OK)
+        status = drawn_find(layout, &drawn);
+    if (status != FONT_OK)
+        return status;
+    fprintf(f,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.7g\" height=\"%.7g\" "
+            "viewBox=\"0 0 %.7g %.7g\">\n<defs>\n",
+            d->width_px, d->height_px, d->width_px, d->height_px);
+    for (int i = 0; i < layout->inks_count; i++)
+        if (layout->inks[i].kind != FONT_INK_PLAIN)
+            gradient_put(&layout->inks[i], i + 1, x, y, f);
+    status = outlines_put(&drawn, f);
+    fprintf(f, "</defs>\n<g fill=\"rgb(%d,%d,%d)\">\n", byte_of(d->ink[0]), byte_of(d->ink[1]),
+            byte_of(d->ink[2]));
+    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++)
+        status = letter_put(d, layout, &drawn, i, map, x, y, f);
+    fputs("</g>\n", f);
+    if (d->text)
+        words_put(d, layout, map, x, y, f);
+    fputs("</svg>\n", f);
+    drawn_finish(&drawn);
+    return status == FONT_OK && ferror(f)
+               ? font_fail(FONT_BAD_FILE, "the drawing cannot be written")
+               : status;
+}

@@ -1,0 +1,466 @@
+/* test_page_rules.c - what pages promise: lines that fill their column, words divided, keeps, notes, shapes, tabs, lines that go down;
+ * and the same as drawings. */
+#include "support.h"
+
+#include <drawing.h>
+#include <page.h>
+#include <setup.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char marsh[] =
+    "The water of a marsh carries pigment through the fibers of a sheet; what it leaves at its "
+    "rim dries "
+    "dark, and extraordinary hyphenation demonstrates itself wherever a representative of "
+    "communication "
+    "finds no satisfactory arrangement within the measurement of a newspaper's column.";
+
+struct fixture {
+    struct page_text *text;
+    struct font_layout layout;
+};
+
+static void begin(struct fixture *f, const struct page_frame *frames, int count,
+                  const struct page_shape *shape)
+{
+    struct page_template page = {.width_px = 500, .height_px = 500, .frames_count = count};
+    struct page_style style = page_style_default();
+    int id;
+    *f = (struct fixture){0};
+    memcpy(page.frames, frames, (size_t)count * sizeof *frames);
+    if (shape) {
+        page.shapes[0] = *shape;
+        page.shapes_count = 1;
+    }
+    assert_font(page_text_create(&f->text));
+    style.font = "DejaVuSerif";
+    style.size_px = 14;
+    style.language = "en";
+    assert_font(page_style_add(f->text, &style, &id));
+    assert_font(page_templates_set(f->text, &page, 1));
+}
+
+static int add(struct fixture *f, const char *text, const struct page_manner *manner)
+{
+    int id;
+    assert_font(page_paragraph_add(f->text, 0, -1, text, strlen(text), 0, manner, &id));
+    return id;
+}
+
+static const struct font_layout *look(struct fixture *f, int page)
+{
+    font_layout_finish(&f->layout);
+    assert_font(page_layout(f->text, page, &f->layout));
+    return &f->layout;
+}
+
+static void end(struct fixture *f)
+{
+    font_layout_finish(&f->layout);
+    page_text_destroy(f->text);
+}
+
+/* Where glyph i's ink ends if the pen moves on by its advance. */
+static double glyph_end(const struct font_placed *g)
+{
+    struct font_face_info info;
+    double advance;
+    font_face_describe(g->face, &info);
+    assert_font(font_face_advance(g->face, g->glyph, &advance));
+    return g->x_px + advance * (double)g->size_px / info.units_per_em;
+}
+
+static struct page_manner manner_of(enum font_align align)
+{
+    struct page_manner m = page_manner_default();
+    m.align = align;
+    m.leading_px = 20;
+    return m;
+}
+
+static const struct page_frame column = {.x = 30, .y = 40, .width = 190, .height = 420};
+
+static void justified_lines_fill_the_column(void **state)
+{
+    (void)state;
+    for (int hang = 0; hang < 2; hang++) {
+        struct fixture f;
+        struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+        begin(&f, &column, 1, NULL);
+        m.hyphenate = true;
+        m.protrude = hang;
+        add(&f, marsh, &m);
+        const struct font_layout *l = look(&f, 0);
+        int lines = l->glyphs[l->glyphs_count - 1].line, hung = 0;
+        assert_true(lines > 8);
+        for (int i = 0; i + 1 < l->glyphs_count; i++) {
+            const struct font_placed *g = &l->glyphs[i];
+            if (i == 0 || g[-1].line != g->line)
+                assert_true(fabs(g->x_px - 30) <
+                            (hang ? 1.0 : 0.01)); /* T stands out a little */
+            if (g->line < lines && g[1].line != g->line) {
+                double over = glyph_end(g) - 220;
+                hung += over > 0.5;
+                if (!hang)
+                    assert_true(fabs(over) < 0.02);
+                else
+                    assert_true(over > -0.02 && over < 4);
+            }
+        }
+        assert_int_equal(hung > 0, hang);
+        end(&f);
+    }
+}
+
+/* Each hyphen at a line's end stands where the patterns allow one. */
+static void words_are_divided_by_patterns(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+    struct page_frame narrow = column;
+    struct page_stats stats;
+    int hyphens = 0;
+    narrow.width = 120;
+    begin(&f, &narrow, 1, NULL);
+    m.hyphenate = true;
+    add(&f, marsh, &m);
+    const struct font_layout *l = look(&f, 0);
+    static const char *const parts[] = {"ex\001traor\001di\001nary",
+                                        "hy\001phen\001ation",
+                                        "demon\001strates",
+                                        "rep\001re\001sen\001ta\001tive",
+                                        "com\001mu\001ni\001ca\001tion",
+                                        "sat\001is\001fac\001tory",
+                                        "arrange\001ment",
+                                        "mea\001sure\001ment",
+                                        "pig\001ment",
+                                        "car\001ries",
+                                        "fibers",
+                                        "wher\001ever",
+                                        "news\001pa\001per"};
+    for (int i = 1; i + 1 < l->glyphs_count; i++) {
+        if (l->glyphs[i].line == l->glyphs[i + 1].line ||
+            l->glyphs[i].glyph != font_face_glyph(l->glyphs[i].face, 0x2010))
+            continue;
+        int at = l->glyphs[i + 1].cluster, from = at;
+        while (from > 0 && marsh[from - 1] != ' ')
+            from--;
+        bool known = false;
+        for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+            char word[40];
+            int n = 0, allowed = 0;
+            for (const char *c = parts[k]; *c; c++) {
+                if (*c == '\001')
+                    allowed |= n == at - from;
+                else
+                    word[n++] = *c;
+            }
+            if (strncmp(marsh + from, word, (size_t)n) == 0) {
+                known = true;
+                if (!allowed)
+                    fail_msg("%s is divided behind %d letters", word, at - from);
+            }
+        }
+        assert_true(known);
+        hyphens++;
+    }
+    page_stats_get(f.text, &stats);
+    assert_true(hyphens >= 2);
+    assert_int_equal(stats.lines_overfull, 0);
+    end(&f);
+}
+
+static void letters_widen_a_little(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+    begin(&f, &column, 1, NULL);
+    m.expand = 0.03;
+    add(&f, marsh, &m);
+    const struct font_layout *l = look(&f, 0);
+    int scaled = 0;
+    for (int i = 0; i < l->glyphs_count; i++)
+        if (l->glyphs[i].map) {
+            const struct font_map *map = &l->maps[l->glyphs[i].map - 1];
+            assert_true(fabs(map->m[0] - 1) <= 0.03 + 1e-6 && map->m[4] == 1);
+            scaled++;
+        }
+    assert_true(scaled > l->glyphs_count / 2);
+    end(&f);
+}
+
+/* How many of the paragraph's lines are on a page. */
+static int lines_on(struct fixture *f, int id, int page)
+{
+    struct page_box boxes[100];
+    size_t bytes;
+    int count;
+    page_paragraph_text(f->text, id, &bytes);
+    assert_font(page_select(f->text, (struct page_place){id, 0},
+                            (struct page_place){id, (int)bytes}, page, boxes, 100, &count));
+    return count;
+}
+
+static void keeps_are_kept(void **state)
+{
+    (void)state;
+    /* Over all heights of a column, at most one line alone is left nowhere. */
+    for (int height = 100; height < 420; height += 20) {
+        struct fixture f;
+        struct page_frame frame = column;
+        struct page_manner m = manner_of(FONT_ALIGN_LEFT), head = m, whole = m;
+        frame.height = height;
+        head.keep_with_next = true;
+        whole.keep_together = true;
+        begin(&f, &frame, 1, NULL);
+        int first = add(&f, marsh, &m), heading = add(&f, "A heading", &head);
+        int second = add(&f, marsh, &m),
+            third = add(&f,
+                        "Three lines of text that are kept together, "
+                        "whatever the column's height may be.",
+                        &whole);
+        int pages, page, behind;
+        assert_font(page_count(f.text, &pages));
+        assert_true(pages > 1);
+        for (int k = 0; k < pages; k++) {
+            int a = lines_on(&f, first, k), b = lines_on(&f, second, k);
+            assert_true(a != 1 && b != 1);
+        }
+        assert_font(page_find(f.text, (struct page_place){heading, 0}, &page));
+        assert_font(page_find(f.text, (struct page_place){second, 0}, &behind));
+        assert_int_equal(page, behind);
+        assert_font(page_find(f.text, (struct page_place){third, 0}, &page));
+        assert_font(page_find(f.text, (struct page_place){third, 70}, &behind));
+        assert_int_equal(page, behind);
+        end(&f);
+    }
+}
+
+static void notes_go_with_their_lines(void **state)
+{
+    (void)state;
+    for (int at = 10; at < 250; at += 12) {
+        struct fixture f;
+        struct page_frame frame = column;
+        struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+        int foot, margin, page, with;
+        struct page_caret a, b;
+        frame.height = 150;
+        frame.margin_x = 260;
+        frame.margin_width = 120;
+        frame.foot_gap_px = 6;
+        begin(&f, &frame, 1, NULL);
+        int id = add(&f, marsh, &m);
+        assert_font(page_note_add(f.text, id, at, PAGE_NOTE_FOOT, "A note at the foot of it.",
+                                  25, 0, &m, &foot));
+        assert_font(
+            page_note_add(f.text, id, at, PAGE_NOTE_MARGIN, "Beside it.", 10, 0, &m, &margin));
+        assert_font(page_caret_get(f.text, (struct page_place){id, at}, true, &a));
+        page = a.page;
+        assert_font(page_caret_get(f.text, (struct page_place){foot, 0}, false, &b));
+        assert_int_equal(b.page, page);
+        assert_true(b.y0 >= a.y1 &&
+                    b.y1 <= 40 + 150 + 1e-6); /* under its line, within the frame */
+        assert_font(page_caret_get(f.text, (struct page_place){margin, 0}, false, &b));
+        assert_int_equal(b.page, page);
+        assert_true(b.x0 >= 260 && b.y0 == a.y0);
+        assert_font(page_find(f.text, (struct page_place){id, 0}, &with));
+        assert_int_equal(with, 0);
+        end(&f);
+    }
+}
+
+static void text_keeps_off_shapes(void **state)
+{
+    (void)state;
+    static const double disc[] = {200, 150, 270, 180, 300, 250, 270, 320,
+                                  200, 350, 130, 320, 100, 250, 130, 180};
+    for (int inside = 0; inside < 2; inside++) {
+        struct fixture f;
+        const struct page_frame wide = {.x = 20, .y = 20, .width = 440, .height = 440};
+        const struct page_shape shape = {.points = disc,
+                                         .points_count = 8,
+                                         .inside = inside,
+                                         .distance_px = inside ? 0 : 6,
+                                         .least_px = 30};
+        struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+        int in = 0, out = 0;
+        begin(&f, &wide, 1, &shape);
+        for (int i = 0; i < 4; i++)
+            add(&f, marsh, &m);
+        const struct font_layout *l = look(&f, 0);
+        for (int i = 0; i < l->glyphs_count; i++) {
+            const struct font_placed *g = &l->glyphs[i];
+            double x = g->x_px, y = g->y_px - 5; /* in the middle of the letters */
+            bool within = false;
+            for (int a = 0, b = 7; a < 8; b = a++)
+                if ((disc[2 * a + 1] > y) != (disc[2 * b + 1] > y) &&
+                    x < disc[2 * a] + (disc[2 * b] - disc[2 * a]) * (y - disc[2 * a + 1]) /
+                                          (disc[2 * b + 1] - disc[2 * a + 1]))
+                    within = !within;
+            in += within;
+            out += !within;
+        }
+        assert_true(inside ? in > 60 && out == 0 : out > 300 && in == 0);
+        end(&f);
+    }
+}
+
+static void tabs_are_stops(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_frame wide = column;
+    struct page_manner m = manner_of(FONT_ALIGN_LEFT);
+    wide.width = 420;
+    m.tabs[0] = (struct page_tab){100, PAGE_TAB_LEFT};
+    m.tabs[1] = (struct page_tab){250, PAGE_TAB_RIGHT};
+    m.tabs[2] = (struct page_tab){330, PAGE_TAB_DECIMAL};
+    m.tabs_count = 3;
+    begin(&f, &wide, 1, NULL);
+    add(&f, "ink\twater\t12\t3.75", &m);
+    const struct font_layout *l = look(&f, 0);
+    int seen = 0;
+    for (int i = 0; i < l->glyphs_count; i++) {
+        const struct font_placed *g = &l->glyphs[i];
+        if (g->cluster == 4)
+            seen += fabs(g->x_px - 130) < 0.01;
+        if (g->cluster == 11)
+            seen += fabs(glyph_end(g) - 280) < 0.01;
+        if (g->cluster == 14) /* the point */
+            seen += fabs(g->x_px - 360) < 0.01;
+    }
+    assert_int_equal(seen, 3);
+    end(&f);
+}
+
+static void lines_go_down(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_frame frame = column;
+    struct page_manner m = manner_of(FONT_ALIGN_LEFT);
+    frame.vertical = true;
+    frame.height = 120;
+    begin(&f, &frame, 1, NULL);
+    int id = add(&f, "abc def ghi jkl mno pqr stu vwx", &m);
+    const struct font_layout *l = look(&f, 0);
+    for (int i = 1; i < l->glyphs_count; i++) {
+        const struct font_placed *g = &l->glyphs[i];
+        const double *map = l->maps[g->map - 1].m;
+        assert_true(map[1] == -1 && map[3] == 1); /* Latin lies, its top to the right */
+        if (g->line == g[-1].line)
+            assert_true(g->y_px > g[-1].y_px && g->x_px == g[-1].x_px);
+        else
+            assert_true(fabs(g[-1].x_px - g->x_px - 20) < 1e-4 && g->y_px < 45);
+    }
+    assert_true(l->glyphs[l->glyphs_count - 1].line >= 1);
+    struct page_caret caret;
+    struct page_place place;
+    bool edge;
+    assert_font(page_caret_get(f.text, (struct page_place){id, 5}, false, &caret));
+    assert_true(caret.y0 == caret.y1 && caret.x0 - caret.x1 == 20);
+    assert_font(page_hit(f.text, 0, (caret.x0 + caret.x1) / 2, caret.y0, &place, &edge));
+    assert_int_equal(place.byte, 5);
+    end(&f);
+}
+
+static void thai_words_are_broken(void **state)
+{
+    (void)state;
+    /* Of "the Thai language is beautiful", written together. */
+    static const char thai[] =
+        "\xe0\xb8\xa0\xe0\xb8\xb2\xe0\xb8\xa9\xe0\xb8\xb2\xe0\xb9\x84\xe0\xb8\x97\xe0\xb8\xa2"
+        "\xe0\xb9\x80\xe0\xb8\x9b\xe0\xb9\x87\xe0\xb8\x99\xe0\xb8\xa0\xe0\xb8\xb2\xe0\xb8\xa9"
+        "\xe0\xb8\xb2\xe0\xb8\x97\xe0\xb8\xb5\xe0\xb9\x88\xe0\xb8\xaa\xe0\xb8\xa7\xe0\xb8\xa2";
+    struct fixture f;
+    struct page_frame narrow = column;
+    struct page_manner m = manner_of(FONT_ALIGN_LEFT);
+    bool word[80] = {[12] = true, [21] = true, [33] = true, [45] = true, [54] = true};
+    narrow.width = 70;
+    begin(&f, &narrow, 1, NULL);
+    add(&f, thai, &m);
+    const struct font_layout *l = look(&f, 0);
+    int breaks = 0;
+    for (int i = 1; i < l->glyphs_count; i++)
+        if (l->glyphs[i].line != l->glyphs[i - 1].line) {
+            assert_true(word[l->glyphs[i].cluster]);
+            breaks++;
+        }
+    assert_true(breaks >= 2);
+    end(&f);
+}
+
+/* ---- drawings ---- */
+
+static char *drawn(const struct font_layout *l, bool pdf, size_t *bytes)
+{
+    const struct font_drawing d = {
+        .width_px = 500, .height_px = 500, .text = marsh, .bytes = strlen(marsh)};
+    char *out = NULL;
+    FILE *file = open_memstream(&out, bytes);
+    assert_non_null(file);
+    assert_font(pdf ? font_drawing_pdf(&d, l, NULL, 0, 0, file)
+                    : font_drawing_svg(&d, l, NULL, 0, 0, file));
+    fclose(file);
+    return out;
+}
+
+static int count_of(const char *in, const char *what)
+{
+    int n = 0;
+    for (const char *at = in; (at = strstr(at, what)); at += strlen(what))
+        n++;
+    return n;
+}
+
+static void drawings_have_all_letters(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+    size_t bytes;
+    begin(&f, &column, 1, NULL);
+    add(&f, marsh, &m);
+    const struct font_layout *l = look(&f, 0);
+    char *svg = drawn(l, false, &bytes);
+    assert_int_equal(count_of(svg, "<use "), l->glyphs_count);
+    assert_int_equal(count_of(svg, "<text "),
+                     l->glyphs_count); /* DejaVu's ligatures are off here */
+    assert_true(count_of(svg, "<path ") < 40);
+    free(svg);
+    char *pdf = drawn(l, true, &bytes);
+    assert_memory_equal(pdf, "%PDF-1.5", 8);
+    /* Each object begins where the table says. */
+    const char *table = strstr(pdf + atol(strstr(pdf, "startxref") + 10), "xref");
+    assert_ptr_equal(table, pdf + atol(strstr(pdf, "startxref") + 10));
+    const char *row = strstr(table, "65535 f \n") + 9;
+    for (int i = 1; row[11] == '0' && row[17] == 'n'; i++, row += 20) {
+        char wanted[32];
+        snprintf(wanted, sizeof wanted, "%d 0 obj", i);
+        assert_memory_equal(pdf + atol(row), wanted, strlen(wanted));
+    }
+    free(pdf);
+    end(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(justified_lines_fill_the_column),
+        cmocka_unit_test(words_are_divided_by_patterns),
+        cmocka_unit_test(letters_widen_a_little),
+        cmocka_unit_test(keeps_are_kept),
+        cmocka_unit_test(notes_go_with_their_lines),
+        cmocka_unit_test(text_keeps_off_shapes),
+        cmocka_unit_test(tabs_are_stops),
+        cmocka_unit_test(lines_go_down),
+        cmocka_unit_test(thai_words_are_broken),
+        cmocka_unit_test(drawings_have_all_letters),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
