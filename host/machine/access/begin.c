@@ -1,17 +1,20 @@
-/* begin.c - the beginning of an instruction: the one place where what is left of earlier ones is seen to.
+/* begin.c - the beginning of an instruction: finishes what earlier instructions have left to
+ * do.
  *
  *     the program          machine_instruction()     values handed out before are given back;
  *     a call of Paris      machine_begin()           calls that are noted are performed; an evaluation that is due is made
  *
- * Inside a call that is performed only values are given back. Functions that look at fields, or change them, settle what is
- * noted for themselves (settle.h), for not everybody begins an instruction. */
+ * Inside a call that is being performed, only values are released. Functions that read or
+ * change fields settle noted calls themselves (settle.h), because not every caller begins an
+ * instruction.
+ */
 #include "access/settle.h"
 #include "run/notes.h"
 #include "run/replay.h"
 #include "values/graph.h"
 #include "watch/watch.h"
 
-enum { SIMPLIFY_BUDGET = 256 }; /* nodes that rules may look at in one instruction */
+enum { SIMPLIFY_BUDGET = 256 }; /* the most nodes that rules may visit in one instruction */
 
 static bool in_call(const struct machine *m)
 {

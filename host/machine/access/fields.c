@@ -110,7 +110,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
     if (v && scope == MACHINE_WHERE_ACTIVE && f->vpset == m->values->set_current)
         v = rules_under(m, v, m->memory->flags[f->vpset].of[MACHINE_CONTEXT].value, 12);
     v = machine_reinterpret(m, v, type);
-    return v ? graph_borrow(m, v) : NULL; /* a part of the content may outlive it */
+    return v ? graph_borrow(m, v) : NULL; /* the result may be a part of the content that
+                                           * outlives it */
 }
 
 enum machine_status machine_field_store(struct machine *m, uint32_t field,
@@ -131,7 +132,7 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
         return machine_fail(m, MACHINE_BAD_ARGUMENT,
                             "the value and the field belong to different VP sets");
     if (value->op == NODE_REINTERPRET && !value->buffer)
-        value = value->in[0]; /* the same bits; a float that is moved as bits stays a float */
+        value = value->in[0]; /* the same bits: a float that is moved as bits stays a float */
     if (!alias_bring(m, f, true,
                      scope == MACHINE_EVERYWHERE && offset == 0 &&
                          value->type.width == f->bits))

@@ -1,4 +1,4 @@
-/* finish.c - all that waits is computed. */
+/* finish.c - computes everything that is pending. */
 #include "access/settle.h"
 #include "device/device.h"
 #include "run/notes.h"

@@ -1,4 +1,4 @@
-/* flags.c - what a flag holds: looked at and stored; overflows recorded. */
+/* flags.c - reading and storing flags; recording overflows. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* random.c - random numbers: another draw each time, so no call that draws is foreseen. */
+/* random.c - random numbers. Each call draws anew, so a call that draws is never foreseen. */
 #include "run/replay.h"
 #include "values/places.h"
 

@@ -1,11 +1,11 @@
-/* settle.h - first thing wherever a field or flag is looked at or stored into. */
+/* settle.h - called first wherever a field or flag is read or stored. */
 #ifndef LUTETIA_MACHINE_SETTLE_H
 #define LUTETIA_MACHINE_SETTLE_H
 
 #include "base/parts.h"
 #include "run/notes.h"
 
-/* What is noted of calls is performed. */
+/* Performs the calls that are noted. */
 static inline void settle(struct machine *m)
 {
     if (m->run->calls_noted)

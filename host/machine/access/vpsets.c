@@ -1,4 +1,4 @@
-/* vpsets.c - VP sets made, destroyed, arranged otherwise, selected. */
+/* vpsets.c - VP sets: creating, destroying, rearranging, selecting. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -72,7 +72,7 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
         if (i < m->memory->fields_count && m->memory->fields[i]->vpset == vpset) {
             struct field *f = m->memory->fields[i];
             if (f->root && f->root->newest == f)
-                alias_settle(m, f->root); /* what cannot be had is gone with the set */
+                alias_settle(m, f->root); /* on failure that content is lost with the set */
             field_destroy(m, f);
         }
     machine_begin(m);
@@ -84,7 +84,7 @@ enum machine_status machine_vpset_destroy(struct machine *m, int vpset)
     return MACHINE_OK;
 }
 
-/* Every value of the set in memory, as numbers of the new layout. False: error set. */
+/* Puts every value of the set into memory, in the rows of the new layout. False: error set. */
 static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int vpset,
                           const struct vpset *to, struct machine_value **out, int *out_count)
 {
@@ -97,7 +97,7 @@ static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int 
     return true;
 }
 
-/* All or nothing: the new values are made before any is put in its place. */
+/* All values are made before any is stored, so that a failure changes nothing. */
 enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
                                           int rank, enum machine_order order)
 {
