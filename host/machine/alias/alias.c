@@ -1,4 +1,5 @@
-/* alias.c - aliases: who of a root and them has the content, and where their bits are. See reshape.h. */
+/* alias.c - aliases: which of a root and its aliases holds the valid content, and where
+ * their bits are. See reshape.h. */
 #include "alias/alias.h"
 
 #include "alias/reshape.h"
@@ -7,7 +8,7 @@
 
 /* ---- who has the content ---- */
 
-/* Whether the alias is finer or coarser than its root by a whole factor, and how. */
+/* Whether the alias's VP ratio is a multiple or a divisor of its root's, and by what factor. */
 static bool factor_of(const struct machine *m, struct field *alias, struct factor *out)
 {
     struct field *root = alias->root;
@@ -79,8 +80,9 @@ bool alias_bring(struct machine *m, struct field *f, bool writes, bool whole)
 
 /* ---- making aliases ---- */
 
-/* Where VPs of a set of ratio `to` have their bits, when they share out those that VPs of ratio `from`
- * have from bit `offset` of a view of `bits` on. False: they cannot. */
+/* Finds where VPs of a set of ratio `to` have their bits, if they share out the bits that
+ * VPs of ratio `from` have from bit `offset` on of a view of `bits` bits. False: they
+ * cannot. */
 static bool view_divide(struct view v, uint32_t bits, uint32_t offset, uint64_t from,
                         uint64_t to, struct view *out, uint32_t *out_bits)
 {
@@ -113,7 +115,7 @@ static bool view_divide(struct view v, uint32_t bits, uint32_t offset, uint64_t 
     return true;
 }
 
-/* The view of an alias of the field in the VP set. */
+/* Makes the view of an alias of the field in the VP set. */
 static bool view_make(struct machine *m, uint32_t field, int vpset, struct field **root,
                       struct view *view, uint32_t *bits)
 {

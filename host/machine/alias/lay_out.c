@@ -1,4 +1,4 @@
-/* lay_out.c - the numbers of a value in rows of another geometry. */
+/* lay_out.c - converts a value to the rows of another geometry. */
 #include "alias/alias.h"
 #include "memory/call_set.h"
 #include "run/materialise.h"
@@ -16,7 +16,7 @@ struct machine_value *lay_out_value(struct machine *m, struct machine_value *v, 
     call_set(&c, m, &m->values->sets[set]);
     call_set(&c, m, to);
     call_uint(&c, call_processors_run(m));
-    call_uint(&c, 1); /* one slice, all of it */
+    call_uint(&c, 1); /* one slice: the whole value */
     call_uint(&c, 0);
     call_uint(&c, 1);
     call_uint(&c, 1);

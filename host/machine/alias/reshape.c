@@ -1,5 +1,5 @@
-/* reshape.c - content on its way between a root and its aliases: woven, or through an image of the memory. See
- * reshape.h. */
+/* reshape.c - converts content between a root and its aliases: interleaved by a kernel, or
+ * through an image of the memory. See reshape.h. */
 #include "alias/reshape.h"
 
 #include <stdlib.h>
@@ -18,13 +18,13 @@ enum { PIECES_MANY = 8 };
 
 /* ---- weaving ---- */
 
-/* What is woven: words one after the other, each of some elements, lowest first. */
+/* The words to interleave, one after the other; each holds some elements, lowest first. */
 struct word {
     struct machine_value *value;
     uint32_t parts;
 };
 
-/* All values in memory, by one evaluation. */
+/* Puts all values into memory, by one evaluation. */
 static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, int set)
 {
     struct machine_value **wanted = malloc(count * sizeof *wanted);
@@ -38,7 +38,8 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
             wanted[wanted_count++] = y[i].value;
     bool good = !wanted_count || run_evaluate(m, wanted, wanted_count, false) == MACHINE_OK;
     free(wanted);
-    struct machine_value *known = NULL, *filled = NULL; /* numbers come in long rows */
+    struct machine_value *known = NULL, *filled = NULL; /* equal numbers come in long rows:
+                                                         * reuse the last buffer */
     for (uint32_t i = 0; i < count && good; i++) {
         if (y[i].value != known) {
             known = y[i].value;
@@ -50,7 +51,7 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
     return good;
 }
 
-/* A buffer of the finer set. */
+/* Interleaves into a buffer of the finer set. */
 static struct machine_value *weave(struct machine *m, struct word *y, uint32_t count,
                                    int coarse, int fine, uint32_t k, struct machine_type type)
 {
@@ -96,8 +97,8 @@ static struct machine_value *weave(struct machine *m, struct word *y, uint32_t c
 
 /* ---- between a finer and a coarser field ---- */
 
-/* Where the slots of all elements begin and end, as marks of one; wider: there is a slot that
- * goes over an element. */
+/* Marks where the slots of all elements begin and end, relative to one element. wider: some
+ * slot spans two elements. */
 static unsigned char *marks_make(const struct factor *f, uint32_t *widest)
 {
     unsigned char *marks = calloc((size_t)f->length + 1, 1);
@@ -123,7 +124,7 @@ static struct machine_value *number_of(struct machine *m, uint32_t width, bool o
     return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){bits, bits});
 }
 
-/* Room for a word of each element; NULL: error set. */
+/* Allocates words for each element; NULL: error set. */
 static struct word *words_room(struct machine *m, const struct factor *f)
 {
     struct word *words = malloc(f->k * sizeof *words);
@@ -132,7 +133,7 @@ static struct word *words_room(struct machine *m, const struct factor *f)
     return words;
 }
 
-/* The values of [at, at + width) of each element; y has room for k. */
+/* Gets the values of bits [at, at + width) of each element; y has room for k. */
 static struct machine_value *piece_of_each(struct machine *m, const struct factor *f,
                                            struct machine_value **y, uint32_t at,
                                            uint32_t width)
@@ -162,8 +163,9 @@ static struct machine_value *piece_of_each(struct machine *m, const struct facto
     return v;
 }
 
-/* The words that hold whole elements of up to 32 bits: slots as they are where each begins and ends with
- * an element, so that kernels do not depend on where; else what 64 bits hold. Returns how many. */
+/* Divides elements of up to 32 bits into words: the slots as they are, if each begins and
+ * ends with an element, so that kernels do not depend on their places; else words of 64
+ * bits. Returns the number of words. */
 static uint32_t words_of(struct machine *m, const struct factor *f, struct word *out)
 {
     uint32_t width = f->length, end = f->k * width, most = 64 / width * width, count = 0;
@@ -185,7 +187,7 @@ static uint32_t words_of(struct machine *m, const struct factor *f, struct word 
             if (offset == at)
                 bits = f->coarse->slots[i].bits;
             else if (offset < at + bits)
-                bits = offset - at; /* nothing is stored there */
+                bits = offset - at; /* a gap: nothing is stored there */
         }
         struct machine_value *v = field_content(m, f->coarse, f->origin + at, bits);
         if (!v)
@@ -249,7 +251,7 @@ bool reshape_fine_from_coarse(struct machine *m, const struct factor *f)
         while (next < f->length && next - at < 128 && (whole || !marks[next]))
             next++;
         if (next - at == 128 && next < f->length && !marks[next])
-            next = at + 64; /* long fields in words */
+            next = at + 64; /* long fields are divided into words of 64 bits */
         v = piece_of_each(m, f, y, at, next - at);
         good = v != NULL;
         if (good && !machine_value_is_zero(v)) {
@@ -299,7 +301,7 @@ static uint32_t image_words(const struct machine *m, const struct field *root)
     return (uint32_t)((m->values->sets[root->vpset].ratio * root->bits + 31) / 32);
 }
 
-/* name: "put" or "get"; at: of the value's first bit in f. */
+/* name: "put" or "get"; at: the value's first bit in f. */
 static enum machine_status image_pass(struct machine *m, const char *name,
                                       const struct field *f, uint32_t words, uint32_t at,
                                       struct machine_type type,
