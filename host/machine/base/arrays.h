@@ -6,13 +6,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Memory for what is small beside the fields: it is not expected to run out, and when it does there is no
- * state to return to. grown: twice as much room in an array; allocated: zeros. */
+/* Memory for small objects, compared with fields. Failure is not expected, and ends the
+ * program, since there is no state to return to. array_grown: doubles an array;
+ * array_zeroed: zeros. */
 void *array_grown(void *old, int *capacity, size_t element);
-/* As grown, where there is such a state: then *failed, and the array is as it was. */
+/* As array_grown, for callers that can go back: on failure *failed is set, and the array is
+ * unchanged. */
 void *array_more(void *old, int *capacity, size_t element, bool *failed);
 void *array_zeroed(size_t count, size_t element);
-/* A hash of so many words, the same on every machine. */
+/* A hash of the words, the same on every machine. */
 uint64_t words_hash(const uint32_t *words, size_t count);
 
 #endif

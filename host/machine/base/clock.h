@@ -1,4 +1,4 @@
-/* clock.h - what time it is. */
+/* clock.h - the time now. */
 #ifndef LUTETIA_MACHINE_CLOCK_H
 #define LUTETIA_MACHINE_CLOCK_H
 

@@ -1,10 +1,11 @@
-/* errors.h - what went wrong: of the caller's, as a status and a line of text; of ours, the end. */
+/* errors.h - errors: the caller's are a status and a line of text; a broken invariant of
+ * ours ends the program. */
 #ifndef LUTETIA_MACHINE_ERRORS_H
 #define LUTETIA_MACHINE_ERRORS_H
 
 #include "machine.h"
 
-/* Stays in release builds: a broken invariant of ours, never of the caller. */
+/* Checks an invariant of ours, never the caller's arguments. Stays in release builds. */
 #define INVARIANT(condition)                                                                   \
     ((condition) ? (void)0 : machine_invariant_failed(#condition, __FILE__, __LINE__))
 _Noreturn void machine_invariant_failed(const char *what, const char *file, int line);

@@ -1,4 +1,4 @@
-/* parts.h - a machine: one part for each layer, each of which knows only those before it. */
+/* parts.h - struct machine: one member for each layer; a layer uses only those before it. */
 #ifndef LUTETIA_MACHINE_PARTS_H
 #define LUTETIA_MACHINE_PARTS_H
 
@@ -6,14 +6,14 @@
 
 #include "base/settings.h"
 
-/* One member a layer, each above those before it. */
+/* One member for each layer, from the lowest up. */
 struct machine {
     enum machine_status status;
     char error[1024];
     pthread_t owner;
-    int inside; /* calls that build, launch or wait: see machine_leave() */
+    int inside; /* nesting depth of calls that build, launch or wait: see machine_leave() */
     struct settings settings;
-    struct watch *watch; /* NULL: nobody looks */
+    struct watch *watch; /* NULL: no trace and no explanation */
     struct device *device;
     struct values *values;
     struct plans *plans;

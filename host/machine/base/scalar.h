@@ -7,18 +7,18 @@
 
 #include "machine.h"
 
-/* The NaN that operations give: see docs/engine.md. */
+/* *The* NaN, which operations give: see docs/engine.md. */
 #define NAN_32 0xffc00000u
 #define NAN_64 UINT64_C(0xfff8000000000000)
 
-/* Of a float of that type. */
+/* Whether a float of that type is a NaN. */
 static inline bool scalar_is_nan(struct machine_type type, uint64_t bits)
 {
     return type.width == 32 ? (bits & INT32_MAX) > 0x7f800000u
                             : (bits & INT64_MAX) > UINT64_C(0x7ff0000000000000);
 }
 
-/* One that no operation gives. */
+/* Whether it is a NaN that no operation gives. */
 static inline bool scalar_is_strange_nan(struct machine_type type, uint64_t bits)
 {
     return scalar_is_nan(type, bits) && bits != (type.width == 32 ? NAN_32 : NAN_64);
@@ -33,14 +33,14 @@ static inline struct machine_scalar scalar_ones(int width)
                                                            : UINT64_MAX};
 }
 
-/* The highest of so many bits alone. */
+/* The number with only the highest of `width` bits set. */
 static inline struct machine_scalar scalar_sign(int width)
 {
     return width <= 64 ? (struct machine_scalar){UINT64_C(1) << (width - 1), 0}
                        : (struct machine_scalar){0, UINT64_C(1) << (width - 65)};
 }
 
-/* The low bits of it, of which there are so many. */
+/* The low `width` bits of a number. */
 static inline struct machine_scalar scalar_cut(struct machine_scalar x, int width)
 {
     struct machine_scalar ones = scalar_ones(width);

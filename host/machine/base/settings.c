@@ -1,7 +1,8 @@
-/* settings.c - what the engine decides by itself can be forced, by environment variables.
+/* settings.c - environment variables that force the engine's decisions.
  *
- * A row of the table for each; docs/engine.md says what they are for. One that is not set, or empty, is as if
- * it were not there; one that says nonsense makes no machine. */
+ * Each variable is a row of the table; docs/engine.md explains them. A variable that is
+ * empty counts as not set. With an invalid value no machine is created.
+ */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,7 @@ bool settings_number(const char *text, uint64_t *out)
     return !*end && !errno;
 }
 
-/* "64x16": the one shifted, and the other. */
+/* Reads "64x16" as width << 16 | height. */
 static bool sides_read(const char *text, uint64_t *out)
 {
     char width[8];
@@ -40,10 +41,10 @@ static bool sides_read(const char *text, uint64_t *out)
 
 static const struct setting {
     const char *variable;
-    size_t at; /* in struct settings */
+    size_t at; /* offset in struct settings */
     bool (*read)(const char *text, uint64_t *out);
-    uint64_t usual, least, most; /* usual: where nobody says anything */
-    uint64_t multiple;           /* of which it is one; 0: any number */
+    uint64_t usual, least, most; /* usual: the value if the variable is not set */
+    uint64_t multiple;           /* the value must be a multiple of it; 0: any */
     const char *may_be;
 } table[] = {
 #define SETTING_READ(variable, name, read)                                                     \
@@ -69,7 +70,7 @@ static const struct setting {
     {SETTING(TUNED, tuned), 1, 0, 1, 0, "0 or 1"},
     {SETTING(KEEP, keep), SETTING_FREE, 0, 1, 0, "0 or 1"},
     {SETTING(VERBOSE, verbose), 0, 0, 1, 0, "0 or 1"},
-/* The knobs, which a file of tuning.c may say too: */
+/* The knobs; a file of tuning.c can set them, too. */
 #define KNOB(variable, which) SETTING(variable, knob[which]), SETTING_FREE
     {KNOB(VECTOR, MACHINE_VECTOR), 1, 16, 0, "1, 4, 8 or 16"},
     {KNOB(RUN, MACHINE_RUN), 1, 1 << 20, 0, "1, or a multiple of 16 up to 2^20"},
@@ -109,7 +110,7 @@ enum machine_status settings_read(struct machine *m)
     return MACHINE_OK;
 }
 
-/* The knobs are the last rows, in order. */
+/* The knobs are the last rows, in the order of the enum. */
 static const struct setting *knob_row(enum machine_knob knob)
 {
     return &table[sizeof table / sizeof *table - MACHINE_KNOBS + knob];

@@ -1,4 +1,4 @@
-/* settings.h - what can be forced by environment variables. */
+/* settings.h - the values of the environment variables: see settings.c. */
 #ifndef LUTETIA_MACHINE_SETTINGS_H
 #define LUTETIA_MACHINE_SETTINGS_H
 
@@ -6,13 +6,14 @@
 
 #define SETTING_FREE UINT64_MAX /* the device decides */
 
-enum { PENDING_MANY = 384 }; /* values waiting: enough for an evaluation */
+enum { PENDING_MANY = 384 }; /* so many pending values make an evaluation due */
 
-/* By environment variables: settings.c. */
+/* Set by environment variables: settings.c. */
 struct settings {
     uint64_t eager, replay;
-    uint64_t flush_after; /* values waiting */
-    /* Processors that a plan runs on before its kernels are optimised, and before they get boxes. */
+    uint64_t flush_after; /* pending values that make an evaluation due */
+    /* The number of processors that a plan runs on before its kernels are optimised, and
+     * before they get boxes. */
     uint64_t optimise_after, box_after;
     uint64_t interpret;  /* plans run as byte code: 0 never, 1 until kernels pay, 2 always */
     uint64_t background; /* better kernels are compiled while others run */
@@ -21,9 +22,9 @@ struct settings {
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;
-    uint64_t tuned;   /* 0: what is kept of a tuning is not looked at */
-    uint64_t keep;    /* programs on disk */
-    uint64_t verbose; /* says on the standard error what is wrong with it */
+    uint64_t tuned;   /* 0: a stored tuning is ignored */
+    uint64_t keep;    /* keep programs on disk */
+    uint64_t verbose; /* warn on the standard error about a stored tuning that is ignored */
 };
 
 enum machine_status settings_read(struct machine *m);

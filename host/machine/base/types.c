@@ -1,4 +1,5 @@
-/* types.c - the types of values. Other formats' numbers are kernels/soft.cl, compiled as C. */
+/* types.c - the types of values. Numbers of other formats are converted by kernels/soft.cl,
+ * compiled as C. */
 #include "base/types.h"
 
 #pragma GCC diagnostic push

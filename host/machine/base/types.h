@@ -19,7 +19,7 @@ static inline bool type_is_short(struct machine_type t)
 
 size_t type_bytes(struct machine_type type); /* in a buffer */
 
-bool type_good(struct machine_type type); /* s and e are what they may be, or 0 */
+bool type_good(struct machine_type type); /* s and e are within their ranges, or 0 */
 
 uint64_t type_rounded(uint64_t x, struct machine_type type); /* a double's bits */
 
