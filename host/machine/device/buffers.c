@@ -1,9 +1,11 @@
 /* buffers.c - device memory.
  *
- * Versions of values come and go at every step, so released buffers are kept in a pool by size. The queue is in
- * order: a buffer may be used again as soon as nobody refers to it. Arrays that begin at the same offset from a
- * page disturb each other in the caches (1.5 to 2 times slower sweeps over large sheets), so each begins at another
- * multiple of 128 bytes, as a sub-buffer. */
+ * Every step makes new versions of values and drops old ones, so released buffers are kept
+ * in a pool by size. The queue is in order, so a buffer can be reused as soon as its last
+ * reference is gone. Arrays that begin at the same offset from a page compete for the same
+ * cache sets (sweeps over large sheets are 1.5 to 2 times slower). So each array is a
+ * sub-buffer that begins at another multiple of 128 bytes.
+ */
 #include <stdlib.h>
 #include <sys/mman.h>
 
@@ -66,10 +68,11 @@ static cl_mem memory_get(const struct device *d, struct rows rows, void **host, 
     return NULL;
 }
 
-/* How far behind a page's beginning the next array begins at most. Processors compare addresses by their last 12 bits first,
- * and hold back what reads where something a little before it seems to write: nine arrays in a row are 384 bytes apart
- * in this or more (sub-buffers begin at multiples of 128). And of many large ones, rows are not all in the same places
- * of a cache. */
+/* The range of offsets from a page at which arrays begin. Processors first compare only the
+ * low 12 bits of addresses, and delay a load that seems to read what a slightly earlier
+ * store writes (4K aliasing). So the offsets of any nine arrays in a row differ by 384 bytes
+ * or more (sub-buffers begin at multiples of 128). The offsets also spread the rows of many
+ * large arrays over the sets of a cache. */
 static size_t skew_room(size_t bytes)
 {
     return bytes < LARGE_PAGE_BYTES ? SKEW_PAGE_BYTES : SKEW_LARGE_BYTES;
@@ -126,7 +129,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
                                    .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
-        if (error) { /* an alignment that the device does not like */
+        if (error) { /* the device rejects this alignment */
             region.origin = DEVICE_GUARD_BYTES;
             b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                        &region, &error);

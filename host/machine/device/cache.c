@@ -1,12 +1,15 @@
-/* cache.c - what is kept on disk from run to run: compiled programs, and what `lutetia tune` found (tuning.c).
+/* cache.c - files kept on disk from run to run: compiled programs, and tunings (tuning.c).
  *
- * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if that is this user's alone (user_folder.h). A program's is named by a
- * hash of its key, with which it begins, to be compared as a whole:
+ * Files are in $XDG_CACHE_HOME/lutetia, or ~/.cache/lutetia, if only this user can write there
+ * (user_folder.h). A program's file is named by a hash of its key. The file begins with the
+ * whole key, which is compared when it is read:
  *
  *     two lengths, 8 bytes each | platform, device, driver, options, text | binary
  *
- * Each appears under its name only when it is complete. What cannot be read or written is done without. An empty file,
- * named in the same way, is a mark: background.c notes what the driver has in a cache of its own. */
+ * A file appears under its name only when it is complete. If a file cannot be read or
+ * written, the cache is not used. An empty file, named in the same way, is a mark: it says
+ * that the driver has the program in its own cache (background.c).
+ */
 #include "device/cache.h"
 
 #include <fcntl.h>
@@ -26,7 +29,7 @@ uint64_t cache_hash(uint64_t h, const char *s)
     return (h ^ 0xff) * 0x100000001b3u;
 }
 
-/* What dead processes have left half written goes when a process first looks there. */
+/* Removes part files of dead processes, once for each process. */
 static void sweep_once(const char *path)
 {
     static atomic_flag swept = ATOMIC_FLAG_INIT;

@@ -8,7 +8,8 @@
 
 #define CACHE_HASH_BEGIN UINT64_C(0xcbf29ce484222325)
 uint64_t cache_hash(uint64_t h, const char *s);
-/* Opens a regular file of the cache for reading; NULL where there is none, and for pipes, links and devices. */
+/* Opens a regular file of the cache for reading; NULL if there is none, and for pipes, links
+ * and devices. */
 FILE *cache_file_read(const char *path);
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);
 void cache_program_write(const struct device *d, const char *key, cl_program program);

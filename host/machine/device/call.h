@@ -1,4 +1,4 @@
-/* call.h - starting a kernel that is written by hand in kernels/.
+/* call.h - starts a hand-written kernel of kernels/.
  *
  *     struct kernel_call c = call_begin(m, kernel_router_cl, "-DADDRESS=uint", "claim");
  *     call_layout(&c, set);
@@ -6,21 +6,23 @@
  *     call_buffer(&c, buffer);
  *     status = call_over(&c, m, set, "sending");
  *
- * Arguments are given in order; an error on the way makes the start do nothing but tell of it. */
+ * Arguments are given in order. After an error the kernel is not started, and starting
+ * returns the error.
+ */
 #ifndef LUTETIA_MACHINE_CALL_H
 #define LUTETIA_MACHINE_CALL_H
 
 #include "device/device.h"
 #include "watch/watch.h"
 
-/* For a work-item on a CPU: columns; physical processors. */
+/* Work for each work-item on a CPU: columns; physical processors. */
 enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
 
 struct kernel_call {
-    cl_kernel kernel; /* NULL: there is none, and the machine's error says why */
+    cl_kernel kernel; /* NULL after an error, which the machine's error text explains */
     cl_uint at;
     cl_int error;
-    size_t bytes; /* of the buffers that it was given */
+    size_t bytes; /* bytes of the buffers passed so far */
 };
 
 static inline struct kernel_call call_begin(struct machine *m, const char *text,
@@ -64,7 +66,7 @@ static inline void call_buffer(struct kernel_call *c, const struct device_buffer
     c->bytes += b->bytes;
 }
 
-/* Work-items x * y, or x * y * z; on a CPU each a group of its own. */
+/* Starts x * y, or x * y * z, work-items; on a CPU each is a group of its own. */
 static inline enum machine_status call_start(struct kernel_call *c, struct machine *m, size_t x,
                                              size_t y, const char *what)
 {
@@ -83,19 +85,19 @@ static inline enum machine_status call_start_3d(struct kernel_call *c, struct ma
     return c->kernel ? device_launch(m, c->kernel, c->error, 3, global, NULL, what) : m->status;
 }
 
-/* Columns that a work-item of call_over() does; the kernel wants it as an argument. */
+/* Columns for each work-item of call_over(); the kernel needs the number as an argument. */
 static inline size_t call_run(const struct machine *m)
 {
     return m->device->is_cpu ? CALL_RUN : 1;
 }
 
-/* Physical processors that a work-item of call_processors() does. */
+/* Physical processors for each work-item of call_processors(). */
 static inline size_t call_processors_run(const struct machine *m)
 {
     return m->device->is_cpu ? CALL_PROCESSORS_RUN : 1;
 }
 
-/* The C type of an element in memory of so many bytes; 16 is a pair. */
+/* The C type of an element of that many bytes in memory; 16 is a pair. */
 static inline const char *call_element(size_t bytes)
 {
     return bytes == 1   ? "uchar"

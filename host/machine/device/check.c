@@ -1,4 +1,4 @@
-/* check.c - OpenCL's errors as the machine's. */
+/* check.c - converts OpenCL's errors to the machine's. */
 #include "base/errors.h"
 #include "base/parts.h"
 #include "device/device.h"

@@ -7,11 +7,11 @@
 #include "base/settings.h"
 #include "device/shape.h"
 
-/* Before and after each buffer there is so much more memory, which nobody's numbers are in: kernels in strips load
- * vectors of which some lanes are beyond a row's ends. A multiple of any device's alignment. */
+/* Each buffer has this much unused memory before and after it, because kernels in strips
+ * load vectors that partly lie beyond a row's ends. A multiple of any device's alignment. */
 enum { DEVICE_GUARD_BYTES = 4096, LINE_BYTES = 64 };
 
-/* A buffer of so many bytes, in which the first column of the first row is so many bytes on. */
+/* The size of a buffer, and the offset of its first row's first column, in bytes. */
 struct rows {
     size_t bytes, first;
 };
@@ -33,23 +33,23 @@ struct device {
     cl_command_queue queue;
     char name[256], platform_name[128], driver[128];
     bool is_cpu, has_double;
-    int units; /* that compute at the same time */
+    int units; /* compute units */
     uint64_t memory_bytes, memory_max_alloc_bytes;
     struct device_shape shape;
     struct device_buffer **pool;
     int pool_count, pool_capacity;
     uint64_t pool_bytes, held_bytes;
-    unsigned skew;                  /* of the next buffer's beginning */
+    unsigned skew;                  /* where the next buffer begins relative to a page */
     struct program_entry *programs; /* hash table by text: see programs.c */
     uint64_t kernels_built, kernels_built_background, kernels_run;
-    double busy_s;        /* waiting for it */
-    cl_kernel *unstarted; /* built, and not run yet */
+    double busy_s;        /* time spent waiting for the device */
+    cl_kernel *unstarted; /* built, but never started */
     int unstarted_count, unstarted_capacity;
     const char *options;
     bool is_pocl;           /* on a CPU */
     bool queued;            /* commands that nobody has waited for may be in the queue */
     bool keeps_programs;    /* on disk */
-    cl_event fence;         /* see device_pace(); NULL: none yet */
+    cl_event fence;         /* see device_pace(); NULL: none */
     uint64_t fence_kernels; /* run before it */
 };
 
@@ -66,7 +66,7 @@ enum machine_status device_check(struct machine *m, cl_int error, const char *wh
 struct device_buffer *device_buffer_get(struct machine *m,
                                         size_t bytes); /* refs 1; NULL: error set */
 
-/* On CPUs the first column is where a line of the caches begins. */
+/* On CPUs the first column begins a cache line. */
 struct device_buffer *device_rows_get(struct machine *m, struct rows rows);
 bool device_rows_fit(const struct device_buffer *b, struct rows rows);
 void device_buffer_ref(struct device_buffer *b);
@@ -78,43 +78,49 @@ void device_pool_empty(struct device *d);
 bool device_programs_begin(struct device *d); /* false: no memory */
 
 void device_programs_finish(struct device *d);
-/* The kernel of that name in a program of these parts, all but the last the same for many; from
- * memory, from disk, or built. Belongs to the device. NULL: error set. */
+/* Gets the kernel of that name in a program of these parts, from memory, from disk, or by
+ * building it. All parts but the last are the same for many programs. Owns: the device.
+ * NULL: error set. */
 enum { DEVICE_PARTS = 7 };
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
-/* The same for one that is written by hand, in a text of its own. */
+/* The same for a hand-written kernel, whose text is complete. */
 cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
                                 const char *name);
-/* What it is known by: its whole text, and how it is built. The caller's to free; NULL: no memory. */
+/* The key of a kernel: its whole text and its build options. The caller frees it; NULL: no
+ * memory. */
 char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
-/* All options that its program is built with. And what PoCL is given: without the header of all OpenCL functions, which
- * clang reads for longer than what the machine says. It is told that it has read it, and functions.cl declares those in
- * use. The text is the caller's to free; NULL: no memory. */
+/* The build options of a program, and its text for PoCL. Clang takes longer to read PoCL's
+ * header of all OpenCL functions than the machine's text. So an include guard skips the
+ * header, and functions.cl declares the functions in use. The caller frees the text; NULL:
+ * no memory. */
 enum { DEVICE_OPTIONS_BYTES = 300 };
 void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES]);
 char *device_text_without_header(const char *const parts[DEVICE_PARTS]);
-/* The kernel can be started in work-groups of so many items. */
+/* Whether the kernel can be started in work-groups of that many items. */
 bool device_takes_group(const struct device *d, cl_kernel kernel, int items);
-/* It need not be built: it is in memory, or on disk. */
+/* Whether the kernel is in memory or on disk, and need not be built. */
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name);
 
 /* ---- queue.c ---- */
 
-/* Starts it, unless error says that its arguments are wrong, in work-groups of that size; local NULL: the driver
- * decides, and on a CPU one is one item. The first time, waits: the compiler may still be at it in a thread of the
- * driver's, and a program that ended meanwhile would pull it down. */
+/* Starts the kernel in work-groups of that size; error is the status of setting its
+ * arguments. local NULL: the driver decides, except on a CPU, where a group is one item. A
+ * kernel's first start waits for its end: the driver may still compile it in a thread, and a
+ * program that exits meanwhile would crash. */
 enum machine_status device_launch(struct machine *m, cl_kernel kernel, cl_int error,
                                   cl_uint dimensions, const size_t *global, const size_t *local,
                                   const char *what);
-/* Around a call that waits for the device, whose time counts as busy; begin gives when it began. */
+/* Around a call that waits for the device: the time counts as busy. device_wait_begin()
+ * returns the starting time. */
 double device_wait_begin(struct machine *m);
 enum machine_status device_wait_end(struct machine *m, cl_int error, double start,
                                     const char *what);
-/* A whole buffer becomes repetitions of the pattern; from its beginning a copy. Do not wait. */
+/* Fills a whole buffer with a pattern; copies one buffer to the beginning of another.
+ * Neither waits. */
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what);
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
@@ -123,10 +129,10 @@ void device_flush(struct machine *m); /* what is in the queue begins */
 /* Waits until all that is in the queue is done: the front end may look at buffers (device_buffer.host) then. */
 enum machine_status device_settle(struct machine *m);
 
-/* After kernels were started: waits where the front end is so many of them ahead of the device, for each that waits in the
- * queue takes memory. */
+/* Called after kernels were started. Waits if the front end is `ahead` kernels ahead of the
+ * device, because each waiting kernel takes memory. */
 enum machine_status device_pace(struct machine *m, uint64_t ahead);
-/* It has never been started. */
+/* Remembers a kernel that has never been started. */
 
 void device_unstarted_add(struct device *d, cl_kernel kernel);
 

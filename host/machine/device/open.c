@@ -1,4 +1,4 @@
-/* open.c - which device, opened and closed. */
+/* open.c - chooses, opens and closes the device. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,7 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
     return count;
 }
 
-/* PoCL has no device where it cannot make the folder that it compiles in. */
+/* PoCL reports no device if it cannot make the folder for its cache. */
 static enum machine_status no_device_on(struct machine *m, cl_platform_id platform)
 {
     char name[128] = "";
@@ -72,7 +72,7 @@ static enum machine_status choose(struct machine *m, const struct machine_config
     return MACHINE_OK;
 }
 
-/* What the driver tells of the device. */
+/* Asks the driver for the device's properties. */
 static enum machine_status ask(struct machine *m)
 {
     struct device *d = m->device;
@@ -89,10 +89,12 @@ static enum machine_status ask(struct machine *m)
     clGetDeviceInfo(d->id, CL_DRIVER_VERSION, sizeof d->driver - 1, d->driver, NULL);
     d->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
     d->is_pocl = d->is_cpu && strcmp(d->platform_name, "Portable Computing Language") == 0;
-    /* PoCL has a cache of its own, and would compile each program once more to give it away. */
+    /* PoCL has a cache of its own, and would compile each program once more to return its
+     * binary. */
     d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;
     d->units = units ? (int)units : 1;
-    d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* the front end lives there too */
+    d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* on a CPU the front end uses the
+                                                        * same memory */
     d->memory_max_alloc_bytes = max_alloc;
     if (!doubles)
         return machine_fail(m, MACHINE_NO_DEVICE,
@@ -120,7 +122,7 @@ static enum machine_status choose_and_open(struct machine *m,
     const cl_queue_properties profiling[] = {CL_QUEUE_PROPERTIES, CL_QUEUE_PROFILING_ENABLE, 0};
     d->queue = clCreateCommandQueueWithProperties(d->context, d->id,
                                                   m->watch ? profiling : NULL, &error);
-    if (error && m->watch) /* then without times */
+    if (error && m->watch) /* the queue is then made without profiling */
         d->queue = clCreateCommandQueueWithProperties(d->context, d->id, NULL, &error);
     if (error)
         return device_check(m, error, "a command queue cannot be made");
@@ -129,8 +131,9 @@ static enum machine_status choose_and_open(struct machine *m,
                : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for the kernel cache");
 }
 
-/* The driver's threads do not take what a terminal says to the program, nor do the linkers that they run: PoCL aborts
- * when one of those is interrupted. */
+/* Signals are blocked while the driver makes its threads, so that signals from a terminal
+ * reach neither these threads nor the linkers that they run: PoCL aborts if a linker is
+ * interrupted. */
 enum machine_status device_open(struct machine *m, const struct machine_config *config)
 {
     sigset_t interrupt, before;

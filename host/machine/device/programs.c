@@ -1,4 +1,5 @@
-/* programs.c - kernels: known by their whole text and options, in memory by a hash table, on disk by a file of cache.c. */
+/* programs.c - kernels, found by their whole text and options: in memory by a hash table, on
+ * disk by a file of cache.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 #include "watch/watch.h"
 
 enum { PROGRAMS_SIZE = 1024 };
-#define KERNEL_ROOM_BYTES 1e6 /* what a kernel takes on disk at most while it is compiled */
+#define KERNEL_ROOM_BYTES 1e6 /* the most disk space that compiling a kernel takes */
 
 struct program_entry {
     char *key; /* options, then text */
@@ -52,7 +53,7 @@ char *device_text_without_header(const char *const parts[DEVICE_PARTS])
     return text;
 }
 
-/* Programs compare what they like, a number with itself, say: compilers need not tell users. */
+/* Generated programs may compare a number with itself; compilers need not warn users. */
 void device_options(const struct device *d, const char *options, bool header,
                     char out[DEVICE_OPTIONS_BYTES])
 {
@@ -81,7 +82,8 @@ static cl_program build_without_header(const struct device *d,
     return NULL;
 }
 
-/* PoCL's compiler writes to its cache, and ends the process where it cannot. The folder if there is no room for a kernel. */
+/* PoCL's compiler writes to its cache, and ends the process if it cannot. Returns the folder
+ * if it lacks room for a kernel. */
 static const char *full_folder(const struct device *d)
 {
     struct statvfs room;

@@ -1,4 +1,5 @@
-/* queue.c - commands: started, waited for, and kept from running too far ahead. */
+/* queue.c - commands: starting them, waiting for them, and limiting how far the front end
+ * runs ahead. */
 #include <stdlib.h>
 
 #include "device/device.h"

@@ -1,7 +1,7 @@
-/* tuning.c - how code is generated for a device, as `lutetia tune` found it.
+/* tuning.c - the file with a device's knobs, which `lutetia tune` writes.
  *
- * A text file for each device in the folder of cache.c, tuning-HASH: all of these lines, in this order; a new line of
- * the version makes old files useless.
+ * Each device has a text file tuning-HASH in the folder of cache.c, with all of these lines in
+ * this order. A file with another version number is ignored.
  *
  *     lutetia tuning 1
  *     platform Portable Computing Language
@@ -12,8 +12,9 @@
  *     ...                    each knob
  *     end
  *
- * The file's name is of the platform and the device, so that one of another driver is found, and said to be too old. A
- * file that is not as it should be is as if it were not there. */
+ * The hash is of the platform's and the device's name only. So a file made with another
+ * driver is found, and reported as too old. A malformed file is ignored.
+ */
 #include "device/tuning.h"
 
 #include <errno.h>
@@ -80,7 +81,8 @@ __attribute__((format(printf, 2, 3))) static bool wrong(struct reader *r, const 
     return false;
 }
 
-/* The next line, without its end. False: there is none, or it is too long, or not text. */
+/* Reads the next line, without its end. False: there is none, or it is too long, or not
+ * text. */
 static bool line_read(struct reader *r, char *out, size_t size)
 {
     const char *end = memchr(r->at, '\n', (size_t)(r->end - r->at));
@@ -100,7 +102,7 @@ static bool line_read(struct reader *r, char *out, size_t size)
     return true;
 }
 
-/* A line `name text`; *out is the text. */
+/* Reads a line `name text`; *out is the text. */
 static bool named_read(struct reader *r, const char *name, char *line, size_t size,
                        const char **out)
 {
