@@ -1,7 +1,9 @@
-/* copies.c - how fast the device copies as many bytes as a kernel reads and writes.
+/* copies.c - measures how fast the device copies as many bytes as a kernel reads and writes.
  *
- * It is measured by the same clock on arrays of that size when the explanation is asked for: small arrays stay in the
- * caches, and starting takes its time, for a copy too. */
+ * The copy is measured by the same clock on arrays of the kernel's size, when the
+ * explanation is requested. So small arrays stay in the caches, and the copy's time includes
+ * a launch, as the kernel's does.
+ */
 #include "explain/copies.h"
 
 #include <stdio.h>
@@ -16,12 +18,12 @@ enum { MEASURED_MOST = 16, COPIES_LEAST = 5, COPIES_MOST = 25, COPY_RUN = 1024 }
 #define COPIES_S 0.004
 #define COPY_BYTES_MOST (UINT64_C(1) << 30)
 
-/* Both ways to store, built and started once while the program begins: at its end, when they are wanted, parts of the
- * driver's compiler may have gone already. */
+/* Builds and starts both copy kernels (storing through and past the caches) while the
+ * program begins. At its end, parts of the driver's compiler may be gone already. */
 void copies_ready(struct machine *m, struct watch_sums *e)
 {
     struct watch *watch = m->watch;
-    m->watch = NULL; /* none of this is the program's */
+    m->watch = NULL; /* these commands are not the program's */
     m->inside++;
     for (int streams = 0; streams < 2; streams++) {
         char options[64];
@@ -45,7 +47,7 @@ void copies_ready(struct machine *m, struct watch_sums *e)
     }
     m->inside--;
     m->watch = watch;
-    machine_error_clear(m); /* then there is nothing to compare with */
+    machine_error_clear(m); /* without copies there is no comparison */
 }
 
 static double event_s(cl_event done)
@@ -65,7 +67,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median of some runs; 0: the device does not tell. */
+/* The median of some runs; 0: the device has no profiling. */
 static double copies_s(struct machine *m, cl_kernel kernel, size_t elements, size_t run)
 {
     double times[COPIES_MOST], sum = 0;
@@ -83,7 +85,7 @@ static double copies_s(struct machine *m, cl_kernel kernel, size_t elements, siz
         clReleaseEvent(done);
         if (t <= 0)
             return 0;
-        if (i == 0) /* the compiler, and new memory */
+        if (i == 0) /* the first run includes compiling and new memory */
             continue;
         sum += times[count++] = t;
     }
@@ -91,7 +93,7 @@ static double copies_s(struct machine *m, cl_kernel kernel, size_t elements, siz
     return times[count / 2];
 }
 
-/* The time to read half of so many bytes and write the other half; 0: it cannot be told. */
+/* The time to read half of the bytes and write the other half; 0: unknown. */
 static double copy_s(struct machine *m, const cl_kernel *kernels, uint64_t bytes)
 {
     bool cpu = m->device->is_cpu;
@@ -142,6 +144,6 @@ void copies_measure(struct machine *m, struct watch_sums *e)
         }
     }
     m->inside--;
-    if (!status) /* no memory for a copy is nobody's failure */
+    if (!status) /* running out of memory for a copy is not an error */
         machine_error_clear(m);
 }

@@ -1,12 +1,13 @@
-/* explain.c - adds up what watch.c is told, for machine_explain().
+/* explain.c - machine_explain(): the facts, from the sums of watch/sums.c.
  *
- * What became of each value that a program made is told once: it was computed, in the first evaluation that reached
- * it, or it was let go of before any did. Calls that are foreseen make no values; the kernels that they run are
- * counted like all others.
+ * The fate of each value is counted once: it was computed, in the first evaluation that reached
+ * it, or released before any evaluation did. Foreseen calls make no values; the kernels that
+ * they run are counted like all others.
  *
- * A kernel's bound is the time in which the device copies as many bytes as it reads and writes, measured by the
- * same clock on arrays of that size when the explanation is asked for (small arrays stay in the caches, and starting
- * takes its time, for a copy too), or the cost model's time for its operations, whichever is longer. */
+ * A kernel's bound is the time in which the device copies as many bytes as it reads and
+ * writes, measured by the same clock on arrays of that size (copies.c), or the cost model's
+ * time for its operations, whichever is longer.
+ */
 #include <stdlib.h>
 #include <string.h>
 
