@@ -1,11 +1,11 @@
-/* call_set.h - a VP set among the arguments of a kernel that is written by hand: see call.h. */
+/* call_set.h - passing a VP set to a hand-written kernel: see call.h. */
 #ifndef LUTETIA_MACHINE_CALL_SET_H
 #define LUTETIA_MACHINE_CALL_SET_H
 
 #include "device/call.h"
 #include "values/values.h"
 
-/* How rows lie in a buffer: width, pitch, halo. */
+/* Passes how rows lie in a buffer: width, pitch, halo. */
 static inline void call_layout(struct kernel_call *c, const struct vpset *s)
 {
     call_uint(c, (uint64_t)s->width);
@@ -13,7 +13,8 @@ static inline void call_layout(struct kernel_call *c, const struct vpset *s)
     call_uint(c, (uint64_t)s->halo);
 }
 
-/* Which row-major index an address is: count, ratio, logarithm of the processors, order. */
+/* Passes how addresses map to row-major indices: count, ratio, logarithm of the number of
+ * processors, order. */
 static inline void call_order(struct kernel_call *c, const struct machine *m,
                               const struct vpset *s)
 {
@@ -30,7 +31,7 @@ static inline void call_set(struct kernel_call *c, const struct machine *m,
     call_layout(c, s);
 }
 
-/* A work-item for each run of columns of each row. */
+/* Starts a work-item for each run of columns of each row. */
 static inline enum machine_status call_over(struct kernel_call *c, struct machine *m,
                                             const struct vpset *s, const char *what)
 {
@@ -38,7 +39,7 @@ static inline enum machine_status call_over(struct kernel_call *c, struct machin
     return call_start(c, m, ((size_t)s->width + run - 1) / run, (size_t)s->rows, what);
 }
 
-/* A work-item for each run of physical processors, times y. */
+/* Starts a work-item for each run of physical processors, times y. */
 static inline enum machine_status call_processors(struct kernel_call *c, struct machine *m,
                                                   size_t y, const char *what)
 {

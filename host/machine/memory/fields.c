@@ -1,7 +1,9 @@
 /* fields.c - fields: allocated, found, released.
  *
- * A field is a row of bits in each processor. Ids are addresses in a space of 2^31 bits that is not used again until
- * it has been gone through, so an id that has died stays dead for long. */
+ * A field is a row of bits in each processor. Ids are addresses in a space of 2^31 bits,
+ * assigned in ascending order until the space is used up. So the id of a deallocated field
+ * stays invalid for a long time.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,7 +60,7 @@ void field_release(struct machine *m, int index)
 void fields_finish(struct machine *m)
 {
     for (int i = 0; i < m->memory->fields_count; i++)
-        m->memory->fields[i]->newest = NULL; /* nobody is going to look */
+        m->memory->fields[i]->newest = NULL; /* the content is not needed any more */
     while (m->memory->fields_count)
         field_release(m, m->memory->fields_count - 1);
     free(m->memory->fields);

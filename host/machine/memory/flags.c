@@ -1,4 +1,4 @@
-/* flags.c - flags, and overflows that nobody has looked at yet. */
+/* flags.c - flags, and overflows that have not been observed yet. */
 #include "memory/memory.h"
 #include "values/graph.h"
 #include "values/make.h"

@@ -1,4 +1,5 @@
-/* lifetimes.h - how long what fields hold is wanted, by calls: run/history.c looks for where in a loop least is. */
+/* lifetimes.h - how long the contents of fields are needed, counted in calls. run/history.c
+ * uses it to find where in a loop the least memory is live. */
 #ifndef LUTETIA_MACHINE_LIFETIMES_H
 #define LUTETIA_MACHINE_LIFETIMES_H
 
@@ -11,16 +12,16 @@ struct slot;
 enum { LIFETIMES = 4096 }; /* calls that are remembered */
 
 struct lifetimes {
-    bool noted;     /* somebody wants to know */
-    uint32_t calls; /* performed so far */
-    /* Bytes of slots that are overwritten before they are read again, after so many calls: how many more than one
-     * call before. */
+    bool noted;     /* lifetimes are recorded */
+    uint32_t calls; /* number of calls performed */
+    /* Dead bytes are bytes of slots that will be overwritten before they are read again. For
+     * each call: how many more are dead after it than after the call before. */
     int32_t dead[LIFETIMES];
 };
 
-/* Another call begins. */
+/* Called at the beginning of each call. */
 void lifetimes_call(struct machine *m);
-/* In the call that is being performed. */
+/* Called when a slot is accessed by the current call. */
 void lifetimes_accessed(struct machine *m, struct slot *slot, bool overwrites);
 
 #endif

@@ -1,4 +1,4 @@
-/* memory.h - fields and flags: which value is where. */
+/* memory.h - fields and flags: which values they hold. */
 #ifndef LUTETIA_MACHINE_MEMORY_H
 #define LUTETIA_MACHINE_MEMORY_H
 
@@ -6,20 +6,18 @@
 #include "memory/lifetimes.h"
 #include "values/values.h"
 
-/* Held by fields and flags. */
+/* A part of a field, or a flag, with its value. */
 struct slot {
     struct machine_value *value;
-    uint32_t offset, bits;   /* within the field; a flag: 0, 1 */
-    uint32_t epoch_created;  /* evaluations so far when it was first stored */
-    uint32_t epoch_accessed; /* ... when it was last accessed for the first time since an
-                                evaluation */
-    bool overwritten_first;  /* that first access overwrote it: a temporary */
-    uint32_t
-        call_accessed; /* calls performed so far when it was last accessed: see lifetimes.c */
+    uint32_t offset, bits;   /* within the field; for a flag 0, 1 */
+    uint32_t epoch_created;  /* number of evaluations when it was first stored */
+    uint32_t epoch_accessed; /* ... at its first access since an evaluation */
+    bool overwritten_first;  /* that access overwrote it: it is a temporary */
+    uint32_t call_accessed;  /* number of calls at its last access: see lifetimes.c */
 };
 
-/* Where an alias has its bits: VP r's first one is start + r div parts * outer + r mod parts * inner in
- * the memory of the field that it is an alias of. */
+/* Where an alias has its bits. The first bit of VP r is start + r div parts * outer + r mod
+ * parts * inner in the memory of the root. */
 struct view {
     uint32_t start, parts, outer, inner;
 };
@@ -31,21 +29,21 @@ struct field {
     int vpset;
     enum machine_region region;
     uint64_t serial;    /* order of allocation */
-    struct slot *slots; /* ascending offsets, no overlap; what is missing is 0 */
+    struct slot *slots; /* ascending offsets, no overlap; bits in no slot are 0 */
     int slots_count, slots_capacity;
-    struct field *root; /* an alias: the field whose memory it is, which is no alias itself */
-    struct view view;   /* an alias: where */
-    bool current;       /* an alias: its slots are what the memory holds */
-    struct field *aliases, *next_alias; /* of a root: all of them */
-    struct field *newest; /* of a root: the alias that was stored into since, or NULL */
+    struct field *root; /* an alias: the field that owns the memory, which is itself no alias */
+    struct view view;   /* an alias: where its bits are */
+    bool current;       /* an alias: its slots are the valid content */
+    struct field *aliases, *next_alias; /* a root: all its aliases */
+    struct field *newest; /* a root: the alias that was stored into last, or NULL */
 };
 
 struct lazy_overflow {
-    uint8_t op; /* a NODE_OVERFLOW_*; NODE_SELECT: a is the bit; 0: none */
+    uint8_t op; /* a NODE_OVERFLOW_*; NODE_SELECT: a is the bit itself; 0: none */
     struct machine_value *a, *b, *context;
 };
 
-/* What a VP set's processors have besides fields, by the set's id. */
+/* The flags of a VP set, by the set's id. */
 struct flags {
     struct slot of[3]; /* by enum machine_flag */
     struct lazy_overflow overflow;
@@ -56,13 +54,13 @@ struct memory {
     struct flags *flags;   /* by VP set, as many as values->sets */
     struct field **fields; /* ascending base */
     int fields_count, fields_capacity;
-    int last_found; /* index of a field */
+    int last_found; /* cache: the index of the field last found */
     uint32_t next_base;
     uint64_t serial;
     struct lifetimes lifetimes;
 };
 
-/* Of a VP set that has an id. */
+/* The flags of a VP set that exists. */
 static inline struct flags *flags_of(const struct machine *m, const struct vpset *s)
 {
     return &m->memory->flags[s - m->values->sets];
@@ -76,48 +74,50 @@ struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset);
 struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset);
 /* The field that begins at the id; NULL if none does. */
 struct field *field_exact(struct machine *m, uint32_t id);
-/* Whether the field may have so many bits without running into the next one's ids. */
+/* Whether the field may have that many bits without overlapping the next field's ids. */
 bool field_room(const struct machine *m, const struct field *f, uint32_t bits);
 void field_unlink_alias(struct field *alias);
 void field_destroy(struct machine *m, struct field *f);
-/* With a root its aliases go. What an alias holds is lost: whoever wants it calls alias_settle() before. */
+/* Releases the field, and with a root its aliases. An alias's content is lost; to keep it,
+ * call alias_settle() before. */
 void field_release(struct machine *m, int index);
 int field_exact_index(struct machine *m, uint32_t id, enum machine_region region);
 
 /* ---- slots.c ---- */
 
 void slot_set(struct machine *m, struct slot *slot, struct machine_value *v);
-/* That very value is the content from the offset on. */
+/* Whether that very value is the content from the offset on. */
 bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v);
-/* The whole content of [offset, offset + type.width) of a field, as it is. */
+/* The content of [offset, offset + type.width) of a field in all processors. */
 struct machine_value *field_content(struct machine *m, struct field *f, uint32_t offset,
                                     uint32_t bits);
 enum machine_status field_replace(struct machine *m, struct field *f, uint32_t offset,
                                   struct machine_value *v);
-/* The slots between two bit offsets are given up for these, whose values' references go to the field. */
+/* Replaces the slots between two bit offsets by these. The field takes over the references
+ * to their values. */
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count);
 struct machine_value *slot_zero(struct machine *m, int width);
 /* The first slot that ends beyond offset. */
 int slot_at(const struct field *f, uint32_t offset);
 void slot_accessed(struct machine *m, struct slot *slot, bool overwrites);
-/* Writes to out which field or flag holds the value; "" if none does. */
+/* Writes to `out` which field or flag holds the value; "" if none does. */
 void memory_where(const struct machine *m, const struct machine_value *v, char *out,
                   size_t size);
 struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits);
 
 /* ---- flags.c ---- */
 
-/* There is no overflow to be worked out any more. */
+/* Forgets the recorded overflow. */
 void flag_overflow_clear(struct machine *m, struct lazy_overflow *o);
 struct machine_value *flag_resolved(struct machine *m, struct vpset *s, enum machine_flag flag);
-/* Nobody has looked at it. */
+/* Forgets the recorded overflow, which was never observed. */
 void flag_overflow_forget(struct machine *m, struct vpset *s);
 
 /* ---- vpsets.c ---- */
 
 void vpsets_finish(struct machine *m);
-/* Room for so many, with that of id 0, which is none. False: no memory. */
+/* Makes room for that many sets; id 0 is no set. False: no memory. */
 bool vpsets_grow(struct machine *m, int count);
 void vpset_release(struct machine *m, struct vpset *s);
 

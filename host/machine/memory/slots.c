@@ -1,7 +1,9 @@
-/* slots.c - what is stored in a field.
+/* slots.c - the content of fields.
  *
- * It is kept as slots, each the bits [offset, offset + bits) with one value; bits in no slot are 0. An access of just
- * a slot's bits gives its value; any other is put together from pieces. */
+ * Content is kept as slots: each slot is the bits [offset, offset + bits) with one value;
+ * bits in no slot are 0. Reading exactly a slot's bits returns its value; any other range is
+ * composed of pieces.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,7 +117,7 @@ static struct slot *slot_insert(struct machine *m, struct field *f, uint32_t off
     return &f->slots[i];
 }
 
-/* Makes [offset, offset + bits) free of slots; what of them lies outside stays. */
+/* Removes slots from [offset, offset + bits); their parts outside stay. */
 static void carve(struct machine *m, struct field *f, uint32_t offset, uint32_t bits)
 {
     uint32_t end = offset + bits;
@@ -172,7 +174,7 @@ enum machine_status field_replace(struct machine *m, struct field *f, uint32_t o
                                   struct machine_value *v)
 {
     struct slot *slot = slot_exact(f, offset, v->type.width);
-    graph_borrow(m, v); /* it may be what a slot that is carved away holds, and nobody else */
+    graph_borrow(m, v); /* the value may be held only by a slot that is being carved away */
     if (!slot) {
         carve(m, f, offset, v->type.width);
         slot = slot_insert(m, f, offset, v->type.width);

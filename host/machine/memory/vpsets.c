@@ -1,6 +1,8 @@
-/* vpsets.c - VP sets: kept, released.
+/* vpsets.c - creating and releasing VP sets.
  *
- * A VP set's id is the lowest one that is free; generation tells those apart that had the same one. */
+ * A VP set's id is the lowest one that is free; its generation distinguishes sets that had
+ * the same id.
+ */
 #include <stdlib.h>
 #include <string.h>
 
