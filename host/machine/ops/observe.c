@@ -1,4 +1,5 @@
-/* observe.c - what the front end sees and sets: whole fields, single processors, reductions. */
+/* observe.c - what the front end reads and writes: whole fields, single processors,
+ * reductions. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,7 @@
 
 enum {
     REDUCE_RUN = 4096
-}; /* columns: part of the order of float addition, see machine_reduce() */
+}; /* columns; fixes the order of float addition, see machine_reduce() */
 
 static struct field *part(struct machine *m, uint32_t id, struct machine_type type,
                           uint32_t *offset)
@@ -143,7 +144,7 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
     return device_wait_end(m, error, start, "reading a processor");
 }
 
-/* A buffer of the same content that nobody else looks at. */
+/* Copies the content to a buffer with no other reference. */
 static struct machine_value *own_copy(struct machine *m, int set, struct machine_value *v)
 {
     struct rows rows = geometry_rows(&m->values->sets[set], v->type);
@@ -177,8 +178,8 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
     v = v ? materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
-    /* In place where this part of the field alone holds the buffer: the slot's reference, and those of
-     * this call. */
+    /* The buffer may be written in place if only this part of the field refers to it: the
+     * slot's reference, and those of this call. */
     uint32_t held = 0;
     bool strange = v->strange_nan || materialise_has_strange_nan(type, &value.lo, 1);
     for (int i = 0; i < m->values->borrowed_count; i++)
@@ -385,7 +386,7 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     struct machine_type type = value->type;
     struct machine_scalar identity = identity_of(info, type);
     struct machine_scalar sign = scalar_sign(type.width);
-    if (info->is_signed) /* in another order: the sign bit turned over */
+    if (info->is_signed) /* signed order is unsigned order with the sign bit inverted */
         value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
     struct machine_value *none = machine_constant(m, type, identity);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;

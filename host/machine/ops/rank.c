@@ -1,10 +1,11 @@
-/* rank.c - ranks along an axis: a radix sort from the lowest digit, started and not waited for.
+/* rank.c - ranks along an axis: a radix sort from the lowest digit up; does not wait.
  *
- * Keys become whole numbers in the order wanted, with a bit above them that puts inactive
- * processors last; with segments, the number of the processor's segment is above all. A
- * processor's place among all of its line, sorted by that, is then already what is asked for:
- * segments follow each other with all their processors, so each begins where it did. Keys are cut
- * in words of 32 bits, and these in digits; each digit is a pass (kernels/sort.cl). */
+ * Keys are converted to unsigned integers of the wanted order. A bit above the key puts
+ * inactive processors last; with segments, the number of the processor's segment is above
+ * that. Then a processor's place in the sorted line is its rank: segments keep all their
+ * processors, so each segment begins where it did. Keys are divided into words of 32 bits,
+ * and words into digits; each digit is a pass (kernels/sort.cl).
+ */
 #include <stdio.h>
 
 #include "base/scalar.h"
@@ -24,7 +25,7 @@ struct words {
     int count;
 };
 
-/* Only the low bits of the last word are looked at, of which there are so many. */
+/* Adds words of a key; of the last word only the low bits count. */
 static bool words_add(struct machine *m, struct words *w, struct machine_value *key, int last)
 {
     for (int at = 0; key && at < key->type.width; at += 32) {
@@ -39,7 +40,7 @@ static bool words_add(struct machine *m, struct words *w, struct machine_value *
     return key != NULL;
 }
 
-/* Whole numbers whose order is the one asked for. */
+/* Converts values to unsigned integers in the requested order. */
 static struct machine_value *key_of(struct machine *m, struct machine_value *v, bool downward,
                                     bool is_signed)
 {
@@ -103,7 +104,7 @@ static bool words_of(struct machine *m, const struct machine_scan *how,
 struct sort {
     struct lines lines;
     const struct vpset *set;
-    int chunk, chunks, digit; /* processors in a chunk; bits */
+    int chunk, chunks, digit; /* chunk: processors in a chunk; digit: bits */
     struct device_buffer *pairs[2], *counts, *ranks;
     size_t counts_bytes;
 };

@@ -1,12 +1,14 @@
 /* router.c - messages to other processors: see kernels/router.cl.
  *
- * With a combiner, or on a device of few compute units, the destinations are shared out among as many
- * work-items as it has units (on a GPU some thousands), and each passes over all senders in order: no
- * atomics, any type, and float sums have one order.
+ * With a combiner, or on a device of few compute units, the destinations are shared out among
+ * as many work-items as the device has units (on a GPU some thousands). Each work-item passes
+ * over all senders in order. So there are no atomics, any type is possible, and float sums have
+ * a fixed order.
  *
- * Else a send is three passes: each sender writes its index to its destination; those that find a lower
- * one there put it right with an atomic maximum; each destination fetches its owner's message. So
- * collisions end the same way on every device. */
+ * Otherwise a send is three passes: each sender writes its index to its destination; senders
+ * that find a lower index there correct it with an atomic maximum; each destination fetches
+ * its owner's message. So collisions have the same result on every device.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,14 +34,14 @@ struct message {
     uint32_t mask;
 };
 
-/* All that a router operation reads, in memory, by one evaluation. context may be NULL: not asked
- * for. */
+/* Puts everything that a router operation reads into memory, by one evaluation. context may
+ * be NULL: not needed. */
 static bool message_make(struct machine *m, struct message *g, struct machine_value *address,
                          struct machine_value *source, int source_set,
                          struct machine_value *other, int to_set, bool under_context,
                          bool combines)
 {
-    /* The same bits are in memory as a float or as an integer. */
+    /* A reinterpreted value has the same bits in memory, so its source serves as well. */
     while (source && source->op == NODE_REINTERPRET && !source->buffer && !combines)
         source = source->in[0];
     while (other && other->op == NODE_REINTERPRET && !other->buffer && !combines)
@@ -66,7 +68,7 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
     if (!g->address || (source && !g->source) || (other && !g->old))
         return false;
     if (g->all)
-        g->context = g->address; /* something to pass */
+        g->context = g->address; /* a dummy for the unused argument */
     else
         g->context = materialise(m, g->from_set, g->context);
     g->from = &m->values->sets[g->from_set];
@@ -79,7 +81,8 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
     return g->context != NULL;
 }
 
-/* element NULL: not asked for. Where elements are moved too a kernel of its own pays for flat sets. */
+/* element NULL: no elements are moved. Kernels that also move elements are specialised for
+ * flat sets. */
 static void address_options(char *out, size_t size, const struct message *g,
                             const struct machine_value *element)
 {
@@ -97,7 +100,7 @@ static enum machine_status zero_fill(struct machine *m, const struct device_buff
     return device_fill(m, b, &zero, sizeof zero, "sending");
 }
 
-/* "claim" or "route": a number for each destination, or for each sender. */
+/* Runs "claim" or "route", which give a number for each destination, or for each sender. */
 static struct device_buffer *addresses_pass(struct machine *m, const struct message *g,
                                             const char *name)
 {
@@ -131,14 +134,14 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
     return b;
 }
 
-/* A new buffer for a value of the destination's set. */
+/* Gets a new buffer for a value of the destination's set. */
 static struct device_buffer *fresh(struct machine *m, const struct vpset *s,
                                    struct machine_type type)
 {
     return device_rows_get(m, geometry_rows(s, type));
 }
 
-/* The columns that repeat the other end. */
+/* Writes the halos, the columns that repeat the other end. */
 static enum machine_status edges(struct machine *m, const struct vpset *s,
                                  struct machine_type type, const struct device_buffer *out)
 {
@@ -171,7 +174,7 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
     return status ? status : edges(m, g->to, g->source->type, out);
 }
 
-/* Work-items that share out the destinations. */
+/* The number of work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
     size_t count = m->device->is_cpu ? (size_t)m->device->units : GPU_SHARES;
@@ -185,7 +188,7 @@ static bool scatters(const struct machine *m)
     return m->device->is_cpu && m->device->units <= SCATTER_UNITS;
 }
 
-/* out already holds the old dest. */
+/* out already contains the old dest. */
 static enum machine_status scatter(struct machine *m, const struct message *g,
                                    const struct device_buffer *out,
                                    const struct device_buffer *owner, bool notifies)
@@ -227,7 +230,7 @@ static void combine_options(char *out, size_t size, const struct message *g)
                  bytes == 16 ? 2 : 0);
 }
 
-/* out already holds the old dest. */
+/* out already contains the old dest. */
 static enum machine_status combine(struct machine *m, const struct message *g, int op,
                                    const struct device_buffer *to, struct machine_type type,
                                    const struct device_buffer *out,

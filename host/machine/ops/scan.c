@@ -1,13 +1,14 @@
-/* scan.c - scans and spreads along an axis: kernels written by hand, started and not waited for.
+/* scan.c - scans and spreads along an axis, by hand-written kernels; does not wait.
  *
- * What is combined is brought into a form that few kernels do (kernels/scan.cl): the least and the
- * greatest of any type are the least of whole numbers in another order; "and" is "or" of
- * complements; numbers have 32, 64 or 128 bits. Whole numbers of more than 16 bits are taken as
- * they are in memory; what else is to be done is done by ordinary values, which fuse with what is
- * around.
+ * Operands are converted to forms for which few kernels suffice (kernels/scan.cl): minimum and
+ * maximum of any type become a minimum of unsigned integers in another order; "and" becomes
+ * "or" of complements; elements have 32, 64 or 128 bits. Integers of more than 16 bits are used
+ * as they are in memory. Other conversions are ordinary values, which are fused with the
+ * operations around them.
  *
- * Long lines are cut in runs: see kernels/scan.cl. For floats the length of a run is part of what
- * machine_scan() promises; for others it is what suits the device. */
+ * Long lines are divided into runs: see kernels/scan.cl. For floats machine_scan() specifies
+ * the length of a run; for other types it depends on the device.
+ */
 #include "ops/scan.h"
 
 #include <stdio.h>
@@ -87,7 +88,7 @@ static struct kernel_call part(struct machine *m, int number, const struct eleme
     return call_begin(m, kernel_scan_cl, options, "scan");
 }
 
-/* How many neighbouring lines a work-item takes. */
+/* How many neighbouring lines a work-item handles. */
 static int lanes_of(const struct lines *l, const struct element *e)
 {
     return !l->along && l->columns >= LANES && e->kind != 2 ? LANES : 1;
@@ -114,8 +115,9 @@ struct line_scan {
     bool exclusive;
     bool starts, backward; /* segments begin in active processors only; after a 1, not at it */
     struct machine_scalar identity, flip, cut;
-    const struct device_buffer *in, *context, *bits; /* NULL: all take part; no segments */
-    struct device_buffer *out, *sums;                /* sums NULL: not wanted */
+    const struct device_buffer *in, *context, *bits; /* NULL: no context, all processors are
+                                                      * active; no segments */
+    struct device_buffer *out, *sums;                /* sums NULL: not needed */
 };
 
 static enum machine_status scan_runs(struct machine *m, const struct lines *l,
@@ -143,12 +145,12 @@ static enum machine_status scan_runs(struct machine *m, const struct lines *l,
     return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
 
-/* Where FILLS takes elements from. */
+/* Where the stage FILLS takes elements from. */
 struct origin {
     cl_ulong base, inner, outer;
 };
 
-/* JOINS, FINISHES, FILLS: the last takes what is in sums. */
+/* Runs a stage: JOINS, FINISHES or FILLS. The last takes what is in sums. */
 static enum machine_status scan_stage(struct machine *m, const struct lines *l,
                                       const struct line_scan *j, int stage, int run, int runs,
                                       struct origin from, struct device_buffer *totals,
@@ -223,12 +225,12 @@ enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, siz
     return scan_lines(m, &l, &j);
 }
 
-/* Every element of each line becomes one of `from`. */
+/* Fills each line with one of its elements, given by `from`. */
 static enum machine_status fill_lines(struct machine *m, const struct lines *l,
                                       const struct element *e, struct device_buffer *from,
                                       struct origin origin, struct device_buffer *out)
 {
-    /* floats are filled in as whole numbers */
+    /* floats are copied as integers */
     const struct element *same = &elements[e->bytes == 4   ? UINT32
                                            : e->bytes == 8 ? UINT64
                                                            : UINT128];
@@ -240,12 +242,12 @@ static enum machine_status fill_lines(struct machine *m, const struct lines *l,
 /* ---- what is combined, and how it is shown ---- */
 
 struct form {
-    struct machine_type type; /* of the value as it came */
-    int width;                /* of the value as it came */
+    struct machine_type type; /* of the original value */
+    int width;                /* of the original value */
     const struct element *element;
     int op;
     bool ordered_floats;
-    struct machine_scalar identity, flip, cut; /* of whole numbers: see kernels/scan.cl */
+    struct machine_scalar identity, flip, cut; /* as unsigned integers: see kernels/scan.cl */
 };
 
 static const struct element *bits_element(int width)
@@ -261,7 +263,7 @@ static struct machine_value *flipped(struct machine *m, struct machine_value *v,
     return machine_binary(m, MACHINE_XOR, v, machine_constant(m, v->type, by));
 }
 
-/* Other formats than the native ones are computed in double. */
+/* Floats of other formats are computed in double. */
 static struct machine_value *native_float(struct machine *m, struct machine_value *v)
 {
     return machine_to_float(m, v, v->type.width == 32 ? MACHINE_F32 : MACHINE_F64, false);
@@ -300,7 +302,7 @@ static bool op_fits(enum machine_scan_op c, struct machine_type type)
     return c == MACHINE_SCAN_COPY || of_floats == (type.kind == MACHINE_FLOAT);
 }
 
-/* The value as the kernels take it, without regard to who takes part. */
+/* Converts the value to the kernels' form, ignoring context and segments. */
 static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
                                     struct machine_value *v, struct form *f)
 {
@@ -321,7 +323,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
     switch (c) {
     case MACHINE_SCAN_FMIN:
     case MACHINE_SCAN_FMAX:
-        /* infinity of the one sign in its order, of the other in the reverse order: the same */
+        /* the identity is +infinity in one order and -infinity in the reverse: the same key */
         f->ordered_floats = true;
         f->op = MIN;
         f->identity.lo = f->width == 32 ? 0xff800000u : 0xfff0000000000000u;
@@ -366,7 +368,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
     return v && type_bytes(v->type) != f->element->bytes ? machine_resize(m, v, 32, false) : v;
 }
 
-/* What a kernel left, as a value of the type that came. */
+/* Converts a kernel's result back to the original type. */
 static struct machine_value *shown(struct machine *m, const struct form *f, int set,
                                    struct device_buffer *b)
 {
@@ -515,7 +517,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
         struct origin from = {0, (cl_ulong)l.columns, l.inner * (cl_ulong)l.columns};
         bool good =
             out && !scan_lines(m, &l, &j) && !fill_lines(m, &l, f.element, sums, from, out);
-        masked = false; /* now all have something */
+        masked = false; /* all processors have an element now */
         device_buffer_unref(m, in);
         if (sums)
             device_buffer_unref(m, sums);
@@ -529,7 +531,7 @@ struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op,
     return shown(m, &f, m->values->set_current, out);
 }
 
-/* The lines are filled with elements of the value itself. */
+/* Fills the lines with elements of the value itself. */
 static struct machine_value *spread_copy(struct machine *m, const struct lines *l,
                                          struct origin from, struct machine_value *value)
 {

@@ -21,23 +21,23 @@ static inline size_t lines_count(const struct lines *l)
     return l->outer * l->inner * (size_t)l->columns;
 }
 
-/* Each 32-bit number of dense lines becomes the sum of those before it. */
+/* Replaces each 32-bit number of dense lines by the sum of those before it. */
 enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, size_t lines,
                                  size_t length);
 /* machine_scan() in another context. */
 struct machine_value *scan_where(struct machine *m, const struct machine_scan *how,
                                  struct machine_value *value, struct machine_value *context);
-/* Where segments begin when lines are gone through in that direction; NULL: only at the ends. */
+/* Where segments begin when lines are scanned in that direction; NULL: only at the ends. */
 struct machine_value *scan_boundaries(struct machine *m, const struct machine_scan *how);
 /* false: error set. */
 bool scan_arguments_good(struct machine *m, const struct vpset *s, int axis,
                          const struct machine_value *value, const struct machine_value *bits);
-/* What has the same bits in memory already, where something has. */
+/* Returns the value, or a value already in memory with the same bits. */
 struct machine_value *in_memory(struct machine_value *v);
-/* Bits in the order of the floats; NaNs become nan. */
+/* Bits that sort like the floats; NaNs become `nan`. */
 struct machine_value *float_order(struct machine *m, struct machine_value *v, uint64_t nan);
 
-/* Lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
+/* Passes lines of elements, in runs or chunks: kernels/scan.cl, kernels/sort.cl. */
 static inline void call_lines(struct kernel_call *c, const struct lines *l, int run)
 {
     call_ulong(c, l->base);
@@ -49,7 +49,7 @@ static inline void call_lines(struct kernel_call *c, const struct lines *l, int 
     call_int(c, l->columns);
 }
 
-/* How these lie in rows. */
+/* Passes how lines lie in rows. */
 static inline void call_lines_rows(struct kernel_call *c, const struct lines *l)
 {
     call_int(c, l->width);
