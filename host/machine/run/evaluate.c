@@ -1,15 +1,15 @@
-/* evaluate.c - an evaluation, and what is recorded of it between its halves and after them. */
+/* evaluate.c - runs an evaluation, and records it between its halves and after them. */
 #include "run/evaluate.h"
 
 #include "memory/memory.h"
 #include "run/replay.h"
 #include "watch/watch.h"
 
-/* What evaluations are to leave nothing to compute: no lazy overflow either. */
+/* For evaluations that leave nothing to compute: computes recorded overflows, too. */
 static void resolve_overflows(struct machine *m)
 {
     struct replay *p = m->run->replay;
-    p->depth++; /* it belongs to the calls before */
+    p->depth++; /* these belong to the calls before */
     for (int i = 1; i < m->values->sets_count; i++)
         if (m->values->sets[i].used)
             flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
@@ -60,7 +60,7 @@ enum machine_status evaluate(struct machine *m, const struct wish *wish, enum ru
     enum machine_status status = evaluation_prepare(m, &e, &w, use);
     if (w.what != WISH_VALUES)
         m->run->stores_evaluated = m->run->stores;
-    m->run->flush_hash = 0; /* who observes says when */
+    m->run->flush_hash = 0; /* the observer now decides when to evaluate */
     if (!plan_use_runs(use))
         m->run->rehearsed = e.plan;
     else if (!status && e.plan)

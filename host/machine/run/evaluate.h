@@ -7,8 +7,8 @@
 
 /* Why there is an evaluation. */
 enum run_why {
-    RUN_LOOKED, /* for a wish, or because somebody asked for it */
-    RUN_DUE     /* it became due by itself */
+    RUN_LOOKED, /* requested, or needed by an observation */
+    RUN_DUE     /* due by itself: many values were pending */
 };
 enum machine_status evaluate(struct machine *m, const struct wish *wish, enum run_why why);
 

@@ -3,14 +3,15 @@
  * An evaluation has targets: the values asked for, and the content of every live field and flag
  * that is not
  *  - in memory already, a number, or a cheap function of coordinates;
- *  - a temporary just now: a slot that was overwritten before it was read since the last
- * evaluation, whose present value is shallow and all new. It stays an expression; most are
- * overwritten again and never computed. If it, or something made of it, is still there at the
+ *  - a temporary: a slot that was overwritten before it was read since the last
+ * evaluation, whose present value is shallow and all new. It stays an expression; most temporaries are
+ * overwritten again and never computed. If a temporary, or a value made of it, is still there at the
  * next evaluation it is computed then.
  *
- * Plans are kept by signature: a number for each node that is reached, in the order in which it
- * is reached; numbers' values are no part of it. A step seen before is a walk over its nodes, a
- * look-up, and its launches. */
+ * Plans are kept by signature: a number for each node reached, in the order in which the
+ * nodes are reached. The values of constants are not part of it. A step seen before costs a
+ * walk over its nodes, a look-up, and its launches.
+ */
 #include "run/evaluation.h"
 
 #include <stdlib.h>
@@ -38,7 +39,7 @@ static bool reach_room(struct reach *r)
     return !failed;
 }
 
-/* Depth first; HEIGHT_MOST bounds the recursion. */
+/* Depth first; HEIGHT_MOST limits the recursion. */
 static bool reach_from(struct machine *m, struct reach *r, struct machine_value *v)
 {
     if (v->mark == m->values->mark)
@@ -68,7 +69,7 @@ static bool reach_from(struct machine *m, struct reach *r, struct machine_value 
         for (int i = 0; i < inputs; i++)
             s[r->length++] = v->in[i]->local;
     }
-    /* min and max with a number: whether that is a NaN is decided at recording */
+    /* for min and max with a constant, whether that is a NaN is known when recording */
     s[r->length++] = v->maybe_nan;
     return true;
 }
@@ -112,7 +113,7 @@ static bool targets_collect(struct machine *m, struct targets *t, bool all)
     return true;
 }
 
-/* What was asked for, and what else there is to compute. */
+/* Collects the targets: the values asked for, and what else there is to compute. */
 static bool find_targets(struct machine *m, struct targets *t, const struct wish *w)
 {
     bool good = true;
@@ -121,7 +122,7 @@ static bool find_targets(struct machine *m, struct targets *t, const struct wish
             good = slice_unpack(m, w->values[i]);
         else if (!node_is_leaf(w->values[i]))
             good = targets_add(t, w->values[i]);
-    /* Reading one thing after another is one look: nothing has become older in between. */
+    /* Several reads in a row count as one look: values have not become older in between. */
     if (w->what == WISH_ALL ||
         (w->what == WISH_LIVE && m->run->stores != m->run->stores_evaluated))
         good = good && targets_collect(m, t, w->what == WISH_ALL);
@@ -179,7 +180,7 @@ enum machine_status evaluation_prepare(struct machine *m, struct evaluation *e,
     return MACHINE_OK;
 }
 
-/* Those that watch are told what became of values. */
+/* Tells observers what became of values. */
 static void tell_computed(struct machine *m, const struct evaluation *e)
 {
     int computed = 0, stored;
@@ -204,7 +205,7 @@ enum machine_status evaluation_perform(struct machine *m, struct evaluation *e)
     if (status)
         return status;
     e->stored = true;
-    /* Users first: a node whose inputs are let go may be the last to hold them. */
+    /* Users first: a node whose inputs are released may hold their last references. */
     for (int i = count - 1; i >= 0; i--) {
         graph_ref(nodes[stored[i]]);
         device_buffer_ref(buffers[stored[i]]);

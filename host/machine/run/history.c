@@ -1,16 +1,20 @@
-/* history.c - calls that repeat.
+/* history.c - finds calls that repeat.
  *
- * Until the calls of a loop are known as an edge they are performed one by one. Where the last few were met
- * before, by hash, tells a period; a whole period more tells that it is one. From then on evaluations come
- * after whole turns, always at the same call, so that they lead from a state to itself. Where a turn begins
- * is told by whoever looks. If nobody does, it is where least has to be kept: in the program's own order, as
- * a rule, for there its temporaries are overwritten before they are read.
+ * Calls are performed one by one until the calls of a loop are known as an edge. If the hash of
+ * the last few calls was met before, the distance is a candidate for the period; if a whole
+ * further period repeats, it is one. From then on evaluations come after whole turns, always at
+ * the same call, so that they lead from a state to itself. If the program looks in the loop,
+ * turns end there. Otherwise they end where the least memory is live: as a rule at the end of
+ * the program's own loop, because its temporaries are overwritten before they are read.
  *
- * Short turns are evaluated several at a time, unless that has been seen to take no fewer kernels. */
+ * Short turns are evaluated several at a time, unless that is known to take no fewer
+ * kernels.
+ */
 #include "memory/memory.h"
 #include "run/replay.h"
 
-/* A window's hash is a polynomial in it; what leaves the window has been multiplied WINDOW times. */
+/* A window's hash is a polynomial in it; a call that leaves the window has been multiplied
+ * WINDOW times. */
 #define WINDOW_FACTOR UINT64_C(0x9e3779b97f4a7c15)
 
 #define SQUARE(x) ((x) * (x))
@@ -54,8 +58,9 @@ bool history_in_loop(const struct machine *m)
     return h && h->period && h->match >= (h->period < LOOP_SURE ? h->period : LOOP_SURE);
 }
 
-/* Of the turn before the last one, for what is going to be overwritten is known there: after which call most is dead;
- * where it makes no difference, where whole turns have gone since the last evaluation. */
+/* Returns the call after which most bytes are dead, in the turn before the last one, because
+ * only there it is known which slots were overwritten later. On a tie, prefers whole turns
+ * since the last evaluation. */
 static uint32_t turn_at(const struct history *h, const int32_t *dead_then, uint32_t since)
 {
     uint32_t from = h->count - 2 * h->period + 1, usual = h->count - since % h->period,
@@ -73,8 +78,8 @@ static uint32_t turn_at(const struct history *h, const int32_t *dead_then, uint3
     return here == most ? usual : best;
 }
 
-/* Turns end after calls that are whole turns away from there. Whoever has looked once in the loop is expected to do so
- * again, after the same call. */
+/* Turns end a whole number of turns after that call. A program that has looked once in the
+ * loop is expected to look again, after the same call. */
 static uint32_t turns_end(const struct machine *m)
 {
     struct replay *p = m->run->replay;
@@ -84,14 +89,15 @@ static uint32_t turns_end(const struct machine *m)
         return h->count - p->since;
     if (h->looked_at && h->count - h->looked_at <= in_loop)
         return h->looked_at;
-    if (h->match < h->period || 2 * h->period > HISTORY) /* what is kept where is not known */
+    if (h->match < h->period || 2 * h->period > HISTORY) /* it is not known where memory is
+                                                          * live */
         return h->count - p->since;
     if (!h->turn_at)
         h->turn_at = turn_at(h, m->memory->lifetimes.dead, p->since);
     return h->turn_at;
 }
 
-/* The same wherever a turn begins. */
+/* A sum over the loop's calls that does not depend on where a turn begins. */
 static uint64_t loop_sum(const struct history *h)
 {
     uint64_t sum = h->period;

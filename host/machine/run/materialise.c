@@ -1,4 +1,4 @@
-/* materialise.c - values in memory: computed, filled in, or brought from the front end. */
+/* materialise.c - puts values into memory: computed, filled, or uploaded. */
 #include "run/materialise.h"
 
 #include <stdlib.h>

@@ -1,13 +1,13 @@
-/* materialise.h - values in memory. */
+/* materialise.h - puts values into memory. */
 #ifndef LUTETIA_MACHINE_MATERIALISE_H
 #define LUTETIA_MACHINE_MATERIALISE_H
 
 #include "values/values.h"
 
-/* The value with its numbers in a buffer of the VP set, laid out as kernels want them (a number:
- * everywhere the same). Does not wait. NULL: error set. */
+/* The value in a buffer of the VP set, laid out for kernels (a constant: the same number
+ * everywhere). Does not wait. NULL: error set. */
 struct machine_value *materialise(struct machine *m, int set, struct machine_value *v);
-/* Puts the values into buffers of the VP set, all in one evaluation. false: error set. */
+/* Puts the values into buffers of the VP set, by one evaluation. False: error set. */
 bool materialise_all(struct machine *m, int set, struct machine_value **values, int count);
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count);
 struct machine_value *materialise_upload(struct machine *m, int set, struct machine_type type,

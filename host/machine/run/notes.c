@@ -1,10 +1,10 @@
-/* notes.c - calls that are foreseen are noted, and performed when somebody looks. */
+/* notes.c - notes foreseen calls, and performs them before anything is observed. */
 #include "run/notes.h"
 
 #include "run/replay.h"
 
-/* Another edge with the calls noted so far, and this one next (NULL: no more than those, for somebody is
- * going to look). */
+/* Finds another edge with the calls noted so far, and this one next (NULL: the noted calls
+ * only, because something is about to be observed). */
 static struct edge *other_edge(struct machine *m, const struct machine_call *call)
 {
     struct replay *p = m->run->replay;

@@ -1,4 +1,4 @@
-/* perform.c - calls that were noted: an edge run once, or its calls performed one by one. */
+/* perform.c - performs noted calls: an edge run once, or its calls one by one. */
 #include <stdlib.h>
 
 #include "base/arrays.h"
@@ -30,7 +30,7 @@ bool perform_deed(struct machine *m, const struct deed *d, int to)
         spare[i] = s->buffers[d->spare[i]];
     const struct fates fates = {d->dies, d->kept, spare, d->spare_count};
     if (plan_run(m, d->plan, buffers, d->values, &fates))
-        return false; /* it is going to be tried, and said, once more */
+        return false; /* the attempt will be repeated, and report the error then */
     for (int k = 0; k < t->buffers_count; k++) {
         next[k] = d->next[k] >= 0 ? s->buffers[d->next[k]] : buffers[~d->next[k]];
         device_buffer_ref(next[k]);

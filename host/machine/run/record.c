@@ -1,4 +1,4 @@
-/* record.c - what an evaluation made of the calls before it: see replay.h. */
+/* record.c - records what an evaluation made of the calls before it: see replay.h. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ void record_finish(struct machine *m)
     struct replay *p = m->run->replay;
     if (!p)
         return;
-    m->run->calls_noted = 0; /* nobody is going to look */
+    m->run->calls_noted = 0; /* nothing observes the noted calls any more */
     states_forget(m);
     free(p->log);
     free(p->scratch);
@@ -65,7 +65,7 @@ bool record_begins_alike(const struct edge *a, const struct edge *b, int count)
     return true;
 }
 
-/* Which of the buffers of the state before it is, by mark. */
+/* Finds, by mark, which buffer of the previous state each one is. */
 static void number_buffers(struct machine *m, struct device_buffer *const *buffers, int count)
 {
     m->values->mark++;
@@ -142,7 +142,7 @@ static void find_spare(struct deed *d, int from_count, int to_count)
     }
 }
 
-/* The edge that has been made leads to the state walked. */
+/* Completes the edge that was made: it leads to the state walked. */
 static bool edge_complete(struct machine *m, const struct walk *w, int to,
                           struct device_buffer *const *buffers,
                           struct machine_value *const *wanted, int wanted_count)
@@ -155,7 +155,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
     const int *stored = plan_stored(e->deed.plan, &count);
     number_buffers(m, w->buffers, w->buffers_count);
     for (int i = 0; i < wanted_count;
-         i++) /* what was computed for somebody must be in the state */
+         i++) /* every value computed on request must be in the state */
         for (int k = 0; k < count; k++)
             if (wanted[i]->buffer == buffers[stored[k]] &&
                 wanted[i]->buffer->mark != m->values->mark)
@@ -189,7 +189,7 @@ static bool edge_complete(struct machine *m, const struct walk *w, int to,
     return true;
 }
 
-/* Many turns of a loop of that state: they are no edge of their own. */
+/* Adds many turns of a loop of that state, which are not an edge of their own. */
 static bool turns_add(struct machine *m, struct state *s, int to)
 {
     struct replay *p = m->run->replay;
@@ -210,7 +210,7 @@ static bool turns_add(struct machine *m, struct state *s, int to)
     return false;
 }
 
-/* In the place of one with the same calls, or of the oldest. */
+/* Adds an edge in place of one with the same calls, or of the oldest. */
 static void edge_add(struct machine *m, struct state *s, const struct edge *e)
 {
     int at = -1;
@@ -243,9 +243,9 @@ void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
     if (p->forgets)
         states_forget(m);
     p->forgets = false;
-    if (p->active >= 0) /* it changed nothing that is kept */
+    if (p->active >= 0) /* the evaluation changed nothing that is kept */
         return;
-    if (p->depth) { /* in the middle of a call: what follows is no state's beginning */
+    if (p->depth) { /* in the middle of a call: no state begins here */
         states_from_forget(m);
         return;
     }

@@ -1,4 +1,4 @@
-/* roll.c - loops over slices rolled up again: see reshape.h. */
+/* roll.c - rolls up loops over slices: see reshape.h. */
 #include <stdlib.h>
 
 #include "base/errors.h"
@@ -9,8 +9,8 @@
 
 enum { LIFT_NODES = 1 << 18 };
 
-/* The one value of the finer set whose k slices these are; NULL: there is none to be had for
- * nothing. */
+/* The value of the finer set whose k slices these are; NULL: none can be had without a
+ * kernel. */
 static struct machine_value *lift(struct machine *m, struct machine_value *const *y, uint32_t k,
                                   int set, int *budget)
 {
@@ -59,8 +59,8 @@ static struct machine_value *lift(struct machine *m, struct machine_value *const
     return good ? graph_node(m, &key) : NULL;
 }
 
-/* What k equal expressions have been rolled up into is computed, alone, and each of them is from now on a
- * slice of it: whoever else holds them need not compute them one by one. */
+/* Computes the value that k equal expressions were rolled up into, and makes each expression
+ * a slice of it. So other holders of the expressions do not compute them one by one. */
 static bool unroll(struct machine *m, struct machine_value *whole,
                    struct machine_value *const *y, uint32_t k, enum run_why why)
 {
@@ -94,7 +94,7 @@ static bool waits(const struct machine_value *v)
     return !node_is_leaf(v) && v->op != NODE_SLICE && !node_is_cheap(v);
 }
 
-/* A first slice somewhere in v; NULL: none is found. */
+/* Finds a first slice in v; NULL: none. */
 static const struct machine_value *first_slice(const struct machine_value *v, int *budget)
 {
     if (v->op == NODE_SLICE)
@@ -115,8 +115,9 @@ static bool same_shape(const struct machine_value *a, const struct machine_value
            a->height == b->height;
 }
 
-/* k slots that a loop has gone through, or is going through: then those before the place where it is hold
- * what the others do as an operand. *partial: it has only begun. False: error set. */
+/* Whether k slots were written by a loop, completely or up to some place; in the latter case
+ * the slots up to that place hold what the others have as an operand. *partial: only the
+ * beginning of a loop was found. False: error set. */
 static bool roll_slots(struct machine *m, const struct slot *slots, uint32_t k, int set,
                        enum run_why why, bool *partial)
 {
@@ -157,7 +158,7 @@ bool roll_waiting(struct machine *m, enum run_why why, bool *partial)
                 waits(slots[0].value) ? first_slice(slots[0].value, &budget) : NULL;
             k = slice ? (uint32_t)slice->imm.lo : 1;
             uint32_t there = (uint32_t)(f->slots_count - at);
-            if (k < 2 || k > there) { /* a loop that fills a new field has not come far */
+            if (k < 2 || k > there) { /* a loop that fills a new field has only begun */
                 *partial = *partial || (k > there && there >= SLICES_BLOCK);
                 k = k > there ? there : 1;
                 continue;

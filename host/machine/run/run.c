@@ -1,8 +1,9 @@
-/* run.c - when something is evaluated.
+/* run.c - decides when values are evaluated.
  *
- * When nothing is observed the graph grows; past PENDING_MANY values it is evaluated, and from
- * then on whenever the trace of stores comes to the same place as then: once for each turn of a
- * loop, always at the same point. */
+ * While nothing is observed the graph grows. Past PENDING_MANY values it is evaluated, and
+ * from then on whenever the trace of stores matches that of the first time: once in each
+ * turn of a loop, always at the same point.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,7 +33,7 @@ static bool is_held(const struct machine *m, const struct machine_value *v)
     return false;
 }
 
-/* Loops over slices first. */
+/* Evaluates after rolling up loops over slices. */
 static enum machine_status evaluate_rolled(struct machine *m, const struct wish *wish,
                                            enum run_why why)
 {
@@ -51,11 +52,11 @@ static enum machine_status evaluate_now(struct machine *m, struct machine_value 
     enum wish_what what = all ? WISH_ALL : WISH_LIVE;
     bool held = true;
     for (int i = 0; i < count; i++) {
-        graph_borrow(m, wanted[i]); /* what it is a part of may let go of it */
+        graph_borrow(m, wanted[i]); /* a value that contains it may release it */
         held = held && (node_is_leaf(wanted[i]) || is_held(m, wanted[i]));
     }
-    /* What only the one who looks has, say a count, is evaluated apart: the calls before lead from state to state then,
-     * and are foreseen. */
+    /* Values that only the observer holds, such as a count, are evaluated apart. Then the
+     * calls before lead from state to state, and are foreseen. */
     if (!held && record_follows(m)) {
         const struct wish others = {.what = what};
         enum machine_status status = evaluate_rolled(m, &others, why);
@@ -93,9 +94,9 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
         m->run->flush_status = MACHINE_OK;
         return status;
     }
-    /* The last TRACE_LENGTH stores, as one number: which operations they were, not where they
-     * went, nor whether their operands have been computed. A shift of a shift is one shift, of
-     * whatever was there first: its operand says nothing. */
+    /* A hash of the last TRACE_LENGTH stores. It includes the operations, but not the
+     * destinations, nor whether operands have been computed. The operand of a shift is left
+     * out, because a shift of a shift is simplified to one shift. */
     uint64_t what = ((uint64_t)v->origin << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
     const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
     what = (what * 128 + (in && v->op != NODE_SHIFT ? in->origin : 0)) * 0x9e3779b97f4a7c15u;
@@ -112,7 +113,8 @@ enum machine_status run_after_store(struct machine *m, const struct machine_valu
     if (!again && !many && v->height < HEIGHT_MOST)
         return MACHINE_OK;
     if (m->run->sliced &&
-        v->height < HEIGHT_MOST) { /* loops first, and those under way may end */
+        v->height < HEIGHT_MOST) { /* loops over slices first; those under way may be about
+                                    * to end */
         bool partial;
         if (m->values->pending < m->run->roll_after)
             return MACHINE_OK;

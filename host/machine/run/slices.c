@@ -1,4 +1,4 @@
-/* slices.c - values cut into slices: see reshape.h. */
+/* slices.c - values divided into slices: see reshape.h. */
 #include "run/slices.h"
 
 #include "memory/call_set.h"
@@ -77,7 +77,7 @@ bool slices_forget_set(struct machine *m, int set)
             if ((v->op == NODE_SLICE && (v->set == set || v->in[0]->set == set)) ||
                 (v->buffer && v->set == set)) {
                 graph_forget(m, v);
-                next = m->values->table[i]; /* its input may have gone with it */
+                next = m->values->table[i]; /* its input may have been released with it */
             }
         }
     return true;

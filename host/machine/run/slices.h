@@ -1,4 +1,4 @@
-/* slices.h - slices of values, and loops over slices rolled up again: see reshape.h. */
+/* slices.h - slices of values: see reshape.h. */
 #ifndef LUTETIA_MACHINE_SLICES_H
 #define LUTETIA_MACHINE_SLICES_H
 
@@ -9,9 +9,9 @@
 #include "kernels.h"
 #include "values/values.h"
 
-enum { SLICES_BLOCK = 16 }; /* arrays that a kernel weaves, or takes apart, at a time */
+enum { SLICES_BLOCK = 16 }; /* arrays that a kernel interleaves, or takes apart, at a time */
 
-/* The kernel of kernels/reshape.cl for values of that type. */
+/* Begins a call of a kernel of kernels/reshape.cl for values of that type. */
 static inline struct kernel_call slices_call(struct machine *m, struct machine_type type,
                                              const char *name)
 {
@@ -22,13 +22,13 @@ static inline struct kernel_call slices_call(struct machine *m, struct machine_t
     return call_begin(m, kernel_reshape_cl, options, name);
 }
 
-/* Value i of the k that fine (in memory) is cut into, in the VP set. */
+/* Makes slice i of the k that `fine` (in memory) is divided into, in the VP set. */
 struct machine_value *slice_make(struct machine *m, struct machine_value *fine, int set,
                                  uint32_t k, uint32_t i);
-/* Gives a slice its buffer; others that are found on the way too. */
+/* Gives a slice its buffer, and other slices that are found on the way. */
 bool slice_unpack(struct machine *m, struct machine_value *slice);
-/* No slice is left that is of the VP set, or of a value of it; no other value of the set has a name
- * and a buffer. */
+/* Afterwards there is no slice in the VP set or of a value of it, and no other value of the
+ * set that has both a name and a buffer. */
 bool slices_forget_set(struct machine *m, int set);
 
 #endif

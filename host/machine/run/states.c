@@ -1,8 +1,8 @@
-/* states.c - what all fields and flags hold, as graphs that are found again by signature.
+/* states.c - the contents of all fields and flags, as graphs that are found again by signature.
  *
- * A state keeps a graph of its own, whose leaves are numbered buffers. While it is the active one that graph
- * is what fields and flags hold, and its leaves have buffers; before anything else is done to the graph the
- * state leaves it to the machine and makes itself a copy.
+ * A state keeps a graph of its own, whose leaves are numbered buffers. While a state is active,
+ * fields and flags hold its graph, whose leaves have buffers. Before anything else changes the
+ * graph, the state leaves it to the machine and makes itself a copy.
  *
  *     walk      all that can be reached from fields and flags, inputs first, with its signature
  *     template  a state's copy of what was walked
@@ -16,19 +16,19 @@
 #include "run/replay.h"
 #include "values/graph.h"
 
-/* The part of a place that is of a lazy overflow; others are flags and lengths. */
+/* Distinguishes places of recorded overflows; other places are flags and lengths. */
 #define OVERFLOW_PART (UINT32_MAX - 255)
 
 /* ---- walks ---- */
 
-/* Calls visit with every place that holds a value, always in the same order: of flags, of slots, and of lazy
- * overflows, which have three for each VP set, NULL where there is none. */
+/* Calls `visit` for every place that holds a value, always in the same order: flags, slots,
+ * and recorded overflows, which have three places for each VP set, NULL if unused. */
 struct root_visit {
     struct machine *m;
     void (*visit)(struct root_visit *visit, struct machine_value **place, uint32_t id,
                   uint32_t part);
     struct walk *walk;             /* walk_root() */
-    struct machine_value **values; /* the others: one for each place */
+    struct machine_value **values; /* or else: one for each place */
     int count;
 };
 
@@ -51,7 +51,7 @@ static void each_root(struct root_visit *v)
     }
 }
 
-/* What is no overflow any more is nothing. */
+/* Clears overflows whose VP set has none recorded any more. */
 static void overflows_tidy(struct machine *m)
 {
     for (int i = 1; i < m->values->sets_count; i++)
@@ -69,7 +69,8 @@ static bool is_own_leaf(const struct walk *w, const struct machine_value *v)
     return is_leaf(v) && (v->kept || !w->of_state);
 }
 
-/* In imm, whatever they are: the signature must tell where a node ends. */
+/* Whether imm holds numbers that the signature must include, so that it is unambiguous where
+ * a node ends. */
 static bool has_numbers(const struct machine_value *v)
 {
     return v->op == NODE_CONSTANT || v->op == NODE_RANDOM || v->op == NODE_SLICE;
@@ -167,8 +168,8 @@ void walk_finish(struct walk *w)
 
 /* ---- templates ---- */
 
-/* A graph like the one walked, with leaves of its own that have no buffers yet. The walk's nodes keep
- * their places: copies[i] is that of nodes[i]. */
+/* Copies the graph walked, with leaves of its own that have no buffers yet. copies[i] is the
+ * copy of nodes[i]. */
 static void template_copy(struct machine *m, struct state *s, const struct walk *w)
 {
     struct machine_value **copies = array_zeroed((size_t)w->count, sizeof *copies);
@@ -192,7 +193,7 @@ static void template_copy(struct machine *m, struct state *s, const struct walk 
         copies[i] = same ? v : graph_node(m, &key);
         if (!same) {
             copies[i]->birth = v->birth;
-            copies[i]->told = true; /* the program did not make it */
+            copies[i]->told = true; /* no value of the program: not reported */
             graph_keep(m, copies[i], true);
         }
     }
@@ -212,7 +213,7 @@ static void collect_root(struct root_visit *visit, struct machine_value **place,
     visit->values[visit->count++] = *place;
 }
 
-/* The state has a graph of its own, like that which fields and flags hold. */
+/* Gives the state a graph of its own, equal to that which fields and flags hold. */
 static void template_make(struct machine *m, struct state *s, const struct walk *w)
 {
     struct root_visit visit = {.m = m, .visit = collect_root, .values = s->roots};

@@ -1,14 +1,16 @@
 /* turns.c - many turns of a loop at once.
  *
- * A loop that has turned often, and that its plan says is cheaper many turns at a time, is noted for so many
- * turns and evaluated once for all of them. For that all turns must begin alike: evaluations are thorough
- * (they leave nothing to compute) while such loops run. */
+ * If a loop has turned often, and its plan is cheaper with many turns at a time, that many
+ * turns are noted and evaluated together. For this all turns must begin alike, so
+ * evaluations are thorough (they leave nothing to compute) while such loops run.
+ */
 #include "build/background.h"
 #include "run/replay.h"
 #include "values/graph.h"
 
-/* A loop that has turned so often is tried with many turns at once; after one that was not worth it, so many
- * evaluations later again. Who has looked so often after as many turns as before is expected to do so again. */
+/* TURNS_SEEN: after so many turns a loop is tried with many turns at once. TRY_AGAIN: after
+ * a failed trial, evaluations until the next. LOOKS_SURE: a program that has looked so
+ * often, always after the same number of turns, is expected to do so again. */
 enum { TURNS_SEEN = 6, TRY_AGAIN = 8192, LOOKS_SURE = 8 };
 
 static bool loop_is(const struct machine *m, const struct edge *e)
@@ -16,14 +18,15 @@ static bool loop_is(const struct machine *m, const struct edge *e)
     return e->alone && e->to == m->run->replay->active;
 }
 
-/* Evaluations for so many turns: those that are left over are evaluated one by one. */
+/* The number of evaluations for that many turns; remaining turns are evaluated one by one. */
 static int evaluations(int turns, int at_once)
 {
     return turns / at_once + turns % at_once;
 }
 
-/* How many turns of such a plan are evaluated at once: where nobody has said how many, up to a quarter more or fewer than
- * usual if that makes fewer evaluations for one who always looks after as many turns. */
+/* How many turns of such a plan are evaluated at once. Unless the number is forced, it is up
+ * to a quarter more or fewer than usual, if that takes fewer evaluations for a program that
+ * always looks after the same number of turns. */
 static int turns_at_once(const struct machine *m, const struct edge *e)
 {
     int most = plan_turns(e->deed.plan), usual = m->device->shape.turns,
@@ -42,7 +45,7 @@ static int turns_at_once(const struct machine *m, const struct edge *e)
     return turns;
 }
 
-/* A number that is not the best any more is given up between turns, and the kernel for it with it. */
+/* If the best number changes, the old number and its kernel are given up between turns. */
 int turns_noted(struct machine *m, struct edge *e)
 {
     const struct replay *p = m->run->replay;
@@ -59,8 +62,8 @@ int turns_noted(struct machine *m, struct edge *e)
     return e->turns_count * e->calls_count <= CALLS_MOST ? e->turns_count : 1;
 }
 
-/* Loops that are worth it are to be evaluated many turns at a time. For that all turns must begin alike, and those
- * that are known do not. */
+/* Makes evaluations thorough, for a loop that pays with many turns at once. All turns must
+ * then begin alike; the edges known so far do not. */
 static bool become_thorough(struct machine *m, struct edge *e)
 {
     struct replay *p = m->run->replay;
@@ -68,7 +71,8 @@ static bool become_thorough(struct machine *m, struct edge *e)
         e->runs < TURNS_SEEN || !e->alone)
         return false;
     int turns = turns_at_once(m, e);
-    if (turns < 2 || m->run->turns_in_row < 2 * turns) /* who looks more often gains nothing */
+    if (turns < 2 || m->run->turns_in_row < 2 * turns) /* the program looks too often for it
+                                                        * to pay */
         return false;
     if (!e->rehearsed_thorough && background_on(m)) {
         e->wants_thorough = true;
@@ -82,11 +86,11 @@ static bool become_thorough(struct machine *m, struct edge *e)
     return true;
 }
 
-/* Where many turns have not run for long, temporaries are left alone again. */
+/* If many turns have not run for long, temporaries are left as expressions again. */
 static void stay_thorough(struct machine *m)
 {
     struct replay *p = m->run->replay;
-    if (background_busy(m)) /* there will be better kernels soon */
+    if (background_busy(m)) /* better kernels will be there soon */
         p->built_at = m->run->flushes;
     if (!p->thorough || m->run->flushes - p->built_at <= 64)
         return;
@@ -110,8 +114,9 @@ static void turns_in_vain(struct machine *m)
     states_forget(m);
 }
 
-/* All that is noted is performed, and evaluated but for running the plan; then the state is entered again, and it is as if
- * nothing had been. False: it cannot be entered, and all has been performed. */
+/* Performs everything noted, and evaluates it without running the plan; then enters the
+ * state again, as if nothing had happened. False: the state cannot be entered; everything
+ * was performed. */
 static bool rehearse(struct machine *m, enum run_mode what)
 {
     struct replay *p = m->run->replay;
@@ -129,7 +134,7 @@ static bool rehearse(struct machine *m, enum run_mode what)
         m->run->rehearsed = NULL;
         run_evaluate(m, NULL, 0, false);
         m->run->mode = RUN_FREE;
-        machine_error_clear(m); /* it will be said when it matters */
+        machine_error_clear(m); /* the error is reported when it matters */
         graph_give_back(m);
         state_activate(m, active, p->from_buffers);
         states_from_forget(m);
@@ -147,7 +152,8 @@ static bool rehearse(struct machine *m, enum run_mode what)
     return back;
 }
 
-/* False: all has been performed, and is in memory. *plan: whose kernels are seen to; NULL: there is nothing to compute. */
+/* False: everything was performed, and is in memory. *plan: the plan whose kernels are being
+ * prepared; NULL: nothing to compute. */
 static bool rehearse_or_perform(struct machine *m, enum run_mode what, struct plan **plan)
 {
     bool back = rehearse(m, what);
@@ -187,7 +193,8 @@ enum loop_turns turns_see_to(struct machine *m)
         if (!e->rehearsed)
             return TURNS_AT_HAND;
     }
-    if (e->rehearsed && plan_is_hopeless(e->rehearsed)) { /* but fewer may be one kernel */
+    if (e->rehearsed && plan_is_hopeless(e->rehearsed)) { /* but fewer turns may fit one
+                                                           * kernel */
         e->turns_most = e->turns_count / 2;
         e->turns_count = e->turns_most > 1 ? 0 : 1;
         e->rehearsed = NULL;
@@ -197,7 +204,7 @@ enum loop_turns turns_see_to(struct machine *m)
     }
     if (e->rehearsed && !plan_waits(m, e->rehearsed))
         return TURNS_AT_HAND;
-    p->built_at = m->run->flushes; /* it is not in vain yet */
+    p->built_at = m->run->flushes; /* not a failed trial yet */
     return TURNS_WAIT;
 }
 
