@@ -1,13 +1,16 @@
 /* commands.c - the device's own times of its commands.
  *
- * An event is asked for with each command, and read when it has ended, in the order of the queue.
- * The device's clock is its own. That it put a command down as queued happened while we queued it:
+ * Each command has an event, which is read when the command has ended, in the order of the
+ * queue. The device has its own clock. Its time `queued` lies within our call that queued the
+ * command:
  *
  *     our clock       before ...... after          before <= queued + offset <= after
  *     its clock              queued
  *
- * so each command bounds the offset from both sides, as does that it had ended when we found that it had. The offset
- * moves only as far as the newest command's bounds ask, which follows clocks that run apart, too. */
+ * So each command bounds the offset of the clocks from both sides. Our finding that a
+ * command has ended gives a further bound. The offset is moved only as far as the newest
+ * command's bounds require, so it follows clocks that drift apart.
+ */
 #include <stdio.h>
 
 #include "watch/trace.h"
@@ -77,7 +80,7 @@ void watch_moves(struct machine *m, cl_int error, const char *what, size_t bytes
     commanded(m, error, sums_note(m->watch->explain, NULL, what, 0, 0), bytes);
 }
 
-/* What is known of a command that has ended goes to the trace. */
+/* Reports a command that has ended to the trace. */
 static void tell(struct machine *m, const struct command *c, double start, double end,
                  bool timed)
 {
@@ -135,7 +138,8 @@ static void command_end(struct machine *m, const struct command *c)
     if (timed) {
         clocks_compare(w, &t, c->before, c->after);
         start = 1e-9 * (double)t.started + w->offset;
-        start = start > w->device_end ? start : w->device_end; /* one after the other */
+        start = start > w->device_end ? start : w->device_end; /* commands run one after the
+                                                                * other */
         end = start + 1e-9 * (double)(t.ended - t.started);
         w->device_end = end;
         c->note->facts.runs_timed++;
@@ -145,7 +149,8 @@ static void command_end(struct machine *m, const struct command *c)
         tell(m, c, start, end, timed);
 }
 
-/* The clocks, on commands that do nothing: the first kernels take long to be queued, for they are compiled. */
+/* Calibrates the clocks with commands that do nothing. The first kernels would not serve,
+ * since they take long to be queued: they are compiled. */
 static void clocks_begin(struct watch *w, cl_mem scratch)
 {
     for (int i = 0; i < 8; i++) {
@@ -175,7 +180,7 @@ void commands_settle(struct machine *m, bool wait)
         struct command *c = &w->commands[w->commands_first];
         cl_int state = CL_COMPLETE;
         clGetEventInfo(c->done, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof state, &state, NULL);
-        if (state > CL_COMPLETE) /* below: it failed, which is said elsewhere */
+        if (state > CL_COMPLETE) /* negative: it failed, which is reported elsewhere */
             return;
         if (state == CL_COMPLETE)
             command_end(m, c);

@@ -1,8 +1,9 @@
-/* sums.c - adds up what watch.c is told.
+/* sums.c - adds up what the hooks of watch.h report.
  *
- * What became of each value that a program made is told once: it was computed, in the first evaluation that reached
- * it, or it was let go of before any did. Calls that are foreseen make no values; the kernels that they run are
- * counted like all others. */
+ * The fate of each value is counted once: it was computed, in the first evaluation that
+ * reached it, or released before any evaluation did. Foreseen calls make no values; the
+ * kernels that they run are counted like all others.
+ */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
 /* trace.c - writes the file of trace.h.
  *
- * Events are gathered in a buffer and written at offsets of our own, so that the closing bracket can be
- * written over by what comes after it. */
+ * Events are collected in a buffer and written by pwrite() at known offsets, so that later
+ * events overwrite the closing bracket.
+ */
 #include "watch/trace.h"
 
 #include <errno.h>
@@ -21,10 +22,11 @@ enum { BUFFER_BYTES = 1 << 16, EVENT_BYTES = 2048, NAME_BYTES = 512 };
 static struct {
     pthread_mutex_t lock;
     int file;             /* -1: none */
-    char *path, *refused; /* the last one that could not be opened: it has been said */
-    pid_t owner;          /* who opened it: a child of a fork has no say */
+    char *path, *refused; /* refused: the last path that could not be opened, which has been
+                           * reported */
+    pid_t owner;          /* the process that opened the file: forked children must not write */
     bool seekable, failed, full;
-    off_t end; /* of what has been written, without the bracket */
+    off_t end; /* the file's length without the bracket */
     char buffer[BUFFER_BYTES];
     size_t length;
     double began_s;
@@ -72,7 +74,7 @@ static void flush(void)
     trace.length = 0;
 }
 
-/* Bytes of a string of JSON; what is no plain character becomes a question mark. Cut to size. */
+/* Quotes a string for JSON; other than plain characters become question marks. Cut to size. */
 static const char *quoted(char *out, size_t size, const char *text)
 {
     size_t length = 0;
@@ -106,7 +108,7 @@ __attribute__((format(printf, 1, 2))) static void event_write(const char *format
     int count = vsnprintf(at + begun, EVENT_BYTES - begun, format, arguments);
     va_end(arguments);
     if (count < 0 || (size_t)count >= EVENT_BYTES - begun)
-        return; /* too long: left out */
+        return; /* the event is too long: left out */
     trace.length += begun + (size_t)count;
     trace.events++;
 }
@@ -193,7 +195,7 @@ void trace_event(int machine, enum trace_track track, const char *name, const ch
     char text[NAME_BYTES], length[40];
     bool moment = end_s < start_s;
     pthread_mutex_lock(&trace.lock);
-    /* Both ends are rounded, so that what ends together does so in the file. */
+    /* Both ends are rounded, so that events that end together also do in the file. */
     long long start_ns = (long long)((start_s - trace.began_s) * 1e9),
               end_ns = (long long)((end_s - trace.began_s) * 1e9);
     start_ns = start_ns < 0 ? 0 : start_ns;

@@ -1,4 +1,4 @@
-/* watch.c - takes what the hooks say to the trace's file and to the sums. */
+/* watch.c - passes what the hooks report to the trace's file and to the sums. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -130,7 +130,7 @@ void watch_background(struct machine *m, double start, double end, const char *o
 
 /* ---- calls ---- */
 
-/* False: nobody is told. */
+/* False: observers are not told. */
 static bool between_calls(const struct watch *w)
 {
     if (!w->silent && !w->depth && w->explain->between)
