@@ -1,4 +1,4 @@
-/* create.c - a machine made, with all its layers, and destroyed. */
+/* create.c - creates a machine with all its layers, and destroys it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,9 +32,9 @@ static enum machine_status set_processors(struct machine *m, int wanted)
     return MACHINE_OK;
 }
 
-/* A machine with all its layers, in one piece. */
+/* A machine and all its layers, allocated in one piece. */
 struct machine_layers {
-    struct machine machine; /* first: the piece is released by its address */
+    struct machine machine; /* first: the whole is freed by this address */
     struct device device;
     struct values values;
     struct plans plans;
@@ -42,7 +42,7 @@ struct machine_layers {
     struct run run;
 };
 
-/* Those who watch get to know the device. */
+/* Tells the observers which device it is. */
 static void be_watched(struct machine *m)
 {
     char title[400];
@@ -52,7 +52,7 @@ static void be_watched(struct machine *m)
     watch_ready(m, m->device->queue, scratch ? scratch->mem : NULL, title);
     if (scratch)
         device_buffer_unref(m, scratch);
-    machine_error_clear(m); /* then later commands must do */
+    machine_error_clear(m); /* commands without times: later commands must do */
     struct watch_sums *sums = watch_explain(m);
     if (sums)
         copies_ready(m, sums);
@@ -102,7 +102,7 @@ void machine_destroy(struct machine *m)
 {
     if (!m)
         return;
-    m->run->calls_noted = 0; /* nobody is going to look */
+    m->run->calls_noted = 0; /* nothing reads the noted calls' results any more */
     m->run->flush_due = false;
     background_finish(m);
     watch_leave(m);

@@ -13,14 +13,14 @@
  *     machine_field_store(m, f, machine_binary(m, MACHINE_FADD, x, x), MACHINE_WHERE_ACTIVE);
  *     machine_field_download(m, f, MACHINE_F32, host_array);
  *
- * Nothing between create and download computes: each call says what a value now is, and what is
- * observed is computed by as few generated kernels as the cost model allows.  See
+ * No call between create and download computes: each call records what a value now is. Values
+ * that are observed are computed by as few generated kernels as the cost model allows.  See
  * docs/engine.md.
  *
  * Values. A `struct machine_value *` is one number for each virtual processor of a VP set, or
  * one number for all of them (a constant). It is immutable and borrowed: valid until the next
- * machine_begin(), and longer only as the content of a field or flag. Whoever drives the
- * machine calls machine_begin() before each instruction.
+ * machine_begin(), and longer only as the content of a field or flag. The caller calls
+ * machine_begin() before each instruction.
  *
  * Types. Bits of width 1..128 (signedness belongs to the operations), IEEE single and double,
  * and floats of other formats (see machine_float_type()). Reading a field with another type or
@@ -31,8 +31,8 @@
  * Errors. Functions that can fail return a status, or NULL / 0 with machine_status_last() set;
  * the detail is in machine_error(). A failed call changes nothing.
  *
- * Threads. One machine belongs to one thread at a time. On PoCL a process, which is no child of the program, may compile
- * better kernels beside it (LUTETIA_BACKGROUND=0: none).
+ * Threads. One machine belongs to one thread at a time. With PoCL, a separate process (no
+ * child of the program) may compile better kernels meanwhile (LUTETIA_BACKGROUND=0: none).
  */
 #ifndef LUTETIA_MACHINE_H
 #define LUTETIA_MACHINE_H
@@ -48,7 +48,7 @@ struct machine_value;
 
 enum machine_status {
     MACHINE_OK = 0,
-    MACHINE_BAD_ARGUMENT, /* a width, axis, size or handle that cannot be */
+    MACHINE_BAD_ARGUMENT, /* a width, axis, size or handle that is out of range */
     MACHINE_NO_DEVICE,    /* no OpenCL platform, or none that fits the choice */
     MACHINE_NO_MEMORY,    /* of the host or of the device */
     MACHINE_BUILD_FAILED, /* a kernel did not compile: the log is in machine_error() */
@@ -61,23 +61,23 @@ enum machine_kind { MACHINE_BITS, MACHINE_FLOAT };
 struct machine_type {
     uint8_t kind;  /* enum machine_kind */
     uint8_t width; /* bits 1..128; float 32 or 64 */
-    uint8_t s, e;  /* of a float of another format; else 0, 0 */
+    uint8_t s, e;  /* significand and exponent of another format; else 0, 0 */
 };
 #define MACHINE_UINT(bits) ((struct machine_type){MACHINE_BITS, (uint8_t)(bits), 0, 0})
 #define MACHINE_BIT ((struct machine_type){MACHINE_BITS, 1, 0, 0})
 #define MACHINE_F32 ((struct machine_type){MACHINE_FLOAT, 32, 0, 0})
 #define MACHINE_F64 ((struct machine_type){MACHINE_FLOAT, 64, 0, 0})
 
-/* Floats of other formats. s bits of significand, 1..52, and e of exponent, 2..11, are laid out
- * as IEEE's are, with bias 2^(e - 1) - 1, subnormals, infinities and NaNs. Each of their
- * numbers is a double, and as values they are doubles (width 64, s and e set): uploads,
- * downloads, reading and writing take and give doubles, of which those written are rounded. In
- * fields they have s + e + 1 bits. Operations on them are rounded once, to nearest even, to the
- * format: FADD, FSUB, FMUL, FDIV, FSQRT and conversions from whole numbers from the exact
- * result, others from the double's. Reductions add in double and round the sum. */
+/* Floats of other formats. s bits of significand, 1..52, and e of exponent, 2..11, are laid
+ * out as IEEE's are, with bias 2^(e - 1) - 1, subnormals, infinities and NaNs. Each number
+ * of such a format is a double, and values of the format are doubles (width 64, s and e
+ * set). Uploads, downloads, reading and writing use doubles; those written are rounded. In
+ * fields the numbers have s + e + 1 bits. Operations round once, to nearest even: FADD,
+ * FSUB, FMUL, FDIV, FSQRT and conversions from integers round the exact result, others round
+ * the double's result. Reductions add in double and round the sum. */
 #define MACHINE_SOFT(s, e)                                                                     \
     ((struct machine_type){MACHINE_FLOAT, 64, (uint8_t)(s), (uint8_t)(e)})
-/* The type of floats with s and e: the native ones for 23, 8 and 52, 11. */
+/* The type of floats with s and e: the native types for 23, 8 and 52, 11. */
 struct machine_type machine_float_type(int s, int e);
 /* How many bits of a field a value of the type takes. */
 int machine_type_bits(struct machine_type type);
@@ -90,18 +90,19 @@ struct machine_scalar {
 
 /* ---- how code is generated for a device ---- */
 
-/* None of these changes a bit of a result. */
+/* Tuning parameters. None of them changes a bit of a result. */
 enum machine_knob {
     MACHINE_VECTOR,      /* lanes of 32 bits in a work-item: 1, 4, 8 or 16 */
     MACHINE_RUN,         /* columns that a work-item goes along */
-    MACHINE_STREAMS,     /* 1: large arrays are stored past the caches; 0: through them */
-    MACHINE_TURNS,       /* of a loop that are evaluated at once, at most; 1: one by one */
-    MACHINE_COLUMNS,     /* of a strip, in which several turns go through the caches */
+    MACHINE_STREAMS,     /* the most turns of a loop that are evaluated at once; 1: one by
+                          * one */
+    MACHINE_TURNS,       /* columns of a strip, in which several turns go through the caches */
+    MACHINE_COLUMNS,     /* approximate number of strips for each compute unit */
     MACHINE_STRIPS_EACH, /* strips for each compute unit, about */
     MACHINE_KNOBS
 };
 struct machine_tuning {
-    int of[MACHINE_KNOBS]; /* -1: what usually suits the kind of device */
+    int of[MACHINE_KNOBS]; /* -1: the usual value for the kind of device */
 };
 const char *machine_knob_name(enum machine_knob knob); /* "vector" */
 bool machine_knob_allows(enum machine_knob knob, int value);
@@ -110,43 +111,43 @@ struct machine_tuning machine_tuning_usual(void);
 /* ---- the machine ---- */
 
 struct machine_config {
-    const char *device;   /* part of a platform's or device's name, an index, or NULL:
-                             LUTETIA_DEVICE, else first */
+    const char *device;   /* part of a platform's or device's name, or an index; NULL:
+                           * LUTETIA_DEVICE, else the first */
     int processors_count; /* physical processors, a power of two; 0: LUTETIA_PROCESSORS, else
                              65536 */
     int eager;            /* evaluate after every store; -1: LUTETIA_EAGER */
-    const char
-        *dump_dir; /* graphs and kernels are written here; NULL: LUTETIA_DUMP, else nowhere */
-    const char *trace; /* a file for what happens when; NULL: LUTETIA_TRACE, else none. One
-                          that cannot be written is said once, on the standard error */
-    int explain;       /* 1: takes note of what machine_explain() tells */
+    const char *dump_dir; /* folder for graphs and kernels; NULL: LUTETIA_DUMP, else none */
+    const char *trace;    /* trace file; NULL: LUTETIA_TRACE, else none. If it cannot be
+                        * written, one line on the standard error says so */
+    int explain;          /* 1: collect the facts for machine_explain() */
     const struct machine_tuning
-        *tuning; /* NULL: what machine_tuning_keep() kept for the device */
+        *tuning; /* NULL: what machine_tuning_keep() stored for the device */
 };
 struct machine_config machine_config_default(void);
 
-/* Owns: *out is set even on failure when there is an error text to read; machine_destroy()
- * takes it then too. */
+/* Owns: after a failure *out may be set, for its error text; machine_destroy() frees it
+ * then, too. */
 enum machine_status machine_create(const struct machine_config *config, struct machine **out);
 void machine_destroy(struct machine *m); /* NULL is fine */
 
-/* For exit handlers: waits for kernels that still run, so that nothing is pulled from under them, and
- * releases nothing. Returns at once where it must not wait: in another thread, or when the exit
- * comes from inside an evaluation (a compiler that gave up). NULL is fine. */
+/* For exit handlers: waits for running kernels, which still use the driver and their
+ * buffers, and releases nothing. Returns at once where waiting is impossible: in another
+ * thread, or if the exit comes from inside an evaluation (a compiler called exit()). NULL is
+ * fine. */
 void machine_leave(struct machine *m);
 
 enum machine_status machine_status_last(const struct machine *m);
 const char *machine_error(const struct machine *m); /* the last failure, one line; "" if none */
 void machine_error_clear(struct machine *m);
 
-/* Starts an instruction: values handed out before are released. */
+/* Starts an instruction: releases the values that were handed out before. */
 void machine_begin(struct machine *m);
 
 /* ---- calls seen before ---- */
 
-/* An instruction as its driver knows it: which one, and the numbers that it was called with. What it does
- * must follow from these, the current VP set, which fields there are, and what fields and flags hold. A
- * driver that says
+/* An instruction as its caller knows it: which one, and the numbers passed to it. Its effect
+ * must depend only on these, the current VP set, the existing fields, and the contents of
+ * fields and flags. If a caller writes
  *
  *     struct machine_call call = {.again = perform_add, .words_count = 2, .words = {dest, source}};
  *     if (machine_call_foreseen(m, &call))
@@ -154,57 +155,61 @@ void machine_begin(struct machine *m);
  *     ... machine_begin(), values, stores ...
  *     machine_call_performed(m);
  *
- * has steps that it repeats run without being recorded again: true says that the call is as expected
- * and will have been performed when anybody looks. again() is then asked to perform it after all where
- * what follows is not as expected. */
+ * then repeated steps run without being recorded again. True means that the call is as
+ * expected; it will have been performed before anything is observed. If later calls are not
+ * as expected, again() is called to perform it after all.
+ */
 enum { MACHINE_CALL_WORDS = 8 };
 struct machine_call {
     void (*again)(const struct machine_call *call);
-    const char *name; /* for those who watch; a literal */
+    const char *name; /* the name in traces and reports; a literal */
     int vpset;        /* set by the machine */
     uint32_t words_count;
     uint64_t words[MACHINE_CALL_WORDS];
 };
 bool machine_call_foreseen(struct machine *m, struct machine_call *call);
 void machine_call_performed(struct machine *m);
-/* It could not be performed, and that has been said. */
+/* Says that the call failed, and that the error has been reported. */
 void machine_call_failed(struct machine *m);
-/* Calls do something else from now on (a mode of the driver's has changed). */
+/* Says that calls have another effect from now on (a mode of the caller has changed). */
 void machine_calls_forget(struct machine *m);
 
 /* Computes what is pending, live and expected to be read again (not temporaries); does not
- * wait. Never needed for the right result. */
+ * wait. Results never depend on calling it. */
 enum machine_status machine_flush(struct machine *m);
 /* The same, and waits for the device. */
 enum machine_status machine_finish(struct machine *m);
 
 enum { MACHINE_CACHE_FOLDER_MAX = 512 };
-/* Where kernels and tunings are kept: $XDG_CACHE_HOME/lutetia or ~/.cache/lutetia, else a temporary folder that goes with the
- * process; *why, if asked for, says then why, and is NULL else. False: there is nowhere. */
+/* The folder of kernels and tunings: $XDG_CACHE_HOME/lutetia or ~/.cache/lutetia, else a
+ * temporary folder that is removed when the process ends. *why (may be NULL) gets the reason
+ * for a temporary folder, else NULL. False: there is no folder. */
 bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char **why);
 
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
-/* How code is generated: what the environment forces (docs/engine.md), else config's or the kept tuning, else what is
- * usual. None is -1. */
+/* The knobs in effect: what the environment forces (docs/engine.md), else config's or the
+ * stored tuning, else the usual values. None is -1. */
 struct machine_tuning machine_tuning_get(const struct machine *m);
-/* For all machines on that device from now on, whatever program makes them. The file appears when it is complete.
- * Errors: MACHINE_BAD_ARGUMENT (the file, and why it cannot be written); what was kept stays. */
+/* Stores a tuning for all machines on that device from now on, in all programs. The file
+ * appears when it is complete. Errors: MACHINE_BAD_ARGUMENT (the file, and why it cannot be
+ * written); the old tuning stays. */
 enum machine_status machine_tuning_keep(struct machine *m, const struct machine_tuning *tuning);
-/* In one line, whether there is a kept tuning for the device, in which file, and whether it is of use: */
+/* Says in one line whether there is a stored tuning for the device, in which file, and
+ * whether it is used: */
 enum machine_tuned { MACHINE_UNTUNED, MACHINE_TUNED, MACHINE_TUNED_BADLY };
 enum machine_tuned machine_tuning_describe(const struct machine *m, char *out, size_t size);
 const char *machine_device_driver(const struct machine *m); /* its version */
 
 struct machine_stats {
-    uint64_t stores;         /* values stored into fields and flags */
-    uint64_t values_live;    /* nodes in the graph now */
-    uint64_t calls_foreseen; /* calls that were performed without being recorded again */
-    uint64_t flushes;        /* evaluations */
-    uint64_t plans_built;    /* evaluations whose shape had not been seen */
-    uint64_t kernels_built;  /* compiled, or loaded from the disk cache */
-    uint64_t kernels_built_background; /* of these: while others ran (LUTETIA_BACKGROUND) */
+    uint64_t stores;                   /* values stored into fields and flags */
+    uint64_t values_live;              /* nodes in the graph now */
+    uint64_t calls_foreseen;           /* calls that were performed without being recorded */
+    uint64_t flushes;                  /* evaluations */
+    uint64_t plans_built;              /* evaluations of a new shape */
+    uint64_t kernels_built;            /* compiled, or loaded from the disk cache */
+    uint64_t kernels_built_background; /* of these, in the background (LUTETIA_BACKGROUND) */
     uint64_t kernels_run;
     uint64_t interpreted; /* stages of plans that ran without a kernel (LUTETIA_INTERPRET) */
     uint64_t kernels_in_place;  /* of these: over old values that nobody wants any more */
@@ -216,10 +221,10 @@ struct machine_stats {
 };
 void machine_stats_get(const struct machine *m, struct machine_stats *out);
 
-/* machine_begin(), and says which instruction it is, a literal, to those who watch. */
+/* Calls machine_begin(), and tells observers the instruction's name, a literal. */
 void machine_instruction(struct machine *m, const char *name);
 
-/* For `lutetia info`: calls back for each OpenCL device there is; returns how many. */
+/* For `lutetia info`: calls `each` for each OpenCL device; returns their number. */
 int machine_devices_list(void (*each)(void *context, int index, const char *platform,
                                       const char *device, const char *version,
                                       int compute_units, uint64_t memory_bytes),
@@ -233,27 +238,28 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
  * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
  * everywhere. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
-/* Where virtual processors are, with R the VP ratio, ceil(count / P), of P physical processors: in
- * NEWS order the one of row-major index n is VP n div P of processor n mod P; in send order it is VP
- * n mod R of processor n div R. A send address is processor * R + VP: in send order the row-major
- * index. machine_vpset_create() is NEWS order. */
+/* How virtual processors are assigned to P physical ones, with VP ratio R = ceil(count / P).
+ * In NEWS order the VP of row-major index n is VP n div P of processor n mod P. In send
+ * order it is VP n mod R of processor n div R. A send address is processor * R + VP: in send
+ * order the row-major index. machine_vpset_create() is NEWS order. */
 enum machine_order { MACHINE_NEWS_ORDER, MACHINE_SEND_ORDER };
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
                                  enum machine_order order);
-/* The same processors in another geometry of the same size: what is in the processor at a send address
- * stays there. */
+/* Gives the same processors another geometry of the same size. A processor is identified by
+ * its send address, and keeps its content. */
 enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
                                           int rank, enum machine_order order);
-enum machine_status machine_vpset_destroy(struct machine *m, int vpset); /* its fields go too */
+enum machine_status machine_vpset_destroy(struct machine *m,
+                                          int vpset); /* destroys its fields, too */
 enum machine_status machine_vpset_select(struct machine *m,
-                                         int vpset); /* values are built in this set */
+                                         int vpset); /* selects the set for new values */
 int machine_vpset_current(const struct machine *m);
 int machine_vpset_rank(const struct machine *m, int vpset);
 int machine_vpset_length(const struct machine *m, int vpset, int axis);
 uint64_t machine_vpset_count(const struct machine *m, int vpset); /* virtual processors */
 enum machine_order machine_vpset_order(const struct machine *m, int vpset);
 uint64_t machine_vpset_ratio(const struct machine *m, int vpset);
-/* The bits that hold a send address of the set: of P * R numbers; 1 at least. */
+/* The number of bits of a send address of the set, which has P * R addresses; at least 1. */
 int machine_address_bits(const struct machine *m, int vpset);
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index);
 /* The row-major index of a send address; UINT64_MAX if there is no such processor. */
@@ -264,14 +270,14 @@ uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address
 enum machine_region { MACHINE_STACK, MACHINE_HEAP };
 #define MACHINE_NO_FIELD 0u
 
-/* A field id is a bit address in a space of its own: id + k names the part that begins k bits
- * further on, so long as that is inside. New fields are zero. Returns MACHINE_NO_FIELD on
- * failure. */
+/* A field id is a bit address in its own address space: id + k names the part of the field
+ * that begins k bits further on, if that is inside the field. New fields are zero. Returns
+ * MACHINE_NO_FIELD on failure. */
 uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
                                 enum machine_region region);
 enum machine_status machine_field_deallocate(struct machine *m,
                                              uint32_t field); /* heap fields; exact id */
-/* The stack field and every stack field allocated after it (in any VP set). */
+/* Deallocates the stack field and every stack field allocated after it (in any VP set). */
 enum machine_status machine_field_deallocate_through(struct machine *m, uint32_t field);
 
 struct machine_field_info {
@@ -281,7 +287,7 @@ struct machine_field_info {
     int vpset;
     enum machine_region region;
 };
-/* false: there is no such field (any more). Does not set the error. */
+/* False if there is no such field (any more). Does not set the error. */
 bool machine_field_lookup(const struct machine *m, uint32_t field,
                           struct machine_field_info *out);
 /* The VP set of the field that the id is in; 0: it is in none. */
@@ -299,26 +305,24 @@ bool machine_field_runs_over(const struct machine *m, uint32_t field, uint32_t b
 
 /* ---- aliases ---- */
 
-/* A field that is the same memory, from that bit of the field on, seen from the VP set. Memory belongs to
+/* Makes a field that is the same memory, from that bit of the field on, seen from the VP set. Memory belongs to
  * physical processors: of a field of L bits in a set of VP ratio R each has R * L bits, VP after VP.
  *  - The set has the same ratio: its VPs see their own bits, L - offset of them.
  *  - k times the ratio: the L - offset bits of each VP are shared out among k, (L - offset) / k to each.
  *  - a k-th of it: each VP sees the bits of k one after the other, without the first offset.
  *  - other ratios: the bits of the processor are shared out, one VP after the other.
- * Stores are seen from all sides. Bits of VPs that do not exist (in a set whose size is no multiple of the
- * processors) are 0 and are not kept. An alias of an alias is one of its memory. It goes with the memory, or
- * with its VP set. Its id takes offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
+ * Stores through one are visible through all. Bits of VPs beyond the set's size (if it is no multiple of the processors) are 0 and are not kept. An alias of an alias is an alias of the same memory. An alias is deallocated with its memory, or with its VP set. Its id takes offsets as any field's. MACHINE_NO_FIELD: it could not be made. */
 uint32_t machine_alias_make(struct machine *m, uint32_t field, int vpset);
-/* The alias is one of another field from now on, in its own VP set. */
+/* Makes the alias one of another field, in its own VP set. */
 enum machine_status machine_alias_change(struct machine *m, uint32_t alias, uint32_t field);
 enum machine_status machine_alias_remove(struct machine *m, uint32_t alias);
 bool machine_is_alias(struct machine *m, uint32_t field);
 
 /* ---- values ---- */
 
-/* WHERE_ACTIVE: the caller stores what it makes of this value under the present context, so
- * what inactive processors hold does not matter. EVERYWHERE: it does (neighbours will read it;
- * a store ignores the context). */
+/* WHERE_ACTIVE: the caller uses the value only for stores under the present context, so its
+ * content in inactive processors does not matter. EVERYWHERE: that content matters
+ * (neighbours will read it, or a store ignores the context). */
 enum machine_scope { MACHINE_WHERE_ACTIVE, MACHINE_EVERYWHERE };
 
 struct machine_value *machine_field_value(struct machine *m, uint32_t field,
@@ -336,48 +340,51 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
                                        struct machine_value *value, enum machine_scope scope);
 
 struct machine_type machine_value_type(const struct machine_value *v);
-/* It is known to be 0 everywhere: the number, or bits that nobody wrote. */
+/* Whether the value is known to be 0 everywhere: the constant, or bits that were never
+ * written. */
 bool machine_value_is_zero(const struct machine_value *v);
 
 /* Constants: bits above the width are ignored. */
 struct machine_value *machine_constant(struct machine *m, struct machine_type type,
                                        struct machine_scalar bits);
-/* A front-end number as a float of 32 or 64 bits, rounded; every NaN is the one that operations give. */
+/* A front-end number rounded to a float of 32 or 64 bits; every NaN becomes *the* NaN. */
 struct machine_scalar machine_float_bits(struct machine_type type, double x);
 /* Rounded to the type. */
 struct machine_value *machine_constant_float(struct machine *m, struct machine_type type,
                                              double x);
 
-/* Numbers that processors know: NEWS coordinate, send address, row-major index; cut off to the
- * width. */
+/* Functions of a processor's place: NEWS coordinate, send address, row-major index; the low
+ * bits up to the width. */
 struct machine_value *machine_coordinate(struct machine *m, int axis, int width);
 struct machine_value *machine_self_address(struct machine *m, int width);
 struct machine_value *machine_self_index(struct machine *m, int width);
 
-/* Uniform on 0..limit-1 (limit 0: on all of 2^width); another draw at each call. A function of
- * the seed, the number of the draw and the row-major index alone, the same on every device:
- * with mix() the finaliser of splitmix64 and g = 0x9e3779b97f4a7c15, draw k (from 1) of index n
- * is z = mix(mix(mix(seed) + k*g) + n*g), and the result the high width bits of z, or (z >>
- * 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of z*limit. Wider than 64 bits:
- * two draws, the low 64 bits first; with a limit the high part is 0. */
+/* Random numbers, uniform on 0..limit-1 (limit 0: on all of 2^width); each call draws anew.
+ * They depend only on the seed, the number of the draw and the row-major index, and are the
+ * same on every device. With mix() the finaliser of splitmix64 and g = 0x9e3779b97f4a7c15,
+ * draw k (from 1) of index n is z = mix(mix(mix(seed) + k*g) + n*g), and the result the high
+ * width bits of z, or (z >> 32)*limit >> 32 for a limit under 2^32, or the high 64 bits of
+ * z*limit. Wider than 64 bits: two draws, the low 64 bits first; with a limit the high part
+ * is 0. */
 struct machine_value *machine_random(struct machine *m, int width, uint64_t limit);
 void machine_random_seed(struct machine *m, uint64_t seed);
 
-/* A function of floats in kernels/math.cl: exp, sine, power, remainder, ... */
+/* Whether the operation is a function of floats in kernels/math.cl: exp, sine, power,
+ * remainder, ... */
 bool machine_op_is_function(int op);
 struct machine_value *machine_unary(struct machine *m, enum machine_op op,
                                     struct machine_value *a);
 struct machine_value *machine_binary(struct machine *m, enum machine_op op,
                                      struct machine_value *a, struct machine_value *b);
-/* USHIFT, SSHIFT, ROTATE by a signed count of any width: what is beyond the value's width counts
- * as that width, for ROTATE modulo it. */
+/* USHIFT, SSHIFT, ROTATE by a signed count of any width. A count beyond the value's width is
+ * clamped to the width; for ROTATE it is taken modulo the width. */
 struct machine_value *machine_bits_shift(struct machine *m, enum machine_op op,
                                          struct machine_value *a, struct machine_value *count);
 /* condition ? a : b for each processor; a and b have one type. */
 struct machine_value *machine_select(struct machine *m, struct machine_value *condition,
                                      struct machine_value *a, struct machine_value *b);
 
-/* Bits to bits of another width. */
+/* Bits resized to another width. */
 struct machine_value *machine_resize(struct machine *m, struct machine_value *a, int width,
                                      bool is_signed);
 /* The width bits of a that begin at offset. */
@@ -392,34 +399,34 @@ struct machine_value *machine_reinterpret(struct machine *m, struct machine_valu
 /* Bits to float, rounded to nearest even; float to float. */
 struct machine_value *machine_to_float(struct machine *m, struct machine_value *a,
                                        struct machine_type type, bool is_signed);
-/* Float to bits, toward zero; beyond the range the nearest end of it, NaN gives 0. */
+/* Float to bits, rounded toward zero; out of range, the nearest end of the range; a NaN
+ * gives 0. */
 struct machine_value *machine_to_bits(struct machine *m, struct machine_value *a, int width,
                                       bool is_signed);
 
-/* Each processor has the value of the one whose coordinate on the axis is greater by distance
- * (any sign); wraps round. Take the operand EVERYWHERE. */
+/* Each processor has the value of the one whose coordinate on the axis is greater by
+ * distance (any sign); wraps round. The operand must be read EVERYWHERE. */
 struct machine_value *machine_shift(struct machine *m, struct machine_value *a, int axis,
                                     int distance);
 
-/* The overflow flag of active processors becomes "op(a, b) does not fit"; recorded, and
- * computed only if it is ever looked at. op: ADD, SUB, MUL, NEG (b NULL) on bits; FADD, FSUB,
- * FMUL, FDIV (infinite from finite). */
+/* Sets the overflow flag of active processors to "op(a, b) does not fit". The flag is
+ * recorded, and computed only if it is read. op: ADD, SUB, MUL, NEG (b NULL) on bits; FADD,
+ * FSUB, FMUL, FDIV (infinite from finite). */
 enum machine_status machine_overflow_record(struct machine *m, enum machine_op op,
                                             bool is_signed, struct machine_value *a,
                                             struct machine_value *b);
 
-/* The same with a float that is there already: overflow of active processors becomes "result is
- * infinite and operand is not, nor NaN". */
+/* The same for an existing float: overflow of active processors becomes "result is infinite,
+ * and operand is neither infinite nor a NaN". */
 enum machine_status machine_overflow_record_result(struct machine *m,
                                                    struct machine_value *result,
                                                    struct machine_value *operand);
-/* The same for an overflow that is no operation's: the bit itself. Computed only if it is ever looked
- * at. */
+/* The same for a given bit, which is computed only if the flag is read. */
 enum machine_status machine_overflow_record_value(struct machine *m,
                                                   struct machine_value *overflows);
 
-/* Computes these now, so that what is made of them finds them in memory. Never needed for the
- * right result: a long chain of equal parts becomes one kernel that runs often. */
+/* Computes these values now, so that later operations find them in memory. Results never
+ * depend on it; a long chain of equal parts becomes one kernel that runs often. */
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count);
 
 /* ---- the router ---- */
@@ -438,22 +445,23 @@ enum machine_combiner {
     MACHINE_COMBINE_FMIN,
     MACHINE_COMBINE_FMAX
 };
-/* Each active processor of the current VP set sends source to dest in the processor at the send
- * address; dest may be in another VP set, whose context does not matter. As if one sender after the
- * other, in the order of their row-major indices, did dest = combine (dest, its source) there, with
- * the machine's operation of that name: so with OVERWRITE the sender with the highest index wins, and
- * sums of floats begin with the old dest. Of the address the low machine_address_bits() of dest's set
- * count; messages to a processor that does not exist are lost. notify: a bit field of dest's set,
- * which becomes 1 where a message arrived and 0 elsewhere; or MACHINE_NO_FIELD. */
+/* Each active processor of the current VP set sends source to dest in the processor at the
+ * send address; dest may be in another VP set, whose context does not matter. The result is
+ * as if the senders, one after the other in the order of their row-major indices, did dest =
+ * combine (dest, their source) with the machine's operation of that name. So with OVERWRITE
+ * the sender with the highest index wins, and sums of floats begin with the old dest. Only
+ * the low machine_address_bits() (of dest's set) of an address count. Messages to a
+ * processor that does not exist are lost. notify: a bit field of dest's set, which becomes 1
+ * where a message arrived and 0 elsewhere; or MACHINE_NO_FIELD. */
 enum machine_status machine_send(struct machine *m, uint32_t dest,
                                  struct machine_value *send_address,
                                  struct machine_value *source, enum machine_combiner combiner,
                                  uint32_t notify);
-/* What the field holds in the processor at each active processor's send address, 0 where there is no
- * such processor; anything in inactive processors. The field may be in another VP set. */
+/* Reads the field in the processor at each active processor's send address; 0 if there is no
+ * such processor, undefined in inactive processors. The field may be in another VP set. */
 struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
                                   uint32_t source, struct machine_type type);
-/* How many active processors have an address that vpset has no processor for; waits. */
+/* Counts the active processors whose address is of no processor of vpset; waits. */
 enum machine_status machine_addresses_check(struct machine *m,
                                             struct machine_value *send_address, int vpset,
                                             uint64_t *wrong);
@@ -472,36 +480,37 @@ enum machine_scan_op {
     MACHINE_SCAN_SMAX,
     MACHINE_SCAN_FADD,
     MACHINE_SCAN_FMUL,
-    MACHINE_SCAN_FMIN, /* pass over NaNs; -0 is less than 0 */
+    MACHINE_SCAN_FMIN, /* ignore NaNs; -0 is less than 0 */
     MACHINE_SCAN_FMAX
 };
 enum machine_segments {
     MACHINE_UNSEGMENTED,
-    MACHINE_START_BIT,  /* where an active processor has a 1, in the scan's direction */
-    MACHINE_SEGMENT_BIT /* a 1, active or not, is in the first processor of a segment, the one
-                           with the least coordinate, in both directions */
+    MACHINE_START_BIT,  /* segments begin where an active processor has a 1, in the scan's
+                         * direction */
+    MACHINE_SEGMENT_BIT /* segments begin where a processor, active or not, has a 1: it is
+                         * the segment's first, with the least coordinate, in both directions */
 };
 struct machine_scan {
     enum machine_scan_op op;
     int axis;
     bool downward;  /* from the greatest coordinate to the least */
-    bool exclusive; /* without the processor's own */
+    bool exclusive; /* excludes the processor's own value */
     enum machine_segments segments;
     struct machine_value *bits; /* of the segments; taken EVERYWHERE */
 };
-/* In each active processor, the combination of the active processors from the beginning of its
- * segment to itself, along the axis. Exclusive: the identity where there is none (COPY: 0).
- * The value is taken WHERE_ACTIVE; what inactive processors get is not specified.
- * The order of float addition and multiplication is fixed: in each run of 512 processors along
- * the axis, counted from where the scan comes from, one after the other from 0 (or 1) on, and
- * anew from the beginning of a segment; before the first beginning of a segment in the run, to
- * the left of that, what goes before: the combination of the runs' own from the beginning of the
- * segment on, one after the other. */
+/* In each active processor, the combination of the active processors from the beginning of
+ * its segment to itself, along the axis. Exclusive: the identity if there is none (COPY: 0).
+ * The value is taken WHERE_ACTIVE; the result in inactive processors is undefined. The order
+ * of float addition and multiplication is fixed. The axis is divided into runs of 512
+ * processors, counted from the end where the scan begins. Within a run, values are combined
+ * one after the other, from 0 (or 1), and anew from each beginning of a segment. A processor
+ * before the first beginning in its run also gets, as the left operand, the combination of
+ * the earlier runs' totals, one after the other from the segment's beginning. */
 struct machine_value *machine_scan(struct machine *m, const struct machine_scan *how,
                                    struct machine_value *value);
-/* In each processor, the combination of all active ones that differ from it only on the axes of
- * the mask (bit 0: axis 0). The order is that of a scan up the greatest axis of the mask, then
- * of these results along the next, and so on. Not COPY. */
+/* In each processor, the combination of all active ones that differ from it only on the axes
+ * of the mask (bit 0: axis 0). The order is that of a scan upward along the greatest axis of
+ * the mask, then of its results along the next axis, and so on. COPY is not allowed. */
 struct machine_value *machine_spread(struct machine *m, enum machine_scan_op op, uint32_t axes,
                                      struct machine_value *value);
 /* In each processor, the value of the one on its line along the axis with that coordinate, active
@@ -512,10 +521,10 @@ struct machine_value *machine_spread_coordinate(struct machine *m, int axis, int
  * taken EVERYWHERE. */
 struct machine_value *machine_spread_index(struct machine *m, uint64_t index,
                                            struct machine_value *value);
-/* In each active processor, 32 bits: its position along the axis if the active processors of its
- * segment were sorted by value into the segment's first places. Equal ones keep their order;
- * downward the greatest comes first. Floats: -0 equals 0, NaNs come last in both directions.
- * Segments begin at bits, counted upward in both directions. */
+/* In each active processor, 32 bits: its position along the axis if the active processors of
+ * its segment were sorted by value into the segment's first places. Equal values keep their
+ * order; downward, the greatest comes first. Floats: -0 equals 0, NaNs come last in both
+ * directions. Segments begin at bits, counted upward in both directions. */
 struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
                                    enum machine_segments segments, struct machine_value *bits,
                                    struct machine_value *value);
@@ -535,19 +544,19 @@ enum machine_reduction {
     MACHINE_REDUCE_FMIN,
     MACHINE_REDUCE_FMAX
 };
-/* Over the active processors; the identity where none is (FMIN +inf, FMAX -inf, UMIN all ones,
- * ...). The order of float addition is fixed: in each run of up to 4096 along the last axis,
- * sixteen partial sums by column mod 16 (columns counted from the run's start), each in column
- * order from +0, inactive skipped; these are added pairwise, i with i+8, then i+4, i+2, i+1;
- * then the runs' sums, in row-major order of the runs, pairwise: while more than one is left,
- * sum 2i and 2i+1 become sum i, an odd last one stays as it is. FMIN and FMAX go the same way,
- * pass over NaNs, and of equal numbers (0 and -0) keep the one met first. */
+/* Over the active processors; the identity where none is (FMIN +inf, FMAX -inf, UMIN all
+ * ones, ...). The order of float addition is fixed: in each run of up to 4096 along the last
+ * axis, sixteen partial sums by column mod 16 (columns counted from the run's start), each
+ * in column order from +0, inactive skipped; these are added pairwise, i with i+8, then i+4,
+ * i+2, i+1; then the runs' sums, in row-major order of the runs, pairwise: while more than
+ * one is left, sum 2i and 2i+1 become sum i, an odd last one stays as it is. FMIN and FMAX
+ * use the same order, ignore NaNs, and of equal numbers (0 and -0) keep the first. */
 enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
                                    struct machine_value *value, struct machine_scalar *out);
 
-/* Whole fields, as dense row-major arrays. Shape: one element a processor: 1, 2, 4, 8 or 16
+/* Whole fields as dense row-major arrays. Shape: one element a processor of 1, 2, 4, 8 or 16
  * bytes (the smallest that holds the width), host byte order, unused high bits 0. Upload
- * ignores the context and copies at once. */
+ * ignores the context, and copies before it returns. */
 size_t machine_element_bytes(struct machine_type type);
 enum machine_status machine_field_download(struct machine *m, uint32_t field,
                                            struct machine_type type, void *out);

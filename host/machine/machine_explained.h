@@ -1,4 +1,5 @@
-/* machine_explained.h - what a machine did, and why: facts for those who asked for them (machine_config.explain).
+/* machine_explained.h - what a machine did, and why: the facts collected with
+ * machine_config.explain.
  *
  *     const struct machine_explained *e = machine_explain(m, true);
  *     for (int i = 0; e && i < e->kernels_count; i++)
@@ -9,7 +10,7 @@
 
 #include "machine.h"
 
-/* A row of a table: of what, how often, and, where that is said, how long and how much. */
+/* A row of a table: a name, a count, and, for some tables, a time and a number of bytes. */
 struct machine_explained_row {
     const char *name;
     uint64_t count;
@@ -19,44 +20,47 @@ struct machine_explained_row {
 
 /* Why a value was put into memory. */
 enum machine_cut {
-    MACHINE_CUT_LOOKED_AT, /* somebody asked for it: the front end, a scan, the router */
-    MACHINE_CUT_LIVE,      /* the content of a field or flag that may be looked at */
-    MACHINE_CUT_NEIGHBOURS, /* others load it at an offset, cheaper than computing it there again */
+    MACHINE_CUT_LOOKED_AT,  /* the front end, a scan or the router asked for it */
+    MACHINE_CUT_LIVE,       /* it is the content of a field or flag, which may be observed */
+    MACHINE_CUT_NEIGHBOURS, /* neighbours load it; computing it again at an offset would cost
+                             * more */
     MACHINE_CUT_LATER       /* a later kernel needs it */
 };
 
 struct machine_explained_store {
     enum machine_cut why;
     struct machine_type type;
-    const char *operation; /* that gave it, under the context or not */
-    bool in_ring;   /* some of its rows, or tiles, at a time, in no array: strips.h, tiles.h */
+    const char *operation; /* the operation that gave it, ignoring selects by the context */
+    bool in_ring;          /* not in an array, but in rings or tiles: strips.h, tiles.h */
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
-/* A kernel, on processors of one VP set. Bytes are those of what is read or written at all, once for each
- * processor that it belongs to. */
+/* A kernel, on processors of one VP set. Each array read or written counts once, with an
+ * element for each processor. */
 struct machine_explained_kernel {
-    const char *name;    /* of a generated one: what it stores */
-    bool generated;      /* else by hand, and what follows is 0 to `made` */
-    int vpset;           /* as it was called then */
+    const char *name;    /* generated kernels: what it stores */
+    bool generated;      /* if false, written by hand, and the members up to `made` are 0 */
+    int vpset;           /* the VP set's name at that time */
     uint64_t processors; /* in one run */
-    int operations; /* for a processor, those computed again at neighbours too; of operands: no coordinates */
-    int operations_cost; /* ... as the cost model has them */
+    int operations;      /* for each processor, including neighbours' values computed again; of
+                     * operations on operands, without coordinates */
+    int operations_cost; /* ... as the cost model counts them */
     int arrays_read, arrays_written;
     int bytes_read, bytes_written; /* for a processor */
     int shifts_computed;           /* neighbours' values that were computed again, not loaded */
-    int stages, rings; /* in strips: one after the other; values in rings of rows. Else 1, 0 */
-    int tile_width, tile_height; /* in tiles, then rings are of tiles; else 0 */
-    bool split;                  /* of one that would have had too many arguments */
+    int stages, rings;           /* in strips: stages, and values in rings of rows; else 1, 0 */
+    int tile_width, tile_height; /* in tiles, where rings are tiles; else 0 */
+    bool split;                  /* of a kernel that was split because it had too many
+                                  * arguments */
     const char *made;            /* how well: "quick", "optimised", "boxed" */
     const struct machine_explained_store *stores;
     int stores_count;
     uint64_t runs;
-    uint64_t bytes;      /* in all runs; by hand: of all arrays that it was given */
-    uint64_t runs_timed; /* whose times the device told */
+    uint64_t bytes;      /* in all runs; by hand: of all arrays passed to it */
+    uint64_t runs_timed; /* runs whose times the device reported */
     double time_s;       /* of these, together */
-    /* What one run takes at least: to copy as many bytes, measured when machine_explain() was called (0: it
-     * was not), and for the operations by the cost model. */
+    /* The least times of one run: for copying as many bytes, measured when machine_explain()
+     * was called (0: not measured), and for the operations by the cost model. */
     double copy_s, operations_s;
 };
 
@@ -65,40 +69,41 @@ enum { MACHINE_VANISHED_OPS_MOST = 128 };
 struct machine_explained {
     const char *device;
     int processors_count;
-    /* Instructions, in the order in which each first came: count, recorded ones; bytes, those foreseen. */
+    /* Instructions, in the order of first use. count: those recorded; bytes: those foreseen. */
     const struct machine_explained_row *calls;
     int calls_count;
     uint64_t calls_recorded, calls_foreseen;
-    uint64_t stores; /* into fields and flags; those foreseen too */
-    /* Values recorded: computed in some kernel; of these, put into memory; nobody ever asked for. What is left
-     * out is foreseen calls' values, which were not recorded again, and what still waits. */
+    uint64_t stores; /* into fields and flags, including foreseen ones */
+    /* Numbers of recorded values: computed in some kernel; of these, stored in memory; never
+     * needed. Not included are values of foreseen calls, which were not recorded again, and
+     * values still pending. */
     uint64_t values_computed, values_stored, values_vanished;
     struct machine_explained_row vanished[MACHINE_VANISHED_OPS_MOST]; /* by operation */
     int vanished_count;
     struct machine_explained_row
-        reasons[8]; /* why values vanished: how often each rule found something */
+        reasons[8]; /* why values vanished: how often each rule applied */
     int reasons_count;
-    struct machine_explained_row evaluations[8]; /* what made them happen */
+    struct machine_explained_row evaluations[8]; /* reasons of evaluations */
     int evaluations_count;
     uint64_t plans_built, plans_improved;
     struct machine_explained_row
-        phases[24]; /* where the front end's time went; one may be in another */
+        phases[24]; /* where the front end's time went; phases may be nested */
     int phases_count;
-    struct machine_explained_row transfers[24]; /* waits of the front end: for what */
+    struct machine_explained_row transfers[24]; /* what the front end waited for */
     int transfers_count;
-    const struct machine_explained_kernel *kernels; /* most time first, then most runs */
+    const struct machine_explained_kernel *kernels; /* by time, then by runs, greatest first */
     int kernels_count;
-    uint64_t copy_bytes;     /* read and written by the largest copy that was measured */
-    double copy_bytes_per_s; /* ... how fast; 0: none was */
+    uint64_t copy_bytes;     /* bytes read and written by the largest copy that was measured */
+    double copy_bytes_per_s; /* the speed of that copy; 0: none was measured */
 };
 
-/* What has happened so far, without calls that are noted and wait. Waits for the device; measures how fast it copies
- * the first time that there is something to compare it with, if measure. Valid until the next call or the machine's
- * end. NULL: the configuration did not ask for it, or not enough memory, or the exit comes from where
- * machine_leave() must not wait. */
+/* The facts so far, without calls that are noted but not performed. Waits for the device. If
+ * measure is set, measures copies of new sizes. Valid until the next call or the machine's
+ * end. NULL: machine_config.explain is off, or memory is short, or machine_leave() must not
+ * wait here. */
 const struct machine_explained *machine_explain(struct machine *m, bool measure);
 
-/* Called between instructions from now on, where the machine is asked to explain. */
+/* `between` is called between instructions from now on, if the machine explains. */
 void machine_explain_between(struct machine *m, void (*between)(void));
 
 #endif

@@ -1,5 +1,5 @@
-/* machine_op.h - the operations on values: see machine_unary() and machine_binary(). machine_op.tab says what each of them
- * is. */
+/* machine_op.h - the operations on values: see machine_unary() and machine_binary(). Their
+ * rows are in machine_op.tab. */
 #ifndef LUTETIA_MACHINE_OP_H
 #define LUTETIA_MACHINE_OP_H
 

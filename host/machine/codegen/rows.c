@@ -1,4 +1,4 @@
-/* emit.c - the text of one kernel, of rows.
+/* rows.c - the text of one kernel, of rows.
  *
  * The text follows from the graph alone: numbers are arguments, lengths of axes too. The shape is
  *

@@ -1,4 +1,4 @@
-/* tiles_size.c - how large tiles are, where in local memory each array is, and how many turns of a loop pay. See tiles.h.
+/* tiles.c - how large tiles are, where in local memory each array is, and how many turns of a loop pay. See tiles.h.
  *
  * The time of a kernel of tiles is estimated as that of any other (plan.c),
  *

@@ -4,7 +4,7 @@
 
 #include "machine.h"
 
-/* math.c: the transcendental operations on the front end, with the device's bits; b is ignored
+/* The transcendental operations on the front end, with the device's bits; b is ignored
  * where there is one operand. false: op is none of them. */
 bool math_evaluate(int op, double a, double b, double *out);
 bool math_fold(int op, struct machine_type type, struct machine_scalar a,
