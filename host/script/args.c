@@ -1,4 +1,5 @@
-/* args.c - what scripts say, checked: every error names the value that was wrong and what it must be. */
+/* args.c - checks the arguments of scripts; every error names the wrong value and what it
+ * must be. */
 #include "script_internal.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ static const char *described(lua_State *L, int index, char out[64])
     return out;
 }
 
-/* The number on the top within bounds; it is popped. */
+/* Pops the number on the top, which must be within bounds. */
 static double number_pop(lua_State *L, const char *what, const char *name, double low,
                          double high)
 {
@@ -43,7 +44,8 @@ static double number_pop(lua_State *L, const char *what, const char *name, doubl
     return value;
 }
 
-/* Raw: of a copy (script_arg_options). Returns the type. */
+/* Pushes a field of a copied table (script_arg_options) without metamethods. Returns its
+ * type. */
 static int field_push(lua_State *L, int index, const char *name)
 {
     lua_pushstring(L, name);
@@ -96,7 +98,7 @@ const char *script_arg_text(lua_State *L, int index, const char *what, const cha
     if (type != LUA_TNIL && type != LUA_TSTRING)
         luaL_error(L, "%s %s must be a text (got %s)", what, name, described(L, -1, shown));
     const char *value = type == LUA_TNIL ? NULL : lua_tostring(L, -1);
-    lua_pop(L, 1); /* the copy holds it */
+    lua_pop(L, 1); /* the copy keeps it alive */
     return value;
 }
 
@@ -199,7 +201,7 @@ double script_arg_at(lua_State *L, int index, const char *what, double low, doub
     return number_pop(L, what, "", low, high);
 }
 
-/* The row of a NULL-ended list that the text is, or an error that lists them. */
+/* Finds the text in a NULL-ended list; raises an error that lists the choices. */
 int script_arg_choice(lua_State *L, const char *what, const char *text,
                       const char *const *names)
 {

@@ -1,4 +1,4 @@
-/* brush.c - brushes in scripts: paper:brush{...}, and what they are dipped in. */
+/* brush.c - brushes in scripts: paper:brush{...}, and their methods. */
 #include "script_brush.h"
 
 #include <brush.h>
@@ -16,8 +16,8 @@ static struct script_brush *brush_at(lua_State *L, int index)
     return luaL_checkudata(L, index, script_brush_type);
 }
 
-/* Cuts off or fills up the arguments of a brush's method, and pins the brush's paper, which it holds: above the arguments are the
- * paper and the pin. */
+/* Sets the number of a brush method's arguments, and pins the brush's paper, which the brush
+ * references. Above the arguments are the paper and the pin. */
 static struct script_paper *brush_begin(lua_State *L, int count)
 {
     lua_settop(L, count);
@@ -28,7 +28,7 @@ static struct script_paper *brush_begin(lua_State *L, int count)
 
 /* ---- making ---- */
 
-/* Sizes are parts of the width. */
+/* Sizes relative to the width. */
 static const struct kind {
     const char *name;
     bool flat;
@@ -85,7 +85,7 @@ static int paper_brush(lua_State *L)
     b.load = kind->load;
     b.mixing = kind->mixing;
     script_fields_read(L, 2, "brush", &paper_brush_members, &b);
-    /* what the width says, where the script does not */
+    /* defaults that depend on the width */
     b.depth = fmax(1, kind->depth * b.width);
     b.bristles = (int)fmin(PAPER_BRISTLES_MAX, fmax(12, kind->bristles * b.width));
     b.thickness = fmax(1.2, kind->thickness * b.width);
@@ -98,7 +98,8 @@ static int paper_brush(lua_State *L)
     luaL_setmetatable(L, script_brush_type);
     lua_pushvalue(L, 1);
     lua_setiuservalue(L, -2, 1);
-    if (!paper->brushes_counted) { /* one brush or all: the paper's until it is closed */
+    if (!paper->brushes_counted) { /* the memory of all brushes is counted once, until the
+                                    * paper is closed */
         double bytes = 8e6 + 2.0 * paper_sheet_get_config(sheet)->width *
                                  paper_sheet_get_config(sheet)->height;
         script_memory_take(L, bytes, "brushes");

@@ -1,17 +1,20 @@
-/* call.c - what holds of every call from a script into the library.
+/* call.c - rules for every call from a script into the library.
  *
- * A function reads its arguments completely before anything happens: numbers into C, options from a copy of their table that nobody
- * else holds (args.c), with no metamethod asked. Then come the script's own functions that it was given, and what they
- * return; then the work.
+ * A function first reads all its arguments: numbers into C variables, options from a private
+ * copy of their table (args.c), without metamethods. Then it calls the script's functions that
+ * it was given, if any. Then it does its work.
  *
- * Other Lua code can run in between: such functions, and a trusted script's finalizers during any allocation. It can do whatever it
- * wants but for closing a paper that is in use. So a function pins its paper:
+ * Other Lua code can run in between: the script's functions, and a trusted script's finalizers
+ * during any allocation. This code can do anything except close a paper that is in use. For
+ * this, a function pins its paper:
  *
  *     stack   1 .. count    arguments
  *             count + 1     a pin: to be closed when the function returns or fails, which takes it off the paper
  *             above         what the function makes
  *
- * What cannot be closed (masks, pictures, lists of lines) lives as long as it is on the stack. */
+ * Objects that cannot be closed (masks, pictures, lists of lines) live as long as they are
+ * on the stack.
+ */
 #include "script_internal.h"
 #include "script_paper.h"
 
@@ -19,19 +22,19 @@
 
 #include <stdlib.h>
 
-/* A function has at most this many values on the stack, with a plane for each pigment. */
+/* The most values of a function on the stack, including a plane for each pigment. */
 enum { STACK_ROOM = 64 };
 
 static const char pin_type[] = "lutetia pin", box_type[] = "lutetia memory";
 
 /* ---- calls ---- */
 
-/* The row that is called is the upvalue. */
+/* The called function's row is its upvalue. */
 static int called(lua_State *L)
 {
     const luaL_Reg *row = lua_touserdata(L, lua_upvalueindex(1));
     struct script *script = script_of(L);
-    if (script->over) /* what it makes would have no finalizer any more */
+    if (script->over) /* an object made now would never be finalized */
         luaL_error(L, "the script is over");
     script_check(L);
     if (!lua_checkstack(L, STACK_ROOM))
@@ -71,7 +74,7 @@ int script_callback_protected(lua_State *L, int arguments)
 /* ---- pins ---- */
 
 struct pin {
-    struct script_paper *paper; /* NULL: taken off */
+    struct script_paper *paper; /* NULL: unpinned */
 };
 
 static int unpin(lua_State *L)
@@ -89,14 +92,14 @@ struct script_paper *script_paper_pin(lua_State *L, int index)
     struct pin *pin = lua_newuserdatauv(L, sizeof *pin, 1);
     pin->paper = NULL;
     luaL_setmetatable(L, pin_type);
-    lua_pushvalue(L, index); /* which is held as long as the pin */
+    lua_pushvalue(L, index); /* keeps the paper alive as long as the pin */
     lua_setiuservalue(L, -2, 1);
     if (!paper->sheet)
         luaL_error(L, "this paper is closed");
     lua_toclose(L, -1);
     pin->paper = paper;
     paper->pins++;
-    /* what has been done since, and how it is remembered, is counted */
+    /* count the memory of new history */
     double more = paper_history_bytes(paper->sheet) - paper->history_bytes;
     if (more > 0)
         script_memory_take(L, more, "a paper's history (history = false does without)");
@@ -133,7 +136,7 @@ void **script_box_new(lua_State *L)
 void script_call_open(lua_State *L)
 {
     script_type_open(L, box_type, box_gc);
-    script_type_open(L, pin_type, unpin); /* of a coroutine that nobody closed */
+    script_type_open(L, pin_type, unpin); /* for pins of a coroutine that was never closed */
     luaL_getmetatable(L, pin_type);
     lua_pushcfunction(L, unpin);
     lua_setfield(L, -2, "__close");

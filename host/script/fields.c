@@ -1,4 +1,5 @@
-/* fields.c - the fields of a table of options, read by rows: what they are called, and what they may be, is said there alone. */
+/* fields.c - reads the fields of a table of options by rows of members, which give their
+ * names and ranges. */
 #include "script_internal.h"
 
 #include <limits.h>
@@ -34,7 +35,7 @@ static void number_store(const struct member *m, int at, void *of, double value)
         ((double *)start)[at] = value / per_unit(m);
 }
 
-/* A field that is one member: a number, a whole one, true or false, or some numbers. */
+/* Reads a field that is one member: a number, an integer, a boolean, or several numbers. */
 static void member_read(lua_State *L, int index, const char *what, const struct member *m,
                         void *of)
 {

@@ -1,4 +1,4 @@
-/* host.c - whose a state is, and what its host is told and asked. */
+/* host.c - finds a state's script, and calls its host's functions. */
 #include "script_internal.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* limits.c - what a script may take: time, until the host says stop, and memory. */
+/* limits.c - a script's limits: time, the host's wish to stop, and memory. */
 #include "script_internal.h"
 
 #include <stdio.h>
@@ -54,7 +54,7 @@ void script_memory_take(lua_State *L, double bytes, const char *what)
 {
     struct script *script = script_of(L);
     if (!(bytes >= 0 && bytes <= script_memory_left(script))) {
-        lua_gc(L, LUA_GCCOLLECT); /* masks and sheets that nobody holds any more */
+        lua_gc(L, LUA_GCCOLLECT); /* frees masks and sheets without references */
         if (!(bytes >= 0 && bytes <= script_memory_left(script))) {
             char text[96];
             snprintf(text, sizeof text, "%.0f MB for %s, and --memory allows %.0f in all",

@@ -1,7 +1,9 @@
-/* mask.c - masks: the shapes that a script puts water and pigment through.
+/* mask.c - masks: shapes through which a script puts water and pigment.
  *
- * A mask is either a polygon, kept as its corners until it is used, or gray values with a place. Masks never change: what
- * moves, joins or softens one makes another. Outside of it a mask is 0. */
+ * A mask is either a polygon, kept as its corners until it is used, or gray values with a
+ * place. Masks never change: methods that move, join or soften a mask make a new one.
+ * Outside its shape a mask is 0.
+ */
 #include "script_mask.h"
 
 #include <display.h>
@@ -77,7 +79,7 @@ void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, 
 
 /* ---- from corners to gray ---- */
 
-/* Pushes the mask at index as gray. */
+/* Pushes the mask at index, converted to gray values. */
 struct script_mask *script_mask_grayed(lua_State *L, int index)
 {
     const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
@@ -126,7 +128,7 @@ bool script_mask_screen(lua_State *L, int index, int width, int height,
         screen->gray = mask->gray;
         return mask->gray != NULL;
     }
-    struct script_mask *kept = script_mask_new(L); /* takes the gray over */
+    struct script_mask *kept = script_mask_new(L); /* takes over the gray values */
     if (paper_polygon_screen(mask->points, mask->points_count, width, height, screen, x, y) !=
         PAPER_OK)
         luaL_error(L, "%s", paper_error());
@@ -195,7 +197,7 @@ static int make_ellipse(lua_State *L)
     return 1;
 }
 
-/* Corner i (from 1) of the list at index. */
+/* Reads corner i (from 1) of the list at index. */
 static void corner_read(lua_State *L, int index, int i, const char *what, double out[2])
 {
     if (lua_rawgeti(L, index, i) != LUA_TTABLE)
@@ -228,7 +230,7 @@ static int make_polygon(lua_State *L)
     return 1;
 }
 
-/* Joins b to a: the greater of the two. Both are gray, a is large enough. */
+/* Joins b to a by the maximum. Both are gray, and a is large enough. */
 static void gray_join(struct script_mask *a, const struct script_mask *b)
 {
     for (int row = 0; row < b->height; row++) {
@@ -239,7 +241,7 @@ static void gray_join(struct script_mask *a, const struct script_mask *b)
     }
 }
 
-/* A brush stroke of a width that may change on the way: {x, y, width}; a round dot at each corner, a quadrangle between. */
+/* A line of varying width: {x, y, width}; a round dot at each corner, a quadrangle between. */
 static int make_line(lua_State *L)
 {
     int count = corners_count(L, "line", 2);
@@ -292,7 +294,8 @@ static int make_line(lua_State *L)
 
 static const char *const text_fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
 
-/* corners = {{x, y}, ...}: of the upper left, upper right, lower right and lower left. false: there are none. */
+/* corners = {{x, y}, ...}: upper left, upper right, lower right, lower left. False: there
+ * are none. */
 static bool text_corners(lua_State *L, int index, double corners[8])
 {
     if (lua_isnoneornil(L, index) || lua_getfield(L, index, "corners") == LUA_TNIL)
@@ -311,7 +314,7 @@ static bool text_corners(lua_State *L, int index, double corners[8])
     return true;
 }
 
-/* What text{} and p:type{} take, but for the place. */
+/* The options that text{} and p:type{} share: all except the place. */
 static void text_options(lua_State *L, int index, struct paper_line *line)
 {
     static const char *const keys[] = {
@@ -357,7 +360,8 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
         line->font = font_face_first(text_fonts);
 }
 
-/* text("word", {size=, font=, x=, y=, align=, …}): x, y is where the baseline begins, or its middle or end. */
+/* text("word", {size=, font=, x=, y=, align=, …}): x, y is the beginning of the baseline, or
+ * its middle or end. */
 int script_mask_text_push(lua_State *L, int index)
 {
     struct paper_line line = {.text = luaL_checkstring(L, index)};
@@ -374,11 +378,12 @@ int script_mask_text_push(lua_State *L, int index)
         x = y = 0;
     line.x_px = x - floor(x);
     line.y_px = y - floor(y);
-    /* What drawing takes at most for a letter, and its place in the picture: given back but for the picture. */
+    /* The most memory for drawing a letter at its place in the picture; only the picture's
+     * memory stays counted. */
     double work = 16 * line.size_px * line.size_px + 64 * (double)strlen(line.text);
     script_memory_take(L, work, "a text");
     line.pixels_max = fmax(1, script_memory_left(script));
-    struct script_mask *mask = script_mask_new(L); /* takes the screen's gray over */
+    struct script_mask *mask = script_mask_new(L); /* takes over the screen's gray values */
     struct paper_screen screen;
     enum paper_status status = paper_line_screen(&line, &screen, NULL);
     script_memory_give(script, work);
@@ -430,7 +435,7 @@ static int make_image(lua_State *L)
     return 1;
 }
 
-/* mask(width, height, function(x, y) ... end): its values, 0..1. */
+/* mask(width, height, function(x, y) ... end): the function's values are 0..1. */
 static int make_function(lua_State *L)
 {
     double width = floor(script_arg_at(L, 1, "mask's width", 1, SCRIPT_PLACE_MAX));

@@ -1,4 +1,4 @@
-/* mask_change.c - masks made of masks: moved, turned, scaled, joined, softened. */
+/* mask_change.c - new masks from masks: moved, turned, scaled, joined, softened. */
 #include "script_mask.h"
 
 #include <math.h>
@@ -6,7 +6,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Pushes the mask at 1 under x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y + m[5]. */
+/* Pushes the mask at 1, transformed by x' = m[0] x + m[1] y + m[2], y' = m[3] x + m[4] y +
+ * m[5]. */
 static int transformed(lua_State *L, const double m[6])
 {
     const struct script_mask *mask = luaL_checkudata(L, 1, script_mask_type);
@@ -63,7 +64,7 @@ static int mask_move(lua_State *L)
     return transformed(L, (double[6]){1, 0, x, 0, 1, y});
 }
 
-/* The point at arguments index, index + 1; the origin if there is none. */
+/* Reads the point at arguments index, index + 1; default: the origin. */
 static void center_read(lua_State *L, int index, double center[2])
 {
     for (int i = 0; i < 2; i++)
@@ -97,7 +98,7 @@ static int gray_at(const struct script_mask *mask, int x, int y)
     return mask->gray[(size_t)(y - mask->y) * (size_t)mask->width + (size_t)(x - mask->x)];
 }
 
-/* a + b: either; a * b: both; a - b: a where b is not. */
+/* a + b: union; a * b: intersection; a - b: a without b. */
 static int mask_join(lua_State *L, char operation)
 {
     lua_settop(L, 2);
@@ -154,7 +155,7 @@ static void box_pass(uint8_t *values, uint8_t *scratch, int count, size_t stride
         values[(size_t)i * stride] = scratch[i];
 }
 
-/* soften(radius): three boxes after each other, nearly a bell. */
+/* soften(radius): three box blurs, which approximate a Gaussian. */
 static int mask_soften(lua_State *L)
 {
     int radius = (int)lround(script_arg_at(L, 2, "soften's radius", 0, 1000));
@@ -182,7 +183,7 @@ static int mask_soften(lua_State *L)
     return 1;
 }
 
-/* x, y, width, height of what it covers. */
+/* Returns x, y, width, height of the area that the mask covers. */
 static int mask_bounds(lua_State *L)
 {
     const struct script_mask *mask = script_mask_grayed(L, 1);

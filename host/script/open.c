@@ -1,4 +1,4 @@
-/* open.c - the whole library: which functions there are, and of what. */
+/* open.c - opens the whole library: all functions, and the types that they belong to. */
 #include "script_internal.h"
 
 const struct script_functions script_functions[] = {
@@ -29,7 +29,8 @@ const struct script_functions script_functions[] = {
     {script_network_type, script_network_key_methods, false},
     {NULL, NULL, false}};
 
-/* A type's metatable has its methods as __index, be it a table or, for papers, the upvalue of a function. */
+/* A metatable's __index is the table of methods or, for papers, a function with that table
+ * as upvalue. */
 static void functions_open(lua_State *L, const struct script_functions *f)
 {
     int top = lua_gettop(L);

@@ -11,7 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What the past of a paper takes in checkpoints, of the memory that a run may take, and at most. */
+/* The memory for the checkpoints of a paper's history: a share of the run's memory, with a
+ * maximum. */
 #define UNDO_SHARE 16
 #define UNDO_BYTES_MOST 256e6
 
@@ -22,7 +23,7 @@ static const struct paper_sheet_config *config_of(const struct script_paper *pap
 
 /* ---- making ---- */
 
-/* Fills a pigment from the text or table on the top; pops it. */
+/* Reads a pigment from the text or table on the top, and pops it. */
 static void pigment_read(lua_State *L, struct paper_pigment *pigment)
 {
     static const char *const besides[] = {"name", "like", "white", "black", NULL};
@@ -133,7 +134,7 @@ static int make_paper(lua_State *L)
     static const char *const besides[] = {"width", "height",  "torus",    "model", "rule",
                                           "stock", "seed",    "pigments", "color", "history",
                                           "undo",  "version", NULL};
-    lua_remove(L, 1); /* the table `paper`, which is called */
+    lua_remove(L, 1); /* removes the table `paper`, which was called */
     lua_settop(L, 1);
     luaL_checktype(L, 1, LUA_TTABLE);
     script_fields_options(L, 1, "paper", &paper_stock_members, besides);
@@ -183,7 +184,8 @@ static void finish(struct script_paper *paper)
     paper->bytes = paper->history_bytes = 0;
 }
 
-/* A paper that is in use keeps its sheet: it is a debugger's call, and comes again. */
+/* A pinned paper keeps its sheet: then a debugger called __gc, and the collector will call
+ * it again. */
 static int paper_gc(lua_State *L)
 {
     struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
@@ -204,7 +206,8 @@ static int paper_close(lua_State *L)
 
 /* ---- putting and taking ---- */
 
-/* The mask at index as a screen; a missing one is everywhere (*everywhere). False: it covers nothing. */
+/* Gets the mask at index as a screen; no mask means everywhere (*everywhere). False: it
+ * covers nothing. */
 static bool screen_read(lua_State *L, int index, const struct script_paper *paper,
                         struct paper_screen *screen, int *x, int *y)
 {
@@ -225,7 +228,8 @@ static int paper_put(lua_State *L)
     return 0;
 }
 
-/* p:type("word", {…}, {water = …}): text() put onto the sheet. Returns its length, and its lines' height. */
+/* p:type("word", {…}, {water = …}): puts text() onto the sheet. Returns its length, and its
+ * lines' height. */
 static int paper_put_type(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 4);
@@ -295,12 +299,13 @@ static int paper_air(lua_State *L)
     script_fields_options(L, 2, "air", &paper_air_members, NULL);
     struct paper_air air = *paper_sheet_get_air(paper->sheet);
     struct members members = paper_air_members;
-    if (config_of(paper)->parts == 0) { /* the thesis's gravity is a factor, 1 for none */
+    if (config_of(paper)->parts == 0) { /* in the thesis's model, gravity is a factor; 1 is
+                                         * none */
         double gravity[2] = {air.thesis.gravity_x, air.thesis.gravity_y};
         script_arg_numbers(L, 2, "air", "gravity", gravity, 2, 0.5, PAPER_GRAVITY_MAX);
         air.thesis.gravity_x = gravity[0];
         air.thesis.gravity_y = gravity[1];
-        while (members.first->element) { /* the pulls come first */
+        while (members.first->element) { /* skip the rows of gravity's vector */
             members.first++;
             members.count--;
         }
@@ -349,7 +354,7 @@ static int paper_step(lua_State *L)
     return 0;
 }
 
-/* Fields that can be read; else methods. */
+/* Reads a field of the paper, or finds a method. */
 static int paper_index(lua_State *L)
 {
     struct script_paper *paper = luaL_checkudata(L, 1, script_paper_type);
@@ -385,7 +390,7 @@ void script_paper_open(lua_State *L)
     lua_pushcclosure(L, paper_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pop(L, 1);
-    /* paper{...} and paper.load(...) */
+    /* for paper{...} and paper.load(...) */
     script_type_open(L, script_papers_type, NULL);
     lua_newtable(L);
     luaL_setmetatable(L, script_papers_type);

@@ -1,4 +1,5 @@
-/* paper_look.c - what papers hold and look like, in scripts: layers as numbers, masks and functions; totals; pictures. */
+/* paper_look.c - reading papers in scripts: layers as numbers, masks and functions; totals;
+ * pictures. */
 #include "script_paper.h"
 
 #include <display.h>
@@ -32,7 +33,7 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_WET_PART] = "wet part",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
-/* The layer of that name, and of the pigment if it has one. */
+/* Finds the layer of that name, and its pigment if it has one. */
 static enum paper_layer layer_read(lua_State *L, const struct script_paper *paper,
                                    const char *name, const char *pigment_name, int *pigment)
 {
@@ -47,7 +48,7 @@ static enum paper_layer layer_read(lua_State *L, const struct script_paper *pape
     return layer;
 }
 
-/* The same, named by the arguments at index and pigment_index. */
+/* The same for names in the arguments at index and pigment_index. */
 static enum paper_layer layer_arg(lua_State *L, const struct script_paper *paper, int index,
                                   int pigment_index, int *pigment)
 {
@@ -55,7 +56,7 @@ static enum paper_layer layer_arg(lua_State *L, const struct script_paper *paper
                       luaL_optstring(L, pigment_index, NULL), pigment);
 }
 
-/* A buffer of a number for each fiber that the state frees. */
+/* A buffer, freed by the state, with a number for each fiber. */
 static float *values_new(lua_State *L, const struct paper_sheet_config *config)
 {
     return lua_newuserdatauv(L, (size_t)config->width * (size_t)config->height * sizeof(float),
@@ -103,7 +104,7 @@ static int paper_layer(lua_State *L)
     return 0;
 }
 
-/* paper:mask(name, low, high [, pigment]): a layer as a mask, 0 at low and 1 at high. */
+/* paper:mask(name, low, high [, pigment]): a mask of a layer, 0 at low and 1 at high. */
 static int paper_mask(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 5);
@@ -186,7 +187,7 @@ static int paper_frame(lua_State *L)
     const char *path = script_path_to_write(L, name, ".png", "frame");
 
     if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0)
-        return 0; /* made before this run was saved */
+        return 0; /* written before this run was saved */
     size_t count = 3 * (size_t)config->width * (size_t)config->height;
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
     script_paper_check(L, paper_sheet_view(paper->sheet, &view, rgb));

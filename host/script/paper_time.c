@@ -1,4 +1,5 @@
-/* paper_time.c - a paper's time in scripts: back and forth, earlier, larger, saved and loaded, filmed. */
+/* paper_time.c - a paper's time in scripts: undo and redo, earlier times, other resolutions,
+ * saving, loading, filming. */
 #include "script_paper.h"
 
 #include <history.h>
@@ -20,7 +21,7 @@ static void history_need(lua_State *L, const struct script_paper *paper)
         luaL_error(L, "this paper has no history: it was made with history = false");
 }
 
-/* How many operations, as there were so many. */
+/* Goes back or forth, and returns by how many operations. */
 static int paper_go(lua_State *L, int (*go)(struct paper_sheet *sheet, int count),
                     const char *what)
 {
@@ -73,7 +74,8 @@ static int paper_moments(lua_State *L)
     return 1;
 }
 
-/* paper:at(time, function): what the function does is done at that time, and all that followed after it. */
+/* paper:at(time, function): runs the function at that time of the past, and repeats
+ * everything that followed. */
 int script_paper_at_time(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 3);
@@ -90,7 +92,7 @@ int script_paper_at_time(lua_State *L)
     return 0;
 }
 
-/* paper:render(scale [, pace]): another paper, on which the same was done larger or smaller. */
+/* paper:render(scale [, pace]): a new paper with the same history at another resolution. */
 static int paper_render(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 3);
@@ -138,7 +140,8 @@ static int papers_load(lua_State *L)
     const char *name = luaL_checkstring(L, 1);
     long number = script_arg_count(L, 2, "a paper's number", 1, 1, TIME_MOST);
     const char *path = script_path(L, script->config->in_folder, name, "a saved paper");
-    if (access(path, F_OK) != 0) /* what was saved by a script is where it writes */
+    if (access(path, F_OK) != 0) /* a paper that the script itself saved is in the output
+                                  * folder */
         path = script_path(L, script->config->out_folder, name, "a saved paper");
     struct paper_state **state = lua_newuserdatauv(L, sizeof *state, 0);
     *state = NULL;
@@ -162,7 +165,7 @@ static int papers_load(lua_State *L)
 
 /* ---- film ---- */
 
-/* paper:film{show =, x =, y =, width =, height =}: this paper is the one that is filmed, as this. */
+/* paper:film{show =, x =, y =, width =, height =}: films this paper with these settings. */
 static int paper_film(lua_State *L)
 {
     static const char *const keys[] = {"show", "x", "y", "width", "height", NULL};
@@ -187,7 +190,7 @@ static int paper_film(lua_State *L)
     return 0;
 }
 
-/* expect(steps): how many the whole script takes, for the estimate of the time left. */
+/* expect(steps): the steps of the whole script, for the estimate of the time left. */
 static int expect(lua_State *L)
 {
     script_of(L)->steps_expected = script_arg_count(L, 1, "steps expected", 0, 0, TIME_MOST);

@@ -1,4 +1,4 @@
-/* papers.c - what a script's papers are: made, counted, kept while they are open, shown to the host. */
+/* papers.c - a script's papers: made, counted, kept while they are open, shown to the host. */
 #include "script_paper.h"
 
 #include <brush.h>
@@ -11,14 +11,15 @@
 void script_paper_check(lua_State *L, enum paper_status status)
 {
     if (status != PAPER_OK) {
-        script_check(L); /* what fails after Ctrl-C fails because of it */
+        script_check(L); /* after Ctrl-C, that is the reason of the failure */
         luaL_error(L, "%s", paper_error());
     }
 }
 
 /* ---- making ---- */
 
-/* Only so many can be saved. Those that nobody holds are closed first. */
+/* Checks the limit of open papers, which is that of a saved state. Papers without references
+ * are closed first. */
 static void papers_check(lua_State *L)
 {
     const struct script *script = script_of(L);
@@ -41,8 +42,8 @@ struct script_paper *script_paper_new(lua_State *L)
     return paper;
 }
 
-/* Each field, what replaces it, and what lies between steps: a little more than 4096x4096 fibers were seen to take, with three
- * pigments (64 arrays of floats) and with six (89). */
+/* Memory for each field, its replacement, and temporaries between steps: slightly above the
+ * measured use of 4096x4096 fibers with three pigments (64 float arrays) and with six (89). */
 static double bytes_needed(double width, double height, int pigments)
 {
     return 4 * (42 + 8.5 * pigments) * width * height;
@@ -77,11 +78,11 @@ void script_paper_show(lua_State *L, struct script_paper *paper)
         luaL_error(L, "%s", error);
 }
 
-/* Between the steps of a stroke. */
+/* Called between the steps of a stroke. */
 static bool due(void *context)
 {
     struct script_paper *paper = context;
-    script_paper_shown(paper); /* a failure is heard afterwards */
+    script_paper_shown(paper); /* a failure is reported afterwards */
     return script_due(paper->script);
 }
 
@@ -93,7 +94,7 @@ void script_paper_stop_when_due(lua_State *L, struct script_paper *paper)
 
 /* ---- papers that are open ---- */
 
-/* While something is computed again. */
+/* Called while the past is computed again. */
 static bool watch(void *context, long done, long total)
 {
     struct script_paper *paper = context;
@@ -175,7 +176,8 @@ int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet
     return luaL_error(L, "this paper has no pigment '%s'", name);
 }
 
-/* {water = 0.5, ["phthalo green"] = 0.2}; its values in the order of the sheet's substances. */
+/* {water = 0.5, ["phthalo green"] = 0.2}: reads amounts in the order of the sheet's
+ * substances. */
 void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
                           double *amount)
 {

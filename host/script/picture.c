@@ -88,7 +88,7 @@ static int make_picture(lua_State *L)
     return 1;
 }
 
-/* paper:picture(): what it looks like now */
+/* paper:picture(): the paper's present look */
 static int paper_picture(lua_State *L)
 {
     struct paper_sheet *sheet = script_paper_begin(L, 1)->sheet;
@@ -113,7 +113,8 @@ static int picture_size(lua_State *L)
     return 2;
 }
 
-/* The mean of what falls on pixel x, y of a picture that is width x height large; in linear light. */
+/* The mean of the area of a picture, scaled to width x height, that falls on pixel x, y; in
+ * linear light. */
 static void sampled(const struct script_picture *picture, const float *linear, int width,
                     int height, int x, int y, uint8_t rgb[3])
 {
@@ -134,7 +135,7 @@ static void sampled(const struct script_picture *picture, const float *linear, i
         rgb[c] = byte_of(paper_light_display(sum[c] / all));
 }
 
-/* The pigments that field "pigments" names, in the order of the sheet's; all without it. */
+/* The pigments named in field "pigments", in the sheet's order; all if it is missing. */
 static void pigments_choose(lua_State *L, struct paper_sheet *sheet, struct paper_separation *s,
                             int number[PAPER_PIGMENTS_MAX])
 {

@@ -1,5 +1,5 @@
-/* sandbox.c - what a script may not do: reach files, processes and the interpreter's inside, run for ever, or take all
- * memory. Trusted scripts get Lua's whole library. */
+/* sandbox.c - what a script may not do: reach files, processes and the interpreter's
+ * internals, run for ever, or take all memory. Trusted scripts get Lua's whole library. */
 #include "script_internal.h"
 
 #include <input_file.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The folder with all links followed, and what is left of the name, must be where they seem to be. */
+/* The resolved path, with all links followed, must lie in the folder. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what)
 {
     if (strlen(name) == 0 || strlen(name) > 1000)
@@ -31,7 +31,7 @@ const char *script_path(lua_State *L, const char *folder, const char *name, cons
         strstr(name, "/../") ||
         (strlen(name) >= 3 && strcmp(name + strlen(name) - 3, "/..") == 0))
         luaL_error(L, outside, what, name);
-    /* links: of the file if there is one, else of its folder */
+    /* whole: the file's resolved path if it exists, else its folder's */
     char whole[PATH_MAX], root[PATH_MAX];
     char *parent = lua_newuserdatauv(L, strlen(path) + 1, 0);
     strcpy(parent, path);
@@ -62,18 +62,20 @@ const char *script_path_to_write(lua_State *L, const char *name, const char *end
         part += *part == '/';
         if (part[0] == '.' && part[1] != '/' && strncmp(part, "../", 3) != 0)
             luaL_error(L, "%s's file must not be hidden (got '%s')", what, name);
-        if (part[0] == '-') /* other programs would take it for an option */
+        if (part[0] == '-') /* other programs would take the name for an option */
             luaL_error(L, "%s's file must not begin with '-' (got '%s')", what, name);
     }
     return script_path(L, config->out_folder, name, what);
 }
 
-/* After time is up every instruction is stopped, so that a script cannot go on by catching errors. */
+/* Once time is up every instruction raises an error, so that a script cannot go on by
+ * catching errors. */
 static void hook(lua_State *L, lua_Debug *event)
 {
     (void)event;
     struct script *script = script_of(L);
-    script_at_work(script, false); /* it is Lua that runs */
+    script_at_work(script, false); /* the hook runs only in Lua code, not during a paper's
+                                    * work */
     if (script_due(script)) {
         lua_sethook(L, hook, LUA_MASKCOUNT, 1);
         script_stop_if_due(L, 0);
@@ -85,9 +87,9 @@ void script_hook_set(lua_State *L)
     lua_sethook(L, hook, LUA_MASKCOUNT, 1000);
 }
 
-/* setmetatable: as Lua's, but nothing gets a finalizer. One would run in the midst of whatever allocates, and Lua calls no hook
- * there: nothing but the end of the process would stop it. Lua looks for __gc only here; a __gc that a metatable gets later
- * is never called. */
+/* setmetatable: as Lua's, but without finalizers. A finalizer runs during any allocation,
+ * and Lua calls no hook there, so only the end of the process could stop it. Lua looks for
+ * __gc only in setmetatable; a __gc added to the metatable later is never called. */
 static int set_metatable(lua_State *L)
 {
     lua_settop(L, 2);
@@ -104,8 +106,9 @@ static int set_metatable(lua_State *L)
     return 1;
 }
 
-/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, and what it had pinned is free. It stays at 1: what it
- * closes may let go of it. */
+/* coroutine.resume: as Lua's, but a coroutine that failed is closed at once, which releases
+ * its pins. The coroutine stays on the stack, because code that runs while it is closed may
+ * drop the last reference. */
 static int resume(lua_State *L)
 {
     lua_State *other = lua_tothread(L, 1);
@@ -117,12 +120,13 @@ static int resume(lua_State *L)
     lua_call(L, lua_gettop(L) - 2, LUA_MULTRET);
     if (lua_status(other) != LUA_OK && lua_status(other) != LUA_YIELD) {
         lua_resetthread(other);
-        lua_settop(other, 0); /* its error is already here */
+        lua_settop(other, 0); /* the error was moved here before */
     }
     return lua_gettop(L) - 1;
 }
 
-/* Puts a function, whose upvalue is the one that was there, in the place of a field of the table on the top. */
+/* Replaces a function of the table on the top; the new function has the old one as its
+ * upvalue. */
 static void replace(lua_State *L, const char *name, lua_CFunction function)
 {
     lua_getfield(L, -1, name);
@@ -130,7 +134,7 @@ static void replace(lua_State *L, const char *name, lua_CFunction function)
     lua_setfield(L, -2, name);
 }
 
-/* print: as Lua's, to the host. */
+/* print: as Lua's, to the host's function. */
 static int print(lua_State *L)
 {
     const struct script_host *host = script_of(L)->host;
@@ -153,7 +157,8 @@ static int print(lua_State *L)
     return 0;
 }
 
-/* param("name", default): what the command line said as name=value; a number where the default is one. */
+/* param("name", default): the value of name=value on the command line; a number if the
+ * default is one. */
 static int param(lua_State *L)
 {
     struct script *script = script_of(L);
@@ -200,7 +205,7 @@ static const char *piece_read(lua_State *L, void *context, size_t *count)
     return *count ? piece->bytes : NULL;
 }
 
-/* Behind a mark that the file is UTF-8, and a first line that names an interpreter. */
+/* Skips a UTF-8 byte order mark, and a first line that names an interpreter. */
 static void beginning_skip(FILE *stream)
 {
     char mark[3];
@@ -210,7 +215,7 @@ static void beginning_skip(FILE *stream)
     int c = getc(stream);
     bool names = c == '#';
     while (names && c != EOF &&
-           c != '\n') /* the line's end stays, so that lines have their numbers */
+           c != '\n') /* keep the line's end, so that line numbers are right */
         c = getc(stream);
     if (c != EOF)
         ungetc(c, stream);
@@ -237,7 +242,7 @@ int script_load(lua_State *L, const char *path)
     return LUA_ERRFILE;
 }
 
-/* The script's text; NULL where it cannot be read, or has zeros in it. */
+/* Reads the script's text; NULL if it cannot be read, or contains zeros. */
 static char *script_text(const char *path)
 {
     FILE *file = input_file_open(path, NULL);
@@ -261,7 +266,7 @@ void script_words_check(lua_State *L)
     for (int i = 0; i < script->config->words_count; i++)
         all_asked = all_asked && script->asked[i];
     if (script->words_checked || all_asked ||
-        script->config->trusted) /* trusted: it may be in another file */
+        script->config->trusted) /* a trusted script may read parameters in another file */
         return;
     script->words_checked = true;
     char *text = script_text(script->config->path), key[64] = "";
@@ -279,7 +284,8 @@ void script_words_check(lua_State *L)
         luaL_error(L, "the script asks for no '%s'", key);
 }
 
-/* Lua's order of text keys differs from run to run; pictures must not. */
+/* pairs() visits text keys in sorted order, because Lua's order differs from run to run, and
+ * pictures must not. */
 static const char prelude[] = "local type, next, sort, tostring, getmetatable = type, next, "
                               "table.sort, tostring, getmetatable\n"
                               "local order = {number = 1, string = 2}\n"

@@ -23,7 +23,7 @@ struct script_config script_config_default(const char *path)
 
 /* ---- memory ---- */
 
-/* Lua's memory is counted with the rest. */
+/* Counts Lua's memory with the script's other memory. */
 void *script_allocate(void *context, void *block, size_t old, size_t new)
 {
     struct script *script = context;
@@ -45,7 +45,7 @@ void *script_allocate(void *context, void *block, size_t old, size_t new)
 
 /* ---- the run ---- */
 
-/* Errors that are no text. */
+/* Converts errors that are not text. */
 int script_message(lua_State *L)
 {
     if (lua_type(L, 1) != LUA_TSTRING)
@@ -53,7 +53,8 @@ int script_message(lua_State *L)
     return 1;
 }
 
-/* What a script's names and texts hold must not end a line, nor steer a terminal: C0, DEL, and C1 in UTF-8. */
+/* Names and texts of scripts must not end a line or control a terminal: C0, DEL, and C1 in
+ * UTF-8. */
 static void one_line(char *text)
 {
     for (unsigned char *c = (unsigned char *)text; *c; c++) {
@@ -97,12 +98,12 @@ static enum script_status perform(struct script *script, lua_State *L)
     return script_interrupted(script) ? SCRIPT_INTERRUPTED : SCRIPT_FAILED;
 }
 
-/* The host's end, with all papers that are open. */
+/* Calls the host's finish(), with all papers that are open. */
 static enum script_status finish(struct script *script, enum script_status status)
 {
     size_t count = 0, room = 0;
     for (struct script_paper *p = script->first_paper; p; p = p->next) {
-        /* what is to be computed now is not stopped */
+        /* computing for finish() is not interrupted */
         paper_history_set_watch(p->sheet, NULL, NULL);
         paper_sheet_stop_when(p->sheet, NULL, NULL);
         room++;
@@ -166,8 +167,8 @@ enum script_status script_run(const struct script_config *config,
     status = finish(self, status);
     script_watchdog_pause(self, false);
     self->over = true;
-    lua_close(L); /* a trusted script's finalizers run */
+    lua_close(L); /* runs a trusted script's finalizers */
     script_watchdog_end(self);
-    assert(script.memory_bytes == 0); /* all that was taken has been given back */
+    assert(script.memory_bytes == 0); /* all memory that was counted has been freed */
     return status == SCRIPT_OK ? words_end(self) : status;
 }

@@ -1,19 +1,23 @@
-/* script.h - scripts of papers, inks and time: the Lua library, run by whoever has a use for it (the command, a window, a page).
+/* script.h - scripts of papers, inks and time: the Lua library, for any host (the command, a
+ * window, a page).
  *
  *     struct script_config config = script_config_default("marsh.lua");
  *     struct script_host host = {.context = &mine, .print = print, .error = complain};
  *     if (script_run(&config, &host) != SCRIPT_OK)
- *         ...                               // complain() has been told why
+ *         ...                               // complain() got the reason
  *
- * docs/scripts.md is the library's reference. A script is one Lua state, and all that it makes goes with it. What it takes is
- * counted, Lua's memory with the rest, and whatever takes long looks at the clock and asks the host whether to stop. Unless it is
- * trusted a script reaches no file but pictures, drawings and saved papers in the folders given, no process, and nothing of the
- * interpreter's inside.
+ * docs/scripts.md is the library's reference. A script has its own Lua state, and everything it
+ * makes is freed with it. All memory is counted, including Lua's. Long operations check the
+ * time limit, and ask the host whether to stop. An untrusted script can use no files except
+ * pictures, drawings and saved papers in the given folders, no processes, and no internals of
+ * the interpreter.
  *
- * Whom a script meets is the host, a struct of functions; any may be NULL. They are called by the thread that runs the script,
- * where nothing else is said. Nothing is kept from run to run.
+ * The host is a struct of functions; any may be NULL. Unless stated otherwise, they are called
+ * by the thread that runs the script. No state is kept between runs.
  *
- * Threads: a machine at a time belongs to a thread, as cm/paris.h says; scripts run where the machine is. */
+ * Threads: a machine at a time belongs to a thread, as cm/paris.h says; scripts run where
+ * the machine is.
+ */
 #ifndef LUTETIA_SCRIPT_H
 #define LUTETIA_SCRIPT_H
 
@@ -26,29 +30,29 @@
 
 enum { SCRIPT_WORDS_MAX = 64 };
 
-/* What is run, and what it may take. */
+/* The script, and its limits. */
 struct script_config {
     const char *path;       /* the script's file */
-    const char *in_folder;  /* of pictures, drawings and papers that it reads */
-    const char *out_folder; /* of those that it writes */
-    bool trusted;           /* no sandbox: all of Lua's library, names of files as they come */
+    const char *in_folder;  /* for pictures, drawings and papers that it reads */
+    const char *out_folder; /* for files that it writes */
+    bool trusted;           /* no sandbox: Lua's whole library, and any file names */
     double timeout_s;       /* 0: any */
-    double
-        grace_s; /* from when the script should have stopped to overdue(); 30 times that while papers are at work */
-    int papers_max;           /* most that are open at a time; 0: any */
-    size_t memory_bytes;      /* most that papers, masks and Lua take together */
-    uint64_t seed;            /* of papers and of math.random */
-    const char *const *words; /* key=value, for param(); of the same key the last one counts */
-    int words_count;          /* up to SCRIPT_WORDS_MAX */
+    double grace_s;      /* seconds between the time at which the script should have stopped and
+                  * overdue(); 30 times that while papers are at work */
+    int papers_max;      /* the most papers open at a time; 0: any number */
+    size_t memory_bytes; /* the most memory of papers, masks and Lua together */
+    uint64_t seed;       /* for papers and math.random */
+    const char *const *words;    /* key=value, for param(); of equal keys the last one counts */
+    int words_count;             /* up to SCRIPT_WORDS_MAX */
     struct paper_state *resumed; /* papers that were saved by the same script; NULL: none */
 };
 
-/* Files where the program is, 600 s and 3 of grace, 4 GiB, seed 1990. */
+/* Defaults: files in the current folder, 600 s and 3 s of grace, 4 GiB, seed 1990. */
 struct script_config script_config_default(const char *path);
 
-/* Work that takes many steps. `total` is what is known of now. */
+/* Work that takes many steps. `total` is what is known at the moment. */
 struct script_progress {
-    bool again; /* computed again for a paper's past; else the script's own steps */
+    bool again; /* a paper's past is computed again; else the script's own steps */
     long done, total;
     double began_s; /* on CLOCK_MONOTONIC */
 };
@@ -64,28 +68,31 @@ enum script_status { SCRIPT_OK, SCRIPT_FAILED, SCRIPT_INTERRUPTED };
 
 struct script_host {
     void *context;
-    /* What the script prints, a call a line, its end in it. */
+    /* Receives what the script prints; each call is a line, with its end. */
     void (*print)(void *context, const char *text, size_t length);
-    /* Why it failed: a line, "marsh.lua:12: ...", without an end; and what one should know besides. */
+    /* Receives the error message, "marsh.lua:12: ...", without a line end; also warnings. */
     void (*error)(void *context, const char *text);
     void (*note)(void *context, const char *text);
-    /* Whether to stop, asked often. */
+    /* Whether to stop; called often. */
     bool (*interrupted)(void *context);
-    /* After each step, and with NULL when that work is over. */
+    /* Called after each step, and with NULL when the work is over. */
     void (*progress)(void *context, const struct script_progress *progress);
-    /* A paper, numbered from 1 in the order in which they are made, as it is made and after each of its steps. NULL, or why the
-     * script must stop: the host's text, that lasts until the next call. */
+    /* Called when a paper is made, and after each of its steps. Papers are numbered from 1
+     * in the order in which they are made. Returns NULL, or the reason why the script must
+     * stop; the host's text must stay valid until the next call. */
     const char *(*step)(void *context, int paper, struct paper_sheet *sheet);
     void (*film)(void *context, const struct script_camera *camera);
-    /* The script has ended, as the status says, and its papers are still open: they may be saved. Returns the run's status. */
+    /* Called when the script has ended with the status, while its papers are still open and
+     * can be saved. Returns the run's status. */
     enum script_status (*finish)(void *context, const struct paper_state_sheet *papers,
                                  int count, enum script_status status);
-    /* The script should have stopped seconds ago and does not: only the process's end helps. Called by a thread of its own, as
-     * interrupted() is then, too; where there is no such function that thread is not there. */
+    /* Called when the script should have stopped seconds ago and has not: the host should
+     * end the process. Called by a separate thread, which also calls interrupted(). If
+     * overdue is NULL there is no such thread. */
     void (*overdue)(void *context);
 };
 
-/* Runs it. What it says goes to the host. */
+/* Runs the script. Output and errors go to the host. */
 enum script_status script_run(const struct script_config *config,
                               const struct script_host *host);
 

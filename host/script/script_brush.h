@@ -1,4 +1,4 @@
-/* script_brush.h - a script's brush, for what strokes with it. */
+/* script_brush.h - a script's brush, shared with strokes. */
 #ifndef LUTETIA_SCRIPT_BRUSH_H
 #define LUTETIA_SCRIPT_BRUSH_H
 

@@ -1,6 +1,8 @@
-/* script_internal.h - what the files of the script library share.
+/* script_internal.h - shared by the files of the script library.
  *
- * Papers, masks, pictures and brushes are userdata that free themselves; what they take is counted with Lua's memory. */
+ * Papers, masks, pictures and brushes are userdata, freed by Lua's garbage collector; their
+ * memory is counted with Lua's.
+ */
 #ifndef LUTETIA_SCRIPT_INTERNAL_H
 #define LUTETIA_SCRIPT_INTERNAL_H
 
@@ -16,18 +18,19 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-/* How far from the origin a script can name a place, in fibers. */
+/* The largest coordinate of a place that a script can name, in fibers. */
 enum { SCRIPT_PLACE_MAX = 100000 };
 
 struct script_paper;
 
-/* Ends a process whose script cannot be stopped otherwise (watchdog.c). */
+/* Ends the process of a script that cannot be stopped otherwise (watchdog.c). */
 struct script_watchdog {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool running, over, paused; /* under the lock */
-    double grace_from_s;        /* under the lock: nobody is told before that and a little */
+    double grace_from_s;        /* under the lock: the grace period begins at this time at
+                                 * the earliest */
     atomic_bool at_work;
 };
 
@@ -36,43 +39,47 @@ struct script {
     const struct script_host *host;
     double began_s, deadline_s; /* by script_clock_s(); deadline 0: none */
     size_t memory_bytes;        /* taken */
-    bool memory_short;          /* Lua was refused some */
+    bool memory_short;          /* an allocation of Lua's was refused */
     bool
         answers; /* it is asked again and again, and each answer has its own time (script_map.h) */
-    bool over; /* only finalizers run, which can call the library no more */
+    bool over; /* only finalizers run, which can no longer call the library */
     bool asked[SCRIPT_WORDS_MAX], words_checked;
     int papers_made;
-    uint64_t seeds;                                /* taken by what happens by chance */
-    struct script_paper *first_paper, *last_paper; /* that are open, by number */
+    uint64_t seeds;                                /* counter of the seeds of random
+                                                    * operations */
+    struct script_paper *first_paper, *last_paper; /* open papers, by number */
     int papers_open;
-    long steps_done, steps_expected; /* by the script; expected 0: it did not say */
+    long steps_done, steps_expected; /* of the whole script; expected 0: not given */
     struct script_watchdog watchdog;
 };
 
-/* Whose state it is. */
+/* The script of a state. */
 struct script *script_of(lua_State *L);
 double script_clock_s(void);
 
 /* ---- limits ---- */
 
-/* Time is up, or the host says so. */
+/* Whether time is up, or the host wants the script to stop. */
 bool script_due(const struct script *script);
-/* Raises an error then, in the line of level 0, the function that runs, or 1, what called it. */
+/* If so, raises an error, located at level 0, the function that runs, or 1, its caller. */
 void script_stop_if_due(lua_State *L, int level);
 void script_check(lua_State *L); /* level 1 */
-/* Counts memory that is not Lua's; raises an error, having counted nothing, where there is not enough. */
+/* Counts memory that is not Lua's. If there is not enough, raises an error and counts
+ * nothing. */
 void script_memory_take(lua_State *L, double bytes, const char *what);
 void script_memory_give(struct script *script, double bytes);
-/* What may still be taken. */
+/* The memory that may still be allocated. */
 double script_memory_left(const struct script *script);
 
-/* From here on the host's overdue() is called when the script goes on for some seconds after it should have stopped; nothing
- * happens where there is no such function. False: no thread for it. */
+/* Starts the watchdog: if the script goes on for some seconds after it should have stopped,
+ * the host's overdue() is called. Does nothing if the host has no such function. False: no
+ * thread could be made. */
 bool script_watchdog_start(struct script *script);
 void script_watchdog_end(struct script *script);
-/* Not while the host is at work; afterwards time is given anew. */
+/* Pauses the watchdog while the host works; the grace period then begins anew. */
 void script_watchdog_pause(struct script *script, bool paused);
-/* While papers are at work, which look at the clock between their steps, it waits longer: kernels may have to be compiled. */
+/* Tells the watchdog that papers are at work. They check the time between their steps, but
+ * kernels may have to be compiled, so it waits longer. */
 void script_at_work(struct script *script, bool at_work);
 
 /* Lua's allocator, whose context is the script; the handler of errors that are no text; and what the host is told of an error that
@@ -91,90 +98,100 @@ void script_note_tell(const struct script *script, const char *text);
 /* NULL: the work is over. */
 void script_progress_tell(const struct script *script, const struct script_progress *progress);
 
-/* Pushes the script as a function, or why it cannot be read or is none; returns what lua_load() would. */
+/* Pushes the script as a function, or an error message; returns lua_load()'s status. */
 int script_load(lua_State *L, const char *path);
-/* Before the first step: a key=value that the script's text has nowhere is an error now, not when all is done. */
+/* Before the first step: raises an error for a key=value whose key is nowhere in the
+ * script's text. */
 void script_words_check(lua_State *L);
 
 /* Resolves a file's name within a folder and pushes its path; raises an error for names that lead out of it. */
 const char *script_path(lua_State *L, const char *folder, const char *name, const char *what);
 
-/* The same for a file that is written, in the script's folder for that: of this ending, not hidden, and no option to
- * other programs. */
+/* The same for a file to write, in the output folder: with this ending, not hidden, and not
+ * like an option. */
 const char *script_path_to_write(lua_State *L, const char *name, const char *ending,
                                  const char *what);
 
 /* ---- arguments ---- */
 
-/* Field `name` of the table at index, a finite number within low..high; missing is fallback. `what` says whose. */
+/* Reads field `name` of the table at index, a finite number within low..high; default:
+ * fallback. `what` names the table in messages. */
 double script_arg_number(lua_State *L, int index, const char *what, const char *name,
                          double fallback, double low, double high);
 int script_arg_integer(lua_State *L, int index, const char *what, const char *name,
                        int fallback, double low, double high);
 bool script_arg_boolean(lua_State *L, int index, const char *what, const char *name,
                         bool fallback);
-/* NULL if missing; it is the table's. */
+/* NULL if missing; the text belongs to the table. */
 const char *script_arg_text(lua_State *L, int index, const char *what, const char *name);
-/* Up to count numbers {a, b, c}, or one for all; false if missing. */
+/* Reads up to count numbers {a, b, c}, or one for all; false if missing. */
 bool script_arg_numbers(lua_State *L, int index, const char *what, const char *name,
                         double *out, int count, double low, double high);
-/* "#rrggbb" or {r, g, b} in 0..1; false if missing. */
+/* Reads "#rrggbb" or {r, g, b} in 0..1; false if missing. */
 bool script_arg_color(lua_State *L, int index, const char *what, const char *name,
                       double out[3]);
-/* The row of a NULL-ended list that the text is, or an error that lists them. */
+/* Finds the text in a NULL-ended list; raises an error that lists the choices. */
 int script_arg_choice(lua_State *L, const char *what, const char *text,
                       const char *const *names);
-/* Puts a copy that nobody else holds in the place of the table at an argument's index, made without metamethods; an empty table
- * where there is none. Every key must be among the names (NULL-terminated). The functions above are for such copies: what they
- * hold stays as it is, and a text lasts as long as the copy is on the stack. */
+/* Replaces the table at an argument's index by a private copy, made without metamethods; a
+ * missing table becomes an empty one. Every key must be among the names (NULL-terminated).
+ * The functions above are for such copies: their content cannot change, and a text lasts as
+ * long as the copy is on the stack. */
 void script_arg_options(lua_State *L, int index, const char *what, const char *const *names);
-/* The same for what rows describe: keys are the rows' fields, and the names besides (NULL-terminated; NULL: none). */
+/* The same with keys described by rows, and additional names (NULL-terminated; NULL: none). */
 void script_fields_options(lua_State *L, int index, const char *what,
                            const struct members *members, const char *const *besides);
-/* Reads the rows' fields of such a copy into the struct, each within its row's range; what is missing stays as it is. */
+/* Reads the rows' fields of such a copy into the struct, each within its row's range;
+ * missing fields are unchanged. */
 void script_fields_read(lua_State *L, int index, const char *what,
                         const struct members *members, void *of);
-/* The whole number at an argument's index within bounds; missing is fallback. */
+/* Reads the integer at an argument's index, within bounds; default: fallback. */
 long script_arg_count(lua_State *L, int index, const char *what, long fallback, long low,
                       long high);
-/* The number, from 1, of one of `count` things at an argument's index, as a number from 0; an error where it is missing. */
+/* Reads the number, from 1, of one of `count` things, and returns it from 0; raises an error
+ * if it is missing. */
 int script_arg_index(lua_State *L, int index, const char *what, int count);
-/* The number at an argument's index within bounds. */
+/* Reads the number at an argument's index, within bounds. */
 double script_arg_at(lua_State *L, int index, const char *what, double low, double high);
 
 /* ---- masks ---- */
 
 struct script_mask;
-/* The mask at an argument, as a screen within width x height; empty: false. The screen is the state's: it is kept on the stack. */
+/* Gets the mask at an argument as a screen within width x height; false if it is empty
+ * there. The screen belongs to the state and stays on the stack. */
 bool script_mask_screen(lua_State *L, int index, int width, int height,
                         struct paper_screen *screen, int *x, int *y);
-/* The mask in the field "mask" of options at index, kept on the stack; missing: everywhere. False: it covers nothing. */
+/* Gets the mask in the field "mask" of the options at index, kept on the stack; if missing:
+ * everywhere. False: it covers nothing. */
 bool script_mask_place(lua_State *L, int index, const struct paper_sheet *sheet,
                        struct paper_screen *screen, struct paper_place *place);
-/* Pushes what Lua's text() makes of the text at an argument and the table behind it: a mask, a length and a height. */
+/* Calls Lua's text() with the text at an argument and the table behind it; pushes a mask, a
+ * length and a height. */
 int script_mask_text_push(lua_State *L, int index);
-/* Pushes a mask of gray values; takes them over by copying. */
+/* Pushes a mask with a copy of the gray values. */
 void script_mask_push(lua_State *L, const uint8_t *gray, int width, int height, int x, int y);
 
 /* ---- calls ---- */
 
-/* Sets the functions of a list in the table on the top. */
+/* Adds the functions of a list to the table on the top. */
 void script_functions_set(lua_State *L, const luaL_Reg *rows);
-/* Calls a function that the script gave, as lua_call() and lua_pcall(). */
+/* Calls a function of the script, as lua_call() and lua_pcall() do. */
 void script_callback(lua_State *L, int arguments, int results);
 int script_callback_protected(lua_State *L, int arguments);
-/* Cuts off or fills up the arguments to `count`, and pins the paper that is the first: it cannot be closed until the function
- * returns or fails. The pin is on the stack, at count + 1. Raises an error where the paper is closed. */
+/* Sets the number of arguments to `count`, and pins the paper that is the first: it cannot
+ * be closed until the function returns or fails. The pin is on the stack at count + 1.
+ * Raises an error if the paper is closed. */
 struct script_paper *script_paper_begin(lua_State *L, int count);
 /* Pins the paper at an index; pushes the pin. */
 struct script_paper *script_paper_pin(lua_State *L, int index);
-/* Pushes a place for memory of C's that is freed with it. */
+/* Pushes a userdata that frees memory of C's. */
 void **script_box_new(lua_State *L);
 
 /* ---- papers, for what is put on them ---- */
 
 void script_paper_check(lua_State *L, enum paper_status status);
-/* {water = 0.5, ["phthalo green"] = 0.2}: amount has 1 + PAPER_PIGMENTS_MAX numbers, in the order of the sheet's substances. */
+/* Reads {water = 0.5, ["phthalo green"] = 0.2}: amount has 1 + PAPER_PIGMENTS_MAX numbers,
+ * in the order of the sheet's substances. */
 void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
                           double *amount);
 int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
@@ -187,7 +204,7 @@ void script_midi_push(lua_State *L, const struct midi_message *m);
 
 /* Makes the metatable of a kind of userdata; gc may be NULL. */
 void script_type_open(lua_State *L, const char *name, lua_CFunction gc);
-/* The types of the library, without their methods. */
+/* Makes the metatables of the library's types, without their methods. */
 void script_call_open(lua_State *L);
 void script_mask_open(lua_State *L);
 void script_paper_open(lua_State *L);
@@ -200,7 +217,7 @@ void script_springs_open(lua_State *L);
 extern const char script_mask_type[], script_papers_type[], script_paper_type[],
     script_brush_type[], script_picture_type[], script_spring_type[], script_network_type[];
 
-/* The rows of each file. */
+/* The tables of functions of each file. */
 extern const luaL_Reg script_sandbox_functions[], script_song_functions[], script_mask_makers[],
     script_page_makers[], script_mask_methods[], script_mask_operators[],
     script_papers_operators[], script_papers_functions[], script_paper_methods[],
@@ -211,17 +228,17 @@ extern const luaL_Reg script_sandbox_functions[], script_song_functions[], scrip
     script_spring_word_makers[], script_network_methods[], script_network_word_methods[],
     script_network_key_methods[];
 
-/* All of them: what a script can call (open.c). Ended by a row without functions. */
+/* All functions that a script can call (open.c). Ended by a row without functions. */
 struct script_functions {
-    const char *of; /* the type; NULL: global functions */
+    const char *of; /* the type's name; NULL: global functions */
     const luaL_Reg *functions;
-    bool operators; /* of the type's metatable */
+    bool operators; /* functions of the metatable itself */
 };
 extern const struct script_functions script_functions[];
 
-/* Opens the whole library; in the sandbox unless the script is trusted. */
+/* Opens the whole library, in the sandbox unless the script is trusted. */
 int script_open(lua_State *L);
-/* Takes away what reaches out of the script, seeds math.random, and makes pairs() go in order. */
+/* Removes what reaches outside of the script, seeds math.random, and makes pairs() ordered. */
 void script_sandbox_open(lua_State *L);
 
 #endif

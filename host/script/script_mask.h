@@ -1,4 +1,4 @@
-/* script_mask.h - a script's masks: what making and changing them share. */
+/* script_mask.h - a script's masks, shared by the files that make and change them. */
 #ifndef LUTETIA_SCRIPT_MASK_H
 #define LUTETIA_SCRIPT_MASK_H
 
@@ -13,13 +13,13 @@ struct script_mask {
     double bytes;
 };
 
-/* Push one: without a shape; with room for so many corners; with room for gray values, all 0. They raise errors where there is no
- * memory for it. */
+/* Each pushes a mask: without a shape; with room for corners; with room for gray values, all
+ * 0. Raise an error if memory is short. */
 struct script_mask *script_mask_new(lua_State *L);
 struct script_mask *script_mask_polygon_new(lua_State *L, int count);
 struct script_mask *script_mask_gray_new(lua_State *L, double width, double height, double x,
                                          double y);
-/* Pushes the mask at index as gray. */
+/* Pushes the mask at index, converted to gray values. */
 struct script_mask *script_mask_grayed(lua_State *L, int index);
 
 #endif

@@ -1,4 +1,5 @@
-/* script_springs.h - a script's networks of masses and springs: what the files of their methods share. */
+/* script_springs.h - a script's networks of masses and springs, shared by the files of their
+ * methods. */
 #ifndef LUTETIA_SCRIPT_SPRINGS_H
 #define LUTETIA_SCRIPT_SPRINGS_H
 
@@ -21,7 +22,7 @@ struct script_network {
     struct dyn_network *network;
     struct dyn_word *words[SCRIPT_WORDS_OF_NETWORK];
     struct script_font fonts[SCRIPT_FONTS_OF_NETWORK];
-    struct font_painter *painter; /* NULL until it is needed */
+    struct font_painter *painter; /* NULL until first used */
     struct dyn_clamps *clamps;    /* NULL: no keys */
     int words_count, fonts_count;
     bool collide;
@@ -31,15 +32,15 @@ struct script_network {
 /* Pushes one with an empty network. */
 struct script_network *script_network_new(lua_State *L);
 struct script_network *script_network_at(lua_State *L, int index);
-/* The mass whose number is at the argument, from 0. */
+/* Reads the number of a mass at the argument, and returns it from 0. */
 int script_network_mass_at(lua_State *L, const struct script_network *s, int index);
-/* Raises an error with what the library says. */
+/* Raises an error with the library's message, if there is one. */
 void script_dyn_check(lua_State *L, enum dyn_status status);
-/* Counts what the network has taken since. */
+/* Counts the memory that the network has allocated since. */
 void script_network_count(lua_State *L, struct script_network *s);
-/* The value on the top, for a control: a number, a text or a boolean; it is popped. */
+/* Pops a control's value: a number, a text or a boolean. */
 double script_control_pop(lua_State *L, const struct dyn_control *control);
-/* Sets a control of the world or of all words' styles. */
+/* Sets a control of the world, or of all words' styles. */
 void script_network_set(lua_State *L, struct script_network *s, const char *name, int index);
 
 #endif

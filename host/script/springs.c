@@ -1,6 +1,8 @@
-/* springs.c - networks of masses and springs in scripts: spring.network(), and what holds of words' too.
+/* springs.c - networks of masses and springs in scripts: spring.network(), and methods for
+ * networks of words, too.
  *
- * Masses, springs, letters and words are numbered from 1. */
+ * Masses, springs, letters and words are numbered from 1.
+ */
 #include "script_springs.h"
 
 #include <collide.h>
@@ -14,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What masses and springs take with their copies for steps, in bytes. */
+/* Bytes for each mass and spring, with their copies for steps. */
 enum { MASS_BYTES = 300, SPRING_BYTES = 200, STEPS_MOST = 1000000 };
 
 void script_dyn_check(lua_State *L, enum dyn_status status)
@@ -158,7 +160,7 @@ static int make_network(lua_State *L)
     return 1;
 }
 
-/* The fields that a table of options has, whose copy is at index. */
+/* Reads the fields that a copied table of options at index has. */
 static void fields_read(lua_State *L, int index, const struct dyn_control *fields, int count,
                         void *of)
 {
@@ -241,7 +243,7 @@ static int network_springs(lua_State *L)
     return 1;
 }
 
-/* n:ends(spring): its masses, whether it holds, its strain */
+/* n:ends(spring): its masses, whether it is unbroken, its strain */
 static int network_ends(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
@@ -321,7 +323,7 @@ static int network_get(lua_State *L)
     return 1;
 }
 
-/* n:set_mass(number or nil, field, value): of one or of all; n:set_spring likewise */
+/* n:set_mass(number or nil, field, value): one mass or all; n:set_spring likewise */
 static int network_set_mass(lua_State *L)
 {
     lua_settop(L, 4);
@@ -366,7 +368,7 @@ static int network_clamp(lua_State *L)
     return 0;
 }
 
-/* n:release(mass): what holds or pulls it */
+/* n:release(mass): removes what holds or pulls it */
 static int network_release(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
@@ -402,7 +404,7 @@ static int network_pull(lua_State *L)
     return 0;
 }
 
-/* n:cut(spring), or n:cut(x0, y0, x1, y1): a stroke; returns how many */
+/* n:cut(spring), or n:cut(x0, y0, x1, y1): along a line; returns how many springs were cut */
 static int network_cut(lua_State *L)
 {
     lua_settop(L, 5);
@@ -470,7 +472,7 @@ static void event_push(lua_State *L, const struct dyn_event *e)
     }
 }
 
-/* n:events(): all that wait, oldest first */
+/* n:events(): all waiting events, oldest first */
 static int network_events(lua_State *L)
 {
     const struct script_network *s = script_network_at(L, 1);
@@ -483,7 +485,7 @@ static int network_events(lua_State *L)
     return 1;
 }
 
-/* n:on(function(event) … end): called for each event of the steps that come; nil: nobody is */
+/* n:on(function(event) … end): called for each event of later steps; nil: no function */
 static int network_on(lua_State *L)
 {
     lua_settop(L, 2);
@@ -494,7 +496,7 @@ static int network_on(lua_State *L)
     return 0;
 }
 
-/* What waits, to the function at index. */
+/* Passes the waiting events to the function at index. */
 static void events_tell(lua_State *L, struct script_network *s, int index)
 {
     struct dyn_event event;
@@ -505,7 +507,7 @@ static void events_tell(lua_State *L, struct script_network *s, int index)
     }
 }
 
-/* n:step([count [, seconds]]): so many steps of so long (1 of 1/240 s) */
+/* n:step([count [, seconds]]): that many steps of that length (1 of 1/240 s) */
 static int network_step(lua_State *L)
 {
     lua_settop(L, 3);
@@ -557,7 +559,7 @@ const luaL_Reg script_network_methods[] = {{"mass", network_mass},
                                            {"step", network_step},
                                            {NULL, NULL}};
 
-/* The makers' table is the global `spring`. */
+/* The functions are in the global table `spring`. */
 void script_springs_open(lua_State *L)
 {
     script_type_open(L, script_network_type, network_gc);

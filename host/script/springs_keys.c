@@ -1,4 +1,4 @@
-/* springs_keys.c - masses led along keys in scripts: n:key(), n:free(), n:keys(). */
+/* springs_keys.c - keyframes of masses in scripts: n:key(), n:free(), n:keys(). */
 #include "script_springs.h"
 
 #include <clamps.h>
@@ -12,7 +12,7 @@ static struct dyn_clamps *clamps_of(lua_State *L, struct script_network *s)
     return s->clamps;
 }
 
-/* n:key(mass, seconds, x, y): the mass is there then */
+/* n:key(mass, seconds, x, y): the mass is at (x, y) at that time */
 static int network_key(lua_State *L)
 {
     struct script_network *s = script_network_at(L, 1);
@@ -26,7 +26,7 @@ static int network_key(lua_State *L)
     return 0;
 }
 
-/* n:free(mass, seconds): it is let go then */
+/* n:free(mass, seconds): releases the mass at that time */
 static int network_free(lua_State *L)
 {
     struct script_network *s = script_network_at(L, 1);
@@ -38,7 +38,7 @@ static int network_free(lua_State *L)
     return 0;
 }
 
-/* n:keys("file.clamps"): those of the file, instead of those that there were */
+/* n:keys("file.clamps"): replaces all keys by the file's */
 static int network_keys(lua_State *L)
 {
     struct script_network *s = script_network_at(L, 1);

@@ -48,7 +48,7 @@ static struct font_shaper *shaper_of(lua_State *L, struct script_network *s, con
     return font->shaper;
 }
 
-/* The controls that the options at index have, into a style and a world. */
+/* Reads the controls in the options at index into a style and a world. */
 static void controls_read(lua_State *L, int index, const struct dyn_control *controls,
                           int count, void *of)
 {
@@ -62,7 +62,7 @@ static void controls_read(lua_State *L, int index, const struct dyn_control *con
     }
 }
 
-/* path = {{x, y}, …}: points in memory that is freed with the value pushed. */
+/* path = {{x, y}, …}: points, in memory that is freed with the userdata pushed. */
 static void path_read(lua_State *L, int index, struct dyn_word_def *def)
 {
     double circle[4] = {0, 0, 1, 90};
@@ -97,7 +97,8 @@ static void path_read(lua_State *L, int index, struct dyn_word_def *def)
     def->path_count = (int)count;
 }
 
-/* Adds the word of the options at index 2 to the network, which is pushed or at index 1. */
+/* Adds a word with the options at index 2 to a new network, which is pushed, or to the one
+ * at index 1. */
 static void word_add(lua_State *L, struct script_network *s)
 {
     static const char *const aligns[] = {"start", "left", "right", "center", "justify", NULL};
@@ -132,7 +133,8 @@ static void word_add(lua_State *L, struct script_network *s)
     script_network_count(L, s);
 }
 
-/* spring.word{text =, …}: a network with the word; n:word{…}: another one in it, whose number it returns */
+/* spring.word{text =, …}: a network with the word; n:word{…}: adds a word and returns its
+ * number */
 static int make_word(lua_State *L)
 {
     lua_settop(L, 1);
@@ -154,7 +156,7 @@ static int network_word(lua_State *L)
     return 1;
 }
 
-/* n:hang(upper, lower): the word `lower` from the word `upper` */
+/* n:hang(upper, lower): hangs the word `lower` on the word `upper` */
 static int network_hang(lua_State *L)
 {
     struct script_network *s = script_network_at(L, 1);
@@ -216,14 +218,15 @@ static int network_letter(lua_State *L)
 /* ---- masks ---- */
 
 struct view {
-    double scale, x, y; /* fibers a unit; where the world's origin is */
+    double scale, x, y; /* fibers a unit; the place of the world's origin */
 };
 
-/* The letter's gray in the picture. False: it is nowhere. */
+/* Gets the letter's gray and its place in the picture. False: the letter is not visible. */
 static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn_word *word,
                         int index, const struct view *view, const struct font_gray **gray)
 {
-    static const int from[4] = {3, 2, 1, 0}; /* from the upper left, as y goes downwards */
+    static const int from[4] = {3, 2, 1, 0}; /* from the upper left clockwise, with y
+                                              * downwards */
     const struct dyn_letter *l = dyn_word_letter(word, index);
     double corners[4][2], px = fmin(fmax(view->scale * l->size, 1), 2000), unit = px / l->size;
     struct font_point to[4];
@@ -235,7 +238,7 @@ static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn
         if (!(fabs(to[i].x) < SCRIPT_PLACE_MAX && fabs(to[i].y) < SCRIPT_PLACE_MAX))
             return false;
     }
-    /* what drawing takes at most, descenders included: looked at, and given back at once */
+    /* the most memory for drawing, descenders included: checked, and released at once */
     double wide = fmax(fmax(to[0].x, to[1].x), fmax(to[2].x, to[3].x)) -
                   fmin(fmin(to[0].x, to[1].x), fmin(to[2].x, to[3].x)) + 16;
     double high = fmax(fmax(to[0].y, to[1].y), fmax(to[2].y, to[3].y)) -
@@ -252,7 +255,7 @@ static bool letter_draw(lua_State *L, struct script_network *s, const struct dyn
     return status == FONT_OK && (*gray)->width_px > 0;
 }
 
-/* What is outside of the mask is cut off: a finalizer may have moved letters since it was measured. */
+/* Clips to the mask: a finalizer may have moved letters since the mask was measured. */
 static void gray_add(struct script_mask *mask, const struct font_gray *gray)
 {
     int left = gray->left_px - mask->x, top = gray->top_px - mask->y;
@@ -267,7 +270,7 @@ static void gray_add(struct script_mask *mask, const struct font_gray *gray)
     }
 }
 
-/* Each letter that is somewhere: to the box of all, or onto the mask. */
+/* For each visible letter: extends the box, or draws onto the mask. */
 static void letters_go(lua_State *L, struct script_network *s, const struct view *view,
                        struct font_box *box, struct script_mask *mask)
 {
@@ -286,7 +289,8 @@ static void letters_go(lua_State *L, struct script_network *s, const struct view
         }
 }
 
-/* n:mask{scale =, x =, y =}: all letters as they are now; the world's origin is at (x, y), y upwards in it */
+/* n:mask{scale =, x =, y =}: a mask of all letters as they are; the world's origin is at (x,
+ * y), with y upwards in the world */
 static int network_mask(lua_State *L)
 {
     static const char *const keys[] = {"scale", "x", "y", NULL};
@@ -303,7 +307,7 @@ static int network_mask(lua_State *L)
         luaL_error(L, "%s", font_error());
     letters_go(L, s, &view, &box, NULL);
     if (!(box.x1 > box.x0)) {
-        script_mask_new(L); /* nothing of it is anywhere */
+        script_mask_new(L); /* no letter is visible */
         return 1;
     }
     struct script_mask *mask =

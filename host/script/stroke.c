@@ -1,6 +1,8 @@
-/* stroke.c - strokes in scripts: paper:stroke{...}, and the paths that they follow.
+/* stroke.c - strokes in scripts: paper:stroke{...}, and their paths.
  *
- * All samples of all lines of a stroke are made first, which may call the script's own functions; then the paper is painted on. */
+ * All samples of all lines of a stroke are made first, which may call the script's
+ * functions; then the stroke is painted.
+ */
 #include "script_brush.h"
 
 #include <brush.h>
@@ -12,12 +14,12 @@
 
 enum { CONTROL_MAX = 20000, PROFILE_MAX = 1000 };
 #define PI 3.14159265358979323846
-#define PROFILE_HZ 120.0 /* samples a second where pressure is a function of the way */
-#define LINE_SPACING 3.0 /* fibers between samples on a line that comes from a path */
+#define PROFILE_HZ 120.0 /* samples a second if pressure is a function of the way */
+#define LINE_SPACING 3.0 /* fibers between samples of a line from a path */
 
 /* ---- ways ---- */
 
-/* What moves and turns a way: x' = scale * turned (x) + place. */
+/* A similarity transform of a way: x' = scale * turned (x) + place. */
 struct placing {
     double x, y, scale, c, s;
 };
@@ -29,13 +31,14 @@ static void placed(const struct placing *p, double *x, double *y)
     *x = u;
 }
 
-/* Samples that the state frees. */
+/* Allocates samples; the state frees them. */
 static struct paper_stroke_sample *samples_new(lua_State *L, int count)
 {
     return lua_newuserdatauv(L, (size_t)count * sizeof(struct paper_stroke_sample), 0);
 }
 
-/* Pressure 0..1 on the way at u, 0..1: a number, a list of numbers at even places, or a function. */
+/* The pressure 0..1 at u, 0..1 of the way: a number, a list of numbers at even distances, or
+ * a function. */
 static double pressure_at(lua_State *L, int index, double u)
 {
     double value;
@@ -69,22 +72,22 @@ static double pressure_at(lua_State *L, int index, double u)
     return value;
 }
 
-/* What paper:stroke{...} says, and the strokes that come of it. */
+/* The arguments of paper:stroke{...}, and the strokes made from them. */
 struct drawing {
-    struct paper_stroke stroke; /* its brush and pace */
+    struct paper_stroke stroke; /* the brush and the pace */
     struct placing placing;
     double speed; /* fibers a second */
     double tilt[2];
-    double seconds; /* of the whole stroke; 0: as the speed says */
-    bool timed;     /* samples have times */
-    bool profiled;  /* pressure comes from the profile */
+    double seconds; /* of the whole stroke; 0: from the speed */
+    bool timed;     /* the samples have times */
+    bool profiled;  /* pressure is given by the profile */
     int pressure;   /* the profile's index on the stack */
     struct paper_stroke *strokes;
     int strokes_count;
-    int samples; /* the index of a table that holds their samples */
+    int samples; /* stack index of the table that holds their samples */
 };
 
-/* Times from the speed: the chords' lengths. */
+/* Makes times from the speed and the chords' lengths. */
 static void times_make(const struct drawing *d, struct paper_stroke_sample *samples, int count)
 {
     double time = 0;
@@ -98,7 +101,7 @@ static void times_make(const struct drawing *d, struct paper_stroke_sample *samp
     }
 }
 
-/* Pushes room for strokes, and the table of their samples. */
+/* Pushes memory for strokes, and the table of their samples. */
 static void strokes_begin(lua_State *L, struct drawing *d, int most)
 {
     d->strokes = lua_newuserdatauv(L, (size_t)(most + 1) * sizeof *d->strokes, 0);
@@ -115,7 +118,7 @@ static void strokes_paint(lua_State *L, struct script_paper *paper, const struct
     }
 }
 
-/* A stroke with the samples on the top of the stack. */
+/* Adds a stroke with the samples on the top of the stack. */
 static void stroke_add(lua_State *L, struct drawing *d, struct paper_stroke_sample *samples,
                        int count)
 {
@@ -129,7 +132,7 @@ static void stroke_add(lua_State *L, struct drawing *d, struct paper_stroke_samp
     d->stroke.samples = samples;
     d->stroke.samples_count = count;
     script_paper_check(L, paper_stroke_check(&d->stroke));
-    if (d->profiled) { /* finer, for the pressure to follow its profile */
+    if (d->profiled) { /* closer samples, so that the pressure follows the profile */
         start = samples[0].time_s;
         length = samples[count - 1].time_s - start;
         int fine = (int)fmin(CONTROL_MAX, fmax(2, ceil(length * PROFILE_HZ)));
@@ -153,7 +156,7 @@ static void stroke_add(lua_State *L, struct drawing *d, struct paper_stroke_samp
     script_check(L);
 }
 
-/* A line of chords as samples at even distances. */
+/* Adds a polyline as samples at even distances. */
 static void line_add(lua_State *L, struct drawing *d, const struct paper_way *way)
 {
     double length = 0, done = 0;
@@ -189,7 +192,7 @@ static void line_add(lua_State *L, struct drawing *d, const struct paper_way *wa
     lua_pop(L, 1);
 }
 
-/* Lines are freed whatever happens: they are a userdata's. */
+/* Lines are owned by a userdata, so that they are freed after errors, too. */
 static const char lines_type[] = "lutetia lines";
 
 static int lines_gc(lua_State *L)
@@ -315,7 +318,7 @@ static void way_add(lua_State *L, struct drawing *d)
 enum { POINTS, PATH, SVG, RECORDING, WAY, WAYS_COUNT };
 static const char *const ways[] = {"points", "path", "svg", "file", "way"};
 
-/* Which of them the options at 2 have. */
+/* Finds which of these the options at 2 have. */
 static int way_find(lua_State *L)
 {
     int found = -1, count = 0;
@@ -331,7 +334,7 @@ static int way_find(lua_State *L)
     return found;
 }
 
-/* The brush of the options at 2, which hold it; it must be of the paper at 1. */
+/* The brush in the options at 2, which reference it; it must be a brush of the paper at 1. */
 static const struct script_brush *brush_read(lua_State *L)
 {
     lua_getfield(L, 2, "brush");
@@ -397,7 +400,8 @@ static int paper_stroke(lua_State *L)
     return 0;
 }
 
-/* path("M0 0L5 5" [, tolerance]), svg("file.svg" [, tolerance]): a list of lines, each a list of {x, y}. */
+/* path("M0 0L5 5" [, tolerance]), svg("file.svg" [, tolerance]): a list of lines, each a
+ * list of {x, y}. */
 static int lines_push(lua_State *L, bool file)
 {
     const char *text = luaL_checkstring(L, 1);

@@ -11,7 +11,7 @@
 enum { SEED_MAX = 2147483647 };
 #define PI 3.14159265358979323846
 
-/* Each kind of chance on a paper has seeds of its own, in the order of its calls. */
+/* Each random technique of a paper has its own sequence of seeds, in the order of its calls. */
 static uint64_t seed_read(lua_State *L, int index, const char *what)
 {
     struct script *script = script_of(L);

@@ -1,4 +1,4 @@
-/* types.c - the kinds of userdata that scripts hold. */
+/* types.c - the kinds of userdata in scripts. */
 #include "script_internal.h"
 
 const char script_mask_type[] = "lutetia mask", script_papers_type[] = "lutetia papers",
@@ -18,6 +18,6 @@ void script_type_open(lua_State *L, const char *name, lua_CFunction gc)
         lua_setfield(L, -2, "__gc");
     }
     lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable"); /* scripts cannot reach __gc */
+    lua_setfield(L, -2, "__metatable"); /* hides the metatable and its __gc from scripts */
     lua_pop(L, 1);
 }

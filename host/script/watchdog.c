@@ -1,18 +1,21 @@
-/* watchdog.c - what Lua's own loops in C do (a pattern that backtracks for years) no hook stops, nor what a trusted script's
- * finalizers do: a thread beside the script sees that it should have stopped long ago, and tells the host.
+/* watchdog.c - a hook cannot stop Lua's loops in C (a pattern that backtracks for years), nor a
+ * trusted script's finalizers. A thread beside the script notices that the script should have
+ * stopped long ago, and tells the host.
  *
  *          deadline, or the host says stop
  *     ------------|--------------------------|------------------------------------|
- *       runs      | the hook stops it        | overdue(), unless papers are at work | overdue() */
+ *       runs      | the hook stops it        | overdue(), unless papers are at work | overdue()
+ */
 #include "script_internal.h"
 
 #include <time.h>
 
 #define LOOK_S 0.25
 #define PATIENCE                                                                               \
-    30 /* times as long while papers are at work: kernels may have to be compiled */
+    30 /* the factor of the grace period while papers are at work: kernels may have to be
+        * compiled */
 
-/* Whether the script should have stopped, and since when that is known. */
+/* Whether the script should have stopped, and since when this is known. */
 static bool overdue(struct script *script, double *since_s)
 {
     struct script_watchdog *w = &script->watchdog;
