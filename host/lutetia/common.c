@@ -17,7 +17,7 @@
 
 void tell_line(const char *text)
 {
-    char line[2400]; /* whatever a name, a script or a build log holds */
+    char line[2400]; /* room for names, script errors and build logs */
     visible_text(line, sizeof line, text);
     fprintf(stderr, "%s\n", line);
 }
@@ -66,11 +66,12 @@ static void interrupt_take(int signal_number)
     interrupt_flag = 1;
 }
 
-/* SIGINT is blocked and asked for, not handled: the terminal sends it to the linker that PoCL runs as
- * a child, too, and PoCL aborts when that dies. What is blocked stays so in children. */
+/* SIGINT is blocked and polled, not handled. The terminal also sends it to the linker that
+ * PoCL runs as a child, and PoCL aborts if the linker dies; children inherit the blocked
+ * signal. */
 void interrupt_catch(void)
 {
-    /* restarted: compilers that a system call is interrupted in say that something is wrong */
+    /* SA_RESTART: compilers fail if a system call is interrupted */
     struct sigaction action = {.sa_handler = interrupt_take,
                                .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
     sigset_t interrupt;
@@ -89,7 +90,7 @@ bool interrupted(void)
         sigset_t interrupt;
         sigemptyset(&interrupt);
         sigaddset(&interrupt, SIGINT);
-        /* this one is taken, here or by a thread that looks at the same time; the next ends the program */
+        /* this thread or another that polls takes the signal; the next one ends the program */
         sigtimedwait(&interrupt, NULL, &now);
         sigprocmask(SIG_UNBLOCK, &interrupt, NULL);
         interrupt_flag = 1;
@@ -189,7 +190,8 @@ int machine_prepare(const char *verb, int width, int height)
         return fail(verb, "%s", paris_error());
     struct device_memory memory = {.device = machine_device_name(paris_machine())};
     machine_devices_list(device_memory_take, &memory);
-    /* What is computed stands beside what it is computed from; the picture goes out as 4 bytes and 3. */
+    /* The machine holds old and new values at once; the picture is read as 4 bytes a fiber
+     * and written as 3. */
     double bits = 2.0 * paper_bits_per_fiber(width, height) + 56;
     double needed = bits / 8 * width * height;
     if (memory.bytes && needed > (double)memory.bytes)

@@ -6,9 +6,11 @@
  *     ~~~~~~~~~~~~~~~~  waterline
  *      (reflected)                   bleeding, the deeper the longer
  *
- * Lutetia was a town in a marsh.  The word stands on the water's edge, and its mirror image is screened into the wet
- * half in DEMO_BANDS bands as time goes by, the deepest first.  The light pigment runs ahead: cyan around the
- * indigo, yellow around the ochre. */
+ * Lutetia was a town in a marsh.  The word stands on the water's edge. Its mirror image is
+ * screened into the wet half in DEMO_BANDS bands, one after the other, the deepest first.
+ * The light pigment of each ink moves furthest: cyan around the indigo, yellow around the
+ * ochre.
+ */
 #include "demo_page.h"
 #include "demo_scenery.h"
 #include "lutetia.h"
@@ -44,9 +46,9 @@ static const struct paper_ink inks[SYLLABLES] = {
 };
 static const struct paper_ink caption_ink = {.cyan = 0.82, .magenta = 0.76, .yellow = 0.48};
 
-/* A reflection is a little paler than what it reflects, and brings water of its own. */
+/* A reflection is a little paler than the letters, and its ink brings water. */
 static const double reflection_strength = 0.95, reflection_water = 0.6;
-/* Steps from one band to the next: four fifths of the time for all. */
+/* Steps from one band to the next; all bands take four fifths of the time. */
 enum { BAND_STEPS = 5 * DEMO_MOMENT };
 
 static const struct {
@@ -90,7 +92,7 @@ static enum paper_status advance_of(const struct paper_line *line, int count,
     return status;
 }
 
-/* Each letter of the word on its own screen, where it stands in the line. */
+/* Draws each letter of the word on its own screen, at its place in the line. */
 static enum paper_status word_set(struct demo_page *page)
 {
     /* Letters are set one by one: none may join. */
@@ -114,7 +116,7 @@ static enum paper_status word_set(struct demo_page *page)
     return status;
 }
 
-/* The caption begins where the first letter's ink does. */
+/* The caption's left edge is that of the first letter's ink. */
 static enum paper_status caption_set(struct demo_page *page)
 {
     struct paper_line line = {.text = CAPTION,

@@ -1,4 +1,5 @@
-/* demo_page.h - the demonstration page as a scene: what is put on the sheet when, and the weather.
+/* demo_page.h - the demonstration page as a scene: the times at which inks are put on the
+ * sheet, and the air.
  *
  *     struct demo_page *page;
  *     if (demo_page_create(&page) != PAPER_OK)
@@ -15,8 +16,8 @@
 
 #include <paper.h>
 
-/* What happens at a moment happens at a multiple of DEMO_MOMENT steps, so that the machine, which looks at all that
- * is asked of it between two moments at once, meets the same work again. */
+/* All events happen at multiples of DEMO_MOMENT steps. The machine evaluates the steps
+ * between two events together, so equal intervals let it reuse its plan. */
 enum { DEMO_WIDTH = 1600, DEMO_HEIGHT = 1200, DEMO_MOMENT = 16, DEMO_STEPS = 56 * DEMO_MOMENT };
 
 struct paper_config demo_page_config(void);
@@ -26,10 +27,10 @@ struct demo_page;
 enum paper_status demo_page_create(struct demo_page **out);
 void demo_page_destroy(struct demo_page *page); /* NULL is fine */
 
-/* The dry letters, and the marsh. Errors: as paper_screen_ink(). */
+/* Puts on the dry letters and the marsh. Errors: as paper_screen_ink(). */
 enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet);
-/* One cycle of time, with what is put on before it; every STEPS_AT_ONCE of them it waits for the machine.
- * Errors: as paper_screen_ink(), paper_disperse() and paper_finish(). */
+/* Puts on what is due, and computes one cycle. Waits for the machine after every
+ * STEPS_AT_ONCE cycles. Errors: as paper_screen_ink(), paper_disperse() and paper_finish(). */
 enum paper_status demo_page_step(struct demo_page *page, struct paper *sheet, int step);
 
 #endif

@@ -1,7 +1,8 @@
 /* demo_scenery.c - masks and reflections for the demonstration page.
  *
- * Everything is a function of the place alone, by value noise: random numbers at the corners of a lattice, smoothly
- * interpolated; octaves of it added at halving sizes. */
+ * Everything is a function of the place alone, by value noise: random numbers at the corners
+ * of a lattice, smoothly interpolated, in octaves of halving sizes.
+ */
 #include "demo_scenery.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ static uint32_t scramble(uint32_t x)
     return x ^ x >> 16;
 }
 
-/* 0..1 at a corner of the lattice. */
+/* The random number 0..1 at a corner of the lattice. */
 static double corner(int x, int y, uint32_t seed)
 {
     return scramble((uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ seed) / 4294967296.0;
@@ -99,7 +100,8 @@ bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind,
     return true;
 }
 
-/* How much of a reflection at that depth belongs to the band: bands overlap and add up to 1. */
+/* The share of a reflection at that depth in the band: bands overlap, and their shares add
+ * up to 1. */
 static double band_share(int band, double depth)
 {
     const double step = (double)DEMO_REFLECTION_DEPTH_PX / DEMO_BANDS;

@@ -26,13 +26,13 @@ enum demo_mask_kind {
 bool demo_mask_screen(const struct demo_mask *mask, enum demo_mask_kind kind,
                       struct paper_screen *out);
 
-/* One letter where it stands on the sheet. */
+/* A letter, with its place on the sheet. */
 struct demo_letter {
     struct paper_screen screen;
     int x_px, y_px; /* of the screen's upper left corner */
 };
 
-/* A reflection is put on band by band, the deepest first, so that each has run the longer the deeper it lies. */
+/* A reflection is put on band by band, the deepest first, so that deeper bands bleed longer. */
 enum { DEMO_BANDS = 10, DEMO_REFLECTION_DEPTH_PX = 400 };
 
 /* Blends a band (0 the deepest) of a letter's reflection into a sheet-sized screen: mirrored at the letter's foot,

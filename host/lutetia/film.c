@@ -1,5 +1,5 @@
-/* film.c - frames by the sheet's own time: frame n is after n * every steps, so pictures of a run that was resumed go on where
- * those before it ended. */
+/* film.c - frames by the sheet's own time: frame n is after n * every steps. So pictures of
+ * a resumed run continue the numbers of the run before. */
 #include "film.h"
 
 #include "lutetia.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define AMOUNT_WHITE 4.0 /* water that is white in a picture */
+#define AMOUNT_WHITE 4.0 /* the amount of water that is shown white */
 
 static bool film_fail(struct film *film, const char *text)
 {
@@ -23,7 +23,7 @@ static bool film_fail(struct film *film, const char *text)
     return false;
 }
 
-/* What the camera sees, cut off at the sheet: whole fibers. */
+/* The part of the sheet that the camera shows, clipped to the sheet: whole fibers. */
 struct window {
     int x, y, width, height;
 };
@@ -40,7 +40,8 @@ static struct window window_of(const struct film *film, const struct paper_sheet
     return w;
 }
 
-/* Bilinear between fibers' middles; where the window is as large as the picture, its fibers. */
+/* Draws by bilinear interpolation between the fibers' middles; a window as large as the
+ * picture is copied fiber by fiber. */
 static void window_draw(const uint16_t *rgb, int sheet_width, const struct window *w,
                         uint8_t *out, int width, int height)
 {
@@ -100,7 +101,8 @@ static bool picture_write(struct film *film, const char *what, long number,
     return true;
 }
 
-/* gray = the sum of two layers (or of one, twice the same) over what is white. */
+/* Writes gray = the sum of two layers (or one layer twice), relative to the amount that is
+ * white. */
 static bool gray_write(struct film *film, const char *what, long number,
                        struct paper_sheet *sheet, enum paper_layer first,
                        enum paper_layer second, double white)
@@ -131,7 +133,7 @@ bool film_step(struct film *film, int paper, struct paper_sheet *sheet)
         return !film->failed;
     long time = paper_sheet_now(sheet);
     bool repeats = paper_history_following(sheet) > 0;
-    /* the last frame that is there is that of the moment at which the run was saved */
+    /* the saved run has already written the frame of the moment at which it was saved */
     bool there = repeats || (film->filmed_before && time == paper_history_resumed(sheet));
     film->filmed_before = repeats;
     if (there)

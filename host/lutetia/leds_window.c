@@ -1,4 +1,4 @@
-/* leds_window.c - pictures of the front at their turn. */
+/* leds_window.c - draws pictures of the front panel when they are due. */
 #include "leds_window.h"
 #include "lutetia.h"
 
@@ -52,7 +52,7 @@ void leds_window_light(struct leds_window *window, const uint8_t lights[FRONT_PA
     memcpy(window->lights, lights, sizeof window->lights);
 }
 
-/* True: the clock was changed, which whoever waits must know at once. */
+/* Handles a key. True: the clock was changed; the caller must wait anew. */
 static bool key_take(struct leds_window *window, int key)
 {
     struct frame_clock *clock = &window->clock;
@@ -76,7 +76,7 @@ double leds_window_wait_s(struct leds_window *window, double time_s)
     struct frame_clock *clock = &window->clock;
     if (!window->clock_began) {
         *clock = frame_clock_begin(0.001, clock_s());
-        clock->frame_max_s = INFINITY; /* a recording that was late catches up */
+        clock->frame_max_s = INFINITY; /* a recording that is late catches up */
         window->clock_began = true;
     }
     frame_clock_advance(clock, clock_s());

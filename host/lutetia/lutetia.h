@@ -1,7 +1,10 @@
-/* lutetia.h - the command: one file a verb, a row each in main.c; what they share is declared here.
+/* lutetia.h - the command: each verb has a file and a row in main.c; shared functions are
+ * declared here.
  *
- * Exit status: 0; 1 where something failed; 2 where the command line is wrong; 130 where it was interrupted.
- * Every failure is one line on the standard error: what was wrong, with what, and what to do. */
+ * Exit status: 0; 1 where something failed; 2 where the command line is wrong; 130 where it
+ * was interrupted. Every failure is one line on the standard error: what was wrong, with
+ * what, and what to do.
+ */
 #ifndef LUTETIA_LUTETIA_H
 #define LUTETIA_LUTETIA_H
 
@@ -35,25 +38,29 @@ int verb_voice(int argc, char **argv);
 
 /* Prints `lutetia VERB: message` and returns EXIT_FAILED. */
 int fail(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Prints the same and nothing has failed: what one should know. */
+/* Prints a line of the same form that reports no failure. */
 void tell(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The one place where lines go to the standard error; what comes from outside does nothing to a terminal there. */
+/* Prints a line on the standard error, with control characters made visible. All lines go
+ * through this function. */
 void tell_line(const char *text);
-/* At a verb's end: the status, and what was interrupted says so, once. */
+/* Called at a verb's end. Returns the status; after an interruption, prints one line that
+ * says so. */
 int interrupt_report(const char *verb, int status, const char *untouched);
-/* Says paper_error(), but not after Ctrl-C: what fails then fails because of it. */
+/* Prints paper_error() and returns EXIT_FAILED; after Ctrl-C, which makes calls fail, prints
+ * nothing. */
 int fail_paper(const char *verb);
 int fail_usage(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* ---- Ctrl-C ---- */
 
-/* From here on SIGINT and SIGTERM only raise a flag; a second one ends the program at once. */
+/* From now on SIGINT and SIGTERM only set a flag; a second one ends the program at once. */
 void interrupt_catch(void);
 bool interrupted(void);
 
 /* ---- progress ---- */
 
-/* A line on the standard error that is drawn over itself, with steps per second; nothing where it is no terminal. */
+/* A line on the standard error that is overwritten with the progress and steps per second;
+ * nothing if it is no terminal. */
 struct progress {
     const char *what;
     int total;
@@ -67,21 +74,23 @@ void progress_end(struct progress *p); /* clears the line */
 /* "12 s left", "about 3 min left" */
 void time_left_text(char *text, size_t room, double seconds);
 
-double clock_s(void); /* seconds since some moment */
+double clock_s(void); /* seconds of a monotonic clock */
 
 /* ---- the machine and the sheet ---- */
 
-/* Makes the machine and sees that a sheet of that size fits its memory: EXIT_SUCCESS, or says why not. */
+/* Creates the machine, and checks that a sheet of that size fits the memory. EXIT_SUCCESS,
+ * or prints why not. */
 int machine_prepare(const char *verb, int width, int height);
 
-/* How many steps are asked of the machine before it is waited for: what Ctrl-C and the progress line wait at most.
- * Always the same, so that the machine meets the same work again; few, so that it is soon compiled. */
+/* Steps that are submitted before waiting for the machine: the longest that Ctrl-C and the
+ * progress line wait. The number is constant, so that the machine can reuse its plan, and
+ * small, so that the plan compiles soon. */
 enum { STEPS_AT_ONCE = 2 };
 
-/* Reads the sheet and writes it as PNG. EXIT_SUCCESS, or says why not. */
+/* Reads the sheet and writes it as PNG. EXIT_SUCCESS, or prints why not. */
 int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, const char *path);
 
-/* Makes a folder if there is none. EXIT_SUCCESS, or says why not. */
+/* Makes a folder if there is none. EXIT_SUCCESS, or prints why not. */
 int folder_make(const char *verb, const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* main.c - the verbs. */
+/* main.c - the table of verbs. */
 #include "lutetia.h"
 
 #include <streams.h>
@@ -48,7 +48,7 @@ static void help(FILE *out)
           out);
 }
 
-/* The verb's status; whose it is, *name says. */
+/* Runs the verb and returns its status; *name gets its name. */
 static int verb_run_named(int argc, char **argv, const char **name)
 {
     if (argc < 2) {

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHOWN_MAX = 60 }; /* of a wrong value in a message */
+enum { SHOWN_MAX = 60 }; /* characters of a wrong value that a message shows */
 
-/* A finite number within the row's range, *end after it. */
+/* Reads a finite number within the row's range; *end is behind it. */
 static bool number_read(const struct option_row *row, const char *text, const char **end,
                         double *out)
 {
@@ -127,7 +127,8 @@ static bool value_wrong(const char *verb, const struct option_row *row, const ch
     case OPTION_LIST:
         break;
     }
-    if (row->count > 0 && strstr(row->value, "..")) /* X,Y,.. does not say how many */
+    if (row->count > 0 && strstr(row->value, "..")) /* a value "X,Y,.." does not give the
+                                                     * number */
         snprintf(count, sizeof count, "%d numbers ", row->count);
     snprintf(range, sizeof range, "%.10g..%.10g", row->least, row->most);
     if (row->kind == OPTION_INTEGER || row->kind == OPTION_NUMBER)

@@ -17,7 +17,7 @@
 
 enum option_kind {
     OPTION_FLAG,    /* bool */
-    OPTION_TEXT,    /* const char *; what argv holds, not empty */
+    OPTION_TEXT,    /* const char *: the argument itself, not empty */
     OPTION_INTEGER, /* int within least..most */
     OPTION_NUMBER,  /* double within least..most; NaN and infinity are not */
     OPTION_NUMBERS, /* double[count], separated by commas, each within least..most */
@@ -42,7 +42,7 @@ struct option_row {
     const char *name; /* without the dashes; NULL ends the table */
     char letter;      /* of the short form, or 0 */
     enum option_kind kind;
-    const char *value; /* what the help calls it */
+    const char *value; /* the value's name in the help */
     const char *help;
     void *target;
     double least, most;
@@ -52,15 +52,15 @@ struct option_row {
 struct option_words {
     const char *words[OPTION_WORDS_MAX];
     int count;
-    bool help; /* --help or -h was there: nothing else has been looked at */
+    bool help; /* --help or -h was given; other options were not read */
 };
 
-/* Fills the targets. False: it has said, in one line, what is wrong. */
+/* Fills the targets. False: an error was printed, in one line. */
 bool options_parse(const char *verb, const struct option_row *rows, int argc, char **argv,
                    struct option_words *words);
 
-/* How many of argv are options of these rows before the first word: what follows is the command line
- * of another program. */
+/* How many of argv are options of these rows, before the first word. The rest is the command
+ * line of another program. */
 int options_own(const struct option_row *rows, int argc, char **argv);
 
 /* One line for each option, on the standard output. */

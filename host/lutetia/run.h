@@ -1,4 +1,4 @@
-/* run.h - `lutetia run`: a script as the command runs it, filmed, saved, reported. */
+/* run.h - `lutetia run`: runs a script, with its film, its saved state and its reports. */
 #ifndef LUTETIA_RUN_H
 #define LUTETIA_RUN_H
 
@@ -13,9 +13,10 @@ struct run {
     bool quiet;
     const char *save; /* --save; NULL: none */
     struct film film;
-    /* Steps, of a run among others, which has no line of its own; NULL: nobody asks. */
+    /* Receives the steps of a run that is one of several, and has no progress line of its
+     * own; NULL: none. */
     void (*report)(const struct run *run, long done, long total);
-    int report_to; /* the reporter's own */
+    int report_to; /* for report() */
     /* its own */
     struct progress line;
     bool line_begun, line_again;
@@ -24,7 +25,7 @@ struct run {
 /* One run of the script: EXIT_SUCCESS, EXIT_FAILED or EXIT_INTERRUPTED. */
 int run_script(struct run *run);
 
-/* What the script prints, on the standard output. */
+/* Prints what the script prints on the standard output. */
 void run_print(const struct run *run, const char *text, size_t length);
 
 #endif

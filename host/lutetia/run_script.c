@@ -1,4 +1,5 @@
-/* run_script.c - the command as a script's host: its lines on the terminal, its film, what it saves. */
+/* run_script.c - the command as a script's host: prints its lines, writes its film, saves
+ * its papers. */
 #include "run.h"
 
 #include <history.h>
@@ -13,7 +14,8 @@ void run_print(const struct run *run, const char *text, size_t length)
 {
     if (run->config.trusted || !isatty(STDOUT_FILENO)) {
         fwrite(text, 1, length, stdout);
-    } else { /* a script that nobody trusts does nothing to a terminal; a byte is shown as 4 at most */
+    } else { /* control characters of an untrusted script are made visible; a byte takes 4 at
+              * most */
         char shown[2048];
         for (size_t at = 0; at < length; at += sizeof shown / 8) {
             size_t rest = length - at, most = sizeof shown / 8;
@@ -100,17 +102,18 @@ static void divergence_report(const struct run *run, const struct paper_state_sh
                  papers[i].number);
 }
 
-/* What was done until now, however the run ended. */
+/* Saves the papers as they are, however the run ended. */
 static enum script_status save(struct run *run, const struct paper_state_sheet *papers,
                                int count, enum script_status status)
 {
     struct paper_state_sheet
-        kept[PAPER_STATE_SHEETS_MAX]; /* papers_max, where there is a --save */
+        kept[PAPER_STATE_SHEETS_MAX]; /* with --save, papers_max limits the number */
     int kept_count = 0;
     for (int i = 0; i < count && kept_count < PAPER_STATE_SHEETS_MAX; i++)
         if (paper_history_has(papers[i].sheet))
             kept[kept_count++] = papers[i];
-    if (kept_count == 0 && status != SCRIPT_OK) /* what an earlier run has saved stays */
+    if (kept_count == 0 && status != SCRIPT_OK) /* do not overwrite the state that an earlier
+                                                 * run saved */
         return status;
     if (paper_state_save(run->save, kept, kept_count) != PAPER_OK) {
         fail("run", "%s", paper_error());
@@ -125,7 +128,7 @@ static enum script_status finish(void *context, const struct paper_state_sheet *
                                  int count, enum script_status status)
 {
     struct run *run = context;
-    bool film_failed = run->film.failed; /* and has been said */
+    bool film_failed = run->film.failed; /* and the reason was printed */
     if (!film_end(&run->film) && !film_failed) {
         fail("run", "%s", run->film.error);
         status = SCRIPT_FAILED;

@@ -1,7 +1,10 @@
-/* run_sweep.c - sweeps: every combination of values is a run, a folder, and with --jobs a process.
+/* run_sweep.c - sweeps: every combination of values is a run with its own folder, and with
+ * --jobs its own process.
  *
- * Processes are forked before the machine is attached, so each has its own. What a run says goes to files without names and is
- * printed when all runs before it have been; its steps come through a pipe, for the progress line. */
+ * Processes are forked before the machine is attached, so each has its own. A run's output
+ * goes to unnamed files, and is printed after that of all runs before it. Its steps come
+ * through a pipe, for the progress line.
+ */
 #include "run_sweep.h"
 
 #include "lutetia.h"
@@ -29,7 +32,7 @@ struct sweep {
 struct one {
     char *folder;
     char *words[SWEEPS_MAX]; /* key=value */
-    FILE *output, *errors;   /* of a job that has run */
+    FILE *output, *errors;   /* of a job that has ended */
     int status;              /* -1: not yet */
 };
 
@@ -70,7 +73,8 @@ static char *text_of(double number)
     return asprintf(&text, "%.10g", number) < 0 ? NULL : text;
 }
 
-/* "1..5", or "0..1/5": five numbers from 0 to 1. False: it is no range; *bad: it is a wrong one. */
+/* Parses "1..5", or "0..1/5": five numbers from 0 to 1. False: it is no range, or, if *bad,
+ * a wrong one. */
 static bool range_parse(struct sweep *sweep, const char *values, bool *bad)
 {
     int from, to, steps;
@@ -86,7 +90,9 @@ static bool range_parse(struct sweep *sweep, const char *values, bool *bad)
     if (!dots)
         return false;
     if (sscanf(dots + 2, "%lf/%d%c", &high, &steps, &end) != 2) {
-        *bad = strspn(values, "+-.0123456789eE/") == strlen(values); /* no word: half a range */
+        *bad = strspn(values, "+-.0123456789eE/") == strlen(values); /* only characters of
+                                                                      * numbers: an incomplete
+                                                                      * range, not a word */
         return *bad;
     }
     char first[32] = "";
@@ -99,7 +105,7 @@ static bool range_parse(struct sweep *sweep, const char *values, bool *bad)
     return true;
 }
 
-/* The text is cut up. */
+/* Parses the sweep; modifies the text. */
 static bool sweeps_parse(char *text, struct sweep *sweeps, int *count)
 {
     char *next_one, *next_value;
@@ -132,7 +138,7 @@ static bool sweeps_parse(char *text, struct sweep *sweeps, int *count)
 
 /* ---- the list of runs ---- */
 
-/* Makes folders and words of all combinations. */
+/* Makes the folders and words of all combinations. */
 static int runs_make(struct all *all, const struct sweep *sweeps, int count)
 {
     long total = 1;
@@ -150,7 +156,7 @@ static int runs_make(struct all *all, const struct sweep *sweeps, int count)
         long left = total, number = all->runs_count;
         one->status = -1;
         one->folder = strdup(all->run->config.out_folder);
-        for (int i = 0; i < count; i++) { /* the last key changes fastest */
+        for (int i = 0; i < count; i++) { /* the last key varies fastest */
             left /= sweeps[i].count;
             const char *value = sweeps[i].values[number / left % sweeps[i].count];
             char *folder = NULL;
@@ -181,7 +187,7 @@ static void runs_free(struct all *all)
     free(all->runs);
 }
 
-/* A path of the command line for one of many runs: in its folder. */
+/* The path of an output file, given on the command line, within the folder of one run. */
 static char *path_within(const char *folder, const char *path)
 {
     const char *slash = path ? strrchr(path, '/') : NULL;
@@ -228,7 +234,7 @@ static void report(const struct run *run, long done, long total)
 {
     struct report steps = {done, total};
     ssize_t written = write(run->report_to, &steps, sizeof steps);
-    (void)written; /* a report that is lost is no loss */
+    (void)written; /* a lost progress report does not matter */
 }
 
 _Noreturn static void job_become(struct all *all, const struct one *one, int reports,
@@ -270,7 +276,7 @@ static bool job_start(struct all *all, struct job *job, int number, int threads)
     return true;
 }
 
-/* Copies what a run said, errors with the run's name before each line. */
+/* Copies a run's output; before each line of its errors stands the run's name. */
 static void one_print(const struct all *all, struct one *one)
 {
     char line[4096], text[4096 + PATH_MAX];
@@ -361,7 +367,7 @@ static void runs_at_once(struct all *all, int jobs_count)
             running++;
         }
         if (interrupted() &&
-            !told) { /* they may have heard it already: once more does no harm */
+            !told) { /* a second signal does no harm to jobs that received the terminal's */
             for (int i = 0; i < jobs_count; i++)
                 if (jobs[i].pid)
                     kill(jobs[i].pid, SIGTERM);

@@ -4,8 +4,9 @@
 
 #include "run.h"
 
-/* Runs for every combination of "KEY=a,b,c;OTHER=1..5;THIRD=0..1/5", each in a folder of its own. With `jobs` above 1 as many at a
- * time, in processes of their own; what they print comes in the order of the combinations. Runs that fail do not stop the
+/* Runs the script for every combination of "KEY=a,b,c;OTHER=1..5;THIRD=0..1/5", each in a
+ * folder of its own. With `jobs` above 1, that many run at a time, each in its own process;
+ * their output is printed in the order of the combinations. Runs that fail do not stop the
  * others. */
 int sweep_all(struct run *run, const char *text, int jobs);
 

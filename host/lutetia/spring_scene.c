@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Points of a circle, and how long a straight baseline's path is, in ems. */
+/* The number of points of a circle, and the length of a straight baseline's path in ems. */
 enum { CIRCLE_POINTS = 721 };
 static const double line_length = 10000;
 
@@ -28,7 +28,7 @@ static enum stage_status fail_dyn(enum dyn_status status)
 
 /* ---- controls of a word's style, which are set before the word is made ---- */
 
-/* The row that NAME=VALUE is about; NULL: it is none of the style's. */
+/* The style's control that NAME=VALUE sets; NULL: none. */
 static const struct dyn_control *style_row(const char *assignment)
 {
     size_t length = strcspn(assignment, "=");

@@ -24,7 +24,8 @@ static enum midi_status spring_sound_create(double seconds, struct spring_sound 
     struct spring_sound *s = NULL;
     *out = NULL;
     def.room = true;
-    enum midi_status status = sound_create(&def, &probe); /* before a long film, not after it */
+    enum midi_status status = sound_create(&def, &probe); /* check before a long film, not
+                                                           * after it */
     if (status != MIDI_OK)
         return status;
     sound_destroy(probe);
@@ -53,7 +54,7 @@ int spring_sound_count(const struct spring_sound *s)
     return s->count;
 }
 
-/* A clank's strength is a speed; the others' is 1 where it is usual. */
+/* A clank's strength is a speed; the usual strength of other sounds is 1. */
 static int velocity_of(enum sound_kind kind, double strength)
 {
     if (kind == SOUND_CLANK)
@@ -93,7 +94,7 @@ spring_sound_hear(struct stage *stage, int fps, double seconds,
 {
     const int last = (int)lround(seconds * fps);
     enum midi_status status = spring_sound_create((double)(last + 1) / fps, out);
-    stage_clock(stage)->frame_max_s = INFINITY; /* as a film has it: no frame is too late */
+    stage_clock(stage)->frame_max_s = INFINITY; /* every frame counts, as in a film */
     for (int frame = 0; frame <= last && status == MIDI_OK; frame++) {
         const double now_s = (double)frame / fps;
         if ((before && before(context, stage, now_s) != STAGE_OK) ||

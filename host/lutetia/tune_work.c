@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Of STENCIL: water, absorbency, pigment; the others have two. */
+/* Fields of STENCIL: water, absorbency, pigment; the others have two. */
 enum { FIELDS = 3 };
 
 struct tune_work {
@@ -16,11 +16,12 @@ struct tune_work {
     bool failed;
 };
 
-/* Arrays of TRAFFIC are larger than any cache; a turn of the others is some hundred microseconds. */
+/* TRAFFIC's arrays are larger than any cache. A turn of the other kinds takes some hundred
+ * microseconds. */
 static const struct kind {
     const char *name;
     int height, width, turns;
-    bool apart; /* each turn is evaluated by itself */
+    bool apart; /* evaluate after each turn */
     bool (*turn)(struct machine *m, const uint32_t *fields);
 } kinds[TUNE_KINDS];
 
@@ -48,7 +49,7 @@ static struct machine_value *field(struct machine *m, uint32_t id)
     return machine_field_value(m, id, MACHINE_F32, MACHINE_EVERYWHERE);
 }
 
-/* Stays between 0 and 1: x' = 3.5 x (1 - x), some times over. */
+/* Iterates x' = 3.5 x (1 - x), which stays between 0 and 1. */
 static bool arithmetic_turn(struct machine *m, const uint32_t *fields)
 {
     struct machine_value *x = field(m, fields[0]), *y = field(m, fields[1]);
@@ -68,7 +69,8 @@ static bool traffic_turn(struct machine *m, const uint32_t *fields)
     return machine_field_store(m, fields[0], x, MACHINE_EVERYWHERE) == MACHINE_OK;
 }
 
-/* What flows in across the face towards the lower neighbour flows out of that. wet: NULL, or what it goes with. */
+/* The flow across the face towards the lower neighbour is added here and subtracted there.
+ * wet: NULL, or a factor of the flow. */
 static bool spread(struct machine *m, uint32_t substance, uint32_t absorbency,
                    struct machine_value *wet, int axis)
 {
@@ -99,7 +101,7 @@ static const struct kind kinds[TUNE_KINDS] = {
     [TUNE_STENCIL] = {"stencil", 512, 2048, 32, false, stencil_turn},
 };
 
-/* A turn is one call, so that the machine finds the loop. */
+/* A turn is a single call, so that the machine finds the loop. */
 static void turn_again(const struct machine_call *call)
 {
     struct tune_work *w = (struct tune_work *)(uintptr_t)call->words[0];

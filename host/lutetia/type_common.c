@@ -114,7 +114,8 @@ int type_filter_read(const char *verb, const char *name, char **out)
         return file ? fail(verb, "%s: a filter's file has up to %d bytes", name + 1, BYTES_MAX)
                     : fail(verb, "%s: %s", name + 1, why);
     }
-    /* Words, whatever is between them, as one line with a comma between each; none behind "samples:". */
+    /* Joins words, separated by anything, to one line with commas; no comma after
+     * "samples:". */
     size_t length = 0;
     bool gap = false;
     for (size_t i = 0; i < count; i++) {

@@ -1,4 +1,4 @@
-/* type_common.h - what `lutetia type` and `lutetia font` share. */
+/* type_common.h - shared by `lutetia type` and `lutetia font`. */
 #ifndef LUTETIA_TYPE_COMMON_H
 #define LUTETIA_TYPE_COMMON_H
 
@@ -8,10 +8,10 @@
 
 #include <stdbool.h>
 
-/* Says font_error(). */
+/* Prints font_error() and returns EXIT_FAILED. */
 int fail_font(const char *verb);
 
-/* A white picture. EXIT_SUCCESS, or says why not. */
+/* Makes a white picture. EXIT_SUCCESS, or prints why not. */
 int type_image_create(const char *verb, double width, double height,
                       struct display_image *image);
 struct font_picture type_picture(const struct display_image *image);
@@ -28,22 +28,25 @@ int type_image_write(const char *verb, const char *path, const struct display_im
 int type_face_open(const char *verb, const char *name, int index, const char *axes,
                    struct font_face **out);
 
-/* A filter's name; of one that begins with @, the words of that file, separated by commas. The caller frees *out. */
+/* Gets a filter's name; for one that begins with @, the words of that file, separated by
+ * commas. The caller frees *out. */
 int type_filter_read(const char *verb, const char *name, char **out);
 
-/* A line of small type, for labels: black, its baseline's left end at (x, y). Nothing where there is no font for it. */
+/* Labels: a line of small black type with the left end of its baseline at (x, y). Nothing is
+ * drawn if there is no font. */
 struct type_labels;
 struct type_labels *type_labels_create(double size_px);
 void type_labels_destroy(struct type_labels *labels);
 void type_label(struct type_labels *labels, struct display_image *image, double x, double y,
                 const char *format, ...) __attribute__((format(printf, 5, 6)));
 
-/* type_compare.c: the text in gray by us, by the definition and by FreeType, enlarged, with what they differ by. */
+/* type_compare.c: pictures of the text in gray by us, by the definition and by FreeType,
+ * enlarged, and of their differences. */
 int type_compare(const char *verb, const char *path, const struct font_layout *layout,
                  const struct font_map *map, const char *filter, double x_px, double y_px,
                  int zoom);
 
-/* type_gl.c: the text by OpenGL, as on a display, in place of the white picture. */
+/* type_gl.c: draws the text by OpenGL, as on a display, over the white picture. */
 int type_gl(const char *verb, const struct font_layout *layout, const struct font_map *map,
             const char *filter, double darken_px, double x_px, double y_px, const double ink[3],
             struct display_image *image);

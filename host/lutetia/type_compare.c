@@ -1,6 +1,7 @@
-/* type_compare.c - `lutetia type --compare`: the same text in gray by the pipeline, by the definition in double precision
- * and by FreeType's rasteriser, and how far they are from each other, as pictures. FreeType knows one filter, the box:
- * what it is measured against is the exact box. */
+/* type_compare.c - `lutetia type --compare`: the same text in gray by the pipeline, by the
+ * definition in double precision and by FreeType's rasteriser, and how far they are from
+ * each other, as pictures. FreeType has only the box filter, so it is compared with the
+ * exact box. */
 #include "lutetia.h"
 #include "type_common.h"
 
@@ -24,7 +25,7 @@ struct compare {
     double *ours, *gold, *gold_box, *freetype; /* 1 is full */
 };
 
-/* The map of one glyph to the picture, all of the place in it. */
+/* The map from one glyph to the picture, including its place. */
 static enum font_status glyph_map(const struct compare *c, int i, double x_px, double y_px,
                                   struct font_map *out)
 {
@@ -43,7 +44,7 @@ static enum font_status glyph_map(const struct compare *c, int i, double x_px, d
     return status;
 }
 
-/* Calls for each glyph. */
+/* Called for each glyph. */
 typedef int each_glyph(struct compare *c, const struct font_placed *g,
                        const struct font_outline *outline, const struct font_map *map);
 
@@ -121,7 +122,7 @@ static int pixels_take(struct compare *c, const struct font_placed *g,
 
 /* ---- FreeType ---- */
 
-/* The face again, opened by FreeType alone, with the same axes. */
+/* Opens the face again, by FreeType alone, with the same axes. */
 static FT_Face freetype_open(FT_Library library, struct font_face *face)
 {
     FT_Face ft;
@@ -141,7 +142,8 @@ static FT_Face freetype_open(FT_Library library, struct font_face *face)
     return ft;
 }
 
-/* FreeType's own way: a size in 1/64 pixels, a matrix and a place; what bends lines it cannot. */
+/* Draws a glyph by FreeType: a size in 1/64 pixels, a matrix and an offset. It has no
+ * distortions that bend lines. */
 static int freetype_glyph(struct compare *c, FT_Face ft, const struct font_placed *g,
                           const struct font_map *map, uint8_t *pixels)
 {
@@ -206,7 +208,7 @@ static int freetype_draw(struct compare *c, double x_px, double y_px)
 
 struct panel {
     const char *what;
-    const double *pixels, *against; /* with `against`: the difference, as colour */
+    const double *pixels, *against; /* with `against`: shows the difference as colour */
 };
 
 static void panel_draw(const struct compare *c, const struct panel *p, int zoom,
@@ -217,7 +219,8 @@ static void panel_draw(const struct compare *c, const struct panel *p, int zoom,
             size_t at = (size_t)(r / zoom) * (size_t)c->width + (size_t)(k / zoom);
             uint8_t *to = image->pixels +
                           3 * ((size_t)(y + r) * (size_t)image->width_px + (size_t)(x + k));
-            if (p->against) { /* red: too much ink, blue: too little; a 32nd of full is all colour */
+            if (p->against) { /* red: too much ink, blue: too little; 1/32 of full coverage
+                               * is the full colour */
                 double d = 32 * (p->pixels[at] - fmin(fmax(p->against[at], 0), 1));
                 double much = fmin(1, fmax(0, d)), little = fmin(1, fmax(0, -d));
                 to[0] = (uint8_t)lrint(255 * (1 - little));

@@ -1,4 +1,4 @@
-/* type_gl.c - `lutetia type --gl`: the text as a display's OpenGL draws it. */
+/* type_gl.c - `lutetia type --gl`: draws the text by OpenGL, as on a display. */
 #include "lutetia.h"
 #include "type_common.h"
 
@@ -8,7 +8,8 @@
 #include <gl_offscreen.h>
 #include <gl_type.h>
 
-/* A pixel's places: an edge is at most 1/128 of a pixel beside its own, which is 2 of 255 where a filter is steepest. */
+/* Positions within a pixel: an edge is off by at most 1/128 of a pixel, which is 2 of 255
+ * where a filter is steepest. */
 enum { PLACES = 64 };
 
 int type_gl(const char *verb, const struct font_layout *layout, const struct font_map *map,
@@ -22,7 +23,7 @@ int type_gl(const char *verb, const struct font_layout *layout, const struct fon
     def.atlas.filter = filter;
     def.atlas.darken_px = darken_px;
     def.atlas.places_x = def.atlas.places_y = PLACES;
-    if (layout->size_px > 256) /* a glyph must fit a page */
+    if (layout->size_px > 256) /* a glyph must fit an atlas page */
         def.atlas.width_px = def.atlas.height_px = 4096;
     enum display_status status =
         gl_offscreen_create(image->width_px, image->height_px, &screen);

@@ -1,12 +1,15 @@
-/* verb_cc.c - `lutetia cc`: the C compiler, told where C/Paris is.
+/* verb_cc.c - `lutetia cc`: calls the C compiler with the paths of C/Paris.
  *
- * A program of 1990 was compiled by `cc prog.c -lparis`; this adds the two folders, the library, and -std=gnu89
- * unless a -std is given.  In the build tree the library there is taken, else the one this command was installed
- * with.  All other arguments are the compiler's.
+ * A program of 1990 was compiled by `cc prog.c -lparis`; this adds the two folders, the
+ * library, and -std=gnu89 unless a -std is given.  A command in the build tree uses the library
+ * there; an installed one uses the library installed with it. All other arguments are passed to
+ * the compiler.
  *
- * A program is linked into a part file, which gets its name when it is whole: linkers write over what is there. The compiler is given the
- * part file's descriptor as its output, /proc/self/fd/N. Where it would make other files' names of that one (dependencies,
- * profiles, ...) or links nothing, it runs alone. */
+ * A program is linked into a part file, which is renamed when it is complete, because
+ * linkers overwrite an existing file. The compiler's output is the part file's descriptor,
+ * /proc/self/fd/N. If the compiler would derive other files' names from its output's
+ * (dependencies, profiles, ...), or does not link, it runs without a part file.
+ */
 #include "lutetia.h"
 
 #include <output_file.h>
@@ -49,7 +52,7 @@ static char *folder_with(const char *prefix, const char *middle, const char *nam
     return NULL;
 }
 
-/* The folders of <cm/paris.h> and of libparis, for a command that lies in `home`. */
+/* Finds the folders of <cm/paris.h> and of libparis, for a command in the folder `home`. */
 static bool folders_find(const char *home, char **include, char **library)
 {
     static const struct {
@@ -92,7 +95,8 @@ static bool any_is(int argc, char **argv, const char *argument)
 
 /* ---- the program, whole under its name ---- */
 
-/* Where the line says what the program is called: "-o" alone, with the name behind it, or "-oNAME"; -1: nowhere. */
+/* Finds the option for the program's name: "-o" with the name behind it, or "-oNAME"; -1:
+ * none. */
 static int output_find(const struct compiler_line *line)
 {
     int found = -1;
@@ -105,7 +109,7 @@ static int output_find(const struct compiler_line *line)
     return found;
 }
 
-/* The compiler makes other files' names of its output's. */
+/* Whether the compiler would derive other files' names from its output's. */
 static bool makes_more(int argc, char **argv)
 {
     static const char *const starts[] = {"-M",
@@ -136,7 +140,8 @@ _Noreturn static void compiler_become(const struct compiler_line *line)
     _exit(EXIT_FAILED);
 }
 
-/* The compiler's exit status; what the terminal interrupts is the compiler, and this process waits for it. */
+/* Runs the compiler and returns its exit status. Ctrl-C interrupts the compiler; this
+ * process waits for it. */
 static int compiler_run(const struct compiler_line *line)
 {
     int status = 0;
@@ -161,7 +166,8 @@ static int compiler_run(const struct compiler_line *line)
     return WEXITSTATUS(status);
 }
 
-/* Linkers do not always notice that the disk was full: all that the program's header tells of must be in it. */
+/* Linkers do not always notice a full disk. Checks that the file contains all that its ELF
+ * header lists. */
 static bool program_whole(int program)
 {
     struct stat made;
@@ -170,7 +176,7 @@ static bool program_whole(int program)
         return false;
     if (pread(program, &head, sizeof head, 0) != (ssize_t)sizeof head ||
         memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_ident[EI_CLASS] != ELFCLASS64)
-        return true; /* of a kind that we do not know */
+        return true; /* of an unknown kind */
     uint64_t size = (uint64_t)made.st_size;
     if (head.e_shoff > size ||
         (uint64_t)head.e_shnum * sizeof(Elf64_Shdr) > size - head.e_shoff)
@@ -197,9 +203,9 @@ static int program_link(struct compiler_line *line)
     struct output_file out;
     if (!output_file_open(&out, name))
         return fail("cc", "%s: cannot write: %s", name, out.why);
-    int program = dup(fileno(out.stream)); /* which the compiler inherits */
+    int program = dup(fileno(out.stream)); /* a descriptor that the compiler inherits */
     snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", program);
-    if (at >= 0 && line->arguments[at][2]) { /* -oNAME: its place is for the flag */
+    if (at >= 0 && line->arguments[at][2]) { /* for -oNAME, its place is used for the flag */
         line->arguments[at] = flag;
         memmove(&line->arguments[at + 2], &line->arguments[at + 1],
                 (size_t)(line->count - at - 1) * sizeof *line->arguments);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The strip: a piece of the page at so many moments, side by side. */
+/* The strip: a section of the page at several moments, side by side. */
 enum {
     STAGES = 5,
     STAGE_X = 420,

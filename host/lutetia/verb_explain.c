@@ -1,8 +1,11 @@
-/* verb_explain.c - `lutetia explain`: runs a program, and says what its Connection Machine did and why.
+/* verb_explain.c - `lutetia explain`: runs a program, and prints what its Connection Machine
+ * did and why.
  *
- * The program is a process of its own. libparis in it writes what the machine tells into files named by
- * LUTETIA_EXPLAIN (text) and LUTETIA_EXPLAIN_JSON when the program ends; they lie in a folder of ours, and are shown
- * or moved to their place then. A C file is compiled as by `lutetia cc` first, into the same folder. */
+ * The program is a process of its own. When it ends, its libparis writes the facts to the
+ * files named by LUTETIA_EXPLAIN (text) and LUTETIA_EXPLAIN_JSON. The files are in a folder
+ * of ours; then they are printed, or moved to their place. A C file is compiled as by
+ * `lutetia cc` first, into the same folder.
+ */
 #include "lutetia.h"
 #include "options.h"
 
@@ -50,7 +53,8 @@ static void folder_close(const struct explain *e)
     rmdir(e->folder);
 }
 
-/* The child's status; the terminal's Ctrl-C is the child's to answer. */
+/* Waits for the child and returns its status. Ctrl-C on the terminal is for the child to
+ * handle. */
 static int child_wait(pid_t child)
 {
     int status = 0;
@@ -90,7 +94,7 @@ _Noreturn static void become(const struct explain *e, const char *program, char 
     signal(SIGINT, SIG_DFL);
     setenv("LUTETIA_EXPLAIN", e->text_path, 1);
     setenv("LUTETIA_EXPLAIN_JSON", e->json_path, 1);
-    /* A program of the present folder needs no ./ before its name. */
+    /* A program in the current folder needs no ./ before its name. */
     char *here;
     if (!strchr(program, '/') && access(program, X_OK) == 0 &&
         asprintf(&here, "./%s", program) > 0)
@@ -102,7 +106,7 @@ _Noreturn static void become(const struct explain *e, const char *program, char 
     _exit(126);
 }
 
-/* Puts the bytes of one file behind another's; out NULL: on the standard output. */
+/* Appends one file to another; out NULL: to the standard output. */
 static int pour(const char *from, const char *out)
 {
     char bytes[1 << 14];
@@ -139,7 +143,7 @@ static int show(const struct explain *e, const char *name, int ended)
     bool explained = bytes_of(e->text_path) > 0;
     int code = WIFEXITED(ended) ? WEXITSTATUS(ended) : 0, status = EXIT_SUCCESS;
     if (code == 126 && !explained)
-        return EXIT_FAILED; /* it has been said why it could not run */
+        return EXIT_FAILED; /* the reason was printed */
     if (WIFSIGNALED(ended))
         status = fail("explain", "%s: ended by signal %d (%s)", name, WTERMSIG(ended),
                       strsignal(WTERMSIG(ended)));
@@ -180,7 +184,7 @@ static int explain(struct explain *e, char **arguments)
     return show(e, name, child_wait(child));
 }
 
-/* Said before the program runs, not after. The file stays as it was. */
+/* Checked before the program runs, not after. An existing file is unchanged. */
 static int json_check(const char *path)
 {
     struct output_file out;

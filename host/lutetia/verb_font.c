@@ -75,7 +75,8 @@ static void box_fill(struct display_image *image, double x0, double y0, double x
                    3);
 }
 
-/* A line of some width through points, drawn as type is: its pieces' outlines put together. */
+/* Draws a line of some width through points, as type is drawn: as the outlines of its
+ * pieces. */
 static enum font_status stroke_draw(struct display_image *image, const struct font_point *p,
                                     int count, double width, const double ink[3])
 {
@@ -126,7 +127,7 @@ static enum font_status stroke_draw(struct display_image *image, const struct fo
     return status;
 }
 
-/* Gray pixels enlarged. */
+/* Draws gray pixels enlarged. */
 static void gray_draw(struct display_image *image, const struct font_gray *g, double x,
                       double y, int zoom)
 {
@@ -144,7 +145,7 @@ static void gray_draw(struct display_image *image, const struct font_gray *g, do
 struct specimen {
     struct font_shaper *shaper;
     struct font_painter *painter;
-    struct display_image *image; /* NULL: only how tall it gets */
+    struct display_image *image; /* NULL: only measure the height */
     double y, width;
 };
 
@@ -153,7 +154,7 @@ static enum font_status line_set(struct specimen *s, const char *text, double si
     struct font_layout layout;
     enum font_status status =
         font_shaper_layout(s->shaper, text, strlen(text), size_px, NULL, &layout);
-    bool fits = layout.width_px <= s->width - 48 || size_px < 20; /* larger ones are left out */
+    bool fits = layout.width_px <= s->width - 48 || size_px < 20; /* larger ones do not fit */
     if (status == FONT_OK && s->image && fits) {
         struct font_picture picture = type_picture(s->image);
         status = font_painter_layout(s->painter, &layout, NULL, 24, s->y + layout.ascent_px,
@@ -165,7 +166,7 @@ static enum font_status line_set(struct specimen *s, const char *text, double si
     return status;
 }
 
-/* The first glyphs with an outline, in rows. */
+/* Shows the first glyphs with an outline, in rows. */
 static enum font_status glyphs_set(struct specimen *s, struct font_face *face, double width)
 {
     enum { SHOWN_MAX = 384 };
@@ -379,7 +380,7 @@ static int master_write(const struct font_verb *v, struct font_levels *levels)
     return status;
 }
 
-/* The picture may be larger than the master, by as much on opposite sides. */
+/* The picture may be larger than the master, by equal margins on opposite sides. */
 static int master_read(const struct font_verb *v, struct font_levels *levels)
 {
     const struct font_master *m;
@@ -414,7 +415,7 @@ static int master_read(const struct font_verb *v, struct font_levels *levels)
     return status;
 }
 
-/* What is asked for before anything is shown, each level from the one above. */
+/* Applies the requested edits before anything is shown, each level made from the one above. */
 static int levels_edit(const struct font_verb *v, struct font_levels *levels)
 {
     int status = EXIT_SUCCESS, gone;
@@ -490,7 +491,7 @@ static int filter_show(const struct font_verb *v)
     filter_print(&info);
     int status = type_image_create("font", 2 * SIDE + 3 * GAP, SIDE + TOP + GAP, &image);
     double reach = fmax(1, ceil(info.radius_px)), x0 = GAP, y0 = TOP + SIDE - 60.0;
-    /* The profile through the centre, a hundred for its peak, and the picture of an edge. */
+    /* Profile: through the centre, with 100 for its peak. Edge: the picture of an edge. */
     struct font_point profile[CURVE], edge[CURVE];
     double high = SIDE - 100;
     for (int i = 0; i < CURVE; i++) {
@@ -516,7 +517,7 @@ static int filter_show(const struct font_verb *v)
     if (drawn != FONT_OK)
         status = fail_font("font");
     for (int r = 0; r < SIDE && status == EXIT_SUCCESS; r++)
-        for (int c = 0; c < SIDE; c++) { /* f itself, negative parts blue */
+        for (int c = 0; c < SIDE; c++) { /* the filter itself, negative values in blue */
             double u = -reach + 2 * reach * (c + 0.5) / SIDE,
                    w = -reach + 2 * reach * (r + 0.5) / SIDE;
             double value = font_filter_at(f, u, w) / info.peak;

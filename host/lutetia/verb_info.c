@@ -1,4 +1,4 @@
-/* verb_info.c - `lutetia info`: what there is here. */
+/* verb_info.c - `lutetia info`: lists devices, fonts and caches. */
 #include "lutetia.h"
 #include "options.h"
 

@@ -183,7 +183,7 @@ static int song_take(struct keys_work *w, const char *path)
     return EXIT_SUCCESS;
 }
 
-/* When the last letter is hardly there. */
+/* The time at which the last letter has nearly vanished. */
 static double seconds_of(const struct keys_work *w)
 {
     return w->score.seconds + 3 * w->def.release_s;
@@ -201,7 +201,7 @@ static int type_make(const struct keys_work *w, double scale, struct keys_type *
 
 /* ---- pictures ---- */
 
-/* Cuts rows of paper off at the top and at the bottom until ink is `margin` pixels away. */
+/* Crops rows of paper at the top and bottom, up to `margin` pixels from the ink. */
 static void paper_cut(struct display_image *image, int margin)
 {
     const size_t row = 3 * (size_t)image->width_px;
@@ -240,7 +240,7 @@ static int poster_write(const struct keys_work *w)
 {
     struct keys_type *type;
     struct display_image image = {0};
-    /* letters of notes that follow each other closely are not to hide each other */
+    /* letters of notes that follow each other closely must not cover each other */
     const double most = fmin(w->size_px[1], 0.55 * w->second_px);
     const double margin = ceil(0.3 * most + 8);
     const double rise = w->type.step_px * w->score.keys_count;
@@ -326,7 +326,7 @@ static int moment_keep(const struct keys_work *w, struct video *video, int numbe
     return type_image_write("keys", path, image);
 }
 
-/* Where sound cannot be made, or the film can have none, that is said, and the film is silent. */
+/* If there can be no sound, a line says so, and the film is silent. */
 static int film_begin(const struct keys_work *w, double seconds, struct video **out)
 {
     struct sound_def def = sound_def_default();

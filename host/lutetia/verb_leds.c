@@ -1,15 +1,17 @@
 /* verb_leds.c - `lutetia leds`: the machine's lights, in a window and in pictures.
  *
- * Frames come from one of three sources: a program, which libparis in it makes write them into a
- * pipe (LUTETIA_LEDS); a recording, in a file or from the standard input; the system's patterns.
- * Each goes the same way from frame_take() on.
+ * Frames come from one of three sources: a program, whose libparis writes them into a pipe
+ * (LUTETIA_LEDS); a recording, in a file or from the standard input; the system's patterns.
+ * frame_take() handles all of them.
  *
- * A program is shown as it runs: all that it has written is read, and the window shows the newest
- * at its turn. A recording and a pattern wait until each frame's time has come (pace()).
+ * A program is shown as it runs: all frames are read, and the window shows the newest. A
+ * recording and a pattern wait until each frame's time has come (pace()).
  *
- * LUTETIA_LEDS=window: libparis runs `lutetia leds --window -` with LUTETIA_LEDS_PROGRAM="PID NAME"
- * of the program whose lights these are. A byte on the standard output then says that the window is
- * ready, and closing the window interrupts that process. */
+ * LUTETIA_LEDS=window: libparis runs `lutetia leds --window -` with
+ * LUTETIA_LEDS_PROGRAM="PID NAME" of the program whose lights these are. A byte on the
+ * standard output then says that the window is ready, and closing the window interrupts that
+ * process.
+ */
 #include "leds_window.h"
 #include "lutetia.h"
 #include "options.h"
@@ -38,16 +40,18 @@ struct leds {
     double pattern_fps;        /* steps in a window */
     bool window_wanted, close_at_end;
 
-    struct leds_window the_window, *window; /* NULL: there is none */
-    bool closed;                            /* it was there, and someone closed it */
-    bool paced;                             /* frames wait for their time */
-    pid_t watched;                          /* the program that shows itself here; 0: none */
-    char name[64];                          /* of the source, for the title */
+    struct leds_window the_window, *window; /* NULL: no window */
+    bool closed;                            /* there was a window, and the user closed it */
+    bool paced;                             /* frames wait for their times */
+    pid_t watched;                          /* the process whose lights are shown here; 0:
+                                             * none */
+    char name[64];                          /* the source's name, for the title */
 
     struct front_panel *panel;
     struct display_image image;
-    struct light_frame last; /* of those taken */
-    uint64_t taken, base_us; /* base_us: where this one of several recordings begins */
+    struct light_frame last; /* the last frame taken */
+    uint64_t taken, base_us; /* base_us: the time at which the present one of several
+                              * recordings begins */
     uint64_t last_us;
     int written, status;
     struct progress progress;
@@ -96,7 +100,7 @@ static int go_on(const struct leds *leds)
 /* ---- the window ---- */
 
 enum { WINDOW_FPS = 30, PATTERN_FPS = 10 };
-#define TURN_S 0.02 /* what a key and a latch wait at most, where both are waited for */
+#define TURN_S 0.02 /* the longest wait for keys or latches, when both are polled */
 
 static void turn(struct leds *leds, double wait_s)
 {
@@ -111,14 +115,14 @@ static void turn(struct leds *leds, double wait_s)
         leds->closed = true;
 }
 
-/* Waits until so much time has passed since the first frame, as the window's clock goes. */
+/* Waits until the window's clock has reached that time since the first frame. */
 static void pace(struct leds *leds, double time_s)
 {
     for (double left_s; go_on(leds) && (left_s = leds_window_wait_s(leds->window, time_s)) > 0;)
         turn(leds, left_s < 0.1 ? left_s : 0.1);
 }
 
-/* Where no window can be opened that nobody asked for, pictures do. */
+/* If no window can be opened, and none was requested, writes pictures instead. */
 static int window_open(struct leds *leds)
 {
     char title[sizeof leds->name + 16];
@@ -141,13 +145,13 @@ static int window_open(struct leds *leds)
     return EXIT_SUCCESS;
 }
 
-/* The source has ended; the last picture stays until someone closes the window. */
+/* The source has ended; shows the last picture until the user closes the window. */
 static void window_linger(struct leds *leds)
 {
     char title[sizeof leds->name + 32];
     if (!leds->window || !leds->taken)
         return;
-    if (leds->close_at_end) { /* the last one is seen, however short */
+    if (leds->close_at_end) { /* show the last frame, however short */
         turn(leds, 0.1);
         return;
     }
@@ -157,7 +161,7 @@ static void window_linger(struct leds *leds)
         turn(leds, 0.1);
 }
 
-/* With --fps: pictures of the time before this frame show the one before. */
+/* With --fps: writes the previous frame for the times before this frame. */
 static void time_fill(struct leds *leds, uint64_t until_us)
 {
     while (go_on(leds) && (double)leds->written / leds->fps * 1e6 < (double)until_us) {
@@ -170,7 +174,7 @@ static int frame_take(void *context, const struct light_frame *frame)
 {
     struct leds *leds = context;
     uint64_t time_us = leds->base_us + frame->time_us;
-    if (leds->taken && time_us < leds->last_us) { /* the next recording of several */
+    if (leds->taken && time_us < leds->last_us) { /* the next of several recordings begins */
         leds->base_us = leds->last_us;
         time_us = leds->base_us + frame->time_us;
     }
@@ -214,7 +218,7 @@ static int from_pattern(struct leds *leds)
     return leds->status;
 }
 
-/* Reads until the end, or until go_on() says no. what: the name for messages. */
+/* Reads until the end, or until go_on() returns false. what: the name for messages. */
 static int from_descriptor(struct leds *leds, int descriptor, const char *what, bool may_break)
 {
     struct light_reader reader = {.take = frame_take, .context = leds};
@@ -250,7 +254,7 @@ _Noreturn static void become(int write_end, char **arguments)
     sigprocmask(SIG_SETMASK, &none, NULL);
     snprintf(name, sizeof name, "/dev/fd/%d", write_end);
     setenv("LUTETIA_LEDS", name, 1);
-    /* A program of the present folder needs no ./ before its name. */
+    /* A program in the current folder needs no ./ before its name. */
     char *here;
     if (!strchr(arguments[0], '/') && access(arguments[0], X_OK) == 0 &&
         asprintf(&here, "./%s", arguments[0]) > 0)
@@ -262,7 +266,7 @@ _Noreturn static void become(int write_end, char **arguments)
     _exit(126);
 }
 
-/* Waits for the child; one that is not wanted any more is told so, more firmly each second. */
+/* Waits for the child. Once it is to end, sends a stronger signal each second. */
 static int child_wait(struct leds *leds, pid_t child)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGKILL};
@@ -287,12 +291,12 @@ static int child_end(struct leds *leds, pid_t child, const char *name)
 {
     int status = child_wait(leds, child);
     if (!go_on(leds))
-        return EXIT_SUCCESS; /* that has been said, or is known */
+        return EXIT_SUCCESS; /* the reason was printed, or is known */
     if (WIFSIGNALED(status))
         return fail("leds", "%s: ended by signal %d (%s)", name, WTERMSIG(status),
                     strsignal(WTERMSIG(status)));
     if (WEXITSTATUS(status) == 126 && !leds->taken)
-        return EXIT_FAILED; /* it has been said why it could not run */
+        return EXIT_FAILED; /* the reason was printed */
     if (WEXITSTATUS(status) != 0)
         tell("leds", "%s: ended with status %d", name, WEXITSTATUS(status));
     return EXIT_SUCCESS;
@@ -304,7 +308,8 @@ static int from_program(struct leds *leds, char **arguments)
     if (pipe(ends) != 0)
         return fail("leds", "no pipe: %s", strerror(errno));
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    fcntl(ends[0], F_SETPIPE_SZ, 1 << 20); /* it runs on while a picture is drawn */
+    fcntl(ends[0], F_SETPIPE_SZ, 1 << 20); /* a larger pipe, so that the program runs on
+                                            * while a picture is drawn */
     fflush(NULL);
     pid_t child = fork();
     if (child < 0)
@@ -318,7 +323,8 @@ static int from_program(struct leds *leds, char **arguments)
     return status != EXIT_SUCCESS ? status : ended;
 }
 
-/* It begins as one, or it is a file that cannot be run: then reading it says what is wrong. */
+/* The file begins as a recording, or it cannot be executed: then reading it gives the error
+ * message. */
 static bool is_recording(const char *path)
 {
     char begins[8] = "";
@@ -351,7 +357,7 @@ static int from_input(struct leds *leds)
 {
     int status = from_descriptor(leds, STDIN_FILENO, "the standard input", leds->watched != 0);
     int nowhere = leds->watched ? open("/dev/null", O_RDWR) : -1;
-    if (nowhere >= 0) { /* who waits for all of the program's output waits no more */
+    if (nowhere >= 0) { /* close the output, so that a process waiting for its end goes on */
         dup2(nowhere, STDIN_FILENO);
         dup2(nowhere, STDOUT_FILENO);
         dup2(nowhere, STDERR_FILENO);
@@ -360,7 +366,7 @@ static int from_input(struct leds *leds)
     return status;
 }
 
-/* Who shows itself here, and what the window is called. */
+/* Gets the watched process and the window's title. */
 static void source_name(struct leds *leds, const char *word)
 {
     const char *program = getenv("LUTETIA_LEDS_PROGRAM");
@@ -389,7 +395,7 @@ static int from_source(struct leds *leds, int argc, char **argv)
     return from_program(leds, argv);
 }
 
-/* The front, once it is known where it is shown. */
+/* Makes the front panel, once it is known where it is shown. */
 static int panel_make(struct leds *leds, bool window_only)
 {
     struct front_panel_config config = front_panel_config_default();
@@ -399,7 +405,8 @@ static int panel_make(struct leds *leds, bool window_only)
     config.view = strcmp(leds->view, "door") == 0    ? FRONT_PANEL_DOOR
                   : strcmp(leds->view, "front") == 0 ? FRONT_PANEL_FRONT
                                                      : FRONT_PANEL_CUBE;
-    if (window_only) { /* no more pixels than a small screen has, or they would be shrunk */
+    if (window_only) { /* no more pixels than a small screen has, which would only be scaled
+                        * down */
         int width, height;
         window_size(leds->window->window, &width, &height);
         if (width < config.width_px && width >= FRONT_PANEL_SIDE_MIN &&
@@ -437,7 +444,7 @@ static int leds_run(struct leds *leds, int argc, char **argv)
     status = from_source(leds, argc, argv);
     if (status == EXIT_SUCCESS && leds->frames_dir && leds->fps > 0 && leds->taken &&
         go_on(leds))
-        status = frame_write(leds); /* the last one is seen, however short */
+        status = frame_write(leds); /* show the last frame, however short */
     progress_end(&leds->progress);
     window_linger(leds);
     if (leds->closed && leds->watched && getppid() == leds->watched)
@@ -469,7 +476,7 @@ static const char usage[] =
     "LUTETIA_LEDS=window ./prog shows them, too; LUTETIA_LEDS=FILE ./prog leaves a "
     "recording.\n";
 
-/* 0: what the options say together can be done; else what the program ends with. */
+/* Checks the options together. 0: they can be combined; else the exit status. */
 static int words_check(const struct leds *leds, int argc, char **argv)
 {
     if (strcmp(leds->view, "cube") != 0 && strcmp(leds->view, "front") != 0 &&
@@ -538,7 +545,7 @@ int verb_leds(int argc, char **argv)
     int bad = words_check(&leds, argc, argv);
     if (bad)
         return bad;
-    if (leds.pattern) { /* it has no time of its own: each step is a picture */
+    if (leds.pattern) { /* a pattern has no times: each step is a picture */
         leds.pattern_fps = leds.fps > 0 ? leds.fps : PATTERN_FPS;
         leds.fps = 0;
     }
@@ -547,7 +554,7 @@ int verb_leds(int argc, char **argv)
     display_image_destroy(&leds.image);
     front_panel_destroy(leds.panel);
     if (leds.window && leds.watched)
-        return status; /* what was interrupted is the program */
+        return status; /* the program was interrupted, not this command */
     if (leds.window && !leds.out_path && status == EXIT_INTERRUPTED) {
         fail("leds", "interrupted");
         return status;

@@ -260,7 +260,7 @@ static int record_do(struct midi_verb *v)
         status = record_loop(v, client, song, &messages);
         midi_client_close(client);
         if (midi_song_write(song, v->words.words[0]) !=
-            MIDI_OK) /* also where the end was not foreseen */
+            MIDI_OK) /* also if the end came unexpectedly */
             status = fail_midi(v);
         else
             printf("%d messages in %s\n", messages, v->words.words[0]);
@@ -271,7 +271,7 @@ static int record_do(struct midi_verb *v)
 
 /* ---- send, play ---- */
 
-/* The device that is named, or the first one that plays. -1: that has been said. */
+/* Finds the named device, or the first one that can play. -1: an error was printed. */
 static int target(const struct midi_verb *v, struct midi_client *client)
 {
     char text[4096];
@@ -315,13 +315,13 @@ static int send_do(struct midi_verb *v)
             midi_client_send(client, device, &m) != MIDI_OK)
             status = fail_midi(v);
     }
-    /* Notes end when their player goes: so long it stays. */
+    /* The server ends a client's notes when it disconnects, so the client stays for a while. */
     const uint64_t begin_ns = midi_now_ns();
     interrupt_catch();
     while (status == EXIT_SUCCESS && v->seconds > 0 && goes_on(v, begin_ns))
         poll(NULL, 0, 10);
     if (status == EXIT_SUCCESS && midi_client_command(client, "devices", NULL, 0) != MIDI_OK)
-        status = fail_midi(v); /* the answer comes when all has been taken */
+        status = fail_midi(v); /* the answer comes when the device has taken everything */
     midi_client_close(client);
     return status;
 }

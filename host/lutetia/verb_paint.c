@@ -13,7 +13,7 @@
 struct paint {
     const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
     double angle_deg;
-    double size_px; /* 0: so that the line fills the paper */
+    double size_px; /* 0: the line is fitted to the paper */
     double ink[3], water, wet;
     int size[2], steps, every, seed;
     double gravity, gravity_x, humidity, weights[3], absorbency;
@@ -111,7 +111,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
     return EXIT_SUCCESS;
 }
 
-/* A size at which the line takes four fifths of the width, or three fifths of the height. */
+/* The size at which the line takes four fifths of the width, or three fifths of the height. */
 static enum paper_status line_fit(const struct paint *paint, struct paper_line *line)
 {
     struct paper_screen trial;
@@ -223,7 +223,7 @@ int verb_paint(int argc, char **argv)
     if (status != EXIT_SUCCESS || help)
         return status;
 
-    /* What can be wrong with the input is found before the machine starts. */
+    /* Errors in the input are found before the machine starts. */
     status = paint.text ? screen_from_text(&paint) : screen_from_image(&paint);
     if (status == EXIT_SUCCESS && paint.frames_dir)
         status = folder_make("paint", paint.frames_dir);

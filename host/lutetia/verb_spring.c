@@ -220,7 +220,8 @@ static bool frame_after(void *context, int frame, int frames)
     return interrupted();
 }
 
-/* What the film lets hear is known before its first picture: another stage like it runs ahead, and nothing of it is drawn. */
+/* The sound must exist before the film's first picture: another stage runs ahead without
+ * drawing. */
 static int sound_make(struct spring *s)
 {
     struct spring_scene ahead;
@@ -270,7 +271,7 @@ static int film_make(struct spring *s, struct stage *stage)
     if (s->film.sound >= 0)
         close(s->film.sound);
     if (status == STAGE_OK && interrupted())
-        return EXIT_FAILED; /* which is said in the end */
+        return EXIT_FAILED; /* the error is printed at the end */
     return status == STAGE_OK ? EXIT_SUCCESS : fail_stage();
 }
 

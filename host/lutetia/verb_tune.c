@@ -1,8 +1,12 @@
-/* verb_tune.c - `lutetia tune`: how generated code runs fastest on this device, measured and kept.
+/* verb_tune.c - `lutetia tune`: measures which knobs are fastest on this device, and stores
+ * them.
  *
- * One knob after the other, each with the best so far of those before it. Machines with its values take turns, round
- * after round, so that what else the computer does hits all alike; what counts is the median over the rounds of the
- * ratio to the usual value. Another value is taken where it is clearly better, and its best time is better, too. */
+ * The knobs are tuned one after the other, with the best values so far of those before.
+ * Machines with each of a knob's values run in rounds, so that other load on the computer
+ * affects all of them alike. The measure is the median over the rounds of the ratio to the
+ * usual value. Another value is chosen if it is clearly better, and its best time is better,
+ * too.
+ */
 #include "lutetia.h"
 #include "options.h"
 #include "tune_work.h"
@@ -17,10 +21,10 @@
 
 enum { VALUES_MOST = 5, WARM_RUNS = 5, ROUNDS = 11, TRIED_MOST = 64 };
 
-/* As much faster than the usual one it must be: less may be chance. */
+/* The ratio from which another value is chosen: smaller gains may be noise. */
 #define CLEARLY 0.97
 
-/* The works whose times decide; 0 ends the values, and the usual one is tried first. */
+/* The works that are timed for each knob. 0 ends the values; the usual value is tried first. */
 static const struct step {
     enum machine_knob knob;
     int values[VALUES_MOST + 1];
@@ -40,7 +44,7 @@ struct tried {
     enum machine_knob knob;
     int value;
     double ns[TUNE_KINDS]; /* medians; 0: not measured */
-    double ratio;          /* to the usual value, of all works: a geometric mean */
+    double ratio;          /* geometric mean over all works of the ratios to the usual value */
     double best_ratio;     /* ... of the best times */
     bool usual, chosen;
 };
@@ -81,7 +85,7 @@ static bool contest_open(struct contest *c, struct tune *t, const struct step *s
     for (int i = 0; i < count; i++) {
         struct machine_tuning tuning = t->best;
         tuning.of[s->knob] = values[i];
-        if (s->knob < MACHINE_TURNS) /* those before have nothing to do with strips */
+        if (s->knob < MACHINE_TURNS) /* earlier knobs do not affect strips */
             tuning.of[MACHINE_TURNS] = 1;
         c->works[i] = tune_work_create(kind, 0, &tuning);
         if (!c->works[i])
@@ -111,7 +115,7 @@ static bool contest_run(struct contest *c, struct tune *t)
     return true;
 }
 
-/* All have come to the same bits. *read: whether they could be read. */
+/* Whether all machines give the same bits. *read: whether the results could be read. */
 static bool contest_agrees(const struct contest *c, bool *read)
 {
     size_t count = tune_work_count(c->works[0]);
@@ -135,7 +139,7 @@ static double best_ns(const struct contest *c, int which)
     return best;
 }
 
-/* Ratios to the first, for each of the others, are multiplied with those of works before. */
+/* Multiplies the ratios to the first machine with those of the works before. */
 static void contest_judge(const struct contest *c, enum tune_kind kind, struct tried *tried)
 {
     for (int i = 0; i < c->count; i++) {
@@ -174,7 +178,7 @@ static int contest(struct tune *t, const struct step *s, enum tune_kind kind, co
 
 /* ---- one knob ---- */
 
-/* The usual value, then the others that the table has. */
+/* The usual value, then the table's other values. */
 static int values_of(const struct step *s, int usual, int *values)
 {
     int count = 0;
@@ -190,7 +194,8 @@ static int values_of(const struct step *s, int usual, int *values)
     return count;
 }
 
-/* A GPU has scalar work-items of one column, and no knobs; strips are of vectors, and of several turns. */
+/* A GPU has scalar work-items of one column, so these knobs do not apply; the strips' knobs
+ * need vectors and several turns. */
 static bool step_applies(const struct tune *t, const struct step *s)
 {
     if (t->usual.of[MACHINE_VECTOR] == 1)
@@ -297,7 +302,7 @@ static int json_write(const char *path, const struct tune *t, struct machine *m)
                                     : fail("tune", "%s: cannot write: %s", path, out.why);
 }
 
-/* What is forced cannot be measured beside other values. */
+/* A knob forced by the environment cannot be measured at other values. */
 static int forced_check(void)
 {
     static const char *const forcing[] = {
@@ -369,7 +374,8 @@ int verb_tune(int argc, char **argv)
     if (wrong)
         return fail("tune", "%s: cannot write: %s", json_path, wrong);
     interrupt_catch();
-    setenv("LUTETIA_BOX_AFTER", "0", 1); /* kernels as a long run gets them, from the start */
+    setenv("LUTETIA_BOX_AFTER", "0", 1); /* use the final kernels, as in a long run, from the
+                                          * start */
     struct machine_tuning usual = machine_tuning_usual();
     struct machine_config config = machine_config_default();
     struct machine *m;

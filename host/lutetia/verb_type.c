@@ -138,7 +138,7 @@ static int type_options(struct type *t, int argc, char **argv, bool *help)
     return EXIT_SUCCESS;
 }
 
-/* Where the text goes: sheared, rotated, and onto its corners. */
+/* Makes the text's map: shear, rotation, corners. */
 static int type_map(const struct type *t, const struct font_layout *layout,
                     struct font_map *map)
 {
@@ -183,7 +183,7 @@ static int type_draw(const struct type *t, struct font_painter *painter,
     struct display_image image = {0};
     if (font_painter_measure(painter, layout, map, 0, 0, &box) != FONT_OK)
         return fail_font("type");
-    if (t->corners.count) /* the corners say where in the picture */
+    if (t->corners.count) /* the corners give the place in the picture */
         box.x0 = box.y0 = 0;
     else if (box.x1 < box.x0)
         box = (struct font_box){0, -layout->ascent_px, layout->width_px, layout->descent_px};

@@ -202,7 +202,7 @@ static bool axis_there(const struct font_face *face, const char *tag)
     return false;
 }
 
-/* The most size at which the widest of what is shown fits a picture. */
+/* The largest size at which the widest text fits the picture. */
 static int size_fit(struct voice_work *w)
 {
     struct font_shaper *shaper;
@@ -284,7 +284,7 @@ static int player_make(const struct voice_work *w, double scale, struct voice_ty
 
 /* ---- pictures ---- */
 
-/* Cuts rows off at the top and at the bottom until ink is `margin` pixels away. */
+/* Crops rows at the top and bottom, up to `margin` pixels from the ink. */
 static void rows_cut(struct display_image *image, int margin)
 {
     size_t row = 3 * (size_t)image->width_px;
@@ -313,7 +313,7 @@ static int poster_write(const struct voice_work *w)
     int status = player_make(w, 1, &type);
     if (status == EXIT_SUCCESS && voice_type_line_width(type, w->second_px, &width) != FONT_OK)
         status = fail_font("voice");
-    if (status == EXIT_SUCCESS) /* a row of paper above all ink, and one below */
+    if (status == EXIT_SUCCESS) /* keep a row of paper above and below the ink */
         status = type_image_create("voice", ceil(width + 2 * margin),
                                    ceil(2 * margin + 1.7 * most + rise), &image);
     struct font_picture picture = type_picture(&image);
@@ -430,7 +430,7 @@ static int film_begin(const struct voice_work *w, struct video **out)
     return status == DISPLAY_OK ? EXIT_SUCCESS : fail("voice", "%s", display_error());
 }
 
-/* Where the film is silent, its sound goes beside it: film.y4m and film.wav. */
+/* If the film's format has no sound, the sound is a file beside it: film.y4m and film.wav. */
 static int film_end_sound(const struct voice_work *w, const char *film)
 {
     char path[PATH_MAX];
