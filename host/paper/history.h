@@ -1,4 +1,5 @@
-/* history.h - a sheet's time as something one edits: what was done to it is a list, and it can be undone, changed and done again.
+/* history.h - the history of a sheet: the list of operations, which can be undone, changed and
+ * redone.
  *
  *     paper_history_begin(sheet, 256e6);
  *     paper_sheet_put(sheet, &disc, 10, 10, amount);
@@ -11,32 +12,35 @@
  *     paper_history_insert_end(sheet, true);     // and what followed, after it
  *     paper_sheet_view(sheet, &view, rgb);       // computed when it is looked at
  *
- * A run is the sheet's description (with its seed) and the list of operations: each call that changed the sheet, and the steps
- * between them. The same list gives the same bits, so a state of the past need not be kept: it is computed again, from the nearest
- * copy of the whole sheet that is (a checkpoint), or from the fresh sheet. Nothing is computed before the sheet is
- * looked at or changed: going back and forth is free.
+ * A run is the sheet's description (with its seed) and the list of operations: each call that
+ * changed the sheet, and the steps between them. The same list gives the same bits, so past
+ * states need not be kept. They are computed again, from the nearest checkpoint (a copy of the
+ * whole sheet), or from the fresh sheet. Going back and forth costs nothing; the sheet is
+ * computed when it is read or changed.
  *
- * Moments are told by their time, the steps gone by since the sheet was made.
+ * A moment is given by its time: the number of steps since the sheet was made.
  *
- * Errors and threads: as paper.h says. */
+ * Errors and threads: as paper.h says.
+ */
 #ifndef LUTETIA_PAPER_HISTORY_H
 #define LUTETIA_PAPER_HISTORY_H
 
 #include "sheet.h"
 
-/* Records from here on. A sheet's checkpoints take up to `budget_bytes` (0: none; what is undone is then computed from the
- * beginning). Errors: BAD_ARGUMENT unless the sheet is as it was made, NO_MEMORY. */
+/* Begins recording. A sheet's checkpoints take up to `budget_bytes` (0: none; earlier states
+ * are then computed from the beginning). Errors: BAD_ARGUMENT unless the sheet is as it was
+ * made, NO_MEMORY. */
 enum paper_status paper_history_begin(struct paper_sheet *sheet, double budget_bytes);
 bool paper_history_has(const struct paper_sheet *sheet);
 
-/* Operations that are done, and those undone that can be done again. */
+/* The number of operations done, and of undone operations that can be redone. */
 int paper_history_done(const struct paper_sheet *sheet);
 int paper_history_undone(const struct paper_sheet *sheet);
-/* Whether a brush of that number has been made by now. */
+/* Whether a brush of that number exists at this point of the history. */
 bool paper_history_brush(const struct paper_sheet *sheet, int number);
 /* Steps gone by. */
 long paper_sheet_steps(const struct paper_sheet *sheet);
-/* Memory that the list and the checkpoints take. */
+/* The memory of the list and the checkpoints. */
 double paper_history_bytes(const struct paper_sheet *sheet);
 
 struct paper_moment {
@@ -44,45 +48,49 @@ struct paper_moment {
     long time;        /* steps gone by before it */
     long steps;       /* that it took */
 };
-/* Operation `number` from 0, also of those undone; false when there is none. */
+/* Describes operation `number`, from 0, including undone ones; false if there is none. */
 bool paper_history_moment(const struct paper_sheet *sheet, int number,
                           struct paper_moment *out);
 
-/* Steps that follow each other are one operation, until something else is done or this is called. */
+/* Consecutive steps are one operation, until another operation or a call of this function. */
 void paper_history_mark(struct paper_sheet *sheet);
 
-/* Takes back the last operations, or does them again; returns how many. What is done after undoing takes the place of what was
- * undone. */
+/* Undoes the last operations, or redoes operations; returns how many. A new operation after
+ * an undo replaces the undone ones. */
 int paper_history_undo(struct paper_sheet *sheet, int count);
 int paper_history_redo(struct paper_sheet *sheet, int count);
-/* To the sheet after so many steps and all that was done before the next one, backwards, or forwards into what was undone.
- * Errors: BAD_ARGUMENT (no such time). */
+/* Goes to the sheet after that many steps, and all operations before the next step;
+ * backwards, or forwards into undone operations. Errors: BAD_ARGUMENT (no such time). */
 enum paper_status paper_history_seek(struct paper_sheet *sheet, long time);
 
-/* What is done between these two is done at a time of the past, after what was done then, and all that followed is done after it
- * again. Steps among it delay what follows. `keep` false: as if nothing had been inserted.
- * Errors: BAD_ARGUMENT (no such time, or within another insertion), NO_MEMORY. */
+/* Operations between these two calls are inserted at a time of the past, after the
+ * operations of that time. All later operations then follow. Inserted steps delay them.
+ * `keep` false: removes the insertion. Errors: BAD_ARGUMENT (no such time, or within another
+ * insertion), NO_MEMORY. */
 enum paper_status paper_history_insert_begin(struct paper_sheet *sheet, long time);
 enum paper_status paper_history_insert_end(struct paper_sheet *sheet, bool keep);
 
-/* While something is computed again this is asked after every step; false: stop. The call that needed it fails then with
- * MACHINE_FAILED, "stopped", and may be tried again. NULL: nobody is asked. */
+/* Called after every step while the past is computed again; returns false to stop. The call
+ * that needed it then fails with MACHINE_FAILED, "stopped", and may be repeated. NULL: no
+ * call. */
 typedef bool (*paper_history_watch)(void *context, long done, long total);
 void paper_history_set_watch(struct paper_sheet *sheet, paper_history_watch watch,
                              void *context);
 
-/* The same run on a sheet `scale` times as wide and high, from 1/64 to 64: places, lengths, grain of the paper and the width of edges
- * are scaled, and each step becomes `pace` steps (scale * scale: diffusion, levelling and drying keep their shapes) in which as
- * much less sinks in, dries and settles. docs/paper.md says what does not scale. *out has a history of its own if `budget_bytes` is
- * not negative. Errors: BAD_ARGUMENT (a size that cannot be), NO_MEMORY, MACHINE_FAILED, ... Owns: the caller
- * destroys *out. */
+/* The same run on a sheet `scale` times as wide and high, from 1/64 to 64: places, lengths,
+ * grain of the paper and the width of edges are scaled, and each step becomes `pace` steps
+ * (scale * scale: diffusion, levelling and drying keep their shapes), in which
+ * proportionally less sinks in, dries and settles. docs/paper.md lists what does not scale.
+ * *out has a history of its own if `budget_bytes` is not negative. Errors: BAD_ARGUMENT (a
+ * size that cannot be), NO_MEMORY, MACHINE_FAILED, ... Owns: the caller destroys *out. */
 enum paper_status paper_history_render(struct paper_sheet *sheet, double scale, double pace,
                                        double budget_bytes, struct paper_sheet **out);
 
 /* ---- states, for files ---- */
 
 enum { PAPER_PLANES_MAX = 20 + 3 * PAPER_PIGMENTS_MAX };
-/* What changes in a sheet is held in planes of one word of 4 bytes for each fiber. */
+/* The parts of a sheet that change are held in planes, each with a word of 4 bytes for each
+ * fiber. */
 struct paper_plane {
     char name[40];
     bool whole; /* uint32_t, else float */
@@ -98,25 +106,27 @@ enum paper_status paper_sheet_plane_read(struct paper_sheet *sheet, int number, 
  * NO_MEMORY. */
 enum paper_status paper_history_encode(struct paper_sheet *sheet, uint8_t **bytes,
                                        size_t *count);
-/* Only the description: what a sheet of that state takes. Errors: BAD_FILE. */
+/* Decodes only the description, with the size of the sheet. Errors: BAD_FILE. */
 enum paper_status paper_history_describe(const uint8_t *bytes, size_t count,
                                          struct paper_sheet_config *config);
-/* Sees whether two descriptions are of the same sheet. */
+/* Whether two descriptions are of the same sheet. */
 bool paper_sheet_config_same(const struct paper_sheet_config *a,
                              const struct paper_sheet_config *b);
 
-/* Gives plane `number` of a saved state. */
+/* Gets plane `number` of a saved state. */
 typedef enum paper_status (*paper_plane_source)(void *context, int number, void *words);
 
-/* Makes the sheet that was saved, with its history. With `follow` it begins as a fresh one, and a program that does again what was
- * done, also what it undid, redid and inserted, has nothing computed, unless it looks, until it comes to the end of what was
- * saved; where it does something else, it goes its own way from there, and what it did up to there is computed.
- * Errors: BAD_FILE, NO_MEMORY, MACHINE_FAILED, and what the source says. Owns: the caller destroys *out. */
+/* Makes the sheet that was saved, with its history. With `follow` it begins as a fresh
+ * sheet, and a program repeats what was done, including undos, redos and insertions. Nothing
+ * is computed, unless the program reads the sheet, until it reaches the end of what was
+ * saved. If the program does something else, its operations up to there are computed, and
+ * the saved state is dropped. Errors: BAD_FILE, NO_MEMORY, MACHINE_FAILED, and those of the
+ * source. Owns: the caller destroys *out. */
 enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool follow,
                                        double budget_bytes, paper_plane_source source,
                                        void *context, struct paper_sheet **out);
-/* What the program is still expected to do again, and the time at which it had done all (-1: not yet); whether it has gone its own
- * way. */
+/* The number of operations that the program is still expected to repeat, and the time at
+ * which it had repeated all (-1: not yet); whether it has done something else. */
 int paper_history_following(const struct paper_sheet *sheet);
 long paper_history_resumed(const struct paper_sheet *sheet);
 bool paper_history_diverged(const struct paper_sheet *sheet);

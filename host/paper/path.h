@@ -1,4 +1,4 @@
-/* path.h - ways for strokes from outside: SVG paths, SVG files, recorded samples.
+/* path.h - reads the ways of strokes: SVG paths, SVG files, recorded samples.
  *
  *     struct paper_lines lines;
  *     if (paper_path_parse("M 10 80 C 40 10, 65 10, 95 80 S 150 150, 180 80", 0.1, &lines) != PAPER_OK)
@@ -7,8 +7,9 @@
  *         follow(lines.line[i].points, lines.line[i].points_count);
  *     paper_lines_destroy(&lines);
  *
- * Errors: BAD_ARGUMENT with one line that says where: the character of a path, the line of a file.
- * Threads. Any; paper_error() is one for all. */
+ * Errors: BAD_ARGUMENT; the message gives the character of a path or the line of a file.
+ * Threads. Any.
+ */
 #ifndef LUTETIA_PAPER_PATH_H
 #define LUTETIA_PAPER_PATH_H
 
@@ -23,8 +24,9 @@ struct paper_lines {
 };
 void paper_lines_destroy(struct paper_lines *lines); /* zeros are fine */
 
-/* An SVG path (all commands of SVG 1.1, 8.3), each of its sub-paths a line; curves become chords that are nowhere further than
- * tolerance from them. Owns: the caller destroys *lines, which is zeros after an error. */
+/* An SVG path (all commands of SVG 1.1, 8.3), each of its sub-paths a line; curves become
+ * chords that deviate from them by at most tolerance. Owns: the caller destroys *lines,
+ * which is zeros after an error. */
 enum paper_status paper_path_parse(const char *path, double tolerance,
                                    struct paper_lines *lines);
 
@@ -34,9 +36,10 @@ enum paper_status paper_svg_parse(const char *bytes, size_t count, const char *n
                                   double tolerance, struct paper_lines *lines);
 enum paper_status paper_svg_read(const char *file, double tolerance, struct paper_lines *lines);
 
-/* Recorded samples: a line of text each, time, x, y [, pressure [, tilt x, tilt y]], separated by commas, semicolons,
- * tabs or spaces; empty lines, lines that begin with #, and a first line of names are passed over. Without pressure it is 0.5. The times
- * begin where they begin. Owns: the caller frees *samples. */
+/* Recorded samples: a line of text each, time, x, y [, pressure [, tilt x, tilt y]],
+ * separated by commas, semicolons, tabs or spaces; empty lines, lines that begin with #, and
+ * a first line of names are skipped. The default pressure is 0.5. The first time need not be
+ * 0. Owns: the caller frees *samples. */
 enum paper_status paper_samples_parse(const char *bytes, size_t count, const char *name,
                                       struct paper_stroke_sample **samples, int *samples_count);
 enum paper_status paper_samples_read(const char *file, struct paper_stroke_sample **samples,

@@ -5,11 +5,13 @@
  *     if (paper_separate(&s, rgb, pixels, amount) != PAPER_OK)
  *         die(paper_error());
  *
- * For each colour the amounts, none below 0, that look most like it over the paper: least squares in CIE L*a*b*, with a
- * small price for pigment, so that of many mixtures one is the answer and near colours have near answers. Solved at the
- * points of a grid of 33x33x33 colours that are needed, and interpolated between them.
+ * For each colour, finds the non-negative amounts that look most like it over the paper: least
+ * squares in CIE L*a*b*, with a small penalty on the amounts. The penalty makes the solution
+ * unique, and continuous in the colour. The problem is solved at the points of a grid of
+ * 33x33x33 colours that are needed, and interpolated between them.
  *
- * Errors and threads: as sheet.h says. */
+ * Errors and threads: as sheet.h says.
+ */
 #ifndef LUTETIA_PAPER_SEPARATE_H
 #define LUTETIA_PAPER_SEPARATE_H
 
@@ -18,7 +20,8 @@
 struct paper_separation {
     enum paper_rule rule;
     double below
-        [3]; /* what the pigments lie on: linear light, or by the other rules display values, 0..1 */
+        [3]; /* the colour under the pigments: linear light, or, by the other rules, display
+              * values, 0..1 */
     int pigments_count; /* 1..PAPER_PIGMENTS_MAX */
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
     double most;   /* amount of each, 0.01..4 */
@@ -27,7 +30,7 @@ struct paper_separation {
 /* The rule, paper and pigments of a sheet; most 2, thrift 0.3. */
 struct paper_separation paper_separation_of(const struct paper_sheet_config *config);
 
-/* What amounts look like: linear light, 0..1. */
+/* The colour of the amounts: linear light, 0..1. */
 void paper_mixture_color(const struct paper_separation *s, const double *amount, double rgb[3]);
 /* CIE 1976 L*a*b* (D65) of linear light. */
 void paper_lab(const double rgb[3], double lab[3]);

@@ -12,12 +12,13 @@
  *         paper_sheet_step(sheet);
  *     paper_sheet_view(sheet, &(struct paper_sheet_view){.view = PAPER_SHOW_COLOR}, rgb16);
  *
- * The model (docs/paper.md) joins those of Small (SPIE 1991) and of Curtis et al. (SIGGRAPH 1997), in parts that are
- * switched on one by one.  Without any it is the thesis's cycle of paper.h, to the bit.  With parts matter
- * comes in grains, PAPER_GRAINS to the unit: whole numbers in floats, so that what leaves a fiber arrives in the next
- * exactly, and totals never drift.
+ * The model (docs/paper.md) joins those of Small (SPIE 1991) and of Curtis et al. (SIGGRAPH
+ * 1997), in parts that are switched on one by one.  Without any part it is the thesis's cycle
+ * of paper.h, to the bit. With parts, amounts are in grains, PAPER_GRAINS to the unit: whole
+ * numbers in floats, so flows between fibers are exact, and totals never drift.
  *
- * Errors and threads: as paper.h says. */
+ * Errors and threads: as paper.h says.
+ */
 #ifndef LUTETIA_PAPER_SHEET_H
 #define LUTETIA_PAPER_SHEET_H
 
@@ -29,22 +30,23 @@ enum { PAPER_PIGMENTS_MAX = 16, PAPER_NAME_MAX = 48, PAPER_GRAINS = 1 << 20 };
 
 struct paper_pigment {
     char name[PAPER_NAME_MAX];
-    double
-        weight[2]; /* how easily it moves with water in the fibers, along x and along y, 0..1 */
-    double density;     /* part that settles in a step, 0..1 */
+    double weight[2];   /* mobility with water in the fibers, along x and along y, 0..1 */
+    double density;     /* part of it that settles in a step, 0..1 */
     double staining;    /* resistance to being lifted again, 0.5..100 */
-    double granulation; /* how far it settles in hollows, 0..1 */
+    double granulation; /* how much it prefers hollows when it settles, 0..1 */
     double k[3],
-        s[3]; /* Kubelka-Munk absorption and scattering of a unit, red, green, blue, 0..100 */
+        s[3]; /* Kubelka-Munk absorption and scattering of one unit, red, green, blue, 0..100 */
     double takes[3]; /* rule of subtraction: what a unit takes from each channel, -1..1 */
 };
 
-/* The twelve of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name or by number from 0; NULL: none. */
+/* The twelve pigments of Curtis et al. 1997 and the thesis's cyan, magenta, yellow, by name
+ * or by number from 0; NULL: none. */
 const struct paper_pigment *paper_pigment_find(const char *name);
 const struct paper_pigment *paper_pigment_number(int number);
 
-/* K and S of a layer of one unit that looks so over white and over black, in linear light.
- * Errors: BAD_ARGUMENT unless 0 < over_black < over_white < 1 in each channel. Source: Curtis et al. 1997, 5.1. */
+/* K and S of a layer of one unit with these colours over white and over black, in linear
+ * light. Errors: BAD_ARGUMENT unless 0 < over_black < over_white < 1 in each channel.
+ * Source: Curtis et al. 1997, 5.1. */
 enum paper_status paper_pigment_colors(struct paper_pigment *pigment,
                                        const double over_white[3], const double over_black[3]);
 
@@ -62,12 +64,13 @@ struct paper_stock {
         absorbency; /* mean part of a gradient that flows across a face, 0..PAPER_ABSORBENCY_MAX */
     double absorbency_variation;
     double absorbency_along[2]; /* factors along x and along y, 0..1 */
-    double capacity
-        [2]; /* water that a fiber holds where the paper is low and where it is high, 0.01..1 */
+    double
+        capacity[2];  /* water capacity of a fiber where the paper is low and where it is high,
+              * 0.01..1 */
     double roughness; /* deviation of heights about 1/2, 0..1 */
     double grain_px;  /* size of its hills, 1..64 */
     int fiber_length
-        [2]; /* along x and along y: over how many fibers neighbours are alike, 1..64 */
+        [2]; /* length of fibers along x and along y, along which the paper is uniform, 1..64 */
 };
 
 /* "cold press", "hot press", "rough", "blotting", "glass"; by name or by number from 0; NULL: none. */
@@ -78,24 +81,24 @@ const struct paper_stock *paper_stock_number(int number);
 
 enum {
     PAPER_PART_INFUSED = 1, /* water and pigments in the fibers */
-    PAPER_PART_SURFACE = 2, /* and on them; implies INFUSED */
+    PAPER_PART_SURFACE = 2, /* and on the surface; implies INFUSED */
     PAPER_PART_FIXING = 4,  /* pigments settle on the fibers and are lifted again */
-    PAPER_PART_EDGE = 8,    /* what is wet dries faster at its edge; implies SURFACE */
+    PAPER_PART_EDGE = 8,    /* wet areas dry faster at their edges; implies SURFACE */
     PAPER_PARTS_ALL = 15
 };
 
 enum paper_rule {
     PAPER_RULE_KUBELKA_MUNK,
-    PAPER_RULE_SUBTRACT, /* the thesis's: the paper's colour minus what pigments take */
-    PAPER_RULE_LUMINOUS /* pigments shine on dark paper: its colour plus what they do not take */
+    PAPER_RULE_SUBTRACT, /* the thesis's rule: the paper's colour minus what pigments take */
+    PAPER_RULE_LUMINOUS  /* for dark paper: the paper's colour plus what pigments do not take */
 };
 
-struct paper_air {     /* what may change at any time */
+struct paper_air {     /* conditions that may change at any time */
     double gravity[2]; /* pull on the surface along x and along y, -1..1 */
     double seep[2];    /* the same in the fibers, -1..1 */
-    double spread;     /* how fast surface water levels out, 0..1 */
+    double spread;     /* rate at which surface water levels, 0..1 */
     double tension;    /* surface tension of the water, over ten neighbours, 0..0.1 */
-    double relief;     /* how much of the paper's height the water feels, 0..1 */
+    double relief;     /* influence of the paper's height on the water, 0..1 */
     double film;       /* thinner water flows slower, 0.001..1 */
     double pinning; /* depth from which water enters dry fibers, 0..2; 0: it flows anywhere */
     double damp;    /* infused water from which fibers count as wet, 0..1 */
@@ -110,14 +113,15 @@ struct paper_air {     /* what may change at any time */
 };
 struct paper_air paper_air_default(void);
 
-/* How water moves and what paper is like. Every version stays as it is, to the bit: the greatest goes up when the same run would give
- * other bits. What a new sheet gets that asks for none: */
+/* Versions of the model. No version ever changes, to the bit: a change that would give other
+ * bits is a new version. The default version, and the latest: */
 enum { PAPER_MODEL_USUAL = 1, PAPER_MODEL_VERSION = 2 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
-    int model;         /* its version, 1..PAPER_MODEL_VERSION; without parts always the first */
-    bool torus;        /* water that leaves at an edge comes in at the other */
+    int model;         /* version of the model, 1..PAPER_MODEL_VERSION; without parts always
+                        * 1 */
+    bool torus;        /* water that leaves at one edge enters at the opposite one */
     unsigned parts;    /* PAPER_PART_...; 0: the thesis's model */
     enum paper_rule rule;
     struct paper_stock stock;
@@ -135,16 +139,18 @@ enum paper_status paper_sheet_create(const struct paper_sheet_config *config,
 void paper_sheet_destroy(struct paper_sheet *sheet); /* NULL is fine */
 const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet *sheet);
 
-/* The numbers of a sheet's fibers: what the paper is made of, and what it holds. Three layers of pigment exist once for each. */
+/* The layers of a sheet: properties of the paper, and its contents. Three layers exist once
+ * for each pigment. */
 enum paper_layer {
     PAPER_LAYER_HEIGHT,     /* 0..1 */
     PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
     PAPER_LAYER_CAPACITY,   /* 0.01..1 */
-    PAPER_LAYER_RESIST,     /* masking fluid: 1 where nothing comes */
+    PAPER_LAYER_RESIST,     /* masking fluid: 1 where nothing can be put */
     PAPER_LAYER_VARNISH,    /* 0..1; techniques.h */
     PAPER_LAYER_SALT,       /* grains, 0..4, and what has dissolved of them, 0..4 */
     PAPER_LAYER_BRINE,
-    PAPER_LAYER_RED, /* what the pigments lie on: linear light, 0..1, or by the other rules display values */
+    PAPER_LAYER_RED, /* the colour under the pigments: linear light, 0..1, or, by the other
+                      * rules, display values */
     PAPER_LAYER_GREEN,
     PAPER_LAYER_BLUE,
     PAPER_LAYER_SURFACE_WATER, /* this and the next five: 0..15, and 0..4 when written */
@@ -153,15 +159,17 @@ enum paper_layer {
     PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
     PAPER_LAYER_INFUSED_PIGMENT,
     PAPER_LAYER_FIXED_PIGMENT,
-    /* Where water flows (version 2): how hard fibers are to wet, 0.01..100, about 1; eddies, -10..10; what part of them is wet, 0..1 */
+    /* In version 2, which has flowing water: resistance of fibers to wetting, 0.01..100,
+     * about 1; eddies, -10..10; wet part of each fiber, 0..1 */
     PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT,
     PAPER_LAYER_WET_PART,
     PAPER_LAYERS_COUNT
 };
 
-/* Shape: height * width numbers, rows from the top. Writing cuts off to the range above (DRIED_WATER cannot be written).
- * Errors: BAD_ARGUMENT (NaN, a pigment that is not there), NO_MEMORY, MACHINE_FAILED. */
+/* Shape: height * width numbers, rows from the top. Writing clamps to the range above
+ * (DRIED_WATER cannot be written). Errors: BAD_ARGUMENT (NaN, a pigment that is not there),
+ * NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_layer_write(struct paper_sheet *sheet, enum paper_layer layer,
                                           int pigment, const float *values);
 enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_layer layer,
@@ -171,9 +179,10 @@ enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_l
  * Exact on sheets with parts. Errors: NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_total(struct paper_sheet *sheet, int substance, double *total);
 
-/* Adds amount[0] of water and amount[1 + i] of pigment i (each -4..4) through a screen whose upper left corner is at x,
- * y, or everywhere (NULL), on the surface if there is one, else into the fibers. A fiber gets up to 4 (without parts 1) of
- * water and of each pigment by this; nothing comes where there is resist. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+/* Adds amount[0] of water and amount[1 + i] of pigment i (each -4..4) through a screen whose
+ * upper left corner is at x, y, or everywhere (NULL), on the surface if there is one, else
+ * into the fibers. A fiber's water and each pigment can reach 4 by this (without parts 1).
+ * Fibers with resist get nothing. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_put(struct paper_sheet *sheet, const struct paper_screen *screen,
                                   int x, int y, const double *amount);
 
@@ -186,7 +195,7 @@ enum paper_status paper_sheet_blot(struct paper_sheet *sheet, const struct paper
 enum paper_status paper_sheet_resist(struct paper_sheet *sheet,
                                      const struct paper_screen *screen, int x, int y, bool on);
 
-/* Dries everything at once; pigments stay where they are, fixed if there is fixing. */
+/* Dries the whole sheet at once; pigments stay, and are fixed if there is fixing. */
 enum paper_status paper_sheet_dry(struct paper_sheet *sheet);
 /* Dries everything and seals the pigments under a varnish: they become part of the paper's colour. */
 enum paper_status paper_sheet_seal(struct paper_sheet *sheet);
@@ -204,7 +213,7 @@ long paper_sheet_now(const struct paper_sheet *sheet);
 
 enum paper_show {
     PAPER_SHOW_COLOR, /* by the sheet's rule */
-    PAPER_SHOW_WATER, /* gray: the wetter the lighter, both layers */
+    PAPER_SHOW_WATER, /* gray: lighter where it is wetter, both layers */
     PAPER_SHOW_WET,   /* colour, with light from the upper left on the water's surface */
     PAPER_SHOW_LAYER  /* gray: black at `low`, white at `high` */
 };
@@ -222,9 +231,10 @@ enum paper_status paper_sheet_view(struct paper_sheet *sheet,
 
 /* ---- shapes, as screens as small as they are, with soft edges a pixel wide ---- */
 
-/* Shape: points_count pairs of x, y. A polygon may cross itself (even-odd). *x, *y get the screen's corner. What lies
- * outside 0, 0, width, height is cut off; nothing left is an empty screen (gray NULL).
- * Errors: BAD_ARGUMENT, NO_MEMORY. Owns: the caller destroys *screen. */
+/* Shape: points_count pairs of x, y. A polygon may cross itself (even-odd). *x, *y get the
+ * screen's corner. The polygon is clipped to 0, 0, width, height; if nothing is left, the
+ * screen is empty (gray NULL). Errors: BAD_ARGUMENT, NO_MEMORY. Owns: the caller destroys
+ * *screen. */
 enum paper_status paper_polygon_screen(const double *points, int points_count, int width,
                                        int height, struct paper_screen *screen, int *x, int *y);
 

@@ -1,33 +1,36 @@
-/* techniques.h - what painters do besides the brush: graded washes, splatter, salt, lifting, varnish, printed amounts.
+/* techniques.h - what painters do besides the brush: graded washes, splatter, salt, lifting,
+ * varnish, printed amounts.
  *
  *     paper_sheet_splatter(sheet, &(struct paper_splatter){.x = 200, .y = 150, .radius = 80, .drops = 60,
  *                                                          .size = {1, 5}, .seed = 3, .amount = {1, 0.7}});
  *     paper_sheet_salt(sheet, &(struct paper_salt){.x = 200, .y = 150, .radius = 60, .grains = 40,
  *                                                  .size = {1, 2}, .strength = 1, .reach = 10, .seed = 4});
  *
- * Everything by chance comes from the seed given, so the same calls make the same bits.
+ * Random numbers depend only on the given seed, so the same calls make the same bits.
  *
- * Errors and threads: as sheet.h says. */
+ * Errors and threads: as sheet.h says.
+ */
 #ifndef LUTETIA_PAPER_TECHNIQUES_H
 #define LUTETIA_PAPER_TECHNIQUES_H
 
 #include "sheet.h"
 
-/* A screen and where its upper left corner is; NULL: everywhere. */
+/* A screen, and the place of its upper left corner; NULL: everywhere. */
 struct paper_place {
     const struct paper_screen *screen;
     int x, y;
 };
 
-/* Amounts that change evenly from one place to another, and are constant beyond both. */
+/* Amounts that change linearly from one place to another, and are constant beyond both. */
 struct paper_wash {
     struct paper_place place;
-    double from[2], to[2]; /* x, y; the same twice: `amount` everywhere */
+    double from[2], to[2]; /* x, y; if both are equal: `amount` everywhere */
     double amount[1 + PAPER_PIGMENTS_MAX], end[1 + PAPER_PIGMENTS_MAX]; /* 0..4 */
 };
 enum paper_status paper_sheet_wash(struct paper_sheet *sheet, const struct paper_wash *wash);
 
-/* Amounts for each fiber of a rectangle: an image that was separated, say. What lies off the sheet is ignored. */
+/* Amounts for each fiber of a rectangle, for example of a separated image. The part off the
+ * sheet is ignored. */
 struct paper_print {
     int x, y, width, height;
     const float *amount[1 + PAPER_PIGMENTS_MAX]; /* rows from the top, 0..4; NULL: none */

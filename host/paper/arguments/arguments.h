@@ -1,5 +1,5 @@
-/* arguments.h - the arguments of those operations whose public functions take them one by one; those of the others are structs of the
- * public headers. */
+/* arguments.h - structs for the arguments of operations whose public functions take them one
+ * by one. The other operations' arguments are structs of the public headers. */
 #ifndef LUTETIA_PAPER_ARGUMENTS_H
 #define LUTETIA_PAPER_ARGUMENTS_H
 

@@ -1,4 +1,5 @@
-/* forms.c - see arguments/forms.h. A screen is kept as whether there is one, x, y, width, height (4 bytes each) and its gray. */
+/* forms.c - see arguments/forms.h. A screen is stored as a flag, x, y, width, height (4
+ * bytes each) and its gray. */
 #include "arguments/forms.h"
 
 #include "arguments/resample.h"
@@ -10,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The description of the sheet that the arguments are for. */
+/* The description of the sheet that the arguments belong to. */
 static const struct paper_sheet_config *sheet_of(const struct event_stream *s)
 {
     return s->context;
@@ -22,7 +23,7 @@ struct rectangle {
     int64_t x, y, width, height;
 };
 
-/* What of a screen lies on the sheet. */
+/* The part of a screen that lies on the sheet. */
 static struct rectangle on_sheet(const struct paper_place *place,
                                  const struct paper_sheet_config *config)
 {
@@ -36,7 +37,7 @@ static struct rectangle on_sheet(const struct paper_place *place,
     return (struct rectangle){x1, y1, x2 - x1, y2 - y1};
 }
 
-/* A screen that has nothing is one dot of 0, so that every place has a screen that can be put. */
+/* An empty screen is stored as one dot of 0, so that every place has a valid screen. */
 static void screen_get(struct event_stream *s, const struct rectangle *r,
                        struct paper_place *place)
 {
@@ -101,7 +102,7 @@ static bool place_scale(void *start, void *of, const struct event_scaling *scali
                                  .old_width = screen->width_px,
                                  .old_height = screen->height_px};
     double s = scaling->length;
-    /* edges of a pixel of the old sheet spread over as much of the new one */
+    /* edges of a pixel of the old sheet, spread over as many pixels of the new one */
     r.x0 = (int)fmax(0, floor((place->x - 1) * s));
     r.y0 = (int)fmax(0, floor((place->y - 1) * s));
     int x1 = (int)fmin(sizes->new_width, ceil((place->x + screen->width_px + 1) * s));
@@ -231,8 +232,8 @@ const struct member_form samples_form = {samples_pass, samples_scale, samples_fr
 
 /* ---- the arrays of a print ---- */
 
-/* Its rectangle, and for each substance whether there is an array, and the array. A rectangle that cannot be is put, without
- * arrays, so that it can be refused. */
+/* Passes the rectangle, and for each substance a flag and its array. An invalid rectangle is
+ * stored without arrays, so that it is refused when it is read. */
 static void amounts_pass(struct event_stream *s, void *start, void *of)
 {
     (void)start;

@@ -7,7 +7,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-/* Weights of the sources of one place along a row: a tent two sources wide, or two new places wide where these are fewer. */
+/* Weights of the sources of one place along a row: a tent two sources wide, or two new
+ * places wide where there are fewer new places. */
 struct tent {
     int first, count;
     double weights[512];
@@ -29,7 +30,8 @@ static void tent_make(struct tent *tent, int place, double scale)
         tent->weights[i] /= sum;
 }
 
-/* One number from `tent` of a line of `count` numbers, `stride` apart, whose first is at `first` of the old sheet. */
+/* Computes one number from a line of `count` numbers, `stride` apart, whose first is at
+ * `first` of the old sheet. */
 static float tent_sum(const struct tent *tent, const float *line, size_t stride, int first,
                       int count, bool edge_goes_on)
 {

@@ -118,7 +118,7 @@ static const struct member pigment_rows[] = {
            .element = 3),
 };
 
-/* Amounts of water and pigments are checked where messages can name the pigment. */
+/* Amounts of water and pigments are checked elsewhere, where messages can name the pigment. */
 static const struct member put_rows[] = {
     FORM(event_put, place, place_form),
     KEPT(event_put, amount, DOUBLE, 1 + PAPER_PIGMENTS_MAX),

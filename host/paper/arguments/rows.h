@@ -1,12 +1,14 @@
-/* rows.h - of what operations' arguments and a sheet's description consist, a row for each member (events: members.h). From these
- * rows follow their checks, their bytes in histories and saved states, and their values at another resolution. */
+/* rows.h - the members of operations' arguments and of a sheet's description, a row for each
+ * (events: members.h). The rows determine the checks, the bytes in histories and saved
+ * states, and the scaling to another resolution. */
 #ifndef LUTETIA_PAPER_ROWS_H
 #define LUTETIA_PAPER_ROWS_H
 
 #include "arguments/arguments.h"
 #include "describe.h"
 
-/* The others are public. In files their order and kinds never change. */
+/* Other rows are in public headers. The order and the kinds of rows never change, because
+ * files depend on them. */
 extern const struct members paper_put_members, paper_blot_members, paper_resist_members,
     paper_layer_members;
 

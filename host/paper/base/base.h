@@ -1,4 +1,4 @@
-/* base.h - what the files of this folder share. */
+/* base.h - shared by the files of this folder. */
 #ifndef LUTETIA_PAPER_INTERNAL_H
 #define LUTETIA_PAPER_INTERNAL_H
 

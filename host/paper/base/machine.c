@@ -1,4 +1,4 @@
-/* machine.c - where the sheet meets the machine, whose complaints become the paper's. */
+/* machine.c - enters and leaves the machine, and converts its errors to the paper's. */
 #include "base/page.h"
 
 #include <kit.h>

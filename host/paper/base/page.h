@@ -1,7 +1,7 @@
-/* page.h - the fields of a sheet in the machine, and what every routine on them starts from.
+/* page.h - the fields of a sheet in the machine.
  *
- * A sheet is one VP set; each fiber is a virtual processor whose memory is laid out so (w and h are the bits
- * that hold the sheet's width and height):
+ * A sheet is one VP set; each fiber is a virtual processor whose memory is laid out so (w and h
+ * are the bits that hold the sheet's width and height):
  *
  *     bits     field
  *     24       image            what is shown: red, green, blue at 0, 8, 16
@@ -32,16 +32,18 @@ struct paper {
     CM_field_id_t water;
     CM_field_id_t pigment[3]; /* cyan, magenta, yellow */
     CM_field_id_t fiber_color;
-    CM_field_id_t inner_context; /* put aside within a rectangle of the grid */
+    CM_field_id_t inner_context; /* saved while the context is narrowed to a rectangle of the
+                                  * grid */
     CM_field_id_t inflow, inward, outward, scratch;
 };
 
-/* Attaches the machine if nothing has yet, and takes its complaints from then on. */
+/* Attaches the machine if it is not attached yet, and handles its errors from then on. */
 enum paper_status paper_attach(void);
 
-/* Makes the sheet's VP set current and clears what the machine last failed at. */
+/* Makes the sheet's VP set current and clears earlier failures of the machine. */
 void paper_enter(struct paper *p);
-/* What the machine failed at since paper_enter(), as a status with its words in paper_error(). */
+/* The first failure of the machine since paper_enter(), as a status, with its message in
+ * paper_error(). */
 enum paper_status paper_leave(struct paper *p);
 
 enum paper_status paper_weather_check(const struct paper_weather *weather);
@@ -49,7 +51,7 @@ enum paper_status paper_weather_check(const struct paper_weather *weather);
 void paper_cycle(struct paper *p, const struct paper_weather *weather,
                  const CM_field_id_t *pigments, const double *weights, int count);
 
-/* Fills absorbency and fiber_color as the configuration says. */
+/* Fills absorbency and fiber_color according to the configuration. */
 void paper_fibers_make(struct paper *p, const struct paper_config *config);
 
 #endif

@@ -1,8 +1,10 @@
 /* pigment.c - pigments: the tables, and Kubelka-Munk's K and S from two colours.
  *
- * K, S, density, staining and granulation of the twelve are those of Curtis et al. 1997, table 1. How easily they move in
- * fibers is ours: the denser the less.  Cyan, magenta and yellow are the thesis's; their K and S are those of ideal
- * inks that take one channel and scatter a little. */
+ * K, S, density, staining and granulation of the first twelve pigments are those of Curtis
+ * et al. 1997, table 1. Their mobility in fibers is our choice: it falls with density.
+ * Cyan, magenta and yellow are the thesis's; their K and S are those of ideal inks that take
+ * one channel and scatter a little.
+ */
 #include "sheet.h"
 
 #include "base/base.h"

@@ -1,5 +1,6 @@
-/* door.c - the public functions of sheets. Each that changes a sheet is an event: it is checked, performed and recorded by
- * sheet_event(). Each that looks at one brings it to where its history says it is (sheet_ready()), and then asks the model. */
+/* door.c - the public functions of sheets. A function that changes a sheet is an event,
+ * which sheet_event() checks, performs and records. A function that reads a sheet first
+ * brings it to its present position in the history (sheet_ready()), and then asks the model. */
 #include "history/history_internal.h"
 #include "model/model.h"
 

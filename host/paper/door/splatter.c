@@ -9,12 +9,13 @@
 #define PI 3.14159265358979323846
 
 struct drop {
-    double x, y, radius, length; /* radius across; length: how much longer along */
+    double x, y, radius, length; /* radius: across; length: ratio of length to width */
     double c, s;                 /* the direction along */
     double strength;             /* 0..1 */
 };
 
-/* Most fall near, within the radius; few far. Large ones are rare, and what flies far is small. */
+/* Most drops fall near, within the radius, and few far. Large drops are rare, and drops that
+ * fly far are small. */
 static struct drop drop_make(const struct paper_splatter *s, int i)
 {
     uint64_t n = (uint64_t)i;
@@ -23,7 +24,7 @@ static struct drop drop_make(const struct paper_splatter *s, int i)
     double large = pow(sheet_chance(s->seed, n, 3), 4);
     double c = cos(s->toward), sn = sin(s->toward);
     double along = away * cos(angle), across = away * sin(angle);
-    if (s->thrown > 0) /* the farther it flies the more */
+    if (s->thrown > 0) /* drops that are thrown harder fly further */
         along = fabs(along) * (1 + s->thrown);
     struct drop d = {.x = s->x + c * along - sn * across,
                      .y = s->y + sn * along + c * across,
@@ -32,7 +33,7 @@ static struct drop drop_make(const struct paper_splatter *s, int i)
                      .c = c,
                      .s = sn,
                      .strength = 0.55 + 0.45 * sheet_chance(s->seed, n, 5)};
-    if (s->thrown > 0) { /* it points away from where it came from */
+    if (s->thrown > 0) { /* a drop's long axis points away from its origin */
         double fx = d.x - s->x + c * s->radius, fy = d.y - s->y + sn * s->radius;
         double far = hypot(fx, fy);
         d.c = far > 0 ? fx / far : c;

@@ -1,4 +1,5 @@
-/* description.c - a sheet's description and its air as bytes, and the description of a sheet at another resolution. */
+/* description.c - a sheet's description and its air as bytes, and scaled to another
+ * resolution. */
 #include "arguments/forms.h"
 #include "arguments/rows.h"
 #include "event/event.h"
@@ -7,7 +8,8 @@
 
 #include <string.h>
 
-/* The version of the model, less 1, stands above the parts: descriptions from before there were versions are of the first. */
+/* The upper bits hold the model's version, less 1: descriptions from before there were
+ * versions are of version 1. */
 enum { PARTS_BITS = 16 };
 
 static void config_pass(struct event_stream *s, struct paper_sheet_config *config)

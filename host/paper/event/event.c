@@ -1,4 +1,4 @@
-/* event.c - the table of events: what each is called, of what it consists, how it is checked and performed. */
+/* event.c - the table of events: their names, arguments, checks and functions. */
 #include "event/event.h"
 
 #include "arguments/forms.h"
@@ -26,7 +26,7 @@ static const struct members nothing = {NULL, 0};
 static const struct row {
     struct event_kind kind;
     enum paper_status (*check)(const struct paper_sheet *,
-                               const void *); /* what else; NULL: nothing */
+                               const void *); /* further checks; NULL: none */
     enum paper_status (*perform)(struct paper_sheet *, const void *arguments);
 } rows[SHEET_EVENT_KINDS] = {
 #define WITH(type, members) sizeof(struct type), &paper_##members##_members

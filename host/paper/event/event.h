@@ -1,9 +1,10 @@
-/* event.h - what is done to a sheet, as data: each operation is a row of one table.
+/* event.h - the operations on a sheet, as data: each operation is a row of one table.
  *
- * A public operation says sheet_event(p, SHEET_EVENT_PUT, &arguments).  The row of its kind says how the arguments are checked and
- * performed, and of what members their struct consists (arguments/rows.h); from the members follow their ranges, how it is kept as
- * bytes (history.h), read back from a file, and brought to another resolution.  So a new operation is a struct, the rows of its
- * members, its functions and a row:
+ * A public operation calls sheet_event(p, SHEET_EVENT_PUT, &arguments). The row of its kind
+ * gives the functions that check and perform it, and the members of its arguments
+ * (arguments/rows.h). The members determine the ranges, the bytes in histories and files
+ * (history.h), and the scaling to another resolution.  So a new operation is a struct, the rows
+ * of its members, its functions and a row:
  *
  *     struct event_salt { int grains_count; const double *grains; double strength; };
  *     enum paper_status paper_sheet_salt(struct paper_sheet *p, const struct event_salt *salt)
@@ -11,7 +12,9 @@
  *         return sheet_event(p, SHEET_EVENT_SALT, salt);
  *     }
  *
- * What it does must follow from the sheet and from these arguments alone: chance comes from a seed among them. */
+ * The effect of an operation must depend only on the sheet and these arguments. Random
+ * operations have a seed among their arguments.
+ */
 #ifndef LUTETIA_PAPER_EVENT_H
 #define LUTETIA_PAPER_EVENT_H
 
@@ -49,7 +52,7 @@ enum paper_status sheet_event_check(const struct paper_sheet *p, enum sheet_even
                                     const void *arguments);
 enum paper_status sheet_event_perform(struct paper_sheet *p, enum sheet_event_kind kind,
                                       const void *arguments);
-/* What event_decode() found, as a status. Errors: BAD_FILE, NO_MEMORY. */
+/* Converts the result of event_decode() to a status. Errors: BAD_FILE, NO_MEMORY. */
 enum paper_status sheet_event_decoded(enum event_decoded decoded, enum sheet_event_kind kind);
 /* scaling->context is a struct paper_sizes (arguments/forms.h). Errors: NO_MEMORY. */
 enum paper_status sheet_event_scale(enum sheet_event_kind kind, void *arguments,

@@ -1,8 +1,11 @@
 /* checkpoint.c - copies of the whole sheet in the front end's memory, within a budget.
  *
- * One is offered every CHECKPOINT_EVERY steps and operations. Planes that are as they were in the one before are shared with it: the
- * paper itself hardly changes. When the budget is full, that one goes whose neighbours are nearest to each other, measured
- * by how long ago they were, so that the near past is kept in fine steps and the far past in coarse ones. */
+ * A checkpoint is offered every CHECKPOINT_EVERY steps and operations. Unchanged planes are
+ * shared with the checkpoint before; those of the paper itself hardly change. When the
+ * budget is full, the checkpoint is dropped whose neighbours are nearest to each other
+ * relative to their age. So the recent past is kept in fine steps and the far past in coarse
+ * ones.
+ */
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -39,7 +42,7 @@ static void point_drop(struct sheet_history *h, int number)
     h->points_count--;
 }
 
-/* False: there is none that may go. */
+/* Drops a checkpoint. False: none can be dropped. */
 static bool point_drop_least(struct sheet_history *h)
 {
     int least = -1;
@@ -93,7 +96,7 @@ static struct plane_copy *plane_new(const struct paper_sheet *p)
     return plane;
 }
 
-/* Where a checkpoint at the position belongs, or -1 if there is one. */
+/* The place of a checkpoint for the position, or -1 if there is one. */
 static int place_find(const struct sheet_history *h, struct position position)
 {
     int place = h->points_count;
@@ -104,7 +107,7 @@ static int place_find(const struct sheet_history *h, struct position position)
     return place;
 }
 
-/* There must be room, and no checkpoint at its position. */
+/* Inserts a checkpoint. There must be room, and none at its position. */
 static void point_insert(struct sheet_history *h, const struct checkpoint *point)
 {
     int place = place_find(h, point->position);
@@ -114,7 +117,8 @@ static void point_insert(struct sheet_history *h, const struct checkpoint *point
     h->points_count++;
 }
 
-/* Fills the point from the sheet, with what planes it shares with the one before; false: it could not be. */
+/* Fills the checkpoint from the sheet; unchanged planes are shared with the one before.
+ * False: failed. */
 static bool point_fill(struct paper_sheet *p, struct checkpoint *point,
                        const struct checkpoint *before)
 {
@@ -259,7 +263,7 @@ void checkpoint_saved_place(struct sheet_history *h)
     int place = place_find(h, h->now);
     if (!h->saved)
         return;
-    /* somebody has looked there already, or all places are taken by what stays */
+    /* there is a checkpoint already, or all places are taken by pinned ones */
     if (place < 0 || (h->points_count == CHECKPOINTS_MAX && !point_drop_least(h))) {
         checkpoint_saved_free(h);
         return;

@@ -1,6 +1,8 @@
-/* extras.c - what of a sheet is in none of its planes, as bytes: brushes, and what there may be on it.
+/* extras.c - the part of a sheet that is in no plane, as bytes: brushes, salt and varnish
+ * flags.
  *
- * For each brush that there is: its description, and what its bristles hold. */
+ * For each brush: its description, and the content of its bristles.
+ */
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -35,7 +37,7 @@ enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes 
     return status;
 }
 
-/* What bytes hold of a sheet besides its brushes. */
+/* The decoded bytes, without the brushes. */
 struct extras {
     int flags, brushes;
     double salt_reach, salt_strength;
@@ -59,7 +61,7 @@ static enum paper_status extras_begin(struct event_reader *r, struct extras *x)
     return good ? PAPER_OK : damaged("what is on the sheet is");
 }
 
-/* The next brush, checked; the caller frees it by event_free(). */
+/* Decodes and checks the next brush; the caller frees it by event_free(). */
 static enum paper_status brush_decode(const struct paper_sheet *p, struct event_reader *r,
                                       struct paper_brush **out)
 {
@@ -117,7 +119,7 @@ enum paper_status sheet_extras_check(const struct paper_sheet *p,
     return status;
 }
 
-/* The brush is made, and its bristles hold what the bytes say. */
+/* Makes the brush, and fills its bristles. */
 static enum paper_status brush_restore(struct paper_sheet *p, struct event_reader *r)
 {
     struct paper_brush *brush;

@@ -1,4 +1,5 @@
-/* history.c - going back and forth in a sheet's list of operations, and bringing the sheet to where its user believes it to be. */
+/* history.c - moves in a sheet's list of operations, and brings the fields to the position
+ * that the user sees. */
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -156,16 +157,16 @@ void paper_history_mark(struct paper_sheet *p)
         p->history->open = false;
 }
 
-/* Performs `steps` steps, or one operation, where the sheet is; `at` follows. */
+/* Performs `steps` steps, or one operation, at the sheet's position; `at` follows. */
 static enum paper_status operation_perform(struct paper_sheet *p, const struct event_record *op,
                                            const void *arguments)
 {
     struct sheet_history *h = p->history;
     struct position at = h->at;
-    h->at.op = -1; /* unless it succeeds, or changes nothing */
+    h->at.op = -1; /* unknown unless it succeeds, or changes nothing */
     h->performing = true;
     h->steps_before = p->steps;
-    /* steps are the same kernels whatever was done before them */
+    /* steps use the same kernels whatever was done before */
     bool step = op->kind == SHEET_EVENT_STEP || op->kind == SHEET_EVENT_STROKE;
     enum paper_status status = step && h->unfinished ? sheet_finish(p) : PAPER_OK;
     h->unfinished = !step;
@@ -183,7 +184,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct e
     return PAPER_OK;
 }
 
-/* Puts the operation at the list's end; *joined: it belongs to the one before it now. */
+/* Appends the operation; *joined: it was joined to the last one. */
 static enum paper_status record(struct sheet_history *h, struct event_record op, bool *joined)
 {
     struct event_record *last = h->log.count > 0 ? &h->log.records[h->log.count - 1] : NULL;
@@ -191,7 +192,7 @@ static enum paper_status record(struct sheet_history *h, struct event_record op,
     *joined = steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
               last->steps < INT32_MAX / 2 && h->log.count != h->inserting_at;
     if (*joined) {
-        /* what was its end is within it now */
+        /* its end is now inside the joined operation */
         struct checkpoint *point = h->points_count ? &h->points[h->points_count - 1] : NULL;
         if (point && point->position.op == h->log.count)
             point->position = (struct position){h->log.count - 1, last->steps};
@@ -206,7 +207,8 @@ static enum paper_status record(struct sheet_history *h, struct event_record op,
     return PAPER_OK;
 }
 
-/* A program that is run again did this before: it is listed, and computed if somebody looks. */
+/* A program that is run again repeats the operation: it is listed, and computed only if the
+ * sheet is read. */
 static enum paper_status repeat(struct sheet_history *h, struct event_record op)
 {
     bool joined;
@@ -268,14 +270,14 @@ enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
 
 /* ---- computing again ---- */
 
-/* The steps of operations from one position to another. */
+/* The number of steps between two positions. */
 static long steps_between(const struct sheet_history *h, struct position from,
                           struct position to)
 {
     return history_time(h, to) - history_time(h, from);
 }
 
-/* Brings the fields from `at` on to `now`. */
+/* Brings the fields from `at` to `now`. */
 static enum paper_status catch_up(struct paper_sheet *p)
 {
     struct sheet_history *h = p->history;
@@ -431,7 +433,7 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     history_moved(h, NOTE_INSERT_END, keep);
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};
-    enum paper_status status = history_cut(h); /* at a boundary: takes no memory */
+    enum paper_status status = history_cut(h); /* at a boundary, which takes no memory */
     if (!event_log_put_back(&h->log, h->tail, h->tail_count) && status == PAPER_OK)
         status = paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
     h->tail = NULL;

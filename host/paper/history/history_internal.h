@@ -1,4 +1,4 @@
-/* history_internal.h - the list of operations, where the sheet is in it, and checkpoints.
+/* history_internal.h - the list of operations, the sheet's positions in it, and checkpoints.
  *
  *     ops     put   air   step x 300        blot   step x 200        put
  *            +-----+-----+-----------------+------+-----------------+-----+
@@ -6,9 +6,11 @@
  *                                  ^                    ^                  ^
  *                       at {2, 180}           now {4, 60}            count 6
  *
- * `now` is what the sheet is to its user; `at` is what the machine's fields hold, and is brought to `now` when somebody looks
- * (sheet_ready). Operations from `now` on are undone. While a saved run is followed, operations are listed and not performed: `at`
- * stays behind. */
+ * `now` is the position that the user sees. `at` is the position of the machine's fields,
+ * which are brought to `now` before they are read (sheet_ready). Operations from `now` on
+ * are undone. While a saved run is followed, operations are listed but not performed, and
+ * `at` stays behind.
+ */
 #ifndef LUTETIA_PAPER_HISTORY_INTERNAL_H
 #define LUTETIA_PAPER_HISTORY_INTERNAL_H
 
@@ -17,7 +19,8 @@
 
 #include <log.h>
 
-/* What the program did (history/notes.c): an operation, whose kind is `what`, or a move. */
+/* What the program did (history/notes.c): an operation, whose kind is `what`, or a move in
+ * the history. */
 enum note_move {
     NOTE_UNDO = 240, /* in files: never changed */
     NOTE_REDO,
@@ -28,18 +31,19 @@ enum note_move {
 };
 struct note {
     int what;
-    long number; /* steps of an operation; of a move how many, when, or whether it is kept */
-    uint64_t digest; /* of an operation's arguments */
+    long number;     /* of an operation its steps; of a move a count, a time, or whether it is
+                  * kept */
+    uint64_t digest; /* of an operation: digest of its arguments */
 };
 struct notes {
     struct note *at;
     int count, room;
-    bool lost;    /* there was no memory for one */
-    int repeated; /* while they are followed: how many; and steps of the next */
+    bool lost;    /* a note was lost for want of memory */
+    int repeated; /* while they are followed: how many were repeated; and steps of the next */
     long steps;
 };
 
-/* Operations before `op`, and `step` steps of it. op < 0: unknown. */
+/* A position: after the operations before `op`, and `step` steps of it. op < 0: unknown. */
 struct position {
     int op, step;
 };
@@ -51,33 +55,35 @@ struct plane_copy {
 
 struct checkpoint {
     struct position position;
-    long work; /* operations and steps before it */
+    long work; /* number of operations and steps before it */
     struct paper_air air;
     struct event_bytes extras;
     double plane_bytes;
     int planes_count;
     struct plane_copy *planes[PAPER_PLANES_MAX];
-    bool pinned; /* a saved state: it stays until it has been reached */
+    bool pinned; /* a saved state: kept until it has been reached */
 };
 
 enum { CHECKPOINTS_MAX = 256, CHECKPOINT_EVERY = 24 };
 
 struct sheet_history {
-    struct event_log log; /* the operations: kinds are enum sheet_event_kind */
+    struct event_log log; /* the operations; their kinds are enum sheet_event_kind */
     struct position now, at;
     struct paper_air air; /* history_air()'s */
     long work;            /* at `at` */
-    long steps_before;    /* of the sheet, before what is performed */
-    bool open;            /* the last operation's steps may get more */
+    long steps_before;    /* the sheet's time before the operation that is being performed */
+    bool open;            /* further steps may be joined to the last operation */
     struct notes notes;
     bool following, diverged;
-    long resumed;             /* when the saved run had been followed to its end; -1: not yet */
-    bool loaded;              /* the fields hold what is where the notes end */
-    struct checkpoint *saved; /* ... or this does; NULL: neither, or it is among the points */
-    bool unfinished;          /* something was done since the last step */
-    bool performing;          /* what is asked for meanwhile is a part of the operation */
-    int inserting_at;         /* operations before it are not undone; -1: no insertion */
-    struct event_record *tail; /* what follows the insertion */
+    long resumed;              /* the time at which the saved run had been followed to its
+                               * end; -1: not yet */
+    bool loaded;               /* the fields hold the saved state, at the end of the notes */
+    struct checkpoint *saved;  /* ... or this checkpoint does; NULL: neither, or it is among
+                               * the points */
+    bool unfinished;           /* an operation was done since the last step */
+    bool performing;           /* calls made now are part of an operation */
+    int inserting_at;          /* operations before it cannot be undone; -1: no insertion */
+    struct event_record *tail; /* the operations after the insertion */
     int tail_count;
     struct checkpoint points[CHECKPOINTS_MAX]; /* by position */
     int points_count;
@@ -97,17 +103,17 @@ static inline enum sheet_event_kind operation_kind(const struct event_record *op
 {
     return (enum sheet_event_kind)op->kind;
 }
-/* Owns: a history takes it over, or the caller frees it by event_record_free(). */
+/* Owns: a history takes the operation over, or the caller frees it by event_record_free(). */
 enum paper_status operation_make(const struct paper_sheet *p, enum sheet_event_kind kind,
                                  const void *arguments, struct event_record *op);
 /* Errors: BAD_FILE, NO_MEMORY. Owns: the caller frees *arguments by event_free(). */
 enum paper_status operation_arguments(const struct paper_sheet_config *config,
                                       const struct event_record *op, void **arguments);
-/* Takes op over, also when it fails. Errors: NO_MEMORY. */
+/* Takes op over, also on failure. Errors: NO_MEMORY. */
 enum paper_status history_append(struct sheet_history *h, struct event_record op);
-/* What is from `now` on is gone. Errors: NO_MEMORY. */
+/* Removes operations from `now` on. Errors: NO_MEMORY. */
 enum paper_status history_cut(struct sheet_history *h);
-/* Makes a boundary between operations at the position. Errors: NO_MEMORY. */
+/* Splits an operation so that there is a boundary at the position. Errors: NO_MEMORY. */
 enum paper_status history_split(struct sheet_history *h, struct position position);
 
 /* ---- positions (history/positions.c) ---- */
@@ -115,71 +121,75 @@ enum paper_status history_split(struct sheet_history *h, struct position positio
 /* Steps before the position; operations and steps before it. */
 long history_time(const struct sheet_history *h, struct position position);
 long history_work(const struct sheet_history *h, struct position position);
-/* After all that was done by that time; .op < 0: there is no such time before `end`. */
+/* The position after all operations of that time; .op < 0: no such time before `end`. */
 struct position history_position(const struct sheet_history *h, long time, struct position end);
 
 /* ---- doing (history/history.c) ---- */
 
-/* Checks, performs and, where there is a history, records it; or takes note that it is done already. */
+/* Checks and performs the operation, and records it if there is a history; or notes that it
+ * was repeated. */
 enum paper_status sheet_event(struct paper_sheet *p, enum sheet_event_kind kind,
                               const void *arguments);
-/* Sees that the sheet is what its history says: before every look at it. */
+/* Brings the fields to the user's position: called before every read. */
 enum paper_status sheet_ready(struct paper_sheet *p);
-/* Of the sheet as it is to its user, who may not have looked yet. */
+/* The air at the user's position, which the fields may not have reached. */
 const struct paper_air *history_air(const struct paper_sheet *p);
-/* The sheet with its history. NULL is fine. */
+/* Destroys the sheet and its history. NULL is fine. */
 void history_sheet_destroy(struct paper_sheet *p);
 
 /* ---- notes (history/notes.c) ---- */
 
 void notes_add(struct notes *n, struct note note);
-/* Those of a program that did the operations up to `now`. False: no memory. */
+/* Makes the notes of a program that did the operations up to `now`. False: no memory. */
 bool notes_derive(struct sheet_history *h);
 void notes_free(struct notes *n);
-/* True: it is the next of a run that is followed; *steps (may be NULL) gets what it took, if it is no step itself. Else nothing is
- * followed any more. */
+/* True if the operation is the next of a run that is followed; *steps (may be NULL) gets its
+ * number of steps, unless it is a step itself. Otherwise following ends. */
 bool history_foreseen(struct sheet_history *h, struct note note, int *steps);
-/* Notes the move, or sees that it was foreseen. */
+/* Notes the move, or compares it with the followed run. */
 void history_moved(struct sheet_history *h, enum note_move what, long number);
-/* After what was foreseen has been done: if it was the last, the saved state is there. */
+/* Called after a followed operation: if it was the last, makes the saved state current. */
 void history_followed(struct sheet_history *h);
-/* The program goes its own way. */
+/* Ends following: the program did something else. */
 void history_stray(struct sheet_history *h);
-/* Nothing where they follow from the operations. */
+/* Writes nothing if the notes follow from the operations. */
 void notes_encode(struct event_bytes *b, const struct sheet_history *h);
-/* False: no memory. kinds: what the file's numbers stand for; -1: nothing. */
+/* Reads notes. False: no memory. kinds: the kinds of the file's numbers; -1: none. */
 bool notes_decode(struct event_reader *r, const int kinds[256], struct notes *n);
 
 /* ---- checkpoints (history/checkpoint.c) ---- */
 
-/* Keeps a copy of the sheet as it is `at` if it is time for one and the budget allows; that it cannot is no failure. */
+/* Keeps a copy of the sheet at `at` if one is due and the budget allows it. Failing to do so
+ * is no error. */
 void checkpoint_offer(struct paper_sheet *p, bool now);
 void checkpoints_drop_after(struct sheet_history *h, struct position position);
-/* The last at or before the position; NULL: none. */
+/* The last checkpoint at or before the position; NULL: none. */
 const struct checkpoint *checkpoint_before(const struct sheet_history *h,
                                            struct position position);
 enum paper_status checkpoint_restore(struct paper_sheet *p, const struct checkpoint *point);
-/* A saved state, for where the notes end. Errors: NO_MEMORY, the source's. */
+/* Keeps a saved state as a checkpoint for the end of the notes. Errors: NO_MEMORY, the
+ * source's. */
 enum paper_status checkpoint_pin(struct paper_sheet *p, paper_plane_source source,
                                  void *context, const struct paper_air *air,
                                  const struct event_reader *extras);
-/* The sheet is as it says: it may go. */
+/* The sheet has reached the checkpoint, which may be dropped from now on. */
 void checkpoint_reached(struct sheet_history *h, const struct checkpoint *point);
-/* It is among the checkpoints from here on, at `now`. */
+/* Adds the saved state to the checkpoints, at `now`. */
 void checkpoint_saved_place(struct sheet_history *h);
 void checkpoint_saved_free(struct sheet_history *h);
-/* The state straight into the sheet. */
+/* Loads the saved state directly into the sheet. */
 enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context);
 void checkpoints_free(struct sheet_history *h);
 
 /* ---- what is in no plane, as bytes (history/extras.c) ---- */
 
-/* Brushes with what they hold, whether there is salt or varnish. */
+/* Encodes brushes with their contents, and whether there is salt or varnish. */
 enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes *b);
-/* Whether the bytes are what a sheet of this description can have. Errors: BAD_FILE, NO_MEMORY. */
+/* Checks the bytes against a sheet of this description. Errors: BAD_FILE, NO_MEMORY. */
 enum paper_status sheet_extras_check(const struct paper_sheet *p,
                                      const struct event_reader *bytes);
-/* The bytes are good: this program made them, or sheet_extras_check() has seen them. Errors: NO_MEMORY, MACHINE_FAILED. */
+/* Decodes bytes that this program made, or that sheet_extras_check() has accepted. Errors:
+ * NO_MEMORY, MACHINE_FAILED. */
 enum paper_status sheet_extras_decode(struct paper_sheet *p, struct event_reader *r);
 
 #endif

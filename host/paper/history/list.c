@@ -1,4 +1,4 @@
-/* list.c - the list of operations: the log's, and what its positions mean to checkpoints. */
+/* list.c - the list of operations: the log, and the positions of checkpoints in it. */
 #include "history/history_internal.h"
 #include "model/model.h"
 
@@ -36,7 +36,7 @@ enum paper_status history_split(struct sheet_history *h, struct position at)
         return PAPER_OK;
     if (!event_log_split(&h->log, at.op, at.step))
         return no_memory();
-    /* places from there on have other numbers */
+    /* places whose numbers change */
     struct position *places[CHECKPOINTS_MAX + 2] = {&h->now, &h->at};
     int count = 2;
     for (int i = 0; i < h->points_count; i++)

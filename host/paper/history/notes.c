@@ -1,13 +1,17 @@
-/* notes.c - what a program did with a sheet, in order: operations, and going back and forth among them.
+/* notes.c - what a program did with a sheet, in order: operations, and moves back and forth
+ * among them.
  *
- *     notes   put   step x 20   undo 1   step x 10   blot        the program's doing
- *     ops     put   step x 10   blot                             what has come of it
+ *     notes   put   step x 20   undo 1   step x 10   blot        what the program did
+ *     ops     put   step x 10   blot                             the result
  *
- * A saved run is followed by its notes: a program that is run again repeats them, so what it undid before the run was saved it
- * does and undoes again, and none of it is computed; when the last note has been repeated, the saved state is where it is. Of an
- * operation a note holds its kind, its steps and a digest of its arguments.
+ * A saved run is followed by its notes. A program that is run again repeats them, including
+ * operations that it undoes later, and none of them is computed. When the last note has been
+ * repeated, the saved state becomes current. The note of an operation holds its kind, its steps
+ * and a digest of its arguments.
  *
- * Where nothing was undone or inserted the notes follow from the operations, and are not saved. */
+ * If nothing was undone or inserted, the notes follow from the operations, and are not
+ * saved.
+ */
 #include "history/history_internal.h"
 
 #include <array.h>
@@ -56,7 +60,7 @@ void history_stray(struct sheet_history *h)
     struct notes *n = &h->notes;
     if (!h->following)
         return;
-    if (n->steps > 0) /* what was repeated is what was done */
+    if (n->steps > 0) /* what was repeated becomes what was done */
         n->at[n->repeated++].number = n->steps;
     n->count = n->repeated;
     n->steps = 0;

@@ -1,4 +1,4 @@
-/* positions.c - where a position lies in time. */
+/* positions.c - converts between positions and times. */
 #include "history/history_internal.h"
 
 long history_time(const struct sheet_history *h, struct position position)
@@ -17,7 +17,7 @@ struct position history_position(const struct sheet_history *h, long time, struc
         return (struct position){-1, 0};
     while (position_compare(position, end) < 0) {
         int steps = h->log.records[position.op].steps;
-        if (steps > 0 && passed + steps > time) { /* a stroke is not cut in two */
+        if (steps > 0 && passed + steps > time) { /* a stroke cannot be split */
             if (h->log.records[position.op].kind == SHEET_EVENT_STEP)
                 position.step = (int)(time - passed);
             break;

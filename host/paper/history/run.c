@@ -1,4 +1,4 @@
-/* run.c - a whole run as bytes, back from them, and at another resolution.
+/* run.c - encodes a whole run as bytes, decodes it, and scales it to another resolution.
  *
  *     "LRUN", version                    4 bytes each; all numbers with their low byte first
  *     description                        sheet_config_encode()
@@ -11,7 +11,8 @@
  *       kind, steps, raw, stored         1, 4, 8, 8: lengths of the arguments, before and after deflating
  *       arguments                        stored bytes, event_encode()
  *     notes: count                       4; if something was undone or inserted (history/notes.c)
- *       what, number, digest             1, 8, 8 */
+ *       what, number, digest             1, 8, 8
+ */
 #include "arguments/forms.h"
 #include "history/history_internal.h"
 #include "model/model.h"
@@ -21,7 +22,7 @@
 #include <string.h>
 
 enum { RUN_VERSION = 1, OPERATIONS_MAX = 1 << 24 };
-/* Arguments take at most a plane, and what else there is. */
+/* The largest arguments are a plane; this is for everything else. */
 #define ARGUMENTS_BESIDES (64u << 20)
 
 static const char magic[4] = {'L', 'R', 'U', 'N'};
@@ -109,7 +110,7 @@ bool paper_sheet_config_same(const struct paper_sheet_config *a,
 {
     struct event_bytes bytes[2] = {{0}, {0}};
     const struct paper_sheet_config *const both[2] = {a, b};
-    for (int i = 0; i < 2; i++) { /* parts that others imply are there */
+    for (int i = 0; i < 2; i++) { /* parts that imply others always come with these */
         struct paper_sheet_config config = *both[i];
         config.parts = sheet_parts_whole(config.parts);
         config.model = sheet_model_whole(&config);
@@ -127,7 +128,7 @@ static enum paper_status damaged(const char *what)
     return paper_fail(PAPER_BAD_FILE, "%s of the run is damaged", what);
 }
 
-/* The kinds that the file's numbers stand for. */
+/* Reads the names of the kinds that the file's numbers stand for. */
 static enum paper_status names_read(struct event_reader *r, int kinds[256])
 {
     int count = (int)event_get_number(r, 1);
@@ -172,7 +173,7 @@ static enum paper_status operation_read(struct event_reader *r, const struct pap
     return PAPER_OK;
 }
 
-/* The number of the brush that an operation is about; -1: about none. */
+/* The number of the brush that an operation uses; -1: none. */
 static int brush_of(enum sheet_event_kind kind, const void *arguments)
 {
     if (kind == SHEET_EVENT_BRUSH)
@@ -182,8 +183,8 @@ static int brush_of(enum sheet_event_kind kind, const void *arguments)
     return kind == SHEET_EVENT_STROKE ? ((const struct paper_stroke *)arguments)->number : -1;
 }
 
-/* Every operation must be one that this sheet takes, after those before it. *brushes: a bit for each brush that these have
- * made. */
+/* Checks that every operation is possible on this sheet, after those before it. *brushes: a
+ * bit for each brush made so far. */
 static enum paper_status operation_check(const struct paper_sheet *p,
                                          const struct event_record *op, unsigned *brushes)
 {
@@ -267,7 +268,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
         goto cleanup;
 
     struct sheet_history *h = p->history;
-    if (follow) { /* the program will do it all again */
+    if (follow) { /* the program will repeat everything */
         h->now = (struct position){0, 0};
         status = history_cut(h);
     }
@@ -285,7 +286,7 @@ enum paper_status paper_history_decode(const uint8_t *bytes, size_t count, bool 
     }
     if (status == PAPER_OK && follow) {
         h->following = true;
-        history_followed(h); /* of a run in which nothing was done */
+        history_followed(h); /* for a run without operations */
     }
 cleanup:
     if (status != PAPER_OK)
@@ -334,7 +335,7 @@ enum paper_status paper_history_render(struct paper_sheet *p, double scale, doub
         return status;
     if (budget_bytes >= 0)
         status = paper_history_begin(to, budget_bytes);
-    struct paper_air air = paper_air_default(); /* which is for a scale of 1 */
+    struct paper_air air = paper_air_default(); /* described for a scale of 1 */
     if (status == PAPER_OK)
         status = sheet_event_scale(SHEET_EVENT_AIR, &air, &scaling);
     if (status == PAPER_OK)

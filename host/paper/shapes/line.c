@@ -1,8 +1,9 @@
 /* line.c - type as a screen, by the font pipeline.
  *
- * The text is shaped, set in lines, turned by its angle and drawn at its place between fibers. A screen's shade is the
- * part of a fiber that the letters cover, through the filter; where letters overlap, one takes its part of what the other
- * has left. */
+ * The text is shaped, set in lines, turned by its angle and drawn at its place between
+ * fibers. A screen's shade is the part of a fiber that the letters cover, through the
+ * filter. Where letters overlap, each covers its part of what the others leave.
+ */
 #include "base/base.h"
 
 #include <paint.h>
@@ -23,7 +24,7 @@ struct line_setting {
     struct font_map map;
 };
 
-/* What the pipeline said, as a failure of the paper's. */
+/* Converts a failure of the font pipeline to the paper's. */
 static enum paper_status pipeline_failed(enum font_status status, enum paper_status otherwise)
 {
     return paper_fail(status == FONT_NO_MEMORY ? PAPER_NO_MEMORY : otherwise, "%s",
@@ -61,7 +62,7 @@ static enum paper_status line_check(const struct paper_line *line)
     return PAPER_OK;
 }
 
-/* The type's own rectangle, from the first ascent to the last descent, onto the corners. */
+/* Maps the type's own rectangle, from the first ascent to the last descent, to the corners. */
 static enum font_status line_map_corners(struct line_setting *set)
 {
     const struct font_layout *l = &set->layout;
@@ -106,7 +107,7 @@ static enum paper_status line_set(struct line_setting *set)
     return status == FONT_OK ? PAPER_OK : pipeline_failed(status, PAPER_BAD_ARGUMENT);
 }
 
-/* Whether anything but the font's sign for what it has not would be drawn. */
+/* Whether anything but the font's sign for missing characters would be drawn. */
 static bool anything_found(const struct line_setting *set)
 {
     bool found = false;
@@ -121,8 +122,8 @@ static bool anything_found(const struct line_setting *set)
     return found;
 }
 
-/* Cuts off the rows and columns around that hold nothing: a filter's reach is more than what is left of it when
- * rounded. false: there is no ink at all. */
+/* Crops empty rows and columns: a filter's reach is larger than its rounded result. False:
+ * there is no ink at all. */
 static bool screen_crop(struct paper_screen *s)
 {
     int left = s->width_px, right = -1, top = s->height_px, bottom = -1;
@@ -211,7 +212,8 @@ enum paper_status paper_line_screen(const struct paper_line *line, struct paper_
     if (missing)
         *missing = 0;
     enum paper_status status = line_check(line);
-    font_simd_plain_here(true); /* a sheet is the same on every processor */
+    font_simd_plain_here(true); /* no SIMD variants, so that a sheet is the same on every
+                                 * processor */
     if (status == PAPER_OK)
         status = line_set(&set);
     if (status == PAPER_OK && set.layout.missing_count && !anything_found(&set))

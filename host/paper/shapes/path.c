@@ -1,7 +1,9 @@
 /* path.c - SVG paths as chords.
  *
- * A path is a row of commands, a letter and its numbers; the numbers may be repeated without the letter. What a command does is in
- * the table `commands`: how many numbers it takes and which function draws it. */
+ * A path is a sequence of commands, each a letter and its numbers; the numbers may be
+ * repeated without the letter. The table `commands` gives for each command its numbers, and
+ * the function that draws it.
+ */
 #include "path.h"
 
 #include <array.h>
@@ -24,7 +26,7 @@ struct pen {
     double from_x, from_y; /* where the sub-path began */
     double turn_x, turn_y; /* the last control point, for S and T */
     char last;             /* command, upper case */
-    bool open;             /* a line is being added to */
+    bool open;             /* a line has been begun */
     int points_count, room, lines_room;
     struct paper_lines *lines;
     enum paper_status status;
@@ -77,7 +79,7 @@ static void point_add(struct pen *pen, double x, double y)
     pen->y = y;
 }
 
-/* A line begins with the first thing that is drawn after a move. */
+/* A line begins with the first segment after a move. */
 static void line_open(struct pen *pen)
 {
     if (pen->open || pen->status != PAPER_OK)
@@ -163,8 +165,9 @@ static void draw_smooth_quadratic(struct pen *pen, const double *a)
                                     after ? 2 * pen->y - pen->turn_y : pen->y, a[0], a[1]});
 }
 
-/* rx, ry, rotation, large, sweep, x, y. The middle is found where the ellipse is turned and stretched to a unit circle: there
- * it lies on the perpendicular through the middle of the chord. */
+/* rx, ry, rotation, large, sweep, x, y. The centre is computed after a transform that turns
+ * the ellipse into a unit circle: there it lies on the perpendicular through the middle of
+ * the chord. */
 static void draw_arc(struct pen *pen, const double *a)
 {
     double rx = fabs(a[0]), ry = fabs(a[1]), turn = a[2] * PI / 180;
@@ -175,11 +178,13 @@ static void draw_arc(struct pen *pen, const double *a)
         return;
     }
     double u = (c * dx + s * dy) / rx, v = (c * dy - s * dx) / ry, chord = hypot(u, v);
-    if (!(chord > 0) || !isfinite(chord)) { /* radii that dwarf the way, or are dwarfed by it */
+    if (!(chord > 0) || !isfinite(chord)) { /* radii far larger or smaller than the chord:
+                                             * not representable */
         draw_line(pen, a + 5);
         return;
     }
-    double half = chord / 2, grown = half > 1 ? half : 1; /* radii too small are stretched */
+    double half = chord / 2, grown = half > 1 ? half : 1; /* radii that are too small are
+                                                           * enlarged */
     rx *= grown;
     ry *= grown;
     u /= grown;
@@ -213,7 +218,7 @@ static void draw_close(struct pen *pen, const double *a)
     pen->open = false;
 }
 
-/* kinds: what each number is: x, y, a plain number (n), or a flag (f) */
+/* kinds: the type of each number: x, y, a plain number (n), or a flag (f) */
 static const struct command {
     char letter;
     const char *kinds;
@@ -243,7 +248,8 @@ static void space_skip(struct pen *pen, bool comma)
     }
 }
 
-/* [+-] digits [. digits] [e [+-] digits]: strtod alone would take hexadecimal, nan and inf too. */
+/* [+-] digits [. digits] [e [+-] digits]: strtod() would also accept hexadecimal, nan and
+ * inf. */
 static bool number_read(struct pen *pen, double *out)
 {
     char text[64];

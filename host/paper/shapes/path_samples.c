@@ -37,7 +37,7 @@ enum paper_status paper_file_read(const char *file, char **bytes, size_t *count)
                       PAPER_FILE_MAX);
 }
 
-/* The numbers of one line, at most 6; -1: there is something else in it. */
+/* Reads the numbers of one line, at most 6; -1: the line contains something else. */
 static int numbers_read(const char *c, const char *end, double out[6])
 {
     int count = 0;
@@ -78,7 +78,7 @@ enum paper_status paper_samples_parse(const char *bytes, size_t count, const cha
     enum paper_status status = PAPER_OK;
     struct paper_stroke_sample *made = NULL;
     int found = 0, number = 0, room = 0;
-    bool first = true; /* a line of names may still come */
+    bool first = true; /* a line of names is still allowed */
     for (const char *c = bytes, *end = bytes + count; c < end && status == PAPER_OK; number++) {
         const char *stop = memchr(c, '\n', (size_t)(end - c));
         stop = stop ? stop : end;

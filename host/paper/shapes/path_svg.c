@@ -1,4 +1,5 @@
-/* path_svg.c - the paths of an SVG file: expat reads it, transforms are applied to chords. */
+/* path_svg.c - the paths of an SVG file: expat parses it, and transforms are applied to
+ * chords. */
 #include "path.h"
 
 #include "shapes/path_internal.h"
@@ -22,7 +23,7 @@ struct reading {
     const char *name;
     double tolerance;
     struct matrix stack[DEPTH_MAX];
-    int depth, hidden; /* elements open; of those, within one that is not drawn */
+    int depth, hidden; /* depth of open elements; depth within an element that is not drawn */
     struct paper_lines *lines;
     enum paper_status status;
 };
@@ -31,7 +32,7 @@ static void reading_fail(struct reading *r, enum paper_status status, const char
 {
     if (r->status != PAPER_OK)
         return;
-    char said[400]; /* what may be paper_error() itself */
+    char said[400]; /* a copy, because the message may be paper_error() itself */
     snprintf(said, sizeof said, "%s", what);
     r->status = paper_fail(status, "%s:%lu: %s", r->name,
                            (unsigned long)XML_GetCurrentLineNumber(r->parser), said);
@@ -45,7 +46,8 @@ static struct matrix product(struct matrix m, struct matrix n)
                            m.a * n.e + m.c * n.f + m.e, m.b * n.e + m.d * n.f + m.f};
 }
 
-/* One of the functions of a transform attribute; false: no such, or not with so many numbers. */
+/* Applies one function of a transform attribute; false: unknown, or a wrong number of
+ * arguments. */
 static bool transform_function(const char *name, size_t length, const double *n, int count,
                                struct matrix *out)
 {
@@ -107,7 +109,7 @@ static bool transform_parse(const char *text, struct matrix *out)
 static void path_add(struct reading *r, const char *path, const struct matrix *m)
 {
     struct paper_lines own;
-    /* finer where it will be magnified */
+    /* smaller tolerance if the path is magnified */
     double scale = fmax(hypot(m->a, m->b), hypot(m->c, m->d));
     if (!(scale <= 1e6)) {
         reading_fail(r, PAPER_BAD_ARGUMENT, "a transform magnifies more than 1000000 times");

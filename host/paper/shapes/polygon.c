@@ -1,7 +1,9 @@
 /* polygon.c - polygons as screens: for each pixel how much of it the polygon covers.
  *
- * Each pixel row is cut in SUBROWS lines.  On each line the polygon's edges are crossed from left to right; between the first
- * and the second, the third and the fourth, … the line is inside, and adds to each pixel the part of it that it covers. */
+ * Each pixel row is cut in SUBROWS lines.  The crossings of a line with the polygon's edges
+ * are sorted from left to right. The line is inside between the first and the second, the
+ * third and the fourth, …; there it adds to each pixel the part that it covers.
+ */
 #include "sheet.h"
 
 #include "base/base.h"

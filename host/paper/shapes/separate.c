@@ -1,4 +1,5 @@
-/* separate.c - which pigments make a colour: damped Gauss-Newton steps within 0..most for each, from two starts. */
+/* separate.c - finds the pigments of a colour: damped Gauss-Newton steps within 0..most for
+ * each pigment, from two starts. */
 #include "separate.h"
 
 #include "base/base.h"
@@ -53,7 +54,7 @@ void paper_mixture_color(const struct paper_separation *s, const double *amount,
 
 void paper_lab(const double rgb[3], double lab[3])
 {
-    static const double xyz[3][3] = {/* sRGB's primaries, each row over its white */
+    static const double xyz[3][3] = {/* sRGB's primaries, each row divided by its white */
                                      {0.433953, 0.376219, 0.189828},
                                      {0.212671, 0.715160, 0.072169},
                                      {0.017758, 0.109477, 0.872765}};
@@ -109,7 +110,7 @@ static void solve(int n, double m[N][N], double *v)
     }
 }
 
-/* Improves a; returns its cost. */
+/* Improves the amounts a; returns their cost. */
 static double descend(const struct paper_separation *s, const double target[3], double *a)
 {
     double residual[3], damping = 1, now = cost(s, target, a, residual);
@@ -127,7 +128,7 @@ static double descend(const struct paper_separation *s, const double target[3], 
                 gradient[i] += slopes[i][c] * residual[c];
             }
         }
-        int open[N], count = 0; /* not held at an end of its range */
+        int open[N], count = 0; /* variables not held at an end of their range */
         for (int i = 0; i < n; i++)
             if (!(a[i] <= 0 && gradient[i] > 0) && !(a[i] >= s->most && gradient[i] < 0))
                 open[count++] = i;

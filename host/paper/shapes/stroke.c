@@ -1,8 +1,10 @@
-/* stroke.c - the way of a stroke: timed samples, joined by cubics.
+/* stroke.c - the way of a stroke: a cubic spline through timed samples.
  *
- * Between two samples the position is the cubic that has their positions and velocities at its ends; a sample's velocity is that
- * of the parabola through it and both its neighbours (Catmull and Rom's for times that are not even). Pressure and tilt
- * are straight between samples: a cubic would swing below 0. */
+ * Between two samples the position is the Hermite cubic of their positions and velocities. A
+ * sample's velocity is that of the parabola through it and both its neighbours (a
+ * Catmull-Rom spline for uneven times). Pressure and tilt are linear between samples: a
+ * cubic could overshoot below 0.
+ */
 #include "brush.h"
 
 #include "arguments/rows.h"
@@ -33,7 +35,7 @@ enum paper_status paper_stroke_check(const struct paper_stroke *stroke)
     return status;
 }
 
-/* Of x (axis 0) or y at sample i. */
+/* x (axis 0) or y of sample i. */
 static double place(const struct paper_stroke *stroke, int i, int axis)
 {
     return axis == 0 ? stroke->samples[i].x : stroke->samples[i].y;

@@ -1,7 +1,9 @@
-/* state_driver.c - HDF5's files on a descriptor that is open already.
+/* state_driver.c - an HDF5 driver that reads from an open descriptor.
  *
- * HDF5's own drivers open files by name. The reader of states may open none by the time that HDF5 sees the first byte, so it has this one:
- * it reads where pread() can, and everything else fails. */
+ * HDF5's own drivers open files by name. The reader of states may not open files any more
+ * when HDF5 reads the first byte, so it uses this driver, which reads by pread(). All other
+ * operations fail.
+ */
 #include "states/state_internal.h"
 
 #include <errno.h>
@@ -67,7 +69,7 @@ static haddr_t driver_end(const H5FD_t *file, H5FD_mem_t type)
     return ((const struct driver_file *)file)->end;
 }
 
-/* What lies beyond the file's end reads as zeros, as HDF5 expects of its drivers. */
+/* Bytes beyond the file's end read as zeros, as HDF5 expects of its drivers. */
 static herr_t driver_read(H5FD_t *file, H5FD_mem_t type, hid_t how, haddr_t at, size_t count,
                           void *bytes)
 {

@@ -1,4 +1,4 @@
-/* state_internal.h - what writing and reading states share.
+/* state_internal.h - shared by writing and reading of states.
  *
  * The first 512 bytes, text, the rest of them 0:
  *
@@ -9,8 +9,10 @@
  *     checksum 1a2b3c4d                  CRC-32 of all from byte 512 on, then of this, with these digits 0
  *     sheets 1 2 5                       their numbers
  *
- * Then HDF5: a group sheet-N for each, with attributes for people and programs that look at it, "run" (bytes), and in "planes" a
- * dataset for each plane, chunked, shuffled, deflated. Nothing else is accepted when it is read. */
+ * Then HDF5: a group sheet-N for each, with attributes for people and programs that look at
+ * it, "run" (bytes), and in "planes" a dataset for each plane, chunked, shuffled, deflated.
+ * Nothing else is accepted when it is read.
+ */
 #ifndef LUTETIA_PAPER_STATE_INTERNAL_H
 #define LUTETIA_PAPER_STATE_INTERNAL_H
 
@@ -22,12 +24,13 @@
 
 enum { STATE_VERSION = 1, STATE_HEADER_BYTES = 512 };
 
-/* The checksum of a file with that header (STATE_HEADER_BYTES), and the file's length. False: errno says why. */
+/* Computes the checksum of a file with that header (STATE_HEADER_BYTES), and the file's
+ * length. False: errno is set. */
 bool state_checksum(int descriptor, const char *header, uint32_t *checksum, long long *bytes);
 
 /* ---- the reader: a process of its own ---- */
 
-/* A sheet's run, and what a reader takes where nobody says: bytes. */
+/* The longest run of a sheet, and the default limit of a reader's memory, in bytes. */
 #define STATE_RUN_MAX (2ull << 30)
 #define STATE_MEMORY_BYTES (3ull << 30)
 
@@ -36,7 +39,7 @@ struct state_reading {
     int descriptor; /* of a regular file, open for reading; its header has been checked */
     int pipe;       /* where frames go */
     const int *numbers;
-    int count;   /* sheets that the header tells of */
+    int count;   /* number of sheets in the header */
     int number;  /* the one that is read */
     bool planes; /* its planes, too */
     unsigned long long memory_bytes;
@@ -45,7 +48,8 @@ struct state_reading {
 /* Confines the process, reads a sheet by HDF5 and writes it to the pipe; does not return (states/state_reader.c). */
 _Noreturn void state_reader(const struct state_reading *reading);
 
-/* What it writes: frames of a kind, a length (8 bytes, low first), and as many bytes. */
+/* The format of its output: frames of a kind, a length (8 bytes, low first), and that many
+ * bytes. */
 enum {
     STATE_FRAME_RUN = 'R',
     STATE_FRAME_PLANE = 'P',
@@ -53,10 +57,12 @@ enum {
     STATE_FRAME_NO_MEMORY = 'M'
 };
 
-/* HDF5's file (hid_t) on a descriptor, for reading only; negative: it is none (states/state_driver.c). */
+/* Opens an HDF5 file (hid_t) on a descriptor, for reading only; negative: failed
+ * (states/state_driver.c). */
 int64_t state_file_open(int descriptor);
-/* NULL: the HDF5 file (hid_t) has the sheets that its header tells of, and of the sheet `number` what we write and nothing else;
- * else what is wrong, in words. Reads no data (states/state_walk.c). */
+/* Checks that the HDF5 file (hid_t) has the sheets of its header, and that the sheet
+ * `number` has exactly what we write. Returns NULL if so, else the error in words. Reads no
+ * data (states/state_walk.c). */
 const char *state_walk(int64_t file, const int *numbers, int count, int number);
 
 enum { STATE_NAME_MAX = 32 };

@@ -1,12 +1,14 @@
-/* state_read.c - sheets from a file that anybody may have made.
+/* state_read.c - reads sheets from an untrusted file.
  *
  *     this process                          the reader's, forked for each sheet (states/state_reader.c)
  *     header, length, checksum
  *     frames  <------------ pipe ---------- HDF5: run, then planes, or an error in words
- *     run decoded, planes checked (history_run.c, checkpoint.c)
+ *     run decoded, planes checked (history/run.c, checkpoint.c)
  *
- * HDF5's library is large and meant for files that one trusts. Whatever it does to its own process, here the pipe ends. The file is
- * opened once, here, and the reader has that descriptor: what was checked is what is read. */
+ * HDF5's library is large and meant for trusted files. Whatever a file makes it do affects
+ * only the reader's process; here the pipe ends. The file is opened once, here, and the
+ * reader inherits the descriptor, so it reads the file that was checked.
+ */
 #include "states/state_internal.h"
 
 #include <errno.h>
@@ -37,7 +39,7 @@ static enum paper_status file_bad(const struct paper_state *state, const char *w
     return paper_fail(PAPER_BAD_FILE, "%s: %s", state->path, what);
 }
 
-/* Prefixes the last failure by the file's name. */
+/* Prefixes the last failure with the file's name. */
 static enum paper_status file_failed(const struct paper_state *state, enum paper_status status)
 {
     char what[600];
@@ -108,7 +110,7 @@ static enum paper_status memory_short(const struct paper_state *state)
                       state->path, (double)state->memory_bytes * 1e-6);
 }
 
-/* The next frame's length if it is of the kind; else what the reader said. */
+/* The next frame's length if it is of the kind; else fails with the reader's message. */
 static enum paper_status frame_begin(struct paper_state *state, char kind, uint64_t *count)
 {
     uint8_t head[9];
@@ -159,7 +161,7 @@ struct planes_from {
 
 static enum paper_status plane_read(void *context, int number, void *words)
 {
-    (void)number; /* they come in their order */
+    (void)number; /* planes come in order */
     struct planes_from *from = context;
     uint64_t count;
     enum paper_status status = frame_begin(from->state, STATE_FRAME_PLANE, &count);

@@ -1,9 +1,11 @@
-/* state_reader.c - the process that reads a saved state: forked for one sheet, and confined before HDF5 sees the file.
+/* state_reader.c - the process that reads a saved state: forked for one sheet, and confined
+ * before HDF5 sees the file.
  *
- *     confine      no new descriptor, so many bytes, so many seconds, dies with its parent
+ *     confine      no new descriptors, limits on memory and time, ends with its parent
  *     open         HDF5, on the descriptor that the parent has checked (states/state_driver.c)
  *     walk         only what we write is there (states/state_walk.c)
- *     read         the run, then the planes; or an error in words */
+ *     read         the run, then the planes; or an error in words
+ */
 #include "states/state_internal.h"
 
 #include <confine.h>
@@ -16,7 +18,7 @@
 #include <hdf5.h>
 
 enum { READER_SECONDS = 300 };
-/* What HDF5 takes for itself, whatever is read. */
+/* Memory that HDF5 needs for itself, whatever is read. */
 #define READER_OWN_BYTES (64ull << 20)
 
 static bool all_write(int descriptor, const void *bytes, size_t count)
@@ -47,7 +49,7 @@ _Noreturn static void reader_fail(int descriptor, char kind, const char *what)
     _exit(0);
 }
 
-/* What libraries say while they fall goes nowhere. */
+/* Messages that libraries print when they crash are discarded. */
 static void reader_confine(const struct state_reading *reading)
 {
     int nowhere = open("/dev/null", O_WRONLY);
@@ -61,7 +63,8 @@ static void reader_confine(const struct state_reading *reading)
     confine_calls();
 }
 
-/* A dataset that state_walk() has seen, of that many bytes at most; its bytes. */
+/* Reads a dataset that state_walk() has checked, of at most that many bytes; returns its
+ * bytes. */
 static void *dataset_read(const struct state_reading *reading, hid_t group, const char *name,
                           hid_t type, hsize_t size[2], size_t *bytes)
 {
@@ -81,7 +84,8 @@ static void *dataset_read(const struct state_reading *reading, hid_t group, cons
     return made;
 }
 
-/* The planes' names follow from the description; the sheet is only made in the parent, so they are made from a copy. */
+/* The planes' names follow from the description. Only the parent makes the sheet, so they
+ * are derived from a copy of the description. */
 static bool planes_send(const struct state_reading *reading, hid_t group, const uint8_t *run,
                         size_t run_count)
 {
@@ -137,5 +141,6 @@ _Noreturn void state_reader(const struct state_reading *reading)
     if (reading->planes && !planes_send(reading, group, run, count))
         reader_fail(reading->pipe, STATE_FRAME_ERROR,
                     "a plane is missing in it, or has another size or type");
-    _exit(0); /* without closing: HDF5's own exits may stumble over what it read */
+    _exit(0); /* exits without closing, because HDF5's exit handlers may crash on what it
+               * read */
 }

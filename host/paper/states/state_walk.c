@@ -1,19 +1,23 @@
-/* state_walk.c - whether an HDF5 file is one that paper_state_save() writes, before any data is read from it.
+/* state_walk.c - checks that an HDF5 file is one that paper_state_save() writes, before any
+ * data is read from it.
  *
  *     /                    a hard link to a group for each sheet, none else
  *       sheet-N            "run" and "planes", none else
  *         run              bytes, all in one piece in this file
  *         planes           datasets of height x width words, in chunks of this file, shuffled and deflated
  *
- * HDF5 can do much more: links by name to other places and other files, data kept in other files or gathered from them, references,
- * filters that are loaded as programs, types that are computed on reading. None of that is in our states, so none is accepted. */
+ * HDF5 can do much more: links by name to other places and other files, data kept in other
+ * files or gathered from them, references, filters that are loaded as programs, types that
+ * are computed on reading. None of that is in our states, so none is accepted.
+ */
 #include "states/state_internal.h"
 
 #include <hdf5.h>
 
 enum { NOTES_MAX = 6 + PAPER_PIGMENTS_MAX, NOTE_TEXT_MAX = 256, CHUNK_SIDE_MAX = 4096 };
 
-/* The link of that name in the group, and what it leads to. NULL: it is ours. */
+/* Checks the link of that name in the group, and the type of its target. NULL: it is as we
+ * write it. */
 static const char *link_wrong(hid_t group, const char *name, H5O_type_t type)
 {
     H5L_info_t link;
@@ -71,7 +75,7 @@ static const char *notes_wrong(hid_t object)
 
 /* ---- data ---- */
 
-/* One of the types that we store. */
+/* Checks that the type is one that we store. */
 static const char *type_wrong(hid_t set, bool run)
 {
     hid_t type = H5Dget_type(set);
@@ -96,7 +100,7 @@ static const char *filters_wrong(hid_t how)
     return good ? NULL : "a filter in it is not ours";
 }
 
-/* That all data is in this file, and where. size: along each axis. */
+/* Checks that all data is contiguous or in chunks in this file. size: along each axis. */
 static const char *layout_wrong(hid_t how, bool run, const hsize_t size[2])
 {
     hsize_t chunk[2] = {0, 0};

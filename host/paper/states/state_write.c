@@ -1,4 +1,4 @@
-/* state_write.c - sheets to an HDF5 file, which output_file.h brings under its name. */
+/* state_write.c - writes sheets to an HDF5 file, which output_file.h renames. */
 #include "states/state_internal.h"
 
 #include <output_file.h>
@@ -14,7 +14,7 @@
 
 enum { CHUNK_SIDE = 256, DEFLATE_LEVEL = 1 };
 
-/* The header with 0 for the digits of the checksum. */
+/* The checksum of the header, with 0 for the checksum's digits. */
 static uLong header_checksum(uLong sum, const char *header)
 {
     char copy[STATE_HEADER_BYTES];
@@ -68,7 +68,8 @@ static bool text_note(hid_t at, const char *name, const char *text)
     return done;
 }
 
-/* How a file, a group or a dataset is made: without the time, so that the same papers make the same file. */
+/* Creation properties of a file, group or dataset: without times, so that the same papers
+ * make the same file. */
 static hid_t how_made(hid_t kind)
 {
     hid_t how = H5Pcreate(kind);
@@ -117,7 +118,7 @@ static bool plane_write(hid_t group, const struct paper_plane *plane, const hsiz
     return done;
 }
 
-/* *written false: HDF5 could not. */
+/* *written false: HDF5 failed. */
 static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet *s,
                                      bool *written)
 {
@@ -162,7 +163,7 @@ static enum paper_status sheet_write(hid_t file, const struct paper_state_sheet 
     return status;
 }
 
-/* The greatest version of the sheets' models: no program reads the file that does not know it. */
+/* The greatest version of the sheets' models: older programs do not read the file. */
 static int model_of(const struct paper_state_sheet *sheets, int count)
 {
     int model = 1;
@@ -176,13 +177,15 @@ static int model_of(const struct paper_state_sheet *sheets, int count)
 static enum paper_status content_write(const char *path, const struct paper_state_sheet *sheets,
                                        int count, bool *written)
 {
-    H5dont_atexit(); /* what could not be written, on a full disk, it would try again at exit, and fall */
+    H5dont_atexit(); /* HDF5 would try again at exit to write what failed on a full disk, and
+                      * crash */
     hid_t how = how_made(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
     enum paper_status status = PAPER_OK;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     H5Pset_userblock(how, STATE_HEADER_BYTES);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    H5Pset_file_locking(access, false, true); /* the part file is locked by us */
+    H5Pset_file_locking(access, false, true); /* the part file has our lock, so HDF5 must not
+                                               * lock it */
     errno = 0;
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, how, access);
     *written = file >= 0 && number_note(file, "format", STATE_VERSION) &&
@@ -212,7 +215,7 @@ static void header_fill(char header[STATE_HEADER_BYTES], const struct paper_stat
     snprintf(header + length, STATE_HEADER_BYTES - (size_t)length, "\n");
 }
 
-/* The header, written last: a file without it is no state. */
+/* Writes the header last: a file without it is no state. */
 static bool header_write(int descriptor, const struct paper_state_sheet *sheets, int count)
 {
     char header[STATE_HEADER_BYTES];
