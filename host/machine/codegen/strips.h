@@ -132,6 +132,11 @@ enum { WRAPS_LEFT = 1, WRAPS_RIGHT = 2 };
 
 /* ---- strips_schedule.c ---- */
 
+/* What is stored, in stages' order. Without memory s->failed is set; strips_finish() in any case. */
+void strips_init(struct strips *s, const struct plan_graph *g, const int *stores, int count,
+                 const struct vpset *set, int vector);
+void strips_finish(struct strips *s);
+
 /* Looks at what stages look at, and decides on passes, rows, columns and rings. False: it cannot be done in strips, or
  * memory is out. */
 bool strips_schedule(struct strips *s, const struct device_shape *shape);

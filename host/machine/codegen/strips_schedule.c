@@ -9,10 +9,71 @@
 #include "base/parts.h"
 #include "base/types.h"
 #include "codegen/strips.h"
+#include "plan/lanes.h"
 
 enum {
     PASS_COST = 600
 }; /* of stages in one loop: with many more than there are registers for nothing is won */
+
+void strips_init(struct strips *s, const struct plan_graph *g, const int *stores, int count,
+                 const struct vpset *set, int vector)
+{
+    size_t nodes = (size_t)g->count;
+    *s = (struct strips){.g = g,
+                         .set = set,
+                         .stores = stores,
+                         .stores_count = count,
+                         .vector = vector,
+                         .lane = LANE_WIDE};
+    for (int i = 0; i < count; i++)
+        widen(&s->stages_count, g->nodes[stores[i]].stage + 1);
+    s->stages = calloc((size_t)s->stages_count, sizeof *s->stages);
+    s->passes = calloc((size_t)s->stages_count, sizeof *s->passes);
+    s->units = calloc((size_t)count, sizeof *s->units);
+    s->unit = calloc(nodes, sizeof *s->unit);
+    s->down = calloc(nodes, sizeof *s->down);
+    s->ahead = calloc(nodes, sizeof *s->ahead);
+    s->bits_matter = calloc(nodes, sizeof *s->bits_matter);
+    s->ring_rows = calloc(nodes, sizeof *s->ring_rows);
+    s->wraps = calloc(nodes, sizeof *s->wraps);
+    s->ring_at = calloc(nodes, sizeof *s->ring_at);
+    s->rings_of = calloc(nodes, sizeof *s->rings_of);
+    s->number = calloc(nodes, sizeof *s->number);
+    s->failed = !s->stages || !s->units || !s->unit || !s->passes || !s->down || !s->ahead ||
+                !s->bits_matter || !s->ring_rows || !s->wraps || !s->ring_at || !s->rings_of ||
+                !s->number;
+}
+
+void strips_finish(struct strips *s)
+{
+    for (int k = 0; s->stages && k < s->stages_count; k++)
+        accesses_finish(&s->stages[k].looks);
+    for (int k = 0; s->units && k < s->units_count; k++)
+        accesses_finish(&s->units[k].looks);
+    for (int k = 0; s->passes && k < s->passes_count; k++) {
+        emitter_finish(&s->passes[k].e);
+        free(s->passes[k].e.arguments.list);
+        free(s->passes[k].together.carried);
+        free(s->passes[k].text.data);
+        free(s->passes[k].span.data);
+        free(s->passes[k].outputs);
+        free(s->passes[k].inside);
+        free(s->passes[k].ring_rows);
+    }
+    free(s->stages);
+    free(s->units);
+    free(s->unit);
+    free(s->passes);
+    free(s->down);
+    free(s->ahead);
+    free(s->bits_matter);
+    free(s->ring_rows);
+    free(s->wraps);
+    free(s->ring_at);
+    free(s->rings_of);
+    free(s->rings);
+    free(s->number);
+}
 
 /* ---- what stages look at ---- */
 

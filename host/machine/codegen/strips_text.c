@@ -250,68 +250,15 @@ static void describe(const struct strips *s, const struct device_shape *shape,
                  s->lane);
 }
 
-static void strips_finish(struct strips *s)
-{
-    for (int k = 0; s->stages && k < s->stages_count; k++) {
-        accesses_finish(&s->stages[k].looks);
-    }
-    for (int k = 0; s->units && k < s->units_count; k++) {
-        accesses_finish(&s->units[k].looks);
-    }
-    for (int k = 0; s->passes && k < s->passes_count; k++) {
-        emitter_finish(&s->passes[k].e);
-        free(s->passes[k].e.arguments.list);
-        free(s->passes[k].together.carried);
-        free(s->passes[k].text.data);
-        free(s->passes[k].span.data);
-        free(s->passes[k].outputs);
-        free(s->passes[k].inside);
-        free(s->passes[k].ring_rows);
-    }
-    free(s->stages);
-    free(s->units);
-    free(s->unit);
-    free(s->passes);
-    free(s->down);
-    free(s->ahead);
-    free(s->bits_matter);
-    free(s->ring_rows);
-    free(s->wraps);
-    free(s->ring_at);
-    free(s->rings_of);
-    free(s->rings);
-    free(s->number);
-}
-
 static bool strips_kernel(const struct plan_graph *g, const int *stores, int count,
                           const struct vpset *set, const struct device_shape *shape, int lane,
                           struct kernel_text *out)
 {
-    struct strips s = {.g = g,
-                       .set = set,
-                       .stores = stores,
-                       .stores_count = count,
-                       .vector = shape->vector * LANE_WIDE / lane,
-                       .lane = lane};
+    struct strips s;
     struct text t = {0};
     memset(out, 0, sizeof *out);
-    for (int i = 0; i < count; i++)
-        widen(&s.stages_count, g->nodes[stores[i]].stage + 1);
-    s.stages = calloc((size_t)s.stages_count, sizeof *s.stages);
-    s.passes = calloc((size_t)s.stages_count, sizeof *s.passes);
-    s.units = calloc((size_t)count, sizeof *s.units);
-    s.unit = calloc((size_t)g->count, sizeof *s.unit);
-    s.down = calloc((size_t)g->count, sizeof *s.down);
-    s.ahead = calloc((size_t)g->count, sizeof *s.ahead);
-    s.bits_matter = calloc((size_t)g->count, sizeof *s.bits_matter);
-    s.ring_rows = calloc((size_t)g->count, sizeof *s.ring_rows);
-    s.wraps = calloc((size_t)g->count, sizeof *s.wraps);
-    s.ring_at = calloc((size_t)g->count, sizeof *s.ring_at);
-    s.rings_of = calloc((size_t)g->count, sizeof *s.rings_of);
-    s.number = calloc((size_t)g->count, sizeof *s.number);
-    s.failed = !s.stages || !s.units || !s.unit || !s.passes || !s.down || !s.ahead ||
-               !s.bits_matter || !s.ring_rows || !s.wraps || !s.ring_at || !s.rings_of ||
-               !s.number;
+    strips_init(&s, g, stores, count, set, shape->vector * LANE_WIDE / lane);
+    s.lane = lane;
     bool good = !s.failed && strips_schedule(&s, shape);
     for (int k = 0; k < s.passes_count && good; k++) {
         strips_pass_make(&s, k);

@@ -76,6 +76,8 @@ void substitutes_find(struct plan_graph *g)
     }
     for (int i = 0; i < g->count; i++) {
         struct plan_node *n = &g->nodes[i];
+        if (where[i].count == UNSEEN) /* no target wants it, so it may be anything */
+            continue;
         for (int k = 0; !n->leaf && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
             int32_t s = select[n->in[k]];
             if (s < 0 || s == i)
