@@ -243,8 +243,9 @@ static enum font_status advances_find(struct shaping *g, struct paragraph *p)
             p->clusters[infos[i].cluster] = true;
         }
     }
-    set_linebreaks_utf32(p->characters, (size_t)p->count, g->options->language, p->breaks);
-    return FONT_OK;
+    return font_breaks_find(p->characters, p->count, g->options->language, p->breaks)
+               ? FONT_OK
+               : font_fail(FONT_NO_MEMORY, "no memory for text");
 }
 
 /* The hyphen that is seen where a line ends at a soft one; 0 if the face has none. */

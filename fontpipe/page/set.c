@@ -108,7 +108,7 @@ static bool scripts_find(struct page_text *t, struct paragraph *p)
         good = font_levels_find(p->characters, p->count, p->manner.right_to_left, levels,
                                 &p->base);
         const char *language = t->styles[p->style]->language;
-        set_linebreaks_utf32(p->characters, (size_t)p->count, language, breaks);
+        good = good && font_breaks_find(p->characters, p->count, language, breaks);
         for (int i = 0; i < p->count; i++) {
             struct letter *l = &p->letters[i];
             l->script = scripts[i];

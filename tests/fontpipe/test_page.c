@@ -118,7 +118,7 @@ static const char *const words[] = {"water",
                                     "a\tb",
                                     "line\nend",
                                     "\xe0\xb8\x99\xe0\xb9\x89\xe0\xb8\xb3",
-                                    "\xf0\x9f\x98\x80",
+                                    "\xf0\x9f\x98\x80\xf0\x9f\x87\xa9\xf0\x9f\x87\xaa",
                                     "\xe4\xb8\x80\xe4\xba\x8c\xe4\xb8\x89",
                                     "\xff"};
 enum { WORDS = sizeof words / sizeof *words };
