@@ -21,6 +21,8 @@ static const struct {
     {"heat", bench_heat_main, "a heat equation of nine points in Paris, beside C with OpenMP"},
     {"paper", bench_paper_main, "sheets of paper in Paris, beside C with OpenMP"},
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
+    {"interpreter", bench_interpreter_main,
+     "programs of vector operations that do not repeat, beside plain C"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
     {"text", bench_text_main, "justified lines, beside Pango"},
     {"springs", bench_springs_main, "masses and springs, beside plain C, Chipmunk and Box2D"},

@@ -1,0 +1,354 @@
+/* interpreter.c - `lutetia bench interpreter`: programs that do not repeat, as an interpreter of a vector language runs them on
+ * Paris, beside plain C.
+ *
+ *     cold                   the first run of a program, in a process of its own whose caches of kernels are empty
+ *     warm                   each further run of that program
+ *     plain C                a loop for each operation, one thread
+ *     plain C, two threads   likewise, with OpenMP
+ *     kernels compiled       by the cold process, for each size
+ *
+ * Times are for each element of each operation. All must come to the same numbers. */
+#include <fcntl.h>
+#include <ftw.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "harness.h"
+#include "interpreter.h"
+#include "of_machine.h"
+#include "paris_internal.h"
+#include <cm/paris.h>
+
+enum { WORD = 32, SIZES_COUNT = 4, SEED = 20 };
+static const int sizes[SIZES_COUNT] = {10, 1000, 100000, 4000000};
+static const char COLD[] =
+    "--cold-into"; /* what a cold process is told, then a size and a file */
+
+extern char **environ;
+
+/* ---- on Paris ---- */
+
+struct stack_paris {
+    const struct stack_program *program;
+    CM_vp_set_id_t set;
+    CM_geometry_id_t geometry;
+    CM_field_id_t vectors[STACK_VECTORS], index, permutation, segments, rank, address;
+    unsigned int address_bits;
+    uint32_t turn, result;
+};
+
+static bool paris_begin(struct stack_paris *s, const struct stack_program *p)
+{
+    unsigned int dimensions[1] = {(unsigned int)p->n};
+    *s = (struct stack_paris){.program = p};
+    s->geometry = CM_create_geometry(dimensions, 1);
+    s->set = CM_allocate_vp_set(s->geometry);
+    CM_set_vp_set(s->set);
+    CM_set_context();
+    s->address_bits = CM_geometry_send_address_length(s->geometry);
+    for (int i = 0; i < STACK_VECTORS; i++)
+        s->vectors[i] = CM_allocate_heap_field(WORD);
+    s->index = CM_allocate_heap_field(WORD);
+    s->rank = CM_allocate_heap_field(WORD);
+    s->segments = CM_allocate_heap_field(1);
+    s->permutation = CM_allocate_heap_field(s->address_bits);
+    s->address = CM_allocate_heap_field(s->address_bits);
+    uint32_t *permutation = malloc((size_t)p->n * sizeof *permutation);
+    if (!permutation)
+        return bench_fail("no memory for %d words", p->n);
+    stack_permutation(permutation, p->n);
+    bool good = bench_machine_said(
+        machine_field_upload(paris_machine(), s->rank, MACHINE_UINT(WORD), permutation));
+    free(permutation);
+    CM_make_news_coordinate_1L(s->geometry, s->permutation, 0, s->rank, WORD);
+    CM_my_news_coordinate_1L(s->index, 0, WORD);
+    CM_u_mod_constant_3_1L(s->rank, s->index, STACK_SEGMENT, WORD);
+    CM_u_eq_constant_1L(s->rank, 0, WORD);
+    CM_store_test(s->segments);
+    return good && bench_machine_finished();
+}
+
+static void paris_pack(const struct stack_paris *s, CM_field_id_t to, CM_field_id_t a)
+{
+    CM_u_move_zero_1L(to, WORD);
+    CM_load_context(a); /* its lowest bit */
+    CM_enumerate_1L(s->rank, 0, WORD, CM_upward, CM_exclusive, CM_none, CM_no_field);
+    CM_make_news_coordinate_1L(s->geometry, s->address, 0, s->rank, WORD);
+    CM_send_1L(to, s->address, a, WORD, CM_no_field);
+    CM_set_context();
+}
+
+static uint32_t paris_step(const struct stack_paris *s, const struct stack_step *t)
+{
+    CM_field_id_t to = s->vectors[t->to], a = s->vectors[t->a], b = s->vectors[t->b];
+    switch (t->op) {
+    case STACK_START:
+        CM_u_multiply_constant_3_1L(to, s->index, t->number, WORD);
+        CM_u_add_constant_2_1L(to, s->turn, WORD);
+        return 0;
+    case STACK_ADD:
+        CM_u_add_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_SUBTRACT:
+        CM_u_subtract_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_MULTIPLY:
+        CM_u_multiply_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_MIN:
+        CM_u_min_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_MAX:
+        CM_u_max_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_XOR:
+        CM_logxor_3_1L(to, a, b, WORD);
+        return 0;
+    case STACK_ADD_NUMBER:
+        CM_u_add_constant_3_1L(to, a, t->number, WORD);
+        return 0;
+    case STACK_WHERE_LESS:
+        CM_u_lt_1L(a, b, WORD);
+        CM_logand_context_with_test();
+        CM_u_move_1L(to, a, WORD);
+        CM_set_context();
+        return 0;
+    case STACK_SCAN:
+        CM_scan_with_u_add_1L(to, a, 0, WORD, CM_upward, CM_inclusive, CM_none, CM_no_field);
+        return 0;
+    case STACK_SCAN_SEGMENTED:
+        CM_scan_with_u_add_1L(to, a, 0, WORD, CM_upward, CM_inclusive, CM_segment_bit,
+                              s->segments);
+        return 0;
+    case STACK_PERMUTE:
+        CM_send_1L(to, s->permutation, a, WORD, CM_no_field);
+        return 0;
+    case STACK_PACK:
+        paris_pack(s, to, a);
+        return 0;
+    case STACK_SUM:
+        return CM_global_u_add_1L(a, WORD);
+    case STACK_READ:
+        return CM_u_read_from_processor_1L(
+            CM_fe_make_news_coordinate(s->geometry, 0, t->number), a, WORD);
+    case STACK_WRITE:
+    case STACK_OPS_COUNT:
+        CM_u_write_to_processor_1L(CM_fe_make_news_coordinate(s->geometry, 0, t->number), to,
+                                   t->number, WORD);
+    }
+    return 0;
+}
+
+static bool paris_work(void *context)
+{
+    struct stack_paris *s = context;
+    s->turn++;
+    s->result = 0;
+    for (int i = 0; i < STACK_OPERATIONS; i++)
+        s->result = s->result * 31 + paris_step(s, &s->program->steps[i]);
+    for (int i = 0; i < STACK_VECTORS; i++)
+        s->result =
+            s->result * 31 + paris_step(s, &(struct stack_step){.op = STACK_SUM, .a = i});
+    return bench_machine_finished();
+}
+
+/* ---- plain C ---- */
+
+struct plain {
+    struct stack_plain *of;
+    uint32_t turn, result;
+};
+
+static bool plain_work(void *context)
+{
+    struct plain *p = context;
+    p->result = stack_plain_run(p->of, ++p->turn);
+    return true;
+}
+
+bool interpreter_same(uint64_t seed, int n, int turns)
+{
+    static struct stack_program program;
+    struct stack_paris paris;
+    stack_program_make(&program, seed, n);
+    struct plain plain[2] = {{.of = stack_plain_create(&program, 1)},
+                             {.of = stack_plain_create(&program, 2)}};
+    bool ok = (plain[0].of && plain[1].of) || bench_fail("no memory for %d words", n);
+    ok = ok && paris_begin(&paris, &program);
+    for (int i = 0; ok && i < turns; i++) {
+        ok = paris_work(&paris) && plain_work(&plain[0]) && plain_work(&plain[1]);
+        if (ok && (paris.result != plain[0].result || paris.result != plain[1].result))
+            ok = bench_fail("turn %d on %d processors: Paris came to %u, plain C to %u and %u",
+                            i, n, paris.result, plain[0].result, plain[1].result);
+    }
+    if (ok)
+        CM_deallocate_vp_set(paris.set);
+    stack_plain_destroy(plain[0].of);
+    stack_plain_destroy(plain[1].of);
+    return ok;
+}
+
+/* ---- cold ---- */
+
+/* A cold process: its first run of the program; the time of it, the kernels that were compiled, what it came to. */
+static int cold_run(const char *size, const char *path)
+{
+    static struct stack_program program;
+    struct stack_paris s;
+    struct machine_stats stats;
+    int n = atoi(size);
+    if (n < 1 || n > sizes[SIZES_COUNT - 1])
+        return EXIT_FAILURE;
+    stack_program_make(&program, SEED, n);
+    CM_init();
+    if (!paris_begin(&s, &program))
+        return EXIT_FAILURE;
+    double start = bench_now_s();
+    if (!paris_work(&s))
+        return EXIT_FAILURE;
+    double passed = bench_now_s() - start;
+    machine_stats_get(paris_machine(), &stats);
+    FILE *file = fopen(path, "w");
+    bool written = file && fprintf(file, "%.9f %llu %u", passed,
+                                   (unsigned long long)stats.kernels_built, s.result) > 0;
+    return file && fclose(file) == 0 && written ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+static int entry_remove(const char *path, const struct stat *status, int kind,
+                        struct FTW *where)
+{
+    (void)status;
+    (void)kind;
+    (void)where;
+    return remove(path);
+}
+
+/* The environment, but with caches in that folder; LUTETIA_BACKGROUND as anybody's. The caller's to free. */
+static char **environment_of(char *cache, char *driver)
+{
+    static const char *const left_out[] = {
+        "XDG_CACHE_HOME=", "POCL_CACHE_DIR=", "LUTETIA_BACKGROUND="};
+    size_t count = 0, kept = 0;
+    while (environ[count])
+        count++;
+    char **out = calloc(count + 3, sizeof *out);
+    for (size_t i = 0; out && i < count; i++) {
+        bool wanted = true;
+        for (int k = 0; k < 3; k++)
+            wanted = wanted && strncmp(environ[i], left_out[k], strlen(left_out[k])) != 0;
+        if (wanted)
+            out[kept++] = environ[i];
+    }
+    if (out) {
+        out[kept++] = cache;
+        out[kept] = driver;
+    }
+    return out;
+}
+
+struct cold {
+    double seconds, kernels;
+    uint32_t result;
+};
+
+static bool cold_measure(int n, struct cold *out)
+{
+    char folder[] = "/tmp/lutetia-cold-XXXXXX", cache[64], driver[64], path[64], size[16];
+    char name[] = "lutetia-bench", bench[] = "interpreter", flag[sizeof COLD];
+    if (!mkdtemp(folder))
+        return bench_fail("no folder can be made in /tmp");
+    snprintf(cache, sizeof cache, "XDG_CACHE_HOME=%s", folder);
+    snprintf(driver, sizeof driver, "POCL_CACHE_DIR=%s/pocl", folder);
+    snprintf(path, sizeof path, "%s/times", folder);
+    snprintf(size, sizeof size, "%d", n);
+    memcpy(flag, COLD, sizeof COLD);
+    bool ok =
+        mkdir(strchr(driver, '=') + 1, 0700) == 0 || bench_fail("%s: cannot be made", folder);
+    char **environment = ok ? environment_of(cache, driver) : NULL;
+    char *arguments[] = {name, bench, flag, size, path, NULL};
+    pid_t pid;
+    int status = 0;
+    ok = environment &&
+         !posix_spawn(&pid, "/proc/self/exe", NULL, NULL, arguments, environment) &&
+         waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    FILE *file = ok ? fopen(path, "r") : NULL;
+    unsigned result = 0;
+    ok = (file && fscanf(file, "%lf %lf %u", &out->seconds, &out->kernels, &result) == 3) ||
+         bench_fail("a cold run on %d processors did not succeed", n);
+    out->result = result;
+    if (file)
+        fclose(file);
+    free(environment);
+    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    return ok;
+}
+
+/* ---- all ---- */
+
+static bool results_same(const struct plain *plain, const struct stack_paris *paris,
+                         const struct cold *cold, struct stack_plain *of)
+{
+    if (plain[0].result != plain[1].result || plain[0].result != paris->result ||
+        plain[0].turn != paris->turn)
+        return bench_fail("Paris and plain C came to different numbers");
+    return cold->result == stack_plain_run(of, 1) ||
+           bench_fail("the cold run and plain C came to different numbers");
+}
+
+static bool size_measure(struct bench_report *r, int n, int repeat_count)
+{
+    static struct stack_program program;
+    struct stack_paris paris;
+    struct cold cold = {0};
+    stack_program_make(&program, SEED, n);
+    struct plain plain[2] = {{.of = stack_plain_create(&program, 1)},
+                             {.of = stack_plain_create(&program, 2)}};
+    bool ok = (plain[0].of && plain[1].of) || bench_fail("no memory for %d words", n);
+    struct bench_contender contenders[] = {
+        {.what = "warm", .work = paris_work, .context = &paris},
+        {.what = "plain C", .work = plain_work, .context = &plain[0]},
+        {.what = "plain C, two threads", .work = plain_work, .context = &plain[1]},
+    };
+    ok = ok && cold_measure(n, &cold) && paris_begin(&paris, &program) &&
+         bench_measure_in_turns(contenders, 3, repeat_count) &&
+         results_same(plain, &paris, &cold, plain[0].of);
+    char of_case[16];
+    double scale = 1e9 / ((double)n * STACK_OPERATIONS);
+    snprintf(of_case, sizeof of_case, "%d", n);
+    if (ok) {
+        struct bench_sample first = {cold.seconds, cold.seconds};
+        struct bench_sample kernels = {cold.kernels, cold.kernels};
+        bench_report_add(r, "cold", of_case, first, scale, "ns/element");
+        for (int i = 0; i < 3; i++)
+            bench_report_add(r, contenders[i].what, of_case, contenders[i].seconds, scale,
+                             "ns/element");
+        bench_report_add(r, "kernels compiled, cold", of_case, kernels, 1, "kernels");
+        CM_deallocate_vp_set(paris.set);
+        ok = bench_machine_finished();
+    }
+    stack_plain_destroy(plain[0].of);
+    stack_plain_destroy(plain[1].of);
+    return ok;
+}
+
+int bench_interpreter_main(int argc, char **argv)
+{
+    static struct bench_report report;
+    struct bench_options options = {
+        .name = "interpreter", .repeat_least = 3, .repeat_count = 11};
+    if (argc == 4 && !strcmp(argv[1], COLD))
+        return cold_run(argv[2], argv[3]);
+    int status = bench_machine_start(&report, &options, false, argc, argv);
+    if (status >= 0)
+        return status;
+    bool ok = true;
+    for (int i = 0; ok && i < SIZES_COUNT; i++)
+        ok = size_measure(&report, sizes[i], options.repeat_count);
+    return bench_options_finish(&options, &report, "plain C", ok);
+}
