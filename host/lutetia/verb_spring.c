@@ -4,6 +4,7 @@
 #include "options.h"
 #include "spring_scene.h"
 #include "spring_sound.h"
+#include "spring_wet.h"
 
 #include <stage_film.h>
 #include <stage_window.h>
@@ -23,7 +24,9 @@ struct spring {
     const char *way, *frames, *save, *session, *replay, *sound_path;
     int size[2];
     const char *song_path;
-    bool controls, silent;
+    bool controls, silent, is_wet;
+    struct spring_wet_def wet_def;
+    struct spring_wet *wet;
     struct progress progress;
     struct live_options live_options;
     struct midi_song *song;
@@ -64,6 +67,8 @@ static int spring_check(struct spring *s, const struct option_words *words)
         return fail_usage("spring", "what is played goes through a --map FILE.lua");
     if (s->live_options.map && !s->song_path && (s->film.still || s->film.video || s->frames))
         return fail_usage("spring", "a film through a --map is of a --song FILE.mid");
+    if (s->is_wet && !s->film.still && !s->film.video && !s->frames)
+        return fail_usage("spring", "--wet goes with --still, --video or --frames");
     if (s->sound_path && !s->film.still && !s->film.video && !s->frames)
         return fail_usage("spring", "--sound goes with --video, --frames or --still");
     const double *v = s->scene.view;
@@ -150,6 +155,12 @@ static int spring_options(struct spring *s, int argc, char **argv, bool *help)
         {"fps", 0, OPTION_INTEGER, "N", "pictures a second (30)", &s->film.fps, 1, 240, 0},
         {"way", 0, OPTION_TEXT, "exact|egl|osmesa",
          "how pictures are drawn: filtered, or by OpenGL", &s->way, 0, 0, 0},
+        {"wet", 0, OPTION_FLAG, NULL, "over wet paper, on which letters leave tracks",
+         &s->is_wet, 0, 0, 0},
+        {"pigment", 0, OPTION_TEXT, "NAME", "of the tracks (french ultramarine)",
+         &s->wet_def.pigment, 0, 0, 0},
+        {"every", 0, OPTION_NUMBER, "S", "a track's prints are so far apart (0.1)",
+         &s->wet_def.every_s, 0.001, 60, 0},
         {"filter", 0, OPTION_TEXT, "NAME", "of exact pictures (gaussian-fast)", &s->film.filter,
          0, 0, 0},
         {"sound", 0, OPTION_TEXT, "FILE.wav", "what is heard in the film", &s->sound_path, 0, 0,
@@ -211,6 +222,26 @@ static enum stage_status frame_before(void *context, struct stage *stage, double
     return s->live.player ? live_player_before(s->live.player, stage, now_s) : STAGE_OK;
 }
 
+static enum stage_status frame_over(void *context, struct stage *stage,
+                                    const struct stage_draw_list *list,
+                                    struct display_image *image)
+{
+    const struct spring *s = context;
+    (void)stage;
+    return spring_wet_picture(s->wet, list, image);
+}
+
+static int wet_begin(struct spring *s)
+{
+    if (!s->is_wet)
+        return EXIT_SUCCESS;
+    s->wet_def.width = s->size[0] / s->film.strip[0];
+    s->wet_def.height = s->size[1] / s->film.strip[1];
+    s->wet_def.fps = s->film.fps;
+    s->film.over = frame_over;
+    return spring_wet_create(&s->wet_def, &s->wet);
+}
+
 static bool frame_after(void *context, int frame, int frames)
 {
     struct spring *s = context;
@@ -266,6 +297,9 @@ static int film_make(struct spring *s, struct stage *stage)
     s->film.context = s;
     if (sound_make(s) != EXIT_SUCCESS || map_begin(s, stage) != EXIT_SUCCESS)
         return EXIT_FAILED;
+    int wet = wet_begin(s);
+    if (wet != EXIT_SUCCESS)
+        return wet;
     enum stage_status status = stage_film(stage, &s->film);
     progress_end(&s->progress);
     if (s->film.sound >= 0)
@@ -313,6 +347,7 @@ int verb_spring(int argc, char **argv)
                         .window = stage_window_def_default(),
                         .scene = spring_scene_def_default(),
                         .way = "exact",
+                        .wet_def = spring_wet_def_default(),
                         .size = {1280, 720}};
     s.window.title = "springs";
     s.window.record_path = "spring.mp4";
@@ -328,6 +363,7 @@ int verb_spring(int argc, char **argv)
         return fail_stage();
     status = spring_run(&s, scene.stage);
     live_end(&s.live);
+    spring_wet_destroy(s.wet);
     midi_song_destroy(s.song);
     spring_scene_finish(&scene);
     return status;

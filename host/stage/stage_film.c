@@ -127,10 +127,12 @@ static enum stage_status frame_put(struct film *f, int frame, int last)
     const struct stage_film_def *def = f->def;
     char path[4096];
     bool moment = is_moment(f, frame, last);
-    if (!moment && !def->video && !def->frames &&
+    if (!moment && !def->video && !def->frames && !def->over &&
         frame > 0) /* the first one has the view made */
         return STAGE_OK;
     enum stage_status status = picture_draw(f);
+    if (status == STAGE_OK && def->over)
+        status = def->over(def->context, f->stage, &f->list, &f->image);
     if (status == STAGE_OK && f->video && video_add(f->video, f->image.pixels) != DISPLAY_OK)
         status = stage_fail(STAGE_BAD_FILE, "%s", display_error());
     if (status == STAGE_OK && def->frames) {

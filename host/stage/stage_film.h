@@ -10,6 +10,8 @@
 #ifndef LUTETIA_STAGE_FILM_H
 #define LUTETIA_STAGE_FILM_H
 
+#include <display.h>
+
 #include "stage.h"
 
 /* How pictures are drawn: through fontpipe's filter, or by OpenGL in one of its ways. */
@@ -31,6 +33,10 @@ struct stage_film_def {
     const char *filter;      /* of exact pictures; "gaussian-fast" */
     /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
+    /* Called when a picture is drawn, with what it was drawn from, and may change it; then all pictures are drawn, also those that are not
+     * written. NULL: nothing is called. */
+    enum stage_status (*over)(void *context, struct stage *stage,
+                              const struct stage_draw_list *list, struct display_image *image);
     /* Called after each picture; true: no more, what is whole by then is kept. NULL: nothing is called. */
     bool (*after)(void *context, int frame, int frames);
     void *context;

@@ -157,6 +157,45 @@ static void sessions_are_replayed(void **state)
     assert_string_equal(text, played);
 }
 
+/* How many pixels of a part of a picture are blue: ink on paper. */
+static int blue_count(const struct display_image *image, int y0, int y1)
+{
+    int count = 0;
+    for (int y = y0; y < y1; y++)
+        for (int x = 0; x < image->width_px; x++) {
+            const uint8_t *p = image->pixels + 3 * (y * image->width_px + x);
+            count += p[2] > p[0] + 12;
+        }
+    return count;
+}
+
+/* A word that has fallen has left tracks where it was, and lies there itself in black; of another pigment they have another colour. */
+static void letters_leave_wet_tracks(void **state)
+{
+    (void)state;
+    const char *path = scratch_path("wet.png");
+    struct display_image images[2];
+    for (int i = 0; i < 2; i++) {
+        RUN(0, "wet", "--wet", "--still", path, "--at", "0,2", "--seconds", "0.9", "--fps",
+            "10", "--size", "128x128", "--view", "-0.5,-0.3,2.7,2.9", "--pigment",
+            i ? "cadmium red" : "french ultramarine");
+        images[i] = picture(path);
+    }
+    int black = 0;
+    for (int i = 0; i < 3 * 128 * 128; i += 3)
+        black += images[0].pixels[i] + images[0].pixels[i + 1] + images[0].pixels[i + 2] < 60;
+    assert_true(black > 200);
+    assert_true(blue_count(&images[0], 0, 50) >
+                100); /* it began there, and is not there any more */
+    assert_int_equal(blue_count(&images[1], 0, 50), 0);
+    for (int i = 0; i < 2; i++)
+        display_image_destroy(&images[i]);
+    struct child wrong = RUN(2, "wet", "--wet", "--still", path, "--pigment", "octarine");
+    one_line(&wrong, "octarine");
+    wrong = RUN(2, "wet", "--wet");
+    one_line(&wrong, "--wet goes with --still");
+}
+
 /* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
 static void films_stills_and_strips_are_of_one_run(void **state)
 {
@@ -325,6 +364,7 @@ int main(void)
         cmocka_unit_test(scripts_lead_masses),
         cmocka_unit_test(sessions_are_replayed),
         cmocka_unit_test(controls_are_listed),
+        cmocka_unit_test(letters_leave_wet_tracks),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
         cmocka_unit_test(without_egl_osmesa_draws),
         cmocka_unit_test(films_are_interrupted),
