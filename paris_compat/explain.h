@@ -21,5 +21,6 @@ void explain_json(FILE *out, const struct machine_explained *x);
 /* explain_words.c: the kernel's bound, by what it is: as many bytes copied, or the cost model's operations; 0: not known. */
 double explain_bound_s(const struct machine_explained_kernel *k, const char **by);
 const char *explain_why(enum machine_cut why);
+const char *explain_way(enum machine_plan_way way);
 
 #endif

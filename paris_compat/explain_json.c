@@ -47,6 +47,23 @@ static void stores(FILE *out, const struct machine_explained_kernel *k)
     fprintf(out, "]");
 }
 
+/* Ways that were considered, with what they cost by the model. */
+static void plan(FILE *out, const struct machine_explained_kernel *k)
+{
+    const char *before = "";
+    fprintf(out,
+            ", \"predicted_s\": %.9g,\n   \"plan\": {\"chosen\": \"%s\", \"forced\": %s, "
+            "\"costs_s\": {",
+            k->predicted_s, explain_way(k->plan.chosen), k->plan.forced ? "true" : "false");
+    for (int i = 0; i < MACHINE_PLAN_WAYS; i++)
+        if (k->plan.cost_s[i] > 0) {
+            fprintf(out, "%s\"%s\": %.9g", before, explain_way((enum machine_plan_way)i),
+                    k->plan.cost_s[i]);
+            before = ", ";
+        }
+    fprintf(out, "}}");
+}
+
 static void kernel(FILE *out, const struct machine_explained_kernel *k)
 {
     const char *by;
@@ -72,6 +89,7 @@ static void kernel(FILE *out, const struct machine_explained_kernel *k)
                 "\"%s\"",
                 k->bytes_read, k->bytes_written, k->shifts_computed, k->stages, k->rings,
                 k->tile_width, k->tile_height, k->split ? "true" : "false", k->made);
+        plan(out, k);
         stores(out, k);
     }
     fprintf(out, "}");
@@ -81,6 +99,8 @@ void explain_json(FILE *out, const struct machine_explained *x)
 {
     fprintf(out, "{\"device\": ");
     text(out, x->device);
+    fprintf(out, ", \"costs_from\": ");
+    text(out, x->costs_from);
     fprintf(out, ", \"processors\": %d, \"stores\": %llu,\n", x->processors_count,
             (unsigned long long)x->stores);
     fprintf(out, " \"calls_recorded\": %llu, \"calls_foreseen\": %llu",

@@ -88,6 +88,29 @@ static void print_stores(FILE *out, const struct machine_explained_kernel *k)
         fprintf(out, "       and %d more\n", k->stores_count - STORES_SHOWN);
 }
 
+/* What the cost model says of it, and of the plans that its plan was preferred to. */
+static void print_prediction(FILE *out, const struct machine_explained_kernel *k, double mean_s)
+{
+    const struct machine_explained_plan *p = &k->plan;
+    if (k->predicted_s > 0 && mean_s > 0)
+        fprintf(out, "       predicted %.4g us, measured %.4g us (%.2f times that)\n",
+                k->predicted_s * 1e6, mean_s * 1e6, mean_s / k->predicted_s);
+    else if (k->predicted_s > 0)
+        fprintf(out, "       predicted %.4g us\n", k->predicted_s * 1e6);
+    fprintf(out, "       of a plan %s, %.4g us%s", explain_way(p->chosen),
+            p->cost_s[p->chosen] * 1e6, p->forced ? ", which was asked for" : "");
+    const char *before = p->forced ? "; else: " : "; preferred to: ";
+    for (int i = 0; i < MACHINE_PLAN_WAYS; i++) {
+        bool same = i == MACHINE_PLAN_STORED && p->cost_s[i] <= p->cost_s[MACHINE_PLAN_ROWS];
+        if (i == (int)p->chosen || p->cost_s[i] <= 0 || same)
+            continue;
+        fprintf(out, "%s%s, %.4g us", before, explain_way((enum machine_plan_way)i),
+                p->cost_s[i] * 1e6);
+        before = "; ";
+    }
+    fprintf(out, "\n");
+}
+
 static void print_kernel(FILE *out, const struct machine_explained_kernel *k, int number,
                          double all_s)
 {
@@ -107,6 +130,8 @@ static void print_kernel(FILE *out, const struct machine_explained_kernel *k, in
                 *by == 'o' ? "its operations take, by the cost model,"
                            : "to copy as many bytes takes",
                 bound_s * 1e6, 100 * bound_s / mean_s);
+    if (k->generated)
+        print_prediction(out, k, mean_s);
     if (!k->generated) {
         fprintf(out, "       by hand, on %.4g MB of arrays a run\n",
                 1e-6 * (double)k->bytes / (double)(k->runs ? k->runs : 1));
@@ -161,7 +186,7 @@ void explain_text(FILE *out, const struct machine_explained *x)
     if (x->copy_bytes_per_s > 0)
         fprintf(out, " (a copy of %.4g MB runs at %.4g GB/s here)",
                 1e-6 * (double)x->copy_bytes, 1e-9 * x->copy_bytes_per_s);
-    fprintf(out, "\n");
+    fprintf(out, "\nthe cost model's numbers: %s\n", x->costs_from);
     for (int i = 0; i < x->kernels_count && i < KERNELS_SHOWN; i++)
         print_kernel(out, &x->kernels[i], i + 1, all_s);
     if (x->kernels_count > KERNELS_SHOWN)

@@ -18,3 +18,14 @@ const char *explain_why(enum machine_cut why)
     };
     return names[why];
 }
+
+const char *explain_way(enum machine_plan_way way)
+{
+    static const char *const names[MACHINE_PLAN_WAYS] = {
+        [MACHINE_PLAN_STORED] = "all stored first for neighbours",
+        [MACHINE_PLAN_ROWS] = "in rows",
+        [MACHINE_PLAN_STRIPS] = "in strips",
+        [MACHINE_PLAN_TILES] = "in tiles",
+    };
+    return names[way];
+}

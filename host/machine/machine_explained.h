@@ -35,6 +35,22 @@ struct machine_explained_store {
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
+/* The ways of computing what an evaluation wants that the planner compares. */
+enum machine_plan_way {
+    MACHINE_PLAN_STORED, /* in rows; all that neighbours look at is stored first */
+    MACHINE_PLAN_ROWS,   /* in rows; what costs less so is computed again for neighbours */
+    MACHINE_PLAN_STRIPS, /* in one kernel of strips, or of tiles */
+    MACHINE_PLAN_TILES,
+    MACHINE_PLAN_WAYS
+};
+
+/* What one run of each takes, by the cost model; 0: it was not considered, or is not possible. */
+struct machine_explained_plan {
+    enum machine_plan_way chosen;
+    bool forced; /* somebody asked for it (LUTETIA_STRIPS) */
+    double cost_s[MACHINE_PLAN_WAYS];
+};
+
 /* A kernel, on processors of one VP set. Each array read or written counts once, with an
  * element for each processor. */
 struct machine_explained_kernel {
@@ -62,12 +78,17 @@ struct machine_explained_kernel {
     /* The least times of one run: for copying as many bytes, measured when machine_explain()
      * was called (0: not measured), and for the operations by the cost model. */
     double copy_s, operations_s;
+    /* What one run takes by the cost model: 0 of one by hand, and of one that was split. The plan that the kernel was
+     * made for, and what it was preferred to. */
+    double predicted_s;
+    struct machine_explained_plan plan;
 };
 
 enum { MACHINE_VANISHED_OPS_MOST = 128 };
 
 struct machine_explained {
     const char *device;
+    const char *costs_from; /* where the cost model's numbers about it come from */
     int processors_count;
     /* Instructions, in the order of first use. count: those recorded; bytes: those foreseen. */
     const struct machine_explained_row *calls;

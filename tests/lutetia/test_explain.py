@@ -171,6 +171,9 @@ def explanation_is_exact(folder):
         assert (k["arrays_read"], k["arrays_written"]) == (2, 1)
         (stored,) = k["stores"]
         assert (stored["operation"], stored["type"], stored["why"]) == ("FADD", "f32", "looked at")
+        plan = k["plan"]
+        assert plan["chosen"] == "in rows" and not plan["forced"] and "in tiles" not in plan["costs_s"]
+        assert 0 < k["predicted_s"] <= plan["costs_s"]["in rows"] * 1.0001 < 1
         if k["runs_timed"]:
             assert 0 < k["time_s"] < 100 and 0 < k["copy_s"] < 10 and k["bound_s"] >= k["copy_s"]
     evaluated = {row["name"]: row["count"] for row in x["evaluated_because"]}
@@ -181,7 +184,7 @@ def explanation_is_exact(folder):
     waits = {row["name"]: row for row in x["waits"]}
     assert (waits["reading a processor"]["count"], waits["reading a processor"]["bytes"]) == (STEPS, 4 * STEPS)
     for wanted in (rf"{STEPS} run|{kernels[0]['runs']} run", "each reads 8 bytes .2 arrays., writes 4", "= FADD",
-                   "CM_f_add_2_1L", "1 operations", "somebody looked"):
+                   "CM_f_add_2_1L", "1 operations", "somebody looked", "predicted [0-9.]+ us", "of a plan in rows, [0-9.]+ us"):
         assert re.search(wanted, result.stdout), wanted
 
 

@@ -204,6 +204,13 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_int_equal(then->operations, 1);
     assert_int_equal(then->arrays_read, 1);
     assert_int_equal(then->shifts_computed, 0);
+    assert_int_equal(first->plan.chosen, MACHINE_PLAN_ROWS);
+    double plan_s = first->plan.cost_s[MACHINE_PLAN_ROWS];
+    assert_true(first->predicted_s > 0 && then->predicted_s > 0);
+    assert_true(first->predicted_s + then->predicted_s < plan_s * 1.001 &&
+                first->predicted_s + then->predicted_s > plan_s * 0.999);
+    assert_true(first->plan.cost_s[MACHINE_PLAN_STORED] >= plan_s);
+    assert_true(first->plan.cost_s[MACHINE_PLAN_STRIPS] == 0); /* they are forbidden here */
 
     store(c, machine_binary(
                  machine, MACHINE_FADD,
@@ -262,6 +269,12 @@ static void strips_keep_rows_in_no_array(void **state)
     if (k->stages == 1)
         skip(); /* a device without vectors has no strips */
     assert_is_kept_near(k);
+    assert_int_equal(k->plan.chosen, MACHINE_PLAN_STRIPS);
+    assert_true(k->predicted_s > 0 && k->plan.cost_s[MACHINE_PLAN_ROWS] > 0);
+    assert_true(k->predicted_s < 1.001 * k->plan.cost_s[MACHINE_PLAN_STRIPS] &&
+                k->predicted_s > 0.999 * k->plan.cost_s[MACHINE_PLAN_STRIPS]);
+    assert_int_equal(k->plan.forced,
+                     k->plan.cost_s[MACHINE_PLAN_STRIPS] >= k->plan.cost_s[MACHINE_PLAN_ROWS]);
     assert_int_equal(k->stores[k->stores[0].in_ring ? 0 : 1].why, MACHINE_CUT_NEIGHBOURS);
     assert_null(strstr(k->name, "FLN"));
     assert_non_null(strstr(k->name, "FADD"));
@@ -278,6 +291,8 @@ static void tiles_are_kept_in_no_array(void **state)
     const struct machine_explained_kernel *k = neighbours_of(v);
     assert_is_kept_near(k);
     assert_true(k->tile_width > 0 && k->tile_height > 0);
+    assert_int_equal(k->plan.chosen, MACHINE_PLAN_TILES);
+    assert_true(k->predicted_s > 0);
 }
 
 /* ---- calls ---- */

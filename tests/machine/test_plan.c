@@ -1,5 +1,6 @@
 /* The planner, on graphs that no program has made: a plan carried out stage by stage gives what the graph says. No device is
  * needed. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -213,6 +214,20 @@ static void sensible(const struct plan_graph *g, int *stages)
         }
     }
     assert_true(g->cost_ns > 0 && g->cost_ns < IMPOSSIBLE);
+    const struct machine_explained_plan *p = &g->considered;
+    assert_true(fabs(p->cost_s[p->chosen] * 1e9 - g->cost_ns) <= 1e-6 * g->cost_ns);
+    for (int way = 0; way < MACHINE_PLAN_WAYS; way++)
+        assert_true(p->forced || p->cost_s[way] <= 0 ||
+                    p->cost_s[way] >= p->cost_s[p->chosen] * (1 - 1e-9));
+    assert_int_equal(g->strips, p->chosen == MACHINE_PLAN_STRIPS);
+    double kernels_ns = 0; /* of one VP set, in rows: a kernel for each stage */
+    for (int stage = 0; stage < *stages && !g->strips; stage++)
+        for (int i = 0, found = 0; i < g->count && !found; i++)
+            if (g->nodes[i].stored && g->nodes[i].stage == stage) {
+                kernels_ns += g->nodes[i].kernel_ns;
+                found = 1;
+            }
+    assert_true(g->strips || fabs(kernels_ns - g->cost_ns) <= 1e-6 * g->cost_ns);
     assert_true(g->turns_most >= 1);
 }
 

@@ -122,8 +122,9 @@ static void rows_are_there_when_they_are_looked_at(void **state)
         shape.always_strips = true;
         shape.op_ns = 5;
         plan_choose(&h->g, sets, &shape);
-        strips_init(&s, &h->g, stores, stores_of(&h->g, stores), &sets[1], shape.vector);
-        if (h->g.strips && strips_schedule(&s, &shape)) {
+        strips_init(&s, &h->g, stores, stores_of(&h->g, stores), &sets[1], &shape,
+                    shape.vector);
+        if (h->g.strips && strips_schedule(&s)) {
             passes_are_whole(&s);
             carried_out(&s);
             scheduled++;
@@ -161,8 +162,8 @@ static void a_turn_is_one_row_behind_the_turn_before(void **state)
         h->nodes[x].stage = k;
     }
     h->nodes[x].target = true;
-    strips_init(&s, &h->g, stores, stores_of(&h->g, stores), &set, shape.vector);
-    assert_true(strips_schedule(&s, &shape));
+    strips_init(&s, &h->g, stores, stores_of(&h->g, stores), &set, &shape, shape.vector);
+    assert_true(strips_schedule(&s));
     assert_int_equal(s.units_count, TURNS);
     assert_int_equal(s.passes_count, TURNS);
     for (int k = 0; k < TURNS; k++) {

@@ -170,6 +170,9 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
     double lanes = (double)m->device->shape.vector / k->vector;
     f->operations_s =
         1e-9 * m->device->shape.op_ns * k->cost * lanes * (double)m->values->sets[set].count;
+    f->plan = g->considered;
+    f->predicted_s =
+        split ? 0 : 1e-9 * (g->strips ? g->cost_ns : g->nodes[stores[0]].kernel_ns);
     take_arguments(f, g, k);
     return n;
 }

@@ -55,12 +55,14 @@ static bool too_many_arguments(const struct kernel_text *k)
 static bool many_streams(const struct machine *m, const struct vpset *set,
                          const struct kernel_text *k)
 {
-    enum { FETCH_FROM_BYTES = 4 << 20 };
+    const struct device_shape *shape = &m->device->shape;
     int arrays = 0;
     for (int i = 0; i < k->arguments_count; i++)
         arrays += k->arguments[i].kind == ARGUMENT_INPUT;
-    return m->device->is_cpu && k->vector > 1 && !k->strip_bytes && arrays > ARRAYS_MANY &&
-           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) > FETCH_FROM_BYTES;
+    return m->device->is_cpu && k->vector > 1 && !k->strip_bytes &&
+           arrays > shape->arrays_foreseen &&
+           (double)arrays * (double)(set->pitch * set->rows) * sizeof(float) >
+               shape->fetch_bytes;
 }
 
 /* Functions like exp take hundreds of operations, each of which is a call where nothing is optimised: a microsecond for each

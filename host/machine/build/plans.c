@@ -22,9 +22,11 @@ void plans_finish(struct machine *m)
 }
 
 /* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
-int plan_turns(const struct plan *p)
+int plan_turns(const struct machine *m, const struct plan *p)
 {
-    return p->quality == BOXED && p->stored_count <= ARRAYS_MANY ? p->turns_most : 1;
+    return p->quality == BOXED && p->stored_count <= m->device->shape.arrays_foreseen
+               ? p->turns_most
+               : 1;
 }
 
 const int *plan_stored(const struct plan *p, int *count)

@@ -131,7 +131,8 @@ bool plan_is_hopeless(const struct plan *p);
 /* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
 void plans_see_to(struct machine *m);
 const int *plan_stored(const struct plan *p, int *count);
-int plan_turns(const struct plan *p); /* how many of it may be cheaper in one kernel; 1: one */
+/* How many of it may be cheaper in one kernel; 1: one. */
+int plan_turns(const struct machine *m, const struct plan *p);
 
 /* What is known of buffers before a run that has been foreseen. */
 struct fates {

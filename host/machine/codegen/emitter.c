@@ -8,8 +8,6 @@
 #include "codegen/body.h"
 #include "codegen/spell.h"
 
-enum { STREAM_BYTES = 48 << 20 };
-
 void emit_argument(struct arguments *to, int kind, int node, int size, bool *failed)
 {
     if (to->count == to->capacity)
@@ -141,5 +139,5 @@ bool emit_streams(const struct device_shape *shape, const struct vpset *set, int
                   double bytes)
 {
     return shape->streams && vector > 1 && set->width % vector == 0 &&
-           bytes > (double)STREAM_BYTES;
+           bytes > shape->stream_bytes;
 }

@@ -100,6 +100,7 @@ struct pass {
 struct strips {
     const struct plan_graph *g;
     const struct vpset *set;
+    const struct device_shape *shape;
     const int *stores;
     int stores_count, vector, lane;
     struct stage *stages;
@@ -134,17 +135,17 @@ enum { WRAPS_LEFT = 1, WRAPS_RIGHT = 2 };
 
 /* What is stored, in stages' order. Without memory s->failed is set; strips_finish() in any case. */
 void strips_init(struct strips *s, const struct plan_graph *g, const int *stores, int count,
-                 const struct vpset *set, int vector);
+                 const struct vpset *set, const struct device_shape *shape, int vector);
 void strips_finish(struct strips *s);
 
 /* Looks at what stages look at, and decides on passes, rows, columns and rings. False: it cannot be done in strips, or
  * memory is out. */
-bool strips_schedule(struct strips *s, const struct device_shape *shape);
+bool strips_schedule(struct strips *s);
 /* Once passes have their text: the margin that they need. False: more than there is around arrays. */
 bool strips_find_margin(struct strips *s);
 /* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as
  * wide. */
-int strips_columns(const struct strips *s, const struct device_shape *shape);
+int strips_columns(const struct strips *s);
 /* Those of a ring's row: as wide as a strip, of which the last takes what is left, too, and both margins. They are part
  * of the text: of few numbers, so that sheets of many sizes have the same. */
 int strips_near_columns(const struct strips *s, int columns);

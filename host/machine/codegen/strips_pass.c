@@ -388,7 +388,7 @@ static void own_rows_text(const struct strips *s, struct pass *pass)
 static void pass_loops(struct strips *s, struct pass *pass)
 {
     struct text *t = &pass->text, inside = {0}, fetch = {0};
-    if (prefetch_arrays(s, pass) > ARRAYS_MANY)
+    if (prefetch_arrays(s, pass) > s->shape->arrays_foreseen)
         prefetch_rows(s, pass, t, &inside);
     else
         prefetch_columns(s, pass, &inside);

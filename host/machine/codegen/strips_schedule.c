@@ -11,16 +11,13 @@
 #include "codegen/strips.h"
 #include "plan/lanes.h"
 
-enum {
-    PASS_COST = 600
-}; /* of stages in one loop: with many more than there are registers for nothing is won */
-
 void strips_init(struct strips *s, const struct plan_graph *g, const int *stores, int count,
-                 const struct vpset *set, int vector)
+                 const struct vpset *set, const struct device_shape *shape, int vector)
 {
     size_t nodes = (size_t)g->count;
     *s = (struct strips){.g = g,
                          .set = set,
+                         .shape = shape,
                          .stores = stores,
                          .stores_count = count,
                          .vector = vector,
@@ -200,7 +197,7 @@ static void make_passes(struct strips *s)
     for (int k = 0, cost = 0, begun = 0; k < s->stages_count; k++) {
         bool turn = turns.stages && k % turns.stages == turns.begin;
         cost += s->stages[k].looks.cost;
-        if (k == 0 || turn || (cost > PASS_COST && k > begun)) {
+        if (k == 0 || turn || (cost > s->shape->pass_cost && k > begun)) {
             s->passes[s->passes_count++].first = begun = k;
             cost = s->stages[k].looks.cost;
         }
@@ -498,7 +495,7 @@ static void choose_way(struct strips *s)
     find_pairs(s);
 }
 
-bool strips_schedule(struct strips *s, const struct device_shape *shape)
+bool strips_schedule(struct strips *s)
 {
     for (int k = 0; k < s->stages_count && !s->failed; k++)
         stage_accesses(s, k);
@@ -512,7 +509,7 @@ bool strips_schedule(struct strips *s, const struct device_shape *shape)
     s->whole = !over || s->vector - over <= s->set->halo;
     choose_way(s);
     lay_out(s);
-    if (s->whole && s->set->width / strips_columns(s, shape) > 1) {
+    if (s->whole && s->set->width / strips_columns(s) > 1) {
         s->whole = false;
         choose_way(s);
         lay_out(s);
@@ -545,10 +542,10 @@ bool strips_find_margin(struct strips *s)
     return s->margin * 8 <= DEVICE_GUARD_BYTES;
 }
 
-int strips_columns(const struct strips *s, const struct device_shape *shape)
+int strips_columns(const struct strips *s)
 {
-    int columns = shape->strip_columns, width = s->set->width;
-    while (columns > STRIPS_LEAST_COLUMNS && columns * s->memory > shape->near_bytes)
+    int columns = s->shape->strip_columns, width = s->set->width;
+    while (columns > s->shape->strip_least && columns * s->memory > s->shape->near_bytes)
         columns = columns / 2 / s->vector * s->vector;
     int strips = (width + columns - 1) / columns;
     columns = width / strips / s->vector * s->vector;

@@ -181,7 +181,7 @@ static void edges_text(const struct strips *s, struct text *t)
     }
 }
 
-static void kernel_text(struct strips *s, const struct device_shape *shape, struct text *t)
+static void kernel_text(struct strips *s, struct text *t)
 {
     bool integers = false;
     int above = 0, below = 0; /* rows, of i */
@@ -198,7 +198,7 @@ static void kernel_text(struct strips *s, const struct device_shape *shape, stru
                  s->in_place.below);
     text_put(t, "%s", kernel_strips_cl);
     text_put(t, "enum { NEAR = %d, MARGIN = %d }; /* columns of a ring's row, and beyond */\n",
-             strips_near_columns(s, strips_columns(s, shape)), s->margin);
+             strips_near_columns(s, strips_columns(s)), s->margin);
     edges_text(s, t);
     for (int k = 0; k < s->passes_count; k++) {
         if (s->passes[k].same == k && strips_has_boxes(s, &s->passes[k].e))
@@ -217,9 +217,6 @@ static void kernel_text(struct strips *s, const struct device_shape *shape, stru
         pass_call(s, t, k);
     text_put(t, "    }\n}\n");
 }
-
-/* Smaller arrays are near, and a launch more costs more than it saves. */
-enum { IN_PLACE_BYTES = 12 << 20 };
 
 static void describe(const struct strips *s, const struct device_shape *shape,
                      struct kernel_text *out)
@@ -241,9 +238,9 @@ static void describe(const struct strips *s, const struct device_shape *shape,
             bytes += (double)(s->set->pitch * s->set->rows) *
                      (double)type_bytes(s->g->nodes[s->arguments.list[i].node].type);
     out->vector = s->vector;
-    out->strip_columns = strips_columns(s, shape);
+    out->strip_columns = strips_columns(s);
     out->in_place = s->in_place;
-    out->in_place.pays = bytes > IN_PLACE_BYTES;
+    out->in_place.pays = bytes > shape->in_place_bytes;
     out->strip_bytes =
         (size_t)(s->memory + 8) * (size_t)strips_near_columns(s, out->strip_columns);
     emit_options(out, s->set->halo, false, emit_streams(shape, s->set, out->vector, bytes),
@@ -257,9 +254,9 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
     struct strips s;
     struct text t = {0};
     memset(out, 0, sizeof *out);
-    strips_init(&s, g, stores, count, set, shape->vector * LANE_WIDE / lane);
+    strips_init(&s, g, stores, count, set, shape, shape->vector * LANE_WIDE / lane);
     s.lane = lane;
-    bool good = !s.failed && strips_schedule(&s, shape);
+    bool good = !s.failed && strips_schedule(&s);
     for (int k = 0; k < s.passes_count && good; k++) {
         strips_pass_make(&s, k);
         good = !s.failed;
@@ -267,7 +264,7 @@ static bool strips_kernel(const struct plan_graph *g, const int *stores, int cou
     good = good && strips_find_margin(&s);
     if (good) {
         collect_arguments(&s);
-        kernel_text(&s, shape, &t);
+        kernel_text(&s, &t);
         describe(&s, shape, out);
         good = !s.failed && !t.failed;
     }

@@ -1,4 +1,6 @@
 /* shape.c - see shape.h. */
+#include <string.h>
+
 #include "device/device.h"
 
 /* Tiles: as many work-items as a unit of a GPU has lanes for a few times over, and local memory as GPUs have it (a
@@ -34,43 +36,104 @@ static void shape_tiles(const struct device *d, const struct settings *s,
     }
 }
 
-/* From public figures of large GPUs, and not measured: 1e13 operations a second, 1 TB/s, and 15 TB/s to and from local memory.
- * It is the ratios that plans follow from. */
-struct device_shape shape_gpu(void)
+/* ---- the table ---- */
+
+/* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken. */
+static const struct shape_row {
+    bool is_cpu;
+    const char *platform;
+    double
+        instruction_ns; /* one vector instruction, of however many lanes; 0: op_ns says what an element's takes */
+    struct device_shape shape;
+} rows[] = {
+    {.is_cpu = true,
+     .platform = "Portable Computing Language",
+     .instruction_ns = 0.064,
+     .shape = {.byte_ns = 0.022,
+               .near_byte_ns = 0.004,
+               .launch_ns = 3000,
+               .run_columns = 4096,
+               .strips_each = 3,
+               .strip_columns = 4096, /* a few rows of many arrays are in the caches */
+               .strip_least = 128,
+               .near_bytes = 512 << 10, /* half of a second-level cache */
+               .pass_cost = 600,
+               .turns = 8,
+               .arrays_foreseen = 16,
+               .fetch_bytes = 4 << 20,
+               .stream_bytes = 48 << 20,
+               .in_place_bytes = 12 << 20,
+               .streams = true,
+               .from = "measured with PoCL on two cores with AVX-512"}},
+    {.is_cpu = true,
+     .instruction_ns = 0.064,
+     .shape = {.byte_ns = 0.022,
+               .near_byte_ns = 0.004,
+               .launch_ns = 3000,
+               .run_columns = 4096,
+               .strips_each = 3,
+               .strip_columns = 4096,
+               .strip_least = 128,
+               .near_bytes = 512 << 10,
+               .pass_cost = 600,
+               .turns = 8,
+               .arrays_foreseen = 16,
+               .fetch_bytes = 4 << 20,
+               .stream_bytes = 48 << 20,
+               .in_place_bytes = 12 << 20,
+               .streams = true,
+               .from = "PoCL's on another CPU; not measured with this driver"}},
+    {.is_cpu =
+         false, /* 1e13 operations a second, 1 TB/s, 15 TB/s to and from local memory: plans follow from the ratios */
+     .shape = {.vector = 1,
+               .op_ns = 1e-4,
+               .byte_ns = 1e-3,
+               .near_byte_ns = 6e-5,
+               .launch_ns = 5000,
+               .run_columns = 1,
+               .strips_each = 3,
+               .strip_columns = 256,
+               .strip_least = 128,
+               .pass_cost = 600,
+               .turns = 8,
+               .arrays_foreseen = 16,
+               .fetch_bytes = 4 << 20,
+               .stream_bytes = 48 << 20,
+               .in_place_bytes = 12 << 20,
+               .streams = true,
+               .from = "public figures of large GPUs; not measured"}},
+};
+
+static const struct shape_row *row_of(bool is_cpu, const char *platform)
 {
-    return (struct device_shape){.vector = 1,
-                                 .op_ns = 1e-4,
-                                 .byte_ns = 1e-3,
-                                 .near_byte_ns = 6e-5,
-                                 .launch_ns = 5000,
-                                 .run_columns = 1,
-                                 .strip_columns = 256,
-                                 .strips_each = 3,
-                                 .turns = 8,
-                                 .streams = true};
+    const struct shape_row *row = rows;
+    while (row->is_cpu != is_cpu || (row->platform && !strstr(platform, row->platform)))
+        row++; /* the last of each kind fits any driver */
+    return row;
 }
 
-/* What generated code should look like there, where nobody says. Costs measured with PoCL on two cores with AVX-512:
- * see docs/engine.md. A strip is so wide that a few rows of many arrays are in the caches. */
+struct device_shape shape_gpu(void)
+{
+    return row_of(false, "")->shape;
+}
+
+/* What generated code should look like there, where nobody says. */
 static struct device_shape shape_usual(const struct device *d)
 {
-    if (!d->is_cpu)
-        return shape_gpu();
-    cl_uint width = 0;
-    clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
-    return (struct device_shape){.vector = width >= 16  ? 16
-                                           : width >= 8 ? 8
-                                           : width >= 4 ? 4
-                                                        : 1,
-                                 .byte_ns = 0.022,
-                                 .near_byte_ns = 0.004,
-                                 .near_bytes = 512 << 10,
-                                 .launch_ns = 3000,
-                                 .run_columns = 4096,
-                                 .strip_columns = 4096,
-                                 .strips_each = 3,
-                                 .turns = 8,
-                                 .streams = true};
+    char platform[256] = "";
+    cl_platform_id id = NULL;
+    clGetDeviceInfo(d->id, CL_DEVICE_PLATFORM, sizeof id, &id, NULL);
+    if (id)
+        clGetPlatformInfo(id, CL_PLATFORM_NAME, sizeof platform - 1, platform, NULL);
+    const struct shape_row *row = row_of(d->is_cpu, platform);
+    struct device_shape shape = row->shape;
+    if (d->is_cpu) {
+        cl_uint width = 0;
+        clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL);
+        shape.vector = width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
+        shape.op_ns = row->instruction_ns;
+    }
+    return shape;
 }
 
 static int said(const struct settings *s, enum machine_knob knob, int usual)
@@ -95,7 +158,7 @@ struct device_shape shape_of(const struct device *d, const struct settings *s)
 #ifdef __x86_64__ /* 0/0 is *the* NaN, and an operand that is it is the result */
         shape.keeps_nan = s->keeps_nan != 0;
 #endif
-        shape.op_ns = 0.064 / shape.vector;
+        shape.op_ns /= shape.vector;
     }
     shape_tiles(d, s, &shape);
     return shape;

@@ -1,29 +1,46 @@
-/* shape.h - what generated code should look like on a device, and what things cost there. */
+/* shape.h - what generated code should look like on a device, and what things cost there.
+ *
+ * All numbers about hardware are here: shape.c has a row of them for each kind of device and driver, and says where each row
+ * comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
+ * model` measures programs beside what follows from the costs. */
 #ifndef LUTETIA_MACHINE_SHAPE_H
 #define LUTETIA_MACHINE_SHAPE_H
 
 #include "machine.h"
 
-struct device_shape {              /* what generated code should look like there */
-    int vector;                    /* lanes of 32 bits in a work-item; 1 on a GPU */
-    int halo;                      /* columns of padding, where vectors are used */
-    double op_ns;                  /* cost model: one vector instruction, for an element */
-    double byte_ns;                /* ... one byte to or from memory */
-    double near_byte_ns;           /* ... to or from a cache, or local memory */
-    int near_bytes;                /* of a cache, which rings should not fill */
-    int strip_columns;             /* the most, a multiple of the vector */
-    bool no_strips, always_strips; /* or tiles: see plan.c; for tests */
-    int run_columns;               /* of a work-item: a multiple of the vector, but on a GPU */
-    int strips_each;               /* for each unit */
-    int units;                     /* that compute at the same time */
-    int group;                     /* of a tile: work-items; 0: there are no tiles */
-    int local_bytes;               /* of local memory, for a work-group */
-    int tile_width, tile_height;   /* forced; 0: free */
+struct device_shape {
+    /* Work-items. */
+    int vector;      /* lanes of 32 bits in each; 1 on a GPU */
+    int halo;        /* columns of padding, where vectors are used */
+    int run_columns; /* of each: a multiple of the vector, but on a GPU */
+    int strips_each; /* for each unit */
+    int units;       /* that compute at the same time */
+    bool narrow;     /* kernels may have lanes of 8 or 16 bits */
+    bool keeps_nan;  /* see enum op_nan */
+    bool streams;    /* large arrays are stored past the caches */
+    /* The cost model, in nanoseconds. */
+    double op_ns;        /* one vector instruction, for an element */
+    double byte_ns;      /* one byte to or from memory */
+    double near_byte_ns; /* one byte to or from a cache, or local memory */
+    double launch_ns;    /* one launch */
+    /* Strips, and turns of a loop at once. */
+    int strip_columns; /* the most, a multiple of the vector */
+    int strip_least;   /* ... and the least */
+    int near_bytes;    /* of a cache, which rings should not fill */
+    int pass_cost; /* of the stages in one loop: with more there are too few registers, and nothing is won */
     int turns;                     /* of a loop at once */
-    bool narrow;                   /* kernels may have lanes of 8 or 16 bits */
-    bool keeps_nan;                /* see enum op_nan */
-    bool streams;                  /* large arrays are stored past the caches */
-    double launch_ns;              /* ... a launch */
+    bool no_strips, always_strips; /* or tiles: see plan.c; for tests */
+    /* Tiles. */
+    int group;                   /* work-items; 0: there are no tiles */
+    int local_bytes;             /* of local memory, for a work-group */
+    int tile_width, tile_height; /* forced; 0: free */
+    /* Caches. */
+    int arrays_foreseen; /* of more, hardware does not fetch the next rows by itself */
+    double
+        fetch_bytes; /* of fewer, all arrays together, kernels of rows fetch nothing ahead: they are near */
+    double stream_bytes;   /* of more, all arrays together, storing past the caches pays */
+    double in_place_bytes; /* of more, writing over what is read pays: fewer are near anyway */
+    const char *from;      /* where these numbers come from */
 };
 
 /* What is usual on a GPU, but for what the device tells. */

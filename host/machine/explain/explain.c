@@ -104,6 +104,7 @@ const struct machine_explained *machine_explain(struct machine *m, bool wish_mea
     if (!gather_kernels(e))
         return NULL;
     f->device = m->device->name;
+    f->costs_from = m->device->shape.from;
     f->processors_count = m->values->processors_count;
     f->calls = e->calls;
     f->stores = m->run->stores;

@@ -164,6 +164,18 @@ static double time_of(const struct search *s, const struct vpset *set)
     return (double)set->count * (fmax(c, b) + fmin(c, b) / 4) + s->shape->launch_ns;
 }
 
+/* A kernel in rows. */
+static double kernel_time(struct search *s, const struct vpset *on, int stage, uint16_t set)
+{
+    double ns = time_of(s, on);
+    for (int i = 0; s->decided && i < s->g->count; i++) {
+        struct plan_node *n = &s->g->nodes[i];
+        if (n->stored && n->stage == stage && n->set == set)
+            n->kernel_ns = ns;
+    }
+    return ns;
+}
+
 /* What a stage of tiles stores: in global memory, and in local memory if a later one is going to look at it, which is known
  * when all are done. */
 static void tile_stores(struct search *s, int node, double bytes)
@@ -246,7 +258,7 @@ double cost_of(struct search *s)
             if (s->tiles)
                 tile_stage_ends(s, stage);
             else if (!s->strips)
-                total += time_of(s, only);
+                total += kernel_time(s, only, stage, set);
         }
     }
     if (s->tiles && only)

@@ -37,6 +37,7 @@ struct search {
     double operations, bytes, near_bytes; /* near: of rings */
     int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;
+    bool decided; /* this is the plan: what its kernels cost is kept */
 };
 
 /* Stages and what is stored, for the barriers as they are. Returns the last stage. */

@@ -93,7 +93,7 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
 static int turns_most(const struct plan_graph *g, const struct vpset *set,
                       const struct device_shape *shape)
 {
-    if (set->width <= STRIPS_LEAST_COLUMNS && set->width <= shape->strip_columns)
+    if (set->width <= shape->strip_least && set->width <= shape->strip_columns)
         return 2 * shape->turns;
     int(*reach)[2] = calloc((size_t)g->count, sizeof *reach),
     most = 1; /* to the left, to the right */
@@ -124,6 +124,15 @@ static double barriers_everywhere(struct search *s)
     return cost_of(s);
 }
 
+/* What that would cost; the last one that is noted in rows is chosen, unless strips or tiles are. */
+static void note_way(struct plan_graph *g, enum machine_plan_way way, double ns)
+{
+    if (ns < IMPOSSIBLE)
+        g->considered.cost_s[way] = 1e-9 * ns;
+    if (way == MACHINE_PLAN_ROWS)
+        g->considered.chosen = way;
+}
+
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape)
 {
@@ -146,7 +155,9 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     s.offsets_count = 1;
     cost_find_light(&s, weight);
     substitutes_find(g);
-    double best = descend(&s, barriers_everywhere(&s));
+    double all = barriers_everywhere(&s), best = descend(&s, all);
+    note_way(g, MACHINE_PLAN_STORED, all);
+    note_way(g, MACHINE_PLAN_ROWS, best);
     const struct vpset *could = could_be_strips(g, sets, shape);
     bool tiles = could && shape->vector < 2;
     g->turns_most = !could ? 1 : tiles ? 2 * shape->turns : turns_most(g, could, shape);
@@ -155,6 +166,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
         s.strips = true;
         s.tiles = tiles;
         double strips = descend(&s, barriers_everywhere(&s));
+        enum machine_plan_way way = tiles ? MACHINE_PLAN_TILES : MACHINE_PLAN_STRIPS;
+        note_way(g, way, strips);
         if (tiles) {
             cost_of(&s); /* the last one tried may not have been the best */
             g->turns_most =
@@ -162,11 +175,15 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
         }
         g->strips = cost_assign(&s) > 0 && (!tiles || strips < IMPOSSIBLE) &&
                     (strips < best || shape->always_strips);
-        if (!g->strips) {
+        if (g->strips) {
+            g->considered.chosen = way;
+            g->considered.forced = strips >= best;
+        } else {
             s.strips = s.tiles = false;
             memcpy(s.barrier, barrier, count * sizeof *barrier);
         }
     }
+    s.decided = true;
     g->cost_ns = cost_of(&s);
     free(s.barrier);
     free(s.light);

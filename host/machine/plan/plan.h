@@ -2,6 +2,7 @@
 #ifndef LUTETIA_MACHINE_PLAN_H
 #define LUTETIA_MACHINE_PLAN_H
 
+#include "machine_explained.h"
 #include "values/geometry.h"
 
 struct plan_node {
@@ -21,6 +22,7 @@ struct plan_node {
     /* decided */
     int stage;
     bool stored;
+    double kernel_ns; /* of a stored one, but in strips: what its kernel takes, by the model */
 };
 
 struct plan_graph {
@@ -31,6 +33,7 @@ struct plan_graph {
     bool no_strips; /* but not so */
     int turns_most; /* of a loop, in one kernel; 1: that cannot be, or does not pay */
     double cost_ns; /* of one run, by the model */
+    struct machine_explained_plan considered;
 };
 
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
@@ -52,11 +55,6 @@ static inline int plan_input(const struct plan_graph *g, const struct plan_node 
                ? instead
                : n->in[k];
 }
-
-/* More arrays than a processor foresees at once. */
-enum { ARRAYS_MANY = 16 };
-/* Strips are not cut narrower than that. */
-enum { STRIPS_LEAST_COLUMNS = 128 };
 
 static inline void widen(int *have, int wanted)
 {

@@ -29,7 +29,7 @@ static int evaluations(int turns, int at_once)
  * always looks after the same number of turns. */
 static int turns_at_once(const struct machine *m, const struct edge *e)
 {
-    int most = plan_turns(e->deed.plan), usual = m->device->shape.turns,
+    int most = plan_turns(m, e->deed.plan), usual = m->device->shape.turns,
         looks = m->run->turns_between_looks;
     most = e->turns_most && e->turns_most < most ? e->turns_most : most;
     int turns = most < usual ? most : usual;
