@@ -264,6 +264,30 @@ typedef JOIN(TYPE, 16) V16;
         }                                                                                      \
     }
 
+/* JOINS: one line's runs, one after the other. */
+inline void join_runs(int columns, int runs, int op, int keep, TYPE identity, TYPE flip,
+                      TYPE cut, __global TYPE *totals, __global uint *firsts,
+                      __global TYPE *sums)
+{
+    const size_t column = get_global_id(0), line = get_global_id(1);
+    TYPE carry = identity;
+    uint has = 0;
+    for (int r = 0; r < runs; r++) {
+        const size_t at = (line * (size_t)runs + (size_t)r) * (size_t)columns + column;
+        const TYPE total = totals[at];
+        const uint f = firsts[at];
+        const bool begins = (f & NEVER) != NEVER;
+        totals[at] = carry;
+        firsts[at] = (f & NEVER) | has;
+        IF_COPY(JOIN_COPY)
+        {
+            FOR_OP(JOIN_RUN)
+        }
+    }
+    if (keep)
+        sums[line * (size_t)columns + column] = SHOW(TYPE, carry);
+}
+
 __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride, int length,
                    int run, int columns, int width, int halo, int along, int lanes, int stage,
                    int runs, int op, int keep, TYPE identity, TYPE flip, TYPE cut,
@@ -271,23 +295,7 @@ __kernel void scan(ulong base, long step, ulong inner_stride, ulong outer_stride
                    __global TYPE *totals, __global uint *firsts, __global TYPE *sums)
 {
     if (stage == JOINS) {
-        const size_t column = get_global_id(0), line = get_global_id(1);
-        TYPE carry = identity;
-        uint has = 0;
-        for (int r = 0; r < runs; r++) {
-            const size_t at = (line * (size_t)runs + (size_t)r) * (size_t)columns + column;
-            const TYPE total = totals[at];
-            const uint f = firsts[at];
-            const bool begins = (f & NEVER) != NEVER;
-            totals[at] = carry;
-            firsts[at] = (f & NEVER) | has;
-            IF_COPY(JOIN_COPY)
-            {
-                FOR_OP(JOIN_RUN)
-            }
-        }
-        if (keep)
-            sums[line * (size_t)columns + column] = SHOW(TYPE, carry);
+        join_runs(columns, runs, op, keep, identity, flip, cut, totals, firsts, sums);
         return;
     }
     PLACE(lanes)

@@ -1,4 +1,4 @@
-/* window_internal.h - what window.c (OpenGL) and window_input.c (events) share of a window. */
+/* window_internal.h - what window.c (OpenGL), window_input.c (events) and window_open.c share of a window. */
 #ifndef LUTETIA_WINDOW_INTERNAL_H
 #define LUTETIA_WINDOW_INTERNAL_H
 
@@ -33,6 +33,9 @@
       (GLenum, GLint, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, const void *))           \
     X(Vertex2f, (GLfloat, GLfloat))                                                            \
     X(Viewport, (GLint, GLint, GLsizei, GLsizei))
+
+/* Screens with a scale below this count as 1: a pixel is a pixel. */
+#define SCALE_LEAST 1.5f
 
 struct gl {
 #define GL_MEMBER(name, parameters) void(*name) parameters;

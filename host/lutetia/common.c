@@ -111,7 +111,7 @@ int fail_paper(const char *verb)
     return interrupted() ? EXIT_FAILED : fail(verb, "%s", paper_error());
 }
 
-double clock_s(void)
+double seconds_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -130,14 +130,14 @@ void time_left_text(char *text, size_t room, double seconds)
 
 struct progress progress_begin(const char *what, int total)
 {
-    double now = clock_s();
+    double now = seconds_now();
     return (struct progress){what, total, isatty(STDERR_FILENO) != 0, now, 0};
 }
 
 void progress_show(struct progress *p, int done)
 {
     enum { BAR = 32 };
-    double now = clock_s();
+    double now = seconds_now();
     if (!p->shown || (now - p->drawn_s < 0.1 && done < p->total))
         return;
     p->drawn_s = now;

@@ -7,13 +7,13 @@
 
 static enum display_status draw(struct leds_window *window)
 {
-    double began_s = clock_s();
+    double began_s = seconds_now();
     enum display_status status =
         front_panel_draw(window->panel, window->lights, &window->image);
     if (status == DISPLAY_OK)
         status = window_show(window->window, &window->image);
     memcpy(window->drawn, window->lights, sizeof window->drawn);
-    frame_pace_drawn(&window->pace, began_s, clock_s());
+    frame_pace_drawn(&window->pace, began_s, seconds_now());
     return status;
 }
 
@@ -75,11 +75,11 @@ double leds_window_wait_s(struct leds_window *window, double time_s)
 {
     struct frame_clock *clock = &window->clock;
     if (!window->clock_began) {
-        *clock = frame_clock_begin(0.001, clock_s());
+        *clock = frame_clock_begin(0.001, seconds_now());
         clock->frame_max_s = INFINITY; /* a recording that is late catches up */
         window->clock_began = true;
     }
-    frame_clock_advance(clock, clock_s());
+    frame_clock_advance(clock, seconds_now());
     if (window->next_wanted)
         frame_clock_skip(clock, time_s);
     window->next_wanted = false;
@@ -89,23 +89,23 @@ double leds_window_wait_s(struct leds_window *window, double time_s)
 enum display_status leds_window_turn(struct leds_window *window, double wait_s, bool *open)
 {
     struct input_event event;
-    double until_s = clock_s() + wait_s;
+    double until_s = seconds_now() + wait_s;
     *open = true;
     do {
-        double left_s = until_s - clock_s();
+        double left_s = until_s - seconds_now();
         bool waiting = memcmp(window->lights, window->drawn, sizeof window->lights) != 0;
-        if (waiting && clock_s() >= window->pace.due_s) {
+        if (waiting && seconds_now() >= window->pace.due_s) {
             enum display_status status = draw(window);
             if (status != DISPLAY_OK)
                 return status;
-            left_s = until_s - clock_s();
+            left_s = until_s - seconds_now();
         } else if (waiting) {
-            left_s = fmin(left_s, window->pace.due_s - clock_s());
+            left_s = fmin(left_s, window->pace.due_s - seconds_now());
         }
         if (window_input_take(window->window, fmax(left_s, 0), &event) &&
             event.kind == INPUT_KEY_DOWN && key_take(window, event.key))
             return DISPLAY_OK;
         *open = !window_closing(window->window);
-    } while (*open && clock_s() < until_s);
+    } while (*open && seconds_now() < until_s);
     return DISPLAY_OK;
 }

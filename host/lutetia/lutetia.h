@@ -74,7 +74,7 @@ void progress_end(struct progress *p); /* clears the line */
 /* "12 s left", "about 3 min left" */
 void time_left_text(char *text, size_t room, double seconds);
 
-double clock_s(void); /* seconds of a monotonic clock */
+double seconds_now(void); /* seconds of a monotonic clock */
 
 /* ---- the machine and the sheet ---- */
 

@@ -311,7 +311,7 @@ static void jobs_show(const struct all *all, const struct job *jobs, int jobs_co
                       double began_s)
 {
     char text[400];
-    double passed = clock_s() - began_s, parts = ended;
+    double passed = seconds_now() - began_s, parts = ended;
     int length = snprintf(text, sizeof text, "\r%d of %d runs", ended, all->runs_count);
     if (all->failed)
         length +=
@@ -353,7 +353,7 @@ static void runs_at_once(struct all *all, int jobs_count)
     static struct job jobs[JOBS_MAX];
     int next = 0, ended = 0, printed = 0, running = 0, status;
     bool shown = isatty(STDERR_FILENO) && !all->run->quiet, told = false, short_of = false;
-    double began_s = clock_s();
+    double began_s = seconds_now();
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     int threads = cores > jobs_count ? (int)(cores / jobs_count) : 1;
     while (running > 0 || (next < all->runs_count && !interrupted() && !short_of)) {

@@ -199,7 +199,7 @@ double tune_work_run(struct tune_work *w)
 {
     const struct kind *k = &kinds[w->kind];
     const struct machine_call call = {.words = {(uintptr_t)w}};
-    double start = clock_s();
+    double start = seconds_now();
     for (int i = 0; i < k->turns && !w->failed; i++) {
         turn_again(&call);
         if (k->apart && machine_flush(w->machine) != MACHINE_OK)
@@ -209,7 +209,7 @@ double tune_work_run(struct tune_work *w)
         snprintf(error, sizeof error, "%s", machine_error(w->machine));
         return -1;
     }
-    return 1e9 * (clock_s() - start) / ((double)k->turns * (double)tune_work_count(w));
+    return 1e9 * (seconds_now() - start) / ((double)k->turns * (double)tune_work_count(w));
 }
 
 bool tune_work_read(struct tune_work *w, float *out)

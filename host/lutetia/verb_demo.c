@@ -132,17 +132,17 @@ int verb_demo(int argc, char **argv)
     if (words.count)
         return fail_usage("demo", "there is nothing to do with '%.60s'", words.words[0]);
 
-    double began_s = clock_s();
+    double began_s = seconds_now();
     interrupt_catch();
     int status = demo_prepare(&demo);
     if (status == EXIT_SUCCESS)
         status = demo_run(&demo);
-    double painted_s = clock_s();
+    double painted_s = seconds_now();
     if (status == EXIT_SUCCESS)
         status = demo_write(&demo);
     if (status == EXIT_SUCCESS)
         printf("%dx%d fibers, %d cycles: painted in %.1f s, written in %.1f s\n", DEMO_WIDTH,
-               DEMO_HEIGHT, DEMO_STEPS, painted_s - began_s, clock_s() - painted_s);
+               DEMO_HEIGHT, DEMO_STEPS, painted_s - began_s, seconds_now() - painted_s);
     paper_destroy(demo.sheet);
     demo_page_destroy(demo.page);
     display_image_destroy(&demo.strip);

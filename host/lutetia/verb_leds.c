@@ -83,7 +83,7 @@ static int frame_write(struct leds *leds)
 
 static void progress_line(struct leds *leds)
 {
-    double now = clock_s();
+    double now = seconds_now();
     if (!leds->progress.shown || now - leds->drawn_s < 0.1)
         return;
     leds->drawn_s = now;
@@ -275,9 +275,9 @@ static int child_wait(struct leds *leds, pid_t child)
     int status;
     while (waitpid(child, &status, WNOHANG) != child) {
         bool wanted = go_on(leds);
-        if (!wanted && sent < sizeof signals / sizeof *signals && clock_s() >= sent_s + 1) {
+        if (!wanted && sent < sizeof signals / sizeof *signals && seconds_now() >= sent_s + 1) {
             kill(child, signals[sent++]);
-            sent_s = clock_s();
+            sent_s = seconds_now();
         }
         if (wanted)
             turn(leds, 0.005);

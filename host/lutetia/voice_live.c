@@ -228,7 +228,7 @@ int voice_live_window(const struct voice_live_def *def)
 int voice_live_record(struct microphone *microphone, double seconds, struct voice_sound *out)
 {
     enum { WAIT_US = 10000 };
-    const double began_s = clock_s();
+    const double began_s = seconds_now();
     out->rate_hz = microphone_rate_hz(microphone);
     const size_t wanted = (size_t)(seconds * out->rate_hz) + 1;
     out->samples = malloc(wanted * sizeof *out->samples);
@@ -241,7 +241,7 @@ int voice_live_record(struct microphone *microphone, double seconds, struct voic
             return EXIT_INTERRUPTED;
         if (microphone_gone(microphone))
             return fail("voice", "the sound server is gone");
-        if (clock_s() > began_s + seconds + 5)
+        if (seconds_now() > began_s + seconds + 5)
             return fail("voice", "the microphone gives no sound");
         usleep(WAIT_US);
     }

@@ -1,0 +1,130 @@
+/* window_open.c - windows are opened and closed: see window.h. */
+#include "display_internal.h"
+#include "window_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static enum display_status fail_glfw(const char *what)
+{
+    const char *why = NULL;
+    glfwGetError(&why);
+    return display_fail(DISPLAY_NO_WINDOW, "%s: %s", what, why ? why : "GLFW does not say why");
+}
+
+static bool functions_find(struct gl *gl)
+{
+    bool all = true;
+#define GL_FIND(name, parameters)                                                              \
+    gl->name = (void(*) parameters)glfwGetProcAddress("gl" #name);                             \
+    all = all && gl->name;
+    GL_FUNCTIONS(GL_FIND)
+    gl->GetError = (GLenum(*)(void))glfwGetProcAddress("glGetError");
+    gl->GenerateMipmap = (void (*)(GLenum))glfwGetProcAddress("glGenerateMipmap");
+    GLint major = 0;
+    if (all && gl->GetError) /* a driver may return functions that it does not implement */
+        gl->GetIntegerv(GL_MAJOR_VERSION, &major);
+    if (all && gl->GetError && gl->GetError() != GL_NO_ERROR)
+        major = 0;
+    if (major < 3)
+        gl->GenerateMipmap = NULL;
+    return all && gl->GetError;
+}
+
+static GLFWwindow *glfw_window_make(const struct window_config *config)
+{
+    float x = 1, y = 1;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    if (monitor)
+        glfwGetMonitorContentScale(monitor, &x, &y);
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, x >= SCALE_LEAST);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    GLFWwindow *glfw =
+        glfwCreateWindow(config->width_px, config->height_px, config->title, NULL, NULL);
+    if (!glfw)
+        return NULL;
+
+    int at[2], room[2] = {0}, size[2];
+    glfwGetWindowSize(glfw, &size[0], &size[1]);
+    if (monitor)
+        glfwGetMonitorWorkarea(monitor, &at[0], &at[1], &room[0], &room[1]);
+    if (room[0] > 0 && room[1] > 0 && (size[0] > room[0] || size[1] > room[1])) {
+        /* A tenth is left for the window's frame. */
+        double scale = 0.9 * fmin((double)room[0] / size[0], (double)room[1] / size[1]);
+        int width = (int)lround(size[0] * scale), height = (int)lround(size[1] * scale);
+        glfwSetWindowSize(glfw, width > 1 ? width : 1, height > 1 ? height : 1);
+    }
+    return glfw;
+}
+
+enum display_status window_create(const struct window_config *config, struct window **out)
+{
+    enum display_status status;
+    *out = NULL;
+    if (!config->title || config->width_px < WINDOW_SIDE_MIN ||
+        config->height_px < WINDOW_SIDE_MIN || config->width_px > WINDOW_SIDE_MAX ||
+        config->height_px > WINDOW_SIDE_MAX)
+        return display_fail(
+            DISPLAY_BAD_ARGUMENT,
+            "a window has a title and is %d..%d pixels wide and high (got %dx%d%s)",
+            WINDOW_SIDE_MIN, WINDOW_SIDE_MAX, config->width_px, config->height_px,
+            config->title ? "" : ", no title");
+    if (!window_possible())
+        return display_fail(DISPLAY_NO_WINDOW,
+                            "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+    struct window *window = calloc(1, sizeof *window);
+    if (!window)
+        return display_fail(DISPLAY_NO_MEMORY, "no memory for a window");
+    if (!glfwInit()) {
+        status = fail_glfw("no display");
+        goto failed;
+    }
+    window->glfw = glfw_window_make(config);
+    if (!window->glfw) {
+        status = fail_glfw("no window");
+        goto failed;
+    }
+    glfwMakeContextCurrent(window->glfw);
+    if (!functions_find(&window->gl)) {
+        status = display_fail(DISPLAY_NO_WINDOW, "no window: this display has no OpenGL 2.1");
+        goto failed;
+    }
+    glfwSwapInterval(config->vsync);
+    window->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &window->side_max_px);
+    window->gl.GenTextures(1, &window->texture);
+    window->gl.BindTexture(GL_TEXTURE_2D, window->texture);
+    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    window->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    window->gl.TexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+    window->gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    window->drawn_by_caller = config->drawn_by_caller;
+    window_input_begin(window);
+    glfwShowWindow(window->glfw);
+    window_draw(window);
+    *out = window;
+    return DISPLAY_OK;
+
+failed:
+    window_destroy(window);
+    return status;
+}
+
+void window_destroy(struct window *window)
+{
+    if (!window)
+        return;
+    if (window->glfw) {
+        glfwMakeContextCurrent(window->glfw);
+        if (window->texture)
+            window->gl.DeleteTextures(1, &window->texture);
+        glfwDestroyWindow(window->glfw);
+    }
+    pen_close(window->pen);
+    input_queue_finish(&window->queue);
+    free(window);
+}
