@@ -113,7 +113,10 @@ static void listen_on(const struct midi_scene *s, struct midi_listener *l, uint3
         const struct midi_message wanted = midi_scene_message(next);
         if (!midi_message_equal(&e.message, &wanted) && !l->wrong)
             l->wrong = 1 + next;
-        midi_histogram_add(&l->took, now_ns - s->shared->sent_ns[next % MIDI_TIMES]);
+        const uint64_t sent_ns = s->shared->sent_ns[next % MIDI_TIMES];
+        midi_histogram_add(&l->took, now_ns - sent_ns);
+        if (e.message.time_ns > sent_ns)
+            midi_histogram_add(&l->read, e.message.time_ns - sent_ns);
         next++;
         l->heard++;
     }

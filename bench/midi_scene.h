@@ -27,6 +27,7 @@ struct midi_listener {
     _Atomic uint32_t lost;  /* told by the server */
     _Atomic bool ready;
     struct midi_histogram took; /* from the write at the instrument's end to here */
+    struct midi_histogram read; /* from there to the server's read: through the terminal */
 };
 
 struct midi_shared {
