@@ -279,6 +279,54 @@ inline VU column(int x, int W)
 
 #if LANE == 32 /* to the end */
 
+/* ---- anywhere in an array ---- */
+
+/* Lanes of the array p, at the indices j. */
+#if VECTOR == 1
+#define LANES_AT(type, p, j) ((p)[j])
+#elif VECTOR == 4
+#define LANES_AT(type, p, j) ((LANES_OF(type))((p)[j.s0], (p)[j.s1], (p)[j.s2], (p)[j.s3]))
+#elif VECTOR == 8
+#define LANES_AT(type, p, j)                                                                   \
+    ((LANES_OF(type))((p)[j.s0], (p)[j.s1], (p)[j.s2], (p)[j.s3], (p)[j.s4], (p)[j.s5],        \
+                      (p)[j.s6], (p)[j.s7]))
+#else
+#define LANES_AT(type, p, j)                                                                   \
+    ((LANES_OF(type))((p)[j.s0], (p)[j.s1], (p)[j.s2], (p)[j.s3], (p)[j.s4], (p)[j.s5],        \
+                      (p)[j.s6], (p)[j.s7], (p)[j.s8], (p)[j.s9], (p)[j.sa], (p)[j.sb],        \
+                      (p)[j.sc], (p)[j.sd], (p)[j.se], (p)[j.sf]))
+#endif
+/* By an instruction, where there is one. */
+#define AT_bit(type, p, j) LANES_AT(type, p, j)
+#define AT_u8(type, p, j) LANES_AT(type, p, j)
+#define AT_u16(type, p, j) LANES_AT(type, p, j)
+#if VECTOR == 16 && defined(__AVX512F__) && defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_gathersiv8df)
+#define ADDRESS(p) ((const void *)(uintptr_t)(p))
+#define AT_f64(type, p, j)                                                                     \
+    ((double16)(__builtin_ia32_gathersiv8df((double8)(0), ADDRESS(p), AS_S(j).lo, -1, 8),      \
+                __builtin_ia32_gathersiv8df((double8)(0), ADDRESS(p), AS_S(j).hi, -1, 8)))
+#define AT_u64(type, p, j)                                                                     \
+    as_ulong16((long16)(                                                                       \
+        __builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).lo, -1, 8),                \
+        __builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).hi, -1, 8)))
+#define AT_f32(type, p, j)                                                                     \
+    __builtin_ia32_gathersiv16sf((float16)(0), ADDRESS(p), AS_S(j), -1, 4)
+#define AT_u32(type, p, j)                                                                     \
+    as_uint16(__builtin_ia32_gathersiv16si((int16)(0), ADDRESS(p), AS_S(j), -1, 4))
+#endif
+#endif
+#ifndef AT_f64
+#define AT_u32(type, p, j) LANES_AT(type, p, j)
+#define AT_u64(type, p, j) LANES_AT(type, p, j)
+#define AT_f32(type, p, j) LANES_AT(type, p, j)
+#define AT_f64(type, p, j) LANES_AT(type, p, j)
+#endif
+/* An index that is inside, and what is read there: 0 where it was not. letter: of the container. */
+#define INSIDE(i, n) SEL_U(CMP_U((i) < (n)), i, (VU)(0))
+#define GATHER(letter, kind, type, p, i, n, j)                                                 \
+    SEL_##letter(CMP_U((i) < (n)), FROM_##kind(AT_##kind(type, p, j)), (V##letter)(0))
+
 /* ---- NaN ---- */
 
 #define CANON_F(v) SEL_F(CMP_U((v) == (v)), v, (VF)(as_float(0xffc00000u)))

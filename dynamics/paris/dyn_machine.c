@@ -32,10 +32,19 @@ static CM_field_id_t real_of(const double *values, int count)
     return field;
 }
 
+/* What slots are found with. */
+struct slots_room {
+    int32_t *degrees, *which; /* as many as masses */
+    int32_t *sends;           /* as many as springs, and one */
+};
+
+/* In send order: a processor's address is its number. */
 static void set_make(CM_geometry_id_t *geometry, CM_vp_set_id_t *set, int count)
 {
-    int dimensions[1] = {count};
-    *geometry = CM_create_geometry(dimensions, 1);
+    struct CM_axis_descriptor line = {
+        .length = (unsigned)count, .weight = 1, .ordering = CM_send_order};
+    CM_axis_descriptor_t axes[1] = {&line};
+    *geometry = CM_create_detailed_geometry(axes, 1);
     *set = CM_allocate_vp_set(*geometry);
     CM_set_vp_set(*set);
     CM_set_context();
@@ -63,10 +72,6 @@ static void masses_make(struct dyn_masses *m, const struct dyn_network *n, doubl
     m->push[1] = real_of(p->push_y, m->count);
     m->restitution = real_of(p->restitution, m->count);
     m->friction = real_of(p->friction, m->count);
-    m->speed = real_field();
-    m->after = real_field();
-    m->back = real_field();
-    m->context = CM_allocate_heap_field(1);
 }
 
 /* Springs that fill up a vector are left out: they are last. */
@@ -78,31 +83,96 @@ static int springs_in(const struct dyn_packed *packed)
     return count;
 }
 
-static void springs_make(struct dyn_springs *s, const struct dyn_masses *m,
-                         const struct dyn_packed *packed, double *row)
+/* A field of addresses in the geometry, of the processors that are numbered so. */
+static CM_field_id_t addresses_of(CM_geometry_id_t geometry, const int32_t *numbers, int count)
 {
-    int counts[1] = {s->count};
-    set_make(&s->geometry, &s->set, s->count);
-    CM_field_id_t place = CM_allocate_stack_field(ADDRESS_BITS);
-    for (int end = 0; end < 2; end++) {
-        s->address[end] = CM_allocate_heap_field(ADDRESS_BITS);
-        CM_u_write_to_news_array_1L(packed->end[end], zero, zero, counts, axis, place,
-                                    ADDRESS_BITS, 1, counts, CM_32_bit);
-        CM_make_news_coordinate_1L(m->geometry, s->address[end], 0, place, ADDRESS_BITS);
-    }
+    int counts[1] = {count};
+    CM_field_id_t place = CM_allocate_stack_field(ADDRESS_BITS),
+                  address = CM_allocate_heap_field(ADDRESS_BITS);
+    CM_u_write_to_news_array_1L(numbers, zero, zero, counts, axis, place, ADDRESS_BITS, 1,
+                                counts, CM_32_bit);
+    CM_make_news_coordinate_1L(geometry, address, 0, place, ADDRESS_BITS);
     CM_deallocate_stack_through(place);
-    s->k = real_of(packed->k, s->count);
-    s->k_rest = real_of(packed->k_rest, s->count);
-    s->c = real_of(packed->c, s->count);
+    return address;
+}
+
+/* As many slots as the mass with the most springs needs; or, where that are too many, as an eighth of the masses need. */
+static int slots_needed(const int32_t *degrees, int count)
+{
+    int with[SLOTS_MOST + 2] = {0}; /* masses with so many springs or more */
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k <= degrees[i] && k <= SLOTS_MOST + 1; k++)
+            with[k]++;
+    int slots = SLOTS_MOST;
+    while (slots > 0 && with[slots] <= (with[SLOTS_MOST + 1] ? count / 8 : 0))
+        slots--;
+    return slots;
+}
+
+/* Which springs each mass gets from, and which send. which: as many as masses. */
+static void slots_make(struct dyn_masses *m, struct dyn_springs *s,
+                       const struct dyn_packed *packed, int end, struct slots_room *room)
+{
+    memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
     for (int i = 0; i < s->count; i++)
-        row[i] = fmin(packed->limit[i], DYN_MACHINE_NEVER);
-    s->limit = real_of(row, s->count);
-    for (int i = 0; i < STATES; i++)
-        s->d[i] = real_field();
-    s->other = real_field();
-    s->length = real_field();
-    s->inverse = real_field();
-    s->pull = real_field();
+        room->degrees[packed->end[end][i]]++;
+    m->slots[end] = slots_needed(room->degrees, m->count);
+    for (int k = 0; k < m->slots[end]; k++) {
+        /* Of each mass, its k-th spring. */
+        memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
+        for (int i = 0; i < m->count; i++)
+            room->which[i] = s->count;
+        for (int i = 0; i < s->count; i++) {
+            int mass = packed->end[end][i];
+            if (room->degrees[mass]++ == k)
+                room->which[mass] = i;
+        }
+        CM_set_vp_set(m->set);
+        m->slot[end][k] = addresses_of(s->geometry, room->which, m->count);
+    }
+    memset(room->degrees, 0, (size_t)m->count * sizeof *room->degrees);
+    s->any_sends[end] = false;
+    for (int i = 0; i < s->count; i++) {
+        room->sends[i] = room->degrees[packed->end[end][i]]++ >= m->slots[end];
+        s->any_sends[end] = s->any_sends[end] || room->sends[i];
+    }
+    room->sends[s->count] = 0;
+    if (s->any_sends[end]) {
+        int counts[1] = {s->count + 1};
+        CM_set_vp_set(s->set);
+        s->sends[end] = CM_allocate_heap_field(1);
+        CM_u_write_to_news_array_1L(room->sends, zero, zero, counts, axis, s->sends[end], 1, 1,
+                                    counts, CM_32_bit);
+    }
+}
+
+/* With one more at the end, which pulls at nothing. */
+static CM_field_id_t real_of_springs(const double *values, int count, double last, double *row)
+{
+    memcpy(row, values, (size_t)count * sizeof *row);
+    row[count] = last;
+    return real_of(row, count + 1);
+}
+
+static void springs_make(struct dyn_springs *s, const struct dyn_masses *m,
+                         const struct dyn_packed *packed, double *row, int32_t *ends)
+{
+    set_make(&s->geometry, &s->set, s->count + 1);
+    for (int end = 0; end < 2; end++) {
+        memcpy(ends, packed->end[end], (size_t)s->count * sizeof *ends);
+        ends[s->count] = 0;
+        s->address[end] = addresses_of(m->geometry, ends, s->count + 1);
+    }
+    s->k = real_of_springs(packed->k, s->count, 0, row);
+    s->k_rest = real_of_springs(packed->k_rest, s->count, 0, row);
+    s->c = real_of_springs(packed->c, s->count, 0, row);
+    for (int i = 0; i <= s->count; i++)
+        row[i] = i < s->count ? fmin(packed->limit[i], DYN_MACHINE_NEVER) : DYN_MACHINE_NEVER;
+    s->limit = real_of(row, s->count + 1);
+    s->broken = CM_allocate_heap_field(1);
+    s->any_breaks = false;
+    for (int i = 0; i < s->count; i++)
+        s->any_breaks = s->any_breaks || row[i] < DYN_MACHINE_NEVER;
 }
 
 static enum dyn_status look(const struct dyn_network *n)
@@ -116,6 +186,11 @@ static enum dyn_status look(const struct dyn_network *n)
     return DYN_OK;
 }
 
+static struct dyn_bound bound_of(bool on, double side, double edge)
+{
+    return (struct dyn_bound){on ? side : edge, on};
+}
+
 static void numbers_set(struct dyn_machine *m, const struct dyn_network *n, double dt_s)
 {
     const struct dyn_world *w = &n->world;
@@ -124,10 +199,10 @@ static void numbers_set(struct dyn_machine *m, const struct dyn_network *n, doub
     m->dt_s = dt_s;
     m->speed_limit = w->speed_limit;
     m->slow_speed = 2 * m->h * fabs(w->gravity);
-    m->least_x = w->left_on > 0 ? w->left : -DYN_EDGE;
-    m->most_x = w->right_on > 0 ? w->right : DYN_EDGE;
-    m->least_y = w->floor_on > 0 ? w->floor : -DYN_EDGE;
-    m->most_y = w->ceiling_on > 0 ? w->ceiling : DYN_EDGE;
+    m->least[0] = bound_of(w->left_on > 0, w->left, -DYN_EDGE);
+    m->most[0] = bound_of(w->right_on > 0, w->right, DYN_EDGE);
+    m->least[1] = bound_of(w->floor_on > 0, w->floor, -DYN_EDGE);
+    m->most[1] = bound_of(w->ceiling_on > 0, w->ceiling, DYN_EDGE);
     m->of_masses = n->masses_count;
     m->of_springs = n->springs_count;
 }
@@ -144,13 +219,15 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
     if (status != DYN_OK)
         return status;
     int springs = springs_in(&n->prepared.springs);
-    int most = springs > n->masses_count ? springs : n->masses_count;
+    size_t most = (size_t)(springs > n->masses_count ? springs : n->masses_count) + 1;
     struct dyn_machine *m = calloc(1, sizeof *m);
-    double *row = malloc((size_t)most * sizeof *row);
+    double *row = malloc(most * sizeof *row);
+    int32_t *numbers = malloc(3 * most * sizeof *numbers);
     if (m)
         m->which = malloc((size_t)springs * sizeof *m->which);
-    if (!m || !row || !m->which) {
+    if (!m || !row || !numbers || !m->which) {
         free(row);
+        free(numbers);
         dyn_machine_destroy(m);
         return dyn_fail(DYN_NO_MEMORY, "no memory for %d springs on the machine", springs);
     }
@@ -159,8 +236,12 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
     numbers_set(m, n, dt_s);
     kit_begin();
     masses_make(&m->masses, n, row);
-    springs_make(&m->springs, &m->masses, &n->prepared.springs, row);
+    springs_make(&m->springs, &m->masses, &n->prepared.springs, row, numbers);
+    struct slots_room room = {numbers, numbers + most, numbers + 2 * most};
+    for (int end = 0; end < 2; end++)
+        slots_make(&m->masses, &m->springs, &n->prepared.springs, end, &room);
     free(row);
+    free(numbers);
     status = said(kit_leave());
     if (status == DYN_OK)
         *out = m;
@@ -216,24 +297,33 @@ enum dyn_status dyn_machine_read(struct dyn_machine *m, struct dyn_network *n)
     size_t masses = (size_t)m->masses.count, springs = (size_t)m->springs.count;
     if (n->masses_count != m->of_masses || n->springs_count != m->of_springs)
         return dyn_fail(DYN_BAD_ARGUMENT, "it is not the network that the machine has");
-    double *values = malloc((STATES * masses + springs) * sizeof *values);
-    if (!values)
+    double *values = malloc(STATES * masses * sizeof *values);
+    uint32_t *broken = calloc(springs + 1, sizeof *broken);
+    if (!values || !broken) {
+        free(values);
+        free(broken);
         return dyn_fail(DYN_NO_MEMORY, "no memory to read %zu masses", masses);
+    }
     kit_enter(m->masses.set);
     for (size_t i = 0; i < STATES; i++)
         real_read(values + i * masses, m->masses.count, m->masses.state[i]);
-    CM_set_vp_set(m->springs.set);
-    real_read(values + STATES * masses, m->springs.count, m->springs.limit);
+    if (m->springs.any_breaks) {
+        int counts[1] = {m->springs.count};
+        CM_set_vp_set(m->springs.set);
+        CM_u_read_from_news_array_1L(broken, zero, zero, counts, axis, m->springs.broken, 1, 1,
+                                     counts, CM_32_bit);
+    }
     enum dyn_status status = said(kit_leave());
     for (size_t i = 0; status == DYN_OK && i < masses; i++)
         n->state[i] = (struct dyn_state){values[i], values[masses + i], values[2 * masses + i],
                                          values[3 * masses + i]};
     for (size_t i = 0; status == DYN_OK && i < springs; i++)
-        if (values[STATES * masses + i] >= DYN_MACHINE_BROKEN)
+        if (broken[i])
             n->broken[m->which[i]] = true;
     for (; status == DYN_OK && m->steps > 0; m->steps--)
         n->time_s += m->dt_s;
     n->changed = true;
     free(values);
+    free(broken);
     return status;
 }

@@ -6,10 +6,11 @@
  *         die(dyn_error());
  *     dyn_machine_destroy(machine);
  *
- * It makes the symplectic step of step.h, in doubles, in the same parts: each spring gets the states of its two masses, finds its
- * force, and sends it to them, where what arrives is added; each mass moves and meets the sides. Springs break. What differs from
- * dyn_network_step() is the order in which a mass's forces are added: first those of springs whose first end it is.
- * Nothing is heard.
+ * It makes the symplectic step of step.h, in doubles, in the same parts: each spring gets the states of its two masses and finds its
+ * force; each mass gets the forces of its springs, adds them, moves and meets the sides. A mass of very many springs has no room for
+ * the addresses of all: the forces of the rest are sent to it. Springs break. What differs from dyn_network_step(): the order in
+ * which a mass's forces are added (first those of springs whose first end it is); at the edge of the plane, where there is no
+ * side, masses stop and do not bounce; nothing is heard.
  *
  * The network's parameters are copied when it is made; later changes of them are not seen.
  *

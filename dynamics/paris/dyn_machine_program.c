@@ -1,67 +1,142 @@
 /* dyn_machine_program.c - a part of a step, in C/Paris: see dyn_machine.h and step.h. */
 #include "dyn_machine_program.h"
 
+/* What a spring needs for a while: fields that are new each time are in no memory unless they are looked at. */
+struct between {
+    CM_field_id_t force[2], d[STATES], other, length, inverse, pull;
+};
+
+static CM_field_id_t real_for_a_while(void)
+{
+    return CM_allocate_stack_field(REAL_BITS);
+}
+
+static struct between between_make(void)
+{
+    struct between b;
+    for (int i = 0; i < 2; i++)
+        b.force[i] = real_for_a_while();
+    for (int i = 0; i < STATES; i++)
+        b.d[i] = real_for_a_while();
+    b.other = real_for_a_while();
+    b.length = real_for_a_while();
+    b.inverse = real_for_a_while();
+    b.pull = real_for_a_while();
+    return b;
+}
+
+/* Nobody is going to ask for them. */
+static void flags_clear(void)
+{
+    CM_clear_test();
+    CM_clear_overflow();
+}
+
 /* d[] = the state of the second mass less that of the first. */
-static void ends_get(const struct dyn_springs *s, const struct dyn_masses *m)
+static void ends_get(const struct dyn_springs *s, const struct dyn_masses *m,
+                     const struct between *b)
 {
     for (int i = 0; i < STATES; i++) {
-        CM_get_1L(s->d[i], s->address[1], m->state[i], REAL_BITS);
-        CM_get_1L(s->other, s->address[0], m->state[i], REAL_BITS);
-        CM_f_subtract_2_1L(s->d[i], s->other, REAL);
+        CM_get_1L(b->d[i], s->address[1], m->state[i], REAL_BITS);
+        CM_get_1L(b->other, s->address[0], m->state[i], REAL_BITS);
+        CM_f_subtract_2_1L(b->d[i], b->other, REAL);
     }
 }
 
 /* Where the length is beyond the limit the spring breaks: it has no strength any more. */
-static void long_ones_break(const struct dyn_springs *s)
+static void long_ones_break(const struct dyn_springs *s, const struct between *b)
 {
-    CM_f_gt_1L(s->length, s->limit, REAL);
-    CM_logand_context_with_test();
-    CM_f_move_constant_1L(s->k, 0, REAL);
-    CM_f_move_constant_1L(s->k_rest, 0, REAL);
-    CM_f_move_constant_1L(s->c, 0, REAL);
-    CM_f_move_constant_1L(s->limit, DYN_MACHINE_BROKEN, REAL);
-    CM_set_context();
+    if (!s->any_breaks)
+        return;
+    CM_f_gt_1L(b->length, s->limit, REAL);
+    CM_logior_test(s->broken);
+    CM_store_test(s->broken);
 }
 
 /* pull = (k - k_rest / length) + c (d . dv) / length / length */
-static void pull_find(const struct dyn_springs *s)
+static void pull_find(const struct dyn_springs *s, const struct between *b)
 {
-    CM_f_multiply_3_1L(s->length, s->d[STATE_X], s->d[STATE_X], REAL);
-    CM_f_multiply_3_1L(s->other, s->d[STATE_Y], s->d[STATE_Y], REAL);
-    CM_f_add_2_1L(s->length, s->other, REAL);
-    CM_f_sqrt_1_1L(s->length, REAL);
-    long_ones_break(s);
-    CM_f_move_constant_1L(s->inverse, 0, REAL);
-    CM_f_gt_constant_1L(s->length, 0, REAL);
+    CM_f_multiply_3_1L(b->length, b->d[STATE_X], b->d[STATE_X], REAL);
+    CM_f_multiply_3_1L(b->other, b->d[STATE_Y], b->d[STATE_Y], REAL);
+    CM_f_add_2_1L(b->length, b->other, REAL);
+    CM_f_sqrt_1_1L(b->length, REAL);
+    long_ones_break(s, b);
+    CM_f_move_constant_1L(b->inverse, 0, REAL);
+    CM_f_gt_constant_1L(b->length, 0, REAL);
     CM_logand_context_with_test();
-    CM_f_divinto_constant_3_1L(s->inverse, s->length, 1, REAL);
+    CM_f_divinto_constant_3_1L(b->inverse, b->length, 1, REAL);
     CM_set_context();
-    CM_f_multiply_3_1L(s->pull, s->d[STATE_X], s->d[STATE_VX], REAL);
-    CM_f_multiply_3_1L(s->other, s->d[STATE_Y], s->d[STATE_VY], REAL);
-    CM_f_add_2_1L(s->pull, s->other, REAL);
-    CM_f_multiply_2_1L(s->pull, s->c, REAL);
-    CM_f_multiply_2_1L(s->pull, s->inverse, REAL);
-    CM_f_multiply_2_1L(s->pull, s->inverse, REAL);
-    CM_f_multiply_3_1L(s->other, s->k_rest, s->inverse, REAL);
-    CM_f_subtract_3_1L(s->other, s->k, s->other, REAL);
-    CM_f_add_3_1L(s->pull, s->other, s->pull, REAL);
+    CM_f_multiply_3_1L(b->pull, b->d[STATE_X], b->d[STATE_VX], REAL);
+    CM_f_multiply_3_1L(b->other, b->d[STATE_Y], b->d[STATE_VY], REAL);
+    CM_f_add_2_1L(b->pull, b->other, REAL);
+    CM_f_multiply_2_1L(b->pull, s->c, REAL);
+    CM_f_multiply_2_1L(b->pull, b->inverse, REAL);
+    CM_f_multiply_2_1L(b->pull, b->inverse, REAL);
+    CM_f_multiply_3_1L(b->other, s->k_rest, b->inverse, REAL);
+    CM_f_subtract_3_1L(b->other, s->k, b->other, REAL);
+    CM_f_add_3_1L(b->pull, b->other, b->pull, REAL);
+    if (!s->any_breaks)
+        return;
+    CM_load_context(s->broken);
+    CM_f_move_constant_1L(b->pull, 0, REAL);
+    CM_set_context();
 }
 
-static void forces_send(const struct dyn_springs *s, const struct dyn_masses *m)
+static void forces_find(const struct dyn_springs *s, const struct dyn_masses *m,
+                        const struct between *b)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        CM_f_multiply_3_1L(s->other, s->pull, s->d[axis], REAL);
-        CM_send_with_f_add_1L(m->force[axis], s->address[0], s->other, REAL, CM_no_field);
-        CM_f_negate_1_1L(s->other, REAL);
-        CM_send_with_f_add_1L(m->force[axis], s->address[1], s->other, REAL, CM_no_field);
-    }
+    ends_get(s, m, b);
+    pull_find(s, b);
+    for (int axis = 0; axis < 2; axis++)
+        CM_f_multiply_3_1L(b->force[axis], b->pull, b->d[axis], REAL);
+    CM_deallocate_stack_through(b->d[0]);
+    flags_clear();
+}
+
+/* To masses that have no slot for it. */
+static void forces_send(const struct dyn_springs *s, const struct dyn_masses *m,
+                        const struct between *b)
+{
+    if (!s->any_sends[0] && !s->any_sends[1])
+        return;
+    CM_field_id_t force = real_for_a_while();
+    for (int axis = 0; axis < 2; axis++)
+        for (int end = 0; end < 2; end++) {
+            if (!s->any_sends[end])
+                continue;
+            CM_f_move_1L(force, b->force[axis], REAL);
+            if (end)
+                CM_f_negate_1_1L(force, REAL);
+            CM_load_context(s->sends[end]);
+            CM_send_with_f_add_1L(m->force[axis], s->address[end], force, REAL, CM_no_field);
+            CM_set_context();
+        }
+    CM_deallocate_stack_through(force);
+    flags_clear();
 }
 
 /* ---- masses ---- */
 
+/* Each mass gets the forces of its springs: a get is as fast as a load from memory, where many that send to one are not. */
+static void forces_get(const struct between *b, const struct dyn_masses *m)
+{
+    CM_field_id_t got = real_for_a_while();
+    for (int axis = 0; axis < 2; axis++)
+        for (int end = 0; end < 2; end++)
+            for (int i = 0; i < m->slots[end]; i++) {
+                CM_get_1L(got, m->slot[end][i], b->force[axis], REAL_BITS);
+                if (end)
+                    CM_f_subtract_2_1L(m->force[axis], got, REAL);
+                else
+                    CM_f_add_2_1L(m->force[axis], got, REAL);
+            }
+    CM_deallocate_stack_through(got);
+}
+
 static void speeds_change(const struct dyn_machine *machine)
 {
     const struct dyn_masses *m = &machine->masses;
+    CM_field_id_t way = real_for_a_while();
     for (int axis = 0; axis < 2; axis++) {
         CM_field_id_t v = m->state[STATE_VX + axis], f = m->force[axis];
         CM_f_multiply_2_1L(v, m->keep, REAL);
@@ -73,9 +148,10 @@ static void speeds_change(const struct dyn_machine *machine)
         CM_f_move_constant_1L(f, 0, REAL);
     }
     for (int axis = 0; axis < 2; axis++) {
-        CM_f_multiply_constant_3_1L(m->speed, m->state[STATE_VX + axis], machine->h, REAL);
-        CM_f_add_2_1L(m->state[axis], m->speed, REAL);
+        CM_f_multiply_constant_3_1L(way, m->state[STATE_VX + axis], machine->h, REAL);
+        CM_f_add_2_1L(m->state[axis], way, REAL);
     }
+    CM_deallocate_stack_through(way);
 }
 
 /* One side across an axis; inwards: 1 where places grow inwards, else -1. */
@@ -84,6 +160,8 @@ static void side_meet(const struct dyn_machine *machine, int axis, double bound,
     const struct dyn_masses *m = &machine->masses;
     CM_field_id_t p = m->state[axis], v = m->state[STATE_VX + axis];
     CM_field_id_t t = m->state[STATE_VX + !axis];
+    CM_field_id_t speed = real_for_a_while(), after = real_for_a_while(),
+                  back = real_for_a_while(), context = CM_allocate_stack_field(1);
     if (inwards > 0)
         CM_f_lt_constant_1L(p, bound, REAL);
     else
@@ -94,42 +172,60 @@ static void side_meet(const struct dyn_machine *machine, int axis, double bound,
     else
         CM_f_gt_constant_1L(v, 0, REAL);
     CM_logand_context_with_test();
-    CM_f_multiply_constant_3_1L(m->speed, v, -inwards, REAL);
-    CM_f_subtract_constant_3_1L(m->back, p, bound, REAL);
-    CM_f_multiply_constant_2_1L(m->back, -inwards, REAL);
-    CM_f_multiply_constant_3_1L(m->after, m->speed, machine->h, REAL);
-    CM_f_min_2_1L(m->back, m->after, REAL);
-    CM_f_multiply_3_1L(m->after, m->restitution, m->speed, REAL);
-    CM_f_multiply_2_1L(m->back, m->restitution, REAL);
-    CM_store_context(m->context); /* slow ones lie */
-    CM_f_le_constant_1L(m->speed, machine->slow_speed, REAL);
+    CM_f_multiply_constant_3_1L(speed, v, -inwards, REAL);
+    CM_f_subtract_constant_3_1L(back, p, bound, REAL);
+    CM_f_multiply_constant_2_1L(back, -inwards, REAL);
+    CM_f_multiply_constant_3_1L(after, speed, machine->h, REAL);
+    CM_f_min_2_1L(back, after, REAL);
+    CM_f_multiply_3_1L(after, m->restitution, speed, REAL);
+    CM_f_multiply_2_1L(back, m->restitution, REAL);
+    CM_store_context(context); /* slow ones lie */
+    CM_f_le_constant_1L(speed, machine->slow_speed, REAL);
     CM_logand_context_with_test();
-    CM_f_move_constant_1L(m->after, 0, REAL);
-    CM_f_move_constant_1L(m->back, 0, REAL);
-    CM_load_context(m->context);
-    CM_f_multiply_constant_3_1L(p, m->back, inwards, REAL);
+    CM_f_move_constant_1L(after, 0, REAL);
+    CM_f_move_constant_1L(back, 0, REAL);
+    CM_load_context(context);
+    CM_f_multiply_constant_3_1L(p, back, inwards, REAL);
     CM_f_add_constant_2_1L(p, bound, REAL);
-    CM_f_multiply_constant_3_1L(v, m->after, inwards, REAL);
+    CM_f_multiply_constant_3_1L(v, after, inwards, REAL);
     /* friction */
-    CM_f_add_2_1L(m->after, m->speed, REAL);
-    CM_f_multiply_2_1L(m->after, m->friction, REAL);
-    CM_f_min_3_1L(m->speed, t, m->after, REAL);
-    CM_f_negate_1_1L(m->after, REAL);
-    CM_f_max_2_1L(m->speed, m->after, REAL);
-    CM_f_subtract_2_1L(t, m->speed, REAL);
+    CM_f_add_2_1L(after, speed, REAL);
+    CM_f_multiply_2_1L(after, m->friction, REAL);
+    CM_f_min_3_1L(speed, t, after, REAL);
+    CM_f_negate_1_1L(after, REAL);
+    CM_f_max_2_1L(speed, after, REAL);
+    CM_f_subtract_2_1L(t, speed, REAL);
     CM_set_context();
+    CM_deallocate_stack_through(speed);
+}
+
+static void bound_meet(const struct dyn_machine *machine, int axis, int inwards)
+{
+    const struct dyn_bound *bound = inwards > 0 ? &machine->least[axis] : &machine->most[axis];
+    CM_field_id_t place = machine->masses.state[axis];
+    if (bound->side)
+        side_meet(machine, axis, bound->at, inwards);
+    else if (inwards > 0)
+        CM_f_max_constant_2_1L(place, bound->at, REAL);
+    else
+        CM_f_min_constant_2_1L(place, bound->at, REAL);
 }
 
 void dyn_machine_part(const struct dyn_machine *machine)
 {
-    CM_set_vp_set(machine->springs.set);
-    ends_get(&machine->springs, &machine->masses);
-    pull_find(&machine->springs);
-    forces_send(&machine->springs, &machine->masses);
+    const struct dyn_springs *springs = &machine->springs;
+    CM_set_vp_set(springs->set);
+    struct between b = between_make();
+    forces_find(springs, &machine->masses, &b);
+    forces_send(springs, &machine->masses, &b);
     CM_set_vp_set(machine->masses.set);
+    forces_get(&b, &machine->masses);
     speeds_change(machine);
-    side_meet(machine, 1, machine->least_y, 1);
-    side_meet(machine, 1, machine->most_y, -1);
-    side_meet(machine, 0, machine->least_x, 1);
-    side_meet(machine, 0, machine->most_x, -1);
+    for (int axis = 1; axis >= 0; axis--) {
+        bound_meet(machine, axis, 1);
+        bound_meet(machine, axis, -1);
+    }
+    flags_clear();
+    CM_set_vp_set(springs->set);
+    CM_deallocate_stack_through(b.force[0]);
 }

@@ -7,12 +7,13 @@
 
 enum { REAL_S = 52, REAL_E = 11, REAL_BITS = 64, ADDRESS_BITS = 32 };
 #define REAL REAL_S, REAL_E
-#define DYN_MACHINE_BROKEN                                                                     \
-    1e300 /* a broken spring's limit; of one that never breaks it is 1e200 */
-#define DYN_MACHINE_NEVER 1e200
+#define DYN_MACHINE_NEVER 1e200 /* the limit of springs that do not break */
 
 /* Of a mass, in the order of struct dyn_state. */
 enum { STATE_X, STATE_Y, STATE_VX, STATE_VY, STATES };
+
+/* Springs that a mass gets the forces of: those of which it is the first end, and those of which it is the second. */
+enum { SLOTS_MOST = 8 };
 
 struct dyn_masses {
     CM_geometry_id_t geometry;
@@ -20,23 +21,32 @@ struct dyn_masses {
     int count;
     CM_field_id_t state[STATES], force[2];
     CM_field_id_t kick, keep, push[2], restitution, friction;
-    CM_field_id_t speed, after, back, context;
+    int slots[2]; /* in use */
+    CM_field_id_t slot
+        [2]
+        [SLOTS_MOST]; /* where the spring is; one that pulls at nothing where there is none */
 };
 
 struct dyn_springs {
     CM_geometry_id_t geometry;
     CM_vp_set_id_t set;
-    int count;
+    int count;                /* of the network's; one more pulls at nothing */
     CM_field_id_t address[2]; /* of its masses */
+    CM_field_id_t sends[2];   /* 1: the mass has no slot left for it, so the force is sent */
+    bool any_sends[2];
     CM_field_id_t k, k_rest, c, limit;
-    CM_field_id_t d[STATES], other, length, inverse, pull;
+    CM_field_id_t broken; /* a bit */
+    bool any_breaks;      /* else limit and broken are nobody's */
 };
 
 struct dyn_machine {
     struct dyn_masses masses;
     struct dyn_springs springs;
     double h, speed_limit, slow_speed;
-    double least_x, most_x, least_y, most_y;
+    struct dyn_bound {
+        double at;
+        bool side;       /* masses bounce there; else it is the plane's edge, where they stop */
+    } least[2], most[2]; /* along x, y */
     int parts;
     double dt_s;
     int32_t *which;            /* of each spring: its number in the network */

@@ -252,6 +252,105 @@ static void messages_arrive_as_in_a_loop(void **unused)
     }
 }
 
+/* Gets that nobody has looked at yet: of what a get gave, of neighbours', and of sets that are no more what they were. */
+static void gets_wait(void **unused)
+{
+    (void)unused;
+    state = 11;
+    for (int round = 0; round < 2 * ROUNDS; round++) {
+        machine_begin(machine);
+        struct set from = set_make(1 + round % 3, round & 1),
+                   to = set_make(1 + (round + 1) % 3, round >> 1 & 1);
+        int bits = machine_address_bits(machine, to.id), lengths[1] = {(int)to.count};
+        static const int widths[] = {1, 5, 8, 13, 16, 27, 32, 47, 64};
+        struct machine_type type = MACHINE_UINT(widths[round % 9]);
+        wide address[1024], x[1024], last[1024], sum[1024];
+        for (uint64_t n = 0; n < from.count; n++)
+            address[n] = next(9) ? address_of(&to, next(to.count)) : next(UINT64_C(1) << bits);
+        numbers(x, to.count, type);
+        assert_ok(machine_vpset_select(machine, from.id), machine);
+        uint32_t a = field_of(&from, MACHINE_UINT(32), address), s = field_of(&to, type, x),
+                 d = machine_field_allocate(machine, from.id, type.width, MACHINE_STACK),
+                 e = machine_field_allocate(machine, from.id, type.width, MACHINE_STACK);
+        struct machine_value *where =
+            machine_field_value(machine, a, MACHINE_UINT(32), MACHINE_EVERYWHERE);
+        struct machine_value *v = machine_get(machine, where, s, type);
+        assert_non_null(v);
+        assert_ok(machine_field_store(machine, d, v, MACHINE_EVERYWHERE), machine);
+        /* the neighbour's along the last axis, and one's own */
+        machine_begin(machine);
+        v = machine_field_value(machine, d, type, MACHINE_EVERYWHERE);
+        struct machine_value *shifted =
+            machine_shift(machine, v, machine_vpset_rank(machine, from.id) - 1, 1);
+        assert_ok(machine_field_store(machine, e,
+                                      machine_binary(machine, MACHINE_XOR, v, shifted),
+                                      MACHINE_EVERYWHERE),
+                  machine);
+        machine_begin(machine);
+        if (round % 3 == 0)
+            assert_ok(machine_vpset_destroy(machine, to.id), machine);
+        else if (round % 3 == 1)
+            assert_ok(machine_vpset_arrange(machine, to.id, lengths, 1, !(round >> 1 & 1)),
+                      machine);
+        int axis = machine_vpset_rank(machine, from.id) - 1;
+        uint64_t width = (uint64_t)machine_vpset_length(machine, from.id, axis);
+        for (uint64_t n = 0; n < from.count; n++) {
+            uint64_t at = index_of(&to, (uint64_t)address[n]);
+            last[n] = at == UINT64_MAX ? 0 : x[at];
+        }
+        for (uint64_t n = 0; n < from.count; n++)
+            sum[n] = last[n] ^ last[n - n % width + (n + 1) % width];
+        field_is(&from, e, type, sum, NULL, "a neighbour's get", round);
+        field_is(&from, d, type, last, NULL, "a get that waited", round);
+        machine_begin(machine);
+        if (round % 3)
+            assert_ok(machine_vpset_destroy(machine, to.id), machine);
+        assert_ok(machine_vpset_destroy(machine, from.id), machine);
+    }
+}
+
+/* Each processor's successor's successor's ..., by gets of addresses: all in one field. */
+static void gets_of_gets(void **unused)
+{
+    (void)unused;
+    enum { COUNT = 700, JUMPS = 6 };
+    state = 13;
+    for (int order = 0; order < 2; order++) {
+        int length = COUNT;
+        struct set s = {.count = COUNT,
+                        .ratio = (COUNT + PROCESSORS - 1) / PROCESSORS,
+                        .order = order ? MACHINE_SEND_ORDER : MACHINE_NEWS_ORDER};
+        wide follows[1024];
+        uint64_t at[COUNT];
+        machine_begin(machine);
+        s.id = machine_vpset_create_ordered(machine, &length, 1, s.order);
+        for (uint64_t n = 0; n < COUNT; n++) {
+            at[n] = next(COUNT);
+            follows[n] = address_of(&s, at[n]);
+        }
+        assert_ok(machine_vpset_select(machine, s.id), machine);
+        uint32_t f = field_of(&s, MACHINE_UINT(20), follows);
+        for (int jump = 0; jump < JUMPS; jump++) {
+            uint64_t old[COUNT];
+            memcpy(old, at, sizeof old);
+            machine_begin(machine);
+            struct machine_value *v =
+                machine_field_value(machine, f, MACHINE_UINT(20), MACHINE_EVERYWHERE);
+            assert_ok(machine_field_store(machine, f,
+                                          machine_get(machine, v, f, MACHINE_UINT(20)),
+                                          MACHINE_EVERYWHERE),
+                      machine);
+            for (uint64_t n = 0; n < COUNT; n++)
+                at[n] = old[old[n]];
+        }
+        for (uint64_t n = 0; n < COUNT; n++)
+            follows[n] = address_of(&s, at[n]);
+        field_is(&s, f, MACHINE_UINT(20), follows, NULL, "pointers", order);
+        machine_begin(machine);
+        assert_ok(machine_vpset_destroy(machine, s.id), machine);
+    }
+}
+
 /* What has been recorded and not computed is sent, and numbers are. */
 static void values_that_wait_are_sent(void **unused)
 {
@@ -351,17 +450,24 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(messages_arrive_as_in_a_loop),
+        cmocka_unit_test(gets_wait),
+        cmocka_unit_test(gets_of_gets),
         cmocka_unit_test(values_that_wait_are_sent),
         cmocka_unit_test(geometry_of_a_set_changes),
         cmocka_unit_test(wrong_messages_are_refused),
     };
     int failed = 0;
 
-    for (int eager = 0; eager < 2; eager++) {
-        /* Both ways of sending. */
+    /* Both ways of sending; gets by kernels of their own, and as operations, which eager machines have not. */
+    for (int way = 0; way < 3; way++) {
+        bool eager = way == 1;
         setenv("LUTETIA_SCATTER", eager ? "0" : "1", 1);
+        setenv("LUTETIA_GATHER", way == 2 ? "0" : "1", 1);
         machine = support_machine(eager);
-        failed += cmocka_run_group_tests_name(eager ? "eager" : "lazy", tests, NULL, NULL);
+        failed += cmocka_run_group_tests_name(eager      ? "eager"
+                                              : way == 2 ? "lazy, gets apart"
+                                                         : "lazy",
+                                              tests, NULL, NULL);
         support_machine_destroy(machine);
     }
     return failed;

@@ -31,9 +31,11 @@ static bool could_be(const struct machine *m, const struct plan_request *q)
 {
     if (!m->settings.interpret || !m->device->is_pocl || !plan_use_runs(q->use))
         return false;
-    for (int i = 0; i < q->reach->count; i++)
-        if (q->reach->nodes[i]->buffer && !q->reach->nodes[i]->buffer->host)
+    for (int i = 0; i < q->reach->count; i++) {
+        const struct machine_value *v = q->reach->nodes[i];
+        if (v->buffer ? !v->buffer->host : v->op == NODE_GATHER) /* byte code has no gets */
             return false;
+    }
     return m->settings.interpret > 1 ||
            (q->use == PLAN_TO_RUN && m->settings.optimise_after && m->settings.box_after);
 }

@@ -408,7 +408,7 @@ static void spell_operation(struct emitter *e, char *out, size_t size,
         break;
     case SPELL_OVERFLOW:
         spell_overflow(out, size, n->op, from, a, b);
-        e->wide = e->wide || from.width > 32;
+        e->wide = e->wide || (from.kind == MACHINE_BITS && from.width > 32);
         break;
     case SPELL_CONCAT:
         spell_concat(out, size, type, a, from, b, e->g->nodes[n->in[1]].type);
@@ -419,6 +419,22 @@ static void spell_operation(struct emitter *e, char *out, size_t size,
     case SPELL_PLACE:
         INVARIANT(node_ops[n->op].spell != SPELL_PLACE); /* it is loaded, or emit_generated() */
     }
+}
+
+/* What is in memory at that place, for each lane. */
+static void emit_gather(struct emitter *e, char *out, size_t size, const struct plan_node *n,
+                        int row, int dx)
+{
+    struct operand place = emit_value(e, plan_input(e->g, n, 0, e->stage), row, dx, false),
+                   count = emit_value(e, n->in[2], row, dx, false);
+    text_put(&e->body, "        const VU j%d = INSIDE(%s, %s);\n", e->names, place.text,
+             count.text);
+    snprintf(out, size, "GATHER(%c, %s, %s, b%d, %s, %s, j%d)", spell_letter(n->type),
+             memory_kind(n->type), memory_type(n->type), input_of(e, n->in[1]), place.text,
+             count.text, e->names);
+    e->ops++;
+    e->loads++;
+    e->cost += node_cost(n->op, n->type);
 }
 
 /* What a node computes of its operands. */
@@ -498,6 +514,8 @@ struct operand emit_value(struct emitter *e, int node, int row, int dx, bool can
     } else if (canonical && !(n->op == NODE_SELECT && accesses_holds_bits(e->g, node))) {
         struct operand a = emit_value(e, node, row, dx, false);
         snprintf(expression, sizeof expression, "CANON_%c(%s)", type[1], a.text);
+    } else if (n->op == NODE_GATHER) {
+        emit_gather(e, expression, sizeof expression, n, row, dx);
     } else if (node_ops[n->op].inputs == 0) {
         emit_generated(e, expression, sizeof expression, n, node, row, dx);
         e->cost += node_cost(n->op, n->type);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arrays.h"
+#include "base/errors.h"
 #include "base/node_ops.h"
 
 enum { CHAINS = 256, NUMBER = 1 << 24, CANONICAL = 1 << 25, LOADED = 1 << 26 };
@@ -210,6 +211,7 @@ static void operate(struct accesses *a, const struct plan_node *n, int row, int 
 {
     uint32_t in[3] = {0};
     int inputs = node_ops[n->op].inputs;
+    INVARIANT(n->op != NODE_GATHER); /* plan.c: kernels that are asked about have none */
     for (int k = 0; k < inputs; k++) {
         bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
         in[k] = walk(a, plan_input(a->g, n, k, a->stage), row, dx, want);
@@ -218,9 +220,9 @@ static void operate(struct accesses *a, const struct plan_node *n, int row, int 
     enum op_soft soft = op_soft(n->op, n->type, from);
     a->ops++;
     a->cost += node_cost(n->op, n->type);
-    a->wide =
-        a->wide || takes_two_words(from) ||
-        (node_ops[n->op].spell == SPELL_OVERFLOW && soft == OP_SOFT_NOT && from.width > 32);
+    a->wide = a->wide || takes_two_words(from) ||
+              (node_ops[n->op].spell == SPELL_OVERFLOW && soft == OP_SOFT_NOT &&
+               from.kind == MACHINE_BITS && from.width > 32);
     a->soft = a->soft || soft == OP_SOFT_LANES;
     say(a, n->op);
     say(a, (uint32_t)n->detail);

@@ -76,6 +76,8 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
         return NULL;
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
+        if (n->op == NODE_GATHER && !n->leaf) /* it looks anywhere */
+            return NULL;
         if (!n->set || (n->constant && !n->leaf))
             continue;
         if (only && n->set != only)

@@ -57,7 +57,7 @@ void substitutes_find(struct plan_graph *g)
         const struct plan_node *n = &g->nodes[i];
         for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++) {
             struct conditions here = where[i], *w = &where[n->in[k]];
-            if (n->op == NODE_SHIFT || here.count == UNSEEN)
+            if (!op_reads_own(n->op, k) || here.count == UNSEEN)
                 here.count = 0;
             if (n->op == NODE_SELECT && k == 1)
                 conditions_add(g, &here, n->in[0]);
@@ -78,9 +78,9 @@ void substitutes_find(struct plan_graph *g)
         struct plan_node *n = &g->nodes[i];
         if (where[i].count == UNSEEN) /* no target wants it, so it may be anything */
             continue;
-        for (int k = 0; !n->leaf && n->op != NODE_SHIFT && k < node_ops[n->op].inputs; k++) {
+        for (int k = 0; !n->leaf && k < node_ops[n->op].inputs; k++) {
             int32_t s = select[n->in[k]];
-            if (s < 0 || s == i)
+            if (s < 0 || s == i || !op_reads_own(n->op, k))
                 continue;
             int32_t condition = g->nodes[s].in[0];
             struct conditions here = where[i];
