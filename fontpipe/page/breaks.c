@@ -59,7 +59,7 @@ double breaks_demerits(const struct break_place *from, const struct break_place 
 {
     double bad = badness_of(ratio), line = line_penalty + bad, p = to->penalty;
     double demerits = line * line;
-    *fitness = fitness_of(ratio, bad);
+    *fitness = (int)fitness_of(ratio, bad);
     demerits += p > 0 ? p * p : p > -BREAK_INFINITE ? -p * p : 0;
     if (from->flagged && (to->flagged || last))
         demerits += last ? last_hyphen_demerits : hyphens_demerits;

@@ -111,8 +111,8 @@ static const char *const words[] = {"water",
                                     "(brackets)",
                                     "1990",
                                     "co-operate",
-                                    "un\xc2\xad"
-                                    "seen",
+                                    ("un\xc2\xad"
+                                     "seen"),
                                     "\xe2\x80\x9cquoted\xe2\x80\x9d",
                                     "\xd8\xa8\xd9\x90\xd8\xb3\xd9\x92\xd9\x85",
                                     "a\tb",
@@ -421,7 +421,7 @@ static void carets_and_hits_agree(void **state)
         page_text_destroy(t);
     }
     /* The rest are places in white space at lines' ends, and those where two directions meet. */
-    assert_true(same > 0.8 * (double)all);
+    assert_true((double)same > 0.8 * (double)all);
 }
 
 /* Latin letters alone, in one line: each place is hit again exactly. */
