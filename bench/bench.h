@@ -1,9 +1,10 @@
-/* bench.h - what `lutetia bench NAME` calls, one function a benchmark.
+/* bench.h - the functions that `lutetia bench NAME` calls, one for each benchmark.
  *
  *     return bench_diffusion_main(argc, argv);   // argv[0] is "diffusion", its options follow
  *
- * Each measures ours and its peers in one run, prints a table, and returns the exit status: 0,
- * 1 where something failed or results that must be equal differ, 2 where the options are wrong.
+ * Each function measures our implementation and its peers in one run, prints a table, and
+ * returns the exit status: 0; 1 if something failed, or results that must be equal differ; 2
+ * if the options are wrong.
  */
 #ifndef LUTETIA_BENCH_H
 #define LUTETIA_BENCH_H

@@ -1,9 +1,10 @@
-/* calls.c - `lutetia bench calls`: what a C/Paris call costs the front end, which does not wait
- * for it.
+/* calls.c - `lutetia bench calls`: the front end's time for a C/Paris call, which is recorded
+ * and not waited for.
  *
- * Recorded: the processor time of the calling thread, which makes the calls and hands their
- * evaluation over. To the end: the time until the device is done, too. Growth: of the process,
- * and of what the machine holds, over a million calls after a warm-up. */
+ * Recorded: the processor time of the calling thread, which makes the calls and submits
+ * their evaluation. To the end: includes the time until the device is done. Growth: of the
+ * process's memory, and of the machine's, over a million calls after a warm-up.
+ */
 #include "calls.h"
 
 #include <stdint.h>
@@ -183,7 +184,7 @@ static void step(const void *listing)
     listing_step(listing);
 }
 
-/* Of the diffusion listing on a small sheet: 108 million calls. */
+/* Memory growth in the diffusion listing on a small sheet: 108 million calls. */
 static bool steps_growth_measure(struct bench_report *r)
 {
     struct machine_config config = machine_config_default();

@@ -1,10 +1,9 @@
-/* calls.h - a loop of plain C/Paris calls, for measuring what a call costs the front end.
+/* calls.h - a loop of plain C/Paris calls, for measuring the front end's time for a call.
  *
  *     struct calls c;
  *     calls_init(&c, 256, 256);
  *     for (int turn = 0; turn < 100; turn++)
  *         calls_turn(&c, turn);                 // CALLS_IN_TURN calls each
- *
  */
 #ifndef LUTETIA_BENCH_CALLS_H
 #define LUTETIA_BENCH_CALLS_H

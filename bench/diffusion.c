@@ -1,9 +1,10 @@
 /* diffusion.c - `lutetia bench diffusion`: the thesis's step through the machine, beside
  * hand-written code that gives the same bits, peers, and the memory's limit.
  *
- * For each size all first take the same few steps, and must agree in every bit (the relaxed ones
- * nearly); then they are timed in turns. The slow ones, the listing in eager mode and numpy, come
- * last and more seldom; eager has a machine of its own. */
+ * For each size all contenders first take the same few steps, and must agree in every bit
+ * (the relaxed ones nearly). Then they are timed in turn. The slow contenders, the listing
+ * in eager mode and numpy, come last and less often; eager mode has a machine of its own.
+ */
 #include "bench.h"
 
 #include <math.h>
@@ -24,23 +25,26 @@
 enum {
     REPEAT_SLOW = 3,
     STEPS_AGREED = 4,      /* all */
-    STEPS_UNOBSERVED = 16, /* of the listing, and then compared again */
+    STEPS_UNOBSERVED = 16, /* steps of the listing without a look, then compared again */
     STEPS_SETTLED =
-        128, /* of the listing, until the machine is used to being looked at so often */
+        128, /* steps of the listing until the machine has adapted to so many looks */
     FRONT_END_SIDE = 256,
     FRONT_END_STEPS = 200,
     SMALL_SIDE = 128,
     SMALL_STEPS = 100, /* between two looks at it */
     SMALL_LOOKS_SETTLED = 24,
-    SMALL_REPEATS = 5, /* times as many runs as others: each takes milliseconds */
+    SMALL_REPEATS = 5, /* how many times more runs than for other sizes: each takes
+                        * milliseconds */
     COPY_BYTES = 256 << 20
 };
-static const double FIBERS_SMALL = 4e6; /* in the last cache, mostly: a run has more steps */
-/* Above, Halide, numpy and the relaxed kernels have no rows: they would take most of the time; and with --thorough, which
- * has that, memory. */
+static const double FIBERS_SMALL = 4e6; /* sheets that mostly fit the last-level cache: a run
+                                         * has more steps */
+/* On larger sheets Halide, numpy and the relaxed kernels are left out: they would take most
+ * of the time and, with --thorough, the memory. */
 static const double FIBERS_PEERS = 8e6, FIBERS_PEERS_THOROUGH = 32e6;
 
-/* Read and written for each fiber and axis: water and pigments both ways, absorbency one way. */
+/* Bytes read and written for each fiber and axis: water and pigments both ways, absorbency
+ * one way. */
 static const double COMPULSORY_BYTES = 2 * (2 * DIFFUSION_FIELDS_COUNT + 1) * sizeof(float);
 
 static const char FIBER_STEP[] = "ns/fiber-step";
@@ -57,7 +61,7 @@ struct sheet {
     struct bench_peer *halide, *halide_tiled, *numpy; /* NULL: not here */
 };
 
-/* One of them: takes steps, and says what a field then holds. `which` is of a family. */
+/* A contender: takes steps, and reads the fields. `which` selects a variant of a family. */
 struct runner {
     const char *what;
     bool (*steps)(struct sheet *s, int which, int steps_count);
@@ -73,7 +77,7 @@ static void listing_take(const void *listing)
     listing_step(listing);
 }
 
-/* which: steps between two looks at it. */
+/* which: steps between two looks. */
 static bool listing_steps(struct sheet *s, int which, int steps_count)
 {
     return bench_machine_steps(listing_take, &s->listing, steps_count, which);
@@ -133,7 +137,7 @@ static bool peer_read(struct sheet *s, int which, int field, float *out)
     return bench_peer_read(peer_of(s, which), field, out);
 }
 
-/* Makes the machine anew and puts the scene on it. */
+/* Creates a new machine and puts the scene on it. */
 static bool listing_start(struct sheet *s, bool eager)
 {
     struct machine_config config = machine_config_default();
@@ -166,7 +170,7 @@ static bool listing_read(struct sheet *s, int which, int field, float *out)
     return bench_machine_said(machine_field_download(paris_machine(), id, MACHINE_F32, out));
 }
 
-/* A script that is not installed leaves its rows out. */
+/* A peer that is not installed has no rows. */
 static bool peer_start(const struct sheet *s, struct bench_peer **peer, const char *what,
                        const char *package, const char *script, const char *argument)
 {
@@ -188,7 +192,7 @@ static bool peers_start(struct sheet *s)
     return ok;
 }
 
-/* A relaxed one is cut as the one before it. */
+/* A relaxed variant uses the tiling of the exact variant before it. */
 static bool sheet_start(struct sheet *s, int width, int height, bool thorough)
 {
     const bool all =
@@ -234,7 +238,8 @@ static void sheet_finish(struct sheet *s)
 
 enum { RUNNERS_MAX = 16 };
 
-/* Those that are here. A counted run of the time-tiled ones is a whole number of passes. */
+/* Lists the contenders that are available. A counted run of a time-tiled one is a whole
+ * number of passes. */
 static int runners_list(struct sheet *s, struct runner *list)
 {
     const bool small = (double)s->scene.width * s->scene.height < FIBERS_SMALL;
@@ -269,7 +274,7 @@ static int runners_list(struct sheet *s, struct runner *list)
 
 /* ---- agreement ---- */
 
-/* False where a bit differs, or reading failed. yardstick: what OpenMP has. */
+/* False if a bit differs, or reading failed. yardstick: OpenMP's result. */
 static bool agree(const struct diffusion_scene *scene, const struct runner *r, int field,
                   const float *yardstick, const float *mine, int steps_count)
 {
@@ -286,7 +291,8 @@ static bool agree(const struct diffusion_scene *scene, const struct runner *r, i
                       k % (size_t)scene->width, (double)mine[k], (double)yardstick[k]);
 }
 
-/* openmp and each of the runners take so many steps more; steps_before: that they had taken. */
+/* OpenMP and each contender take so many further steps; steps_before: steps that they have
+ * taken. */
 static bool all_agree(struct sheet *s, struct runner *runners, int runners_count,
                       int steps_before, int steps_count)
 {
@@ -315,7 +321,8 @@ static bool all_agree(struct sheet *s, struct runner *runners, int runners_count
 static bool runner_ready(void *context)
 {
     struct runner *r = context;
-    /* As many as are one pipeline; else two, for many read one copy of the sheet and write another. */
+    /* as many as one pipeline has; else two, since many steps read one copy of the sheet and
+     * write another */
     return r->steps(r->sheet, r->which, r->steps == peer_steps && r->which == 2 ? 4 : 2);
 }
 
@@ -325,7 +332,7 @@ static bool runner_work(void *context)
     return r->steps(r->sheet, r->which, r->steps_count);
 }
 
-/* copy: NULL, or takes turns, too, and gives the rows of the memory's limit. */
+/* copy: NULL, or a contender that gives the rows of the memory's bandwidth. */
 static bool runners_measure(struct bench_report *report, const char *size, double fibers,
                             struct runner *runners, int count, int repeat_count,
                             struct bench_copy *copy)
@@ -356,7 +363,7 @@ static bool runners_measure(struct bench_report *report, const char *size, doubl
     return true;
 }
 
-/* Several steps at a time. */
+/* Whether the contender takes several steps at a time. */
 static bool takes_many(const struct runner *r)
 {
     return (r->steps == listing_steps && r->which > 1) ||
@@ -365,8 +372,8 @@ static bool takes_many(const struct runner *r)
            (r->steps == openmp_steps && r->which) || (r->steps == peer_steps && r->which == 2);
 }
 
-/* Those that take one step at a time, and then those that take many: the machine does not do the same for a
- * program that looks after each step as for one that does not. */
+/* Measures the contenders of single steps, and then those of many steps: the machine treats
+ * a program that looks after each step differently. */
 static bool kinds_measure(struct bench_report *report, const char *size, double fibers,
                           const struct runner *runners, int count, int repeat_count,
                           struct bench_copy *copy)
@@ -394,7 +401,7 @@ static bool agree_and_measure(struct bench_report *report, const struct bench_op
     double fibers = (double)s->scene.width * s->scene.height;
     struct runner runners[RUNNERS_MAX], unobserved[3];
     int count = runners_list(s, runners), unobserved_count = 0;
-    /* The second is the listing again. */
+    /* the second one is the listing again */
     struct runner once[RUNNERS_MAX];
     int once_count = 0;
     for (int i = 0; i < count; i++) {
@@ -416,7 +423,7 @@ static bool agree_and_measure(struct bench_report *report, const struct bench_op
     return !s->numpy || runners_measure(report, size, fibers, &numpy, 1, REPEAT_SLOW, NULL);
 }
 
-/* From the start again, for the agreement. */
+/* Begins again from the start, to compare results. */
 static bool eager_measure(struct bench_report *report, int width, int height, const char *size)
 {
     struct sheet s = {0};
@@ -445,7 +452,7 @@ static bool size_measure(struct bench_report *r, const struct bench_options *o, 
     return ok && eager_measure(r, width, height, size);
 }
 
-/* A sheet that fits the caches, looked at every hundredth step. */
+/* Measures a sheet that fits the caches, with a look after every hundredth step. */
 static bool small_measure(struct bench_report *r, int repeat_count)
 {
     struct sheet s = {0};
@@ -477,7 +484,7 @@ static bool small_measure(struct bench_report *r, int repeat_count)
     return ok;
 }
 
-/* A kernel that does next to nothing, with as many arguments as one of the listing's. */
+/* A nearly empty kernel with as many arguments as one of the listing's kernels. */
 struct bare_launch {
     struct bench_opencl cl;
     cl_program program;
@@ -514,7 +521,7 @@ static void bare_launch_close(struct bare_launch *b)
     bench_opencl_close(&b->cl);
 }
 
-/* *seconds: the thread's, for arguments and launch; then it waits for the kernel. */
+/* *seconds: the thread's time for arguments and launch; then waits for the kernel. */
 static bool bare_launch(struct bare_launch *b, double *seconds)
 {
     enum { ARRAYS = 9, NUMBERS = 13 };
@@ -537,9 +544,9 @@ static bool bare_launch(struct bare_launch *b, double *seconds)
     return !error || bench_opencl_fail("a bare kernel", error);
 }
 
-/* What the program's own thread does in a step seen before: its calls, and handing over the
- * work; and, in turns with it, what a launch by hand takes of that. The device's threads may run on the same cores
- * meanwhile: processor time, not time by the clock. */
+/* Measures the program's own thread in a foreseen step: the calls, and submitting the work;
+ * alternately, a launch by hand, for comparison. The device's threads may share the cores,
+ * so processor time is measured, not elapsed time. */
 static bool front_end_measure(struct bench_report *r)
 {
     struct sheet s = {0};

@@ -1,8 +1,9 @@
-/* families.c - `lutetia bench paris`: one instruction of each family at a time, on four million
- * processors: the traffic that it cannot do without (sources read, destination and flags
- * written), in GB/s, beside the copy bandwidth of the same run.
+/* families.c - `lutetia bench paris`: one instruction of each family, on four million
+ * processors: its compulsory traffic (sources read, destination and flags written) in GB/s,
+ * beside the copy bandwidth of the same run.
  *
- * Before each counted run the sources are made anew, so that no result is known already. */
+ * Before each counted run the sources are changed, so that no result can be reused.
+ */
 #include "bench.h"
 
 #include <stdlib.h>
@@ -63,7 +64,7 @@ struct fields {
     ROW(f_lt, test, 1, "f_lt", 8 + BIT,                                                        \
         (CM_f_lt_1L(x->f, x->f_other, S, E), CM_store_test(x->test)))
 
-/* A look at the first processor: the machine computes what is looked at, all of it. */
+/* Reads the first processor's result, which makes the machine compute all processors. */
 static bool observed(CM_field_id_t dest, unsigned int length)
 {
     CM_u_read_from_processor_1L(0, dest, length);
@@ -92,7 +93,7 @@ static const struct {
 
 enum { FAMILIES_COUNT = sizeof families / sizeof *families };
 
-/* Other sources, of the same kind; floats stay between 1 and 2. */
+/* Changes the sources to others of the same kind; floats stay between 1 and 2. */
 static bool sources_renew(void *context)
 {
     struct fields *x = context;
@@ -115,7 +116,7 @@ static void fields_allocate(struct fields *x)
     x->context = CM_allocate_heap_field(1);
     x->test = CM_allocate_heap_field(1);
     x->turn = 0;
-    /* Numbers without a pattern; the divisors are small and not 0. */
+    /* Pseudo-random numbers; the divisors are small and not 0. */
     CM_my_news_coordinate_1L(x->u_other, 1, WORD);
     CM_my_news_coordinate_1L(x->u, 0, WORD);
     CM_u_multiply_constant_2_1L(x->u, 2654435761u, WORD);

@@ -1,4 +1,5 @@
-/* fonts.c - `lutetia bench fonts`: its options, and which of its three measurements is run. */
+/* fonts.c - `lutetia bench fonts`: parses its options, and runs one of its three
+ * measurements. */
 #include "bench.h"
 #include "fonts_filters.h"
 #include "fonts_thorough.h"

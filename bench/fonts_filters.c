@@ -1,7 +1,9 @@
 /* fonts_filters.c - see fonts_filters.h.
  *
- * The contenders of a size and a face take turns, and a turn's time is the thread's own: what else the machine does
- * counts little. A turn draws the letters as often as makes about a millisecond. */
+ * The contenders of a size and a face run alternately. A run's time is the thread's
+ * processor time, so that other load has little influence. A run draws the letters as often
+ * as takes about a millisecond.
+ */
 #include "fonts_filters.h"
 #include "fonts_peers.h"
 
@@ -46,7 +48,7 @@ struct contest {
     struct peer_stb *stb;
 };
 
-/* One way to draw all letters. filter: its number, -1 of a peer. */
+/* One way to draw all letters. filter: its number; -1 for a peer. */
 struct contender {
     char what[32];
     int filter;
@@ -55,7 +57,7 @@ struct contender {
     double turns[TURNS];
 };
 
-/* Over all faces of a size. */
+/* Sums over all faces of a size. */
 struct totals {
     struct bench_sample seconds[CONTENDERS_MAX]; /* for a glyph of each face */
     double least[FILTERS_MAX], error[FILTERS_MAX];
@@ -140,7 +142,7 @@ static bool size_begin(struct contest *c, double px)
     return true;
 }
 
-/* The largest difference from gold, of a few letters: gold takes milliseconds. */
+/* Finds the largest difference from gold for a few letters: gold takes milliseconds. */
 static bool error_find(struct contest *c, int filter, double px, double *worst)
 {
     const struct font_filter *f = c->filters[filter];

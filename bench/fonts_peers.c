@@ -157,7 +157,7 @@ bool peer_direct_draw(struct peer_direct *p, const struct font_master *m, double
 {
     struct font_filter_info info;
     font_filter_describe(p->filter, &info);
-    double scale = m->em_px / size_px, r = info.radius_px; /* master pixels to a pixel */
+    double scale = m->em_px / size_px, r = info.radius_px; /* master pixels for each pixel */
     int left = (int)floor(m->left_px / scale + x_px - r),
         top = (int)floor(m->top_px / scale + y_px - r);
     int right = (int)ceil((m->left_px + m->width_px) / scale + x_px + r);

@@ -33,7 +33,8 @@ void peer_stb_destroy(struct peer_stb *p);
 bool peer_stb_draw(struct peer_stb *p, uint32_t glyph, double x_px, double y_px,
                    struct font_gray *gray);
 
-/* Each pixel is the sum over all master pixels within the filter's reach, weighed one by one. */
+/* Each pixel is the sum over all master pixels within the filter's reach, each with its
+ * weight. */
 struct peer_direct;
 struct peer_direct *peer_direct_create(const struct font_filter *filter);
 void peer_direct_destroy(struct peer_direct *p);

@@ -1,7 +1,8 @@
 /* fonts_thorough.c - see fonts_thorough.h.
  *
- * Each place, angle, filter and face is drawn with each other once, the letter and the size another each time. Beside the
- * errors of the bytes stand those that bytes cannot avoid: of the gold itself, rounded. */
+ * Each combination of place, angle, filter and face is drawn once, with varying letters and
+ * sizes. The table also has the error of rounding alone: that of gold, rounded to bytes.
+ */
 #include "fonts_thorough.h"
 
 #include <edges.h>
@@ -156,7 +157,7 @@ static double ink_off(const struct font_difference *d)
     return 100 * fabs(d->ink / d->ink_gold - 1);
 }
 
-/* Rows of a kind, its filters' worst; false if that is not good enough. */
+/* Adds the rows of a kind, with its filters' largest errors; false if these are too large. */
 static bool kind_report(const struct thorough *t, int kind, struct bench_report *r)
 {
     double max = 0, exact_max = 0, bytes_db = 200, exact_db = 200, glyph_db = 200,

@@ -1,6 +1,7 @@
-/* fonts_ways.c - see fonts_ways.h: glyphs a second and how exact they are, beside FreeType, stb_truetype and direct
- * filtering, in one run on one thread. Everything is compared with gold first: ours by the filter it is asked to draw,
- * peers by the box, the one they know. Contenders of a case take turns. */
+/* fonts_ways.c - see fonts_ways.h: glyphs a second and how exact they are, beside FreeType,
+ * stb_truetype and direct filtering, in one run on one thread. All results are first
+ * compared with gold: ours with the filter that is drawn, peers with the box, which is their
+ * only filter. The contenders of a case run alternately. */
 #include "fonts_ways.h"
 #include "fonts_peers.h"
 
@@ -75,7 +76,7 @@ static bool from_outlines(struct fonts *f, int i, const struct font_gray **gray)
            font_wrong();
 }
 
-/* The font's file too: FreeType reads the outline, overlaps are looked for. */
+/* Includes reading the font's file: FreeType reads the outline, and overlaps are removed. */
 static bool from_file(struct fonts *f, int i, const struct font_gray **gray)
 {
     const struct place *p = &f->places[i];
@@ -158,7 +159,7 @@ static bool gold_add(struct fonts *f, const struct place *p, const struct font_f
     struct font_gray where;
     if (font_gray_place(&where, &f->edges[p->letter], f->filter, p->x, p->y) != FONT_OK)
         return font_wrong();
-    /* As large as ours is, with its filter's margin: a peer's is smaller. */
+    /* the size of our picture, with its filter's margin, which a peer's lacks */
     int left = where.left_px - 1, top = where.top_px - 1;
     int width = where.width_px + 2, height = where.height_px + 2;
     double *gold = malloc(sizeof *gold * (size_t)width * (size_t)height);
@@ -200,7 +201,7 @@ static bool way_check(struct fonts *f, const struct way *way, const char *of_cas
     difference_add(r, way->what, of_case, &bytes);
     if (way->draw != cached_edges || way->simd != FONT_SIMD_AVX512)
         return true;
-    /* Ours before rounding too, and what bytes cannot avoid: gold's own end at about 62 dB. */
+    /* our values before rounding, and the error of rounding alone: gold's is about 62 dB */
     for (int i = 0; i < f->places_count; i += step) {
         const struct place *p = &f->places[i];
         if (font_gray_draw_exact(&f->gray, &f->edges[p->letter], f->filter, p->x, p->y) !=
@@ -238,7 +239,7 @@ static bool way_work(void *context)
     return true;
 }
 
-/* Once, not counted: what the contender before has left in the caches is gone. */
+/* One uncounted run, after which the caches hold no data of the contender before. */
 static bool way_ready(void *context)
 {
     const struct work *w = context;
@@ -351,8 +352,7 @@ struct forty {
     struct fonts *f;
     struct font_edges *edges; /* SIZES * LETTERS */
     struct font_gray gray;
-    double processor_s
-        [2]; /* the least that a turn took on all threads: of one thread in C, of OpenCL */
+    double processor_s[2]; /* the shortest time on all threads: of one thread in C, of OpenCL */
 };
 
 static void least_keep(double *least, double began_s)
@@ -414,7 +414,7 @@ static bool forty_run(struct fonts *f, struct bench_report *r)
         bench_report_add(r, "opencl / one thread", "40 sizes",
                          (struct bench_sample){one->median / all->median, one->min / all->min},
                          1, "x");
-        /* Others that use the cores halve the one above; not this. */
+        /* other load on the cores halves the first ratio, but not this one */
         double ratio = bench_threads_count() * t.processor_s[0] / t.processor_s[1];
         bench_report_add(r, "opencl / one thread, cpu time", "40 sizes",
                          (struct bench_sample){ratio, ratio}, 1, "x");

@@ -1,6 +1,6 @@
-/* grids.c - `lutetia bench life` and `lutetia bench heat`: a program in C/Paris beside C with
- * OpenMP written for it, and beside the memory's limit. They first take the same steps, and must
- * agree in every bit. */
+/* grids.c - `lutetia bench life` and `lutetia bench heat`: a program in C/Paris beside C
+ * with OpenMP written for it, and beside the memory's limit. Both first take the same steps,
+ * and must agree in every bit. */
 #include "grids.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum {
     STEPS_AGREED = 5,
-    STEPS_OBSERVED = 16, /* of "paris observed every 16" */
+    STEPS_OBSERVED = 16, /* for the row "paris observed every 16" */
     STEPS_SMALL = 64,
     STEPS_LARGE = 16,
     CELLS_SMALL = 4000000,
@@ -32,7 +32,7 @@ struct grid {
 struct kind {
     const char *name;
     size_t cell_bytes;
-    double traffic_bytes; /* of a cell and step, at least */
+    double traffic_bytes; /* for each cell and step, at least */
     void (*start)(unsigned char *cells, size_t count);
     void (*allocate)(struct grid *g);
     void (*step)(const void *grid);

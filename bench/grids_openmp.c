@@ -1,8 +1,9 @@
 /* grids_openmp.c - Life and heat in C with OpenMP, one step at a time; see grids.h.
  *
- * Two copies of the grid; a thread has a band of rows. Rows have margins, which hold what is
- * beyond the ends. Where both copies do not fit the last cache, a row is made in a buffer and
- * written past the caches. */
+ * There are two copies of the grid; each thread has a band of rows. Rows have margins, which
+ * hold the cells beyond the ends. If both copies do not fit the last-level cache, a row is
+ * computed in a buffer and written by stores that bypass the caches.
+ */
 #include "grids.h"
 
 #include <stdlib.h>
@@ -123,11 +124,11 @@ void life_openmp_read(const struct grid_openmp *g, uint8_t *out)
         memcpy(out + (size_t)y * (size_t)g->width, row_of(g, 0, y), (size_t)g->width);
 }
 
-/* Not inline: clang would hand values to who comes after, or from one turn of the loop to the
- * next, and not make vectors. */
+/* Not inline: otherwise clang carries values over to later code, or from one iteration of
+ * the loop to the next, and does not vectorise. */
 #define APART static __attribute__((noinline))
 
-/* Three cells above each other. */
+/* Sums three cells above each other. */
 APART void columns_add(const uint8_t *restrict above, const uint8_t *restrict here,
                        const uint8_t *restrict below, uint8_t *restrict columns, int width)
 {
@@ -215,7 +216,7 @@ APART void columns_add_bits(const uint64_t *restrict above, const uint64_t *rest
 }
 
 /* low and high: the bits of the sum of three cells above each other, with a word beyond each
- * end. Three such sums side by side are added bit by bit. */
+ * end. Adds three such sums side by side, bit by bit. */
 static void bits_row(const uint64_t *restrict here, const uint64_t *restrict low,
                      const uint64_t *restrict high, uint64_t *restrict made, int words)
 {
@@ -286,7 +287,7 @@ void heat_openmp_read(const struct grid_openmp *g, float *out)
                (size_t)g->width * sizeof(float));
 }
 
-/* Three rows, each as seen from its left, from itself, and from its right. */
+/* Each row is given three times: as seen from its left, from itself, and from its right. */
 APART void heat_row(const float *const up[3], const float *const here[3],
                     const float *const down[3], float *restrict made, int begin, int end)
 {

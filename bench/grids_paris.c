@@ -1,4 +1,4 @@
-/* grids_paris.c - Life and heat as one would write them in C/Paris; see grids.h. */
+/* grids_paris.c - Life and heat written in plain C/Paris; see grids.h. */
 #include "grids.h"
 
 #include <cm/paris.h>
@@ -22,7 +22,7 @@ void life_paris_allocate(struct life_paris *l, int width, int height)
     l->side = CM_allocate_heap_field(SUM);
 }
 
-/* Of nine cells, the one itself with them, three alive are life, and four change nothing. */
+/* With the cell itself counted, a sum of three of nine is life, and four changes nothing. */
 void life_paris_step(const struct life_paris *l)
 {
     CM_u_move_2L(l->sum, l->alive, SUM, 1);
@@ -66,7 +66,7 @@ void heat_paris_allocate(struct heat_paris *h, int width, int height)
     CM_deallocate_stack_through(coordinate);
 }
 
-/* The rim computes, too, and keeps what it had. */
+/* The rim is computed, too, and then keeps its old values. */
 void heat_paris_step(const struct heat_paris *h)
 {
     CM_get_from_news_1L(h->up, h->heat, 0, CM_upward, FLOAT);

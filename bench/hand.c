@@ -110,8 +110,8 @@ static bool sheet_create(struct diffusion_hand *h)
     h->pitch = ((size_t)s->width + 2 * MARGIN + 15) / 16 * 16;
     if (h->pitch % PAGE_FLOATS == 0)
         h->pitch += 16;
-    /* Rows that lower, upper and second read beyond the last are in the plane, whatever they
-     * hold. */
+    /* the rows that lower, upper and second read beyond the last row are inside the plane;
+     * their content does not matter */
     h->plane = (h->pitch * (size_t)s->height + PAGE_FLOATS - 1) / PAGE_FLOATS * PAGE_FLOATS +
                PLANE_SKEW;
     size_t bytes = (h->plane * PLANES_COUNT + h->pitch) * sizeof(float);

@@ -54,7 +54,7 @@ static bool kernel_build(struct diffusion_rolling *r, bool relaxed)
         r->in_place ? kernel_diffusion_single_pass_cl : kernel_diffusion_time_tiled_cl};
     char options[64];
     cl_int error;
-    /* Only a sheet of which both copies stay in the last cache is not written past it. */
+    /* stores bypass the caches unless both copies of the sheet fit the last-level cache */
     double bytes = (double)r->layout.count * sizeof(float);
     long cache_bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
     snprintf(options, sizeof options, "-DRISES=%d -DRELAXED=%d -DPAST=%d -DABSORBENCY=%d",
@@ -105,7 +105,7 @@ static bool scratch_fit(struct diffusion_rolling *r, const struct rolling_tiling
     return true;
 }
 
-/* In place: what the bands leave each other. */
+/* For in place: makes the buffers of the rows that bands exchange. */
 static bool edges_create(struct diffusion_rolling *r)
 {
     const struct rolling_layout *l = &r->layout;

@@ -63,9 +63,9 @@ struct bench_sample bench_sample_of(double *values, int count)
     return (struct bench_sample){(values[(count - 1) / 2] + values[count / 2]) / 2, values[0]};
 }
 
-/* OpenMP's threads look out for more work for some milliseconds after they have done theirs, and would take a processor
- * from whoever comes next: waits until this process is at rest. Of other threads that run the clock is told every few
- * milliseconds only. */
+/* OpenMP's threads spin for some milliseconds after their work, and would take processors
+ * from the next contender. So this waits until the process is idle. The system updates the
+ * processor times of running threads only every few milliseconds. */
 static void wait_for_rest(void)
 {
     enum { TRIES = 20 };

@@ -17,7 +17,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Of one measured thing, in seconds (or in whatever the rows' unit is, with a scale of 1). */
+/* A measurement in seconds (or in the rows' unit, with a scale of 1). */
 struct bench_sample {
     double median, min;
 };
@@ -32,12 +32,11 @@ typedef bool bench_work(void *context);
 
 /* One run to warm up, then repeat_count counted ones. Errors: false. */
 bool bench_measure(bench_work *work, void *context, int repeat_count, struct bench_sample *out);
-/* Several that are compared with each other take turns, so that what else the machine does hits
- * all alike. */
+/* Contenders run alternately, so that other load on the machine affects all of them alike. */
 struct bench_contender {
     const char *what;
-    bench_work
-        *ready; /* before each counted run, not counted: fills the caches; NULL is fine */
+    bench_work *ready; /* run before each counted run, and not counted: fills the caches; may be
+                 * NULL */
     bench_work *work;
     void *context;
     struct bench_sample seconds; /* the result */
@@ -49,7 +48,7 @@ struct bench_sample bench_sample_of(double *values, int count);
 struct bench_row {
     char what[32];     /* "listing" */
     char of_case[32];  /* "1024x1024" */
-    double value, min; /* median and the least (of rates, the greatest), in unit */
+    double value, min; /* median and minimum (for rates, maximum), in `unit` */
     char unit[24];
 };
 
@@ -71,22 +70,24 @@ void bench_report_add(struct bench_report *r, const char *what, const char *of_c
 /* NULL if there is no such row. */
 const struct bench_row *bench_report_find(const struct bench_report *r, const char *what,
                                           const char *of_case);
-/* A table with a column of ratios: each row's value over that of the row `yardstick` of the
- * same case and unit. */
+/* Prints a table with a column of ratios: each row's value divided by that of the row
+ * `yardstick` of the same case and unit. */
 void bench_report_print(const struct bench_report *r, const char *yardstick, FILE *out);
 /* One JSON object; the file appears under its name only when it is complete. Errors: false. */
 bool bench_report_write(const struct bench_report *r, const char *path);
 
-/* Copy bandwidth of this machine, as one of the contenders: a turn copies bytes, past the caches
- * where the compiler can. Its rate: bytes read and written, by the seconds of a turn. */
+/* Copy bandwidth of this machine, as one of the contenders: a run copies bytes, with stores
+ * that bypass the caches if the compiler supports them. Its rate counts bytes read and
+ * written. */
 struct bench_copy;
 struct bench_copy *bench_copy_create(size_t bytes); /* Errors: NULL */
 void bench_copy_destroy(struct bench_copy *c);      /* takes NULL */
 bench_work bench_copy_work;
-/* GB/s, from the seconds of its turns; min is the best. */
+/* GB/s, from the seconds of its runs; min is the best. */
 struct bench_sample bench_copy_rate(const struct bench_copy *c, struct bench_sample seconds);
 
-/* Whether the file can be written, or made, there: asked before a long measurement. Errors: false. */
+/* Whether the file can be made or overwritten: checked before a long measurement. Errors:
+ * false. */
 bool bench_can_write(const char *path);
 
 int bench_threads_count(void); /* that OpenMP uses; 1 without it */

@@ -1,10 +1,11 @@
 /* listing.c - one step of water and pigments through wet paper: the C/Paris program that is
  * measured.
  *
- * Instruction for instruction the thesis's dispersion step, so it gives the same bits,
- * temporaries and flags included (tests/listings). Each fiber computes what flows into it
- * across the face towards the lower neighbour, and takes what flows out across its other face
- * from the upper one, which has just computed it as its own. */
+ * This is the thesis's dispersion step, instruction for instruction, so it gives the same
+ * bits, temporaries and flags included (tests/listings). Each fiber computes its inflow
+ * across the face towards the lower neighbour. Its outflow across the other face is the
+ * upper neighbour's inflow, which it gets from there.
+ */
 #include "listing.h"
 
 static void rectangle_enter(const struct listing *l)
@@ -30,7 +31,7 @@ static void gradient(const struct listing *l, CM_field_id_t substance, unsigned 
     CM_f_multiply_2_1L(l->inward, l->absorbency, s, e);
 }
 
-/* A flow along gravity gains by it, one against it loses. */
+/* Multiplies flows along gravity and divides flows against it. */
 static void gravitate(const struct listing *l)
 {
     const unsigned int s = l->significand, e = l->exponent;
@@ -48,7 +49,7 @@ static void gravitate(const struct listing *l)
     CM_load_context(l->kept_context);
 }
 
-/* What flows out of us flows into the upper neighbour; a fiber holds 0 to 1. */
+/* A fiber's outflow is the inflow of the upper neighbour; contents are clamped to 0..1. */
 static void flow(const struct listing *l, CM_field_id_t substance, unsigned int axis)
 {
     const unsigned int s = l->significand, e = l->exponent;

@@ -5,7 +5,8 @@
  *     ...fill sheet.water, sheet.absorbency, sheet.pigment...
  *     listing_step(&sheet);
  *
- * A client of <cm/paris.h> and of nothing else. */
+ * The program uses only <cm/paris.h>.
+ */
 #ifndef LUTETIA_BENCH_LISTING_H
 #define LUTETIA_BENCH_LISTING_H
 
@@ -19,7 +20,7 @@ struct listing {
     double gravity, molecular_weight[3];
 
     CM_field_id_t water, absorbency, pigment[3];
-    CM_field_id_t inflow, inward, outward; /* of the axis and substance at hand */
+    CM_field_id_t inflow, inward, outward; /* of the present axis and substance */
     CM_field_id_t x, y;                    /* coordinates */
     unsigned int coordinate_bits;
     CM_field_id_t caller_context, kept_context; /* one bit each */

@@ -1,12 +1,16 @@
 /* midi.c - `lutetia bench midi`: how long a note takes from an instrument to a program.
  *
- * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16 programs that listen. A thousand notes a
- * second, five rounds of a thousand; each delivery counts, from before the write at the instrument's end to after the read in the
- * program. Idle; beside as many busy processes as there are processors; and so again with real-time priority for the server, the programs
- * and the player, where that is allowed. That nothing is lost or altered is checked. Then the same from a program in place of the
- * instrument: the terminal's bytes go through a worker of the kernel's, which has no such priority.
+ * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16
+ * programs that listen. A thousand notes a second, five rounds of a thousand; each delivery is
+ * timed, from before the write at the instrument's end to after the read in the program. The
+ * cases are: an idle machine; as many busy processes as processors; and both with real-time
+ * priority for the server, the programs and the player, where that is allowed. Lost or altered
+ * messages are errors. Then a program takes the place of the instrument, because the terminal's
+ * bytes go through a kernel worker, which has no such priority.
  *
- * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone (midi_soak.c). */
+ * --thorough: ten minutes of soak, too. `lutetia bench midi --soak SECONDS`: that alone
+ * (midi_soak.c).
+ */
 #include "bench.h"
 #include "midi_scene.h"
 #include "midi_soak.h"

@@ -1,7 +1,9 @@
 /* model.c - `lutetia bench model`: see model.h.
  *
- * The programs differ in what they ask of a plan: values that are cheap or dear to compute again at a neighbour, wide and
- * narrow ones, neighbours across rows, along them, or both, and chains of them. */
+ * The programs need different plans: values that are cheap or expensive to compute again at
+ * a neighbour, wide and narrow values, neighbours across rows, along rows, or both, and
+ * chains of neighbours.
+ */
 #include "model.h"
 
 #include <stdio.h>
@@ -76,7 +78,7 @@ static void floats_begin(struct program *p, int width, int height)
     CM_f_move_constant_1L(p->a, 0.5, SIGNIFICAND, EXPONENT);
 }
 
-/* The mean of three, along both axes: cheap to compute again. */
+/* The mean of three neighbours, along both axes: cheap to compute again. */
 static void mean_along(const struct program *p, unsigned int axis)
 {
     CM_get_from_news_1L(p->b, p->a, axis, CM_upward, FLOAT);
@@ -92,14 +94,14 @@ static void blur_go(const void *of)
     mean_along(of, 1);
 }
 
-/* Four of them, one after the other, along rows alone. */
+/* Four means, one after the other, along rows only. */
 static void chain_go(const void *of)
 {
     for (int i = 0; i < 4; i++)
         mean_along(of, 1);
 }
 
-/* A quotient and a root, which are dear, looked at by the neighbours on all sides. */
+/* A quotient and a root, which are expensive, read by the neighbours on all sides. */
 static void dear_go(const void *of)
 {
     const struct program *p = of;

@@ -1,17 +1,18 @@
 /* openmp.c - the step in plain C: for each row and axis a loop of flows and a loop that moves
  * them, in place.
  *
- * Along x a row is complete in itself, so threads share the rows. What comes in from the left
- * of a fiber needs the old neighbour, and all flows of a row are computed before any is moved.
- * Along y threads share the columns: a strip is walked from its last row to its first, the
- * flows of the row below are kept in a buffer, and the row above is still old when it is looked
- * at.
+ * Along x rows are independent, so threads share the rows. A flow from the left needs the
+ * neighbour's old value, so all flows of a row are computed before any is applied. Along y
+ * threads share the columns: a strip is processed from its last row to its first. The flows of
+ * the row below are kept in a buffer, and the row above still has its old values when it is
+ * read.
  *
  *         rows  -+--------+      flow[0..3](x+1) or below[0..3](x)
  *                | in(x) >|> out(x) = in(x+1)
  *                +--------+
  * Rows have a margin of 16 floats at both ends, which holds the other end's fibers: the sheet
- * wraps. */
+ * wraps.
+ */
 #include "scene.h"
 
 #include <stdlib.h>
@@ -39,8 +40,8 @@ struct diffusion_openmp *diffusion_openmp_create(const struct diffusion_scene *s
     o->pitch = ((size_t)s->width + 2 * MARGIN + 15) / 16 * 16;
     if (o->pitch % 1024 == 0)
         o->pitch += 16;
-    /* Planes that begin at the same place of a page would fight for the same lines of the
-     * cache. */
+    /* Planes that begin at the same offset from a page would compete for the same cache
+     * sets. */
     size_t plane = (o->pitch * (size_t)s->height + 1023) / 1024 * 1024 + PLANE_SKEW;
     o->memory = aligned_alloc(
         4096, (plane * (DIFFUSION_FIELDS_COUNT + 1) * sizeof(float) + 4095) / 4096 * 4096);
@@ -76,7 +77,7 @@ void diffusion_openmp_read(const struct diffusion_openmp *o, int field, float *o
                (size_t)o->scene.width * sizeof(float));
 }
 
-/* Both are computed and one is taken: that is what vectors can do. gravity > 0, so the product
+/* Computes both and selects one, since vectors cannot branch. gravity > 0, so the product
  * keeps the sign. */
 static inline float gravitate(float flow, float gravity)
 {
@@ -133,7 +134,7 @@ static void dry(float *water, const float *wet, float humidity, int x0, int x1)
     }
 }
 
-/* The neighbour above the last fiber of the rectangle: -1 if it takes no part. */
+/* The neighbour above the last fiber of the rectangle; -1 if it takes no part. */
 static int beyond(int end, int begin, int length)
 {
     int k = end % length;
@@ -159,8 +160,8 @@ static void row_x(const struct diffusion_openmp *o, int y, float *buffer)
     }
     a[s->width] = a[0];
     flows(s, a, from, 1, NULL, s->x0, s->x1, in, wet);
-    /* The last fiber's flows out are the first's in, or nothing; its water, and what hangs on
-     * it, was guessed. */
+    /* the last fiber's outflow is the first's inflow, or nothing; its water, and values that
+     * depend on it, were provisional */
     in[0][s->x1] = next >= 0 ? in[0][next] : 0.0f;
     wet[last] = moved(w[last], in[0][last], in[0][s->x1]);
     for (int i = 1; i < DIFFUSION_FIELDS_COUNT; i++) {
@@ -189,10 +190,10 @@ static void strip_y(const struct diffusion_openmp *o, int x0, int x1)
     memset(flow, 0, sizeof flow);
     for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
         top[i] = o->field[i] + x0;
-        /* The row above the first, while it is old. */
+        /* the row above the first, while it has its old values */
         memcpy(above[i], top[i] + (s->y0 ? s->y0 - 1 : s->height - 1) * pitch, bytes);
     }
-    if (next >= 0) { /* row 0 comes after the last: its flows in, from old rows */
+    if (next >= 0) { /* row 0 follows the last row: its inflow, from old rows */
         const float *a = o->absorbency + x0;
         for (int x = 0; x < count; x++) {
             flow[1][0][x] =
@@ -216,7 +217,8 @@ static void strip_y(const struct diffusion_openmp *o, int x0, int x1)
         }
         ptrdiff_t step = pitch;
         float first[DIFFUSION_FIELDS_COUNT][2][STRIP];
-        if (y == 0) { /* the row above has changed: two rows side by side, as they were */
+        if (y == 0) { /* the row above has changed: keep the old values of two rows side by
+                       * side */
             for (int i = 0; i < DIFFUSION_FIELDS_COUNT; i++) {
                 memcpy(first[i][0], above[i], bytes);
                 memcpy(first[i][1], f[i], bytes);
@@ -234,7 +236,7 @@ static void strip_y(const struct diffusion_openmp *o, int x0, int x1)
     }
 }
 
-/* What is not in the rectangle dries too. */
+/* Fibers outside of the rectangle also dry. */
 static void rim_dry(const struct diffusion_openmp *o, int y)
 {
     const struct diffusion_scene *s = &o->scene;

@@ -1,7 +1,8 @@
-/* openmp_rolling.c - rolling rows in C, vectors of the compiler's; see rolling.h.
+/* openmp_rolling.c - rolling rows in C, with the compiler's vector types; see rolling.h.
  *
- * One function is one row of one step, for all columns of a strip; it is inlined for the first
- * row of a walk, an inner one, and the one at the edge. */
+ * One function is one row of one step, for all columns of a strip; it is inlined for the
+ * first row of a walk, an inner one, and the one at the edge.
+ */
 #include "rolling.h"
 
 #include <stdlib.h>
@@ -49,7 +50,7 @@ INLINE vector greatest(vector a, vector b)
     return (vector)_mm512_max_ps((__m512)a, (__m512)b);
 }
 
-/* Lanes 1..15 of a, then lane 0 of b: what lies one fiber further on. */
+/* Lanes 1..15 of a, then lane 0 of b: the vector one fiber further on. */
 INLINE vector further(vector a, vector b)
 {
     return (vector)_mm512_alignr_epi32((__m512i)b, (__m512i)a, 1);
@@ -119,7 +120,7 @@ INLINE vector moved(vector amount, vector in, vector out)
 #define __global
 #include "../kernels/diffusion_row.cl"
 
-/* row() with all that does not change in it known when it is compiled. */
+/* row() with all its invariants known at compile time. */
 static void row_of_kind(enum row_kind kind, bool past, struct rows old,
                         const float *upper_absorbency, const float *absorbency,
                         struct rows along, struct rows flow, struct rows out, int x0, int x1,

@@ -1,4 +1,4 @@
-/* options.h - what the benchmarks' lines have in common: options, and where the rows go.
+/* options.h - the command line of every benchmark, and the output of its rows.
  *
  *     struct bench_options o = {.name = "life", .size_least = 16, .size_most = 8192,
  *                               .sizes = {{1024, 1024}}, .sizes_count = 1,
@@ -7,7 +7,8 @@
  *     if (status >= 0)
  *         return status;
  *     bool ok = ...add rows to the report...;
- *     return bench_options_finish(&o, &report, "openmp", ok); */
+ *     return bench_options_finish(&o, &report, "openmp", ok);
+ */
 #ifndef LUTETIA_BENCH_OPTIONS_H
 #define LUTETIA_BENCH_OPTIONS_H
 
@@ -26,7 +27,8 @@ struct bench_options {
     const char *json_path, *plot_path; /* NULL: none */
 };
 
-/* o holds the defaults. -1: go on; else the exit status, and why has been printed. */
+/* `o` holds the defaults. Returns -1 to go on; else the exit status, and the error has been
+ * printed. */
 int bench_options_parse(struct bench_options *o, int argc, char **argv);
 /* Prints the rows beside the row `yardstick` of their case, writes and draws them where asked to.
  * ok: whether the measurement came to its end; if not, prints bench_error(). The exit status. */

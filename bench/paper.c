@@ -16,7 +16,8 @@ enum {
     FIBERS_SMALL = 2000000,
     FRAMES = 8,
     COPY_BYTES = 256 << 20,
-    /* Arrays that a step cannot do without: each amount read and written, what dries and the wet area too; the paper read. */
+    /* Arrays that a step must at least access: each amount is read and written, also the
+     * dried water and the wet area; the paper is read. */
     ARRAYS_CHANGED = 2 + 3 * PIGMENTS + 2,
     ARRAYS_READ = 5,
     THESIS_CHANGED = 4,
@@ -90,7 +91,7 @@ static bool shown_work(void *context)
     return ok;
 }
 
-/* Seconds of a turn as how many there are in a second. */
+/* Adds a row with the number of runs in a second. */
 static void rate_add(struct bench_report *r, const char *what, const char *of_case,
                      struct bench_sample seconds, int count, const char *unit)
 {

@@ -1,19 +1,22 @@
-/* paper_openmp.c - the paper's full rule in plain C with OpenMP: one pass over the sheet a step, in place.
+/* paper_openmp.c - the paper's full rule in plain C with OpenMP: one pass over the sheet a
+ * step, in place.
  *
- * A thread has a band of rows and goes down it. A fiber's own part of a step (sinking in, settling, drying) is done a
- * row ahead of the flows, into a ring of three rows, which stay in the caches with all that the faces need:
+ * A thread has a band of rows and goes down it. A fiber's own part of a step (sinking in,
+ * settling, drying) is done a row ahead of the flows, into a ring of three rows. The ring stays
+ * in the caches with all terms of the faces:
  *
  *     row y - 1   written                       up:  what flows over its upper face, kept for row y
  *     row y       flows over its faces  -------->    written, in place
  *     row y + 1   own part done, in the ring
  *     row y + 2   as it was
  *
- * What is just outside of a band (a row above, a row below) is computed by both threads, before either writes. Rows lie
- * in memory with all their fields side by side: one stream instead of fifty. Each loop goes along a row and is made
- * of vectors by the compiler.
+ * The rows just outside of a band (one above, one below) are computed by both threads, before
+ * either writes. All fields of a row are adjacent in memory: one stream instead of fifty. Each
+ * loop goes along a row, and is vectorised by the compiler.
  *
- * The operations are those of host/paper/model/step.c in the same order; of numbers that are whole and below 2^24 sums are
- * exact in any. */
+ * The operations are those of host/paper/model/step.c in the same order, except that sums of
+ * whole numbers below 2^24 are exact in any order.
+ */
 #include "paper_openmp.h"
 
 #include <math.h>
@@ -31,11 +34,11 @@ enum { R_ROOM, R_FILM, R_LEVEL, R_DEPTH, R_WET, R_ENTRY, R_LEFT, R_TERMS };
 /* Rows of faces. */
 enum { P_OUT, P_IN, P_CREEP, P_CREEP_OUT, P_CREEP_IN, P_ROWS };
 
-/* What a thread works with: rows of pitch floats. */
+/* A thread's buffers: rows of pitch floats. */
 struct band {
     float *memory;
     float *ring[4];   /* flowing + R_TERMS rows each; the fourth is of the row after the band */
-    float *around[2]; /* as it was: of the row above, and of this one */
+    float *around[2]; /* old values: of the row above, and of this row */
     float *after;     /* ... of the row after the band */
     float *part, *wet, *dry, *damp; /* of a row's own part */
     float *x_faces, *y_faces;       /* P_ROWS rows each */
@@ -82,7 +85,7 @@ struct own {
     float *around; /* new */
 };
 
-/* Absorbs and dries water; leaves what the pigments need in the band's rows. */
+/* Absorbs and dries water; keeps the terms of the pigments in the band's rows. */
 INLINE void own_water(const struct paper_openmp *o, const struct band *b, int y,
                       const struct own *to, const float *above, const float *here,
                       const float *below, bool edge)
@@ -209,13 +212,14 @@ INLINE void own_terms(const struct paper_openmp *o, int y, const struct own *to)
     }
 }
 
-/* Row y into the ring's row; own: it is the band's, what does not flow is written. */
+/* Computes row y into the ring's row. own: the row belongs to the band, and fields that do
+ * not flow are written. */
 static void own_part(const struct paper_openmp *o, const struct band *b, int y, float *ring,
                      const float *above, const float *here, const float *below, bool own)
 {
     const int width = o->config.width, flowing = o->flowing;
     struct own to = {.depth = row_of(o, ring, 0), .creep = row_of(o, ring, 1)};
-    float *spare = b->x_faces; /* for what is not ours to write */
+    float *spare = b->x_faces; /* for output that belongs to another thread */
     for (int i = 0; i < R_TERMS; i++)
         to.terms[i] = row_of(o, ring, flowing + i);
     to.dried = (uint32_t *)(void *)(own ? field_row(o, F_DRIED, y) : row_of(o, spare, 0));
@@ -329,7 +333,7 @@ static struct way way_of(const struct paper_openmp *o, int q, int axis)
                         (float)o->config.pigments[(q - 2) / 2].weight[axis]};
 }
 
-/* over = what flows from lower to upper, and WHOLE more: differences are the same, and exact. */
+/* over = the flow from lower to upper, plus WHOLE: differences are unchanged, and exact. */
 INLINE void flow_make(float *over, const float *out, const float *in, const float *lower,
                       const float *upper, float weight, bool weighed, int first, int width)
 {
@@ -340,7 +344,8 @@ INLINE void flow_make(float *over, const float *out, const float *in, const floa
                   WHOLE;
 }
 
-/* Amount q of row y: along x, then over the upper faces; what comes in from below was kept in up. */
+/* Moves amount q of row y: along x, then over the upper faces; the inflow from below was
+ * kept in up. */
 static void amount_flow(const struct paper_openmp *o, const struct band *b, int q, float *here,
                         float *next, float *to)
 {
@@ -381,13 +386,13 @@ static void water_creep(const struct paper_openmp *o, const struct band *b, floa
     }
 }
 
-/* Where amount q of the ring is kept in the sheet. */
+/* The place of the ring's amount q in the sheet. */
 static int field_of_amount(int q)
 {
     return q == 0 ? F_SURFACE_WATER : q == 1 ? F_WATER : F_PIGMENTS + 3 * ((q - 2) / 2) + q % 2;
 }
 
-/* Streams as short as a row are too short for the processor to foresee. */
+/* Streams as short as a row are too short for the hardware prefetcher. */
 static void row_prefetch(const struct paper_openmp *o, int field, int y)
 {
     const float *row = field_row(o, field, y);
@@ -395,7 +400,7 @@ static void row_prefetch(const struct paper_openmp *o, int field, int y)
         __builtin_prefetch(row + x, 1, 2);
 }
 
-/* Meanwhile the row that comes two later is fetched, a few fields at a time. */
+/* Meanwhile prefetches the row two further, a few fields at a time. */
 static void row_flow(const struct paper_openmp *o, const struct band *b, int y, float *here,
                      float *next)
 {
@@ -411,7 +416,7 @@ static void row_flow(const struct paper_openmp *o, const struct band *b, int y, 
     }
 }
 
-/* What flows from the row below the band into it. */
+/* Computes the flow into the band from the row below it. */
 static void band_begin(const struct paper_openmp *o, const struct band *b, int y, float *below,
                        float *first)
 {
@@ -466,7 +471,7 @@ static void band_before(const struct paper_openmp *o, struct band *b, int y0, in
     row_keep(o, b->after, field_row(o, F_AROUND, y1));
 }
 
-/* One row ahead; around[1] is then as it was of row y. */
+/* One row ahead; afterwards around[1] holds the old values of row y. */
 static void band_own(const struct paper_openmp *o, struct band *b, int y, int y1)
 {
     float *above = b->around[1];
@@ -479,7 +484,7 @@ static void band_own(const struct paper_openmp *o, struct band *b, int y, int y1
 
 static void band_step(const struct paper_openmp *o, struct band *b, int y0, int y1)
 {
-    float *below = b->ring[2]; /* is of row y0 - 1: let it not be overwritten by row y0 */
+    float *below = b->ring[2]; /* belongs to row y0 - 1: must not be overwritten by row y0 */
     if (y0 % 3 == 2) {
         b->ring[2] = b->ring[0];
         b->ring[0] = below;

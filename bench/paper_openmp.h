@@ -1,6 +1,7 @@
-/* paper_openmp.h - how the peer's sheet lies in memory: rows with all their fields side by side.
+/* paper_openmp.h - the memory layout of the peer's sheet: all fields of a row are adjacent.
  *
- *     a row:  | surface water | water | dried | ... | fixed 5 |     each | margin | width fibers | margin | */
+ *     a row:  | surface water | water | dried | ... | fixed 5 |     each | margin | width fibers | margin |
+ */
 #ifndef LUTETIA_BENCH_PAPER_OPENMP_H
 #define LUTETIA_BENCH_PAPER_OPENMP_H
 

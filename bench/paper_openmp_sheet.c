@@ -1,4 +1,5 @@
-/* paper_openmp_sheet.c - the peer's sheet: made, filled, read, and what follows from what it was filled with. */
+/* paper_openmp_sheet.c - makes, fills and reads the peer's sheet, and computes derived
+ * fields. */
 #include "paper_openmp.h"
 
 #include <math.h>

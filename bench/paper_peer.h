@@ -1,5 +1,5 @@
-/* paper_peer.h - the paper's rules in plain C with OpenMP: what `lutetia bench paper` measures beside the sheet, and an
- * oracle of its tests.
+/* paper_peer.h - the paper's rules in plain C with OpenMP: what `lutetia bench paper` measures
+ * beside the sheet, and an oracle of its tests.
  *
  *     struct paper_peer_config config = {.width = 512, .height = 512, .pigments_count = 6, .air = paper_air_default()};
  *     ...fill config.pigments...
@@ -9,11 +9,12 @@
  *     paper_openmp_steps(peer, 100);
  *     paper_openmp_read(peer, PAPER_PEER_FIXED, 0, out);
  *
- * The rule is that of a sheet with all parts (host/paper/sheet_step.c), each operation in its place,
- * so the bits are the same; of the air it takes all but surface tension. The thesis's rule is in scene.h.
+ * The rule is that of a sheet with all parts (host/paper/model/step.c), with the operations in
+ * the same order, so the bits are the same. It supports all of the air except surface tension.
+ * The thesis's rule is in scene.h.
  *
- * Amounts are in grains.
- * Threads: one thread calls; the steps use all that OpenMP has. */
+ * Amounts are in grains. Threads: one thread calls; the steps use all that OpenMP has.
+ */
 #ifndef LUTETIA_BENCH_PAPER_PEER_H
 #define LUTETIA_BENCH_PAPER_PEER_H
 

@@ -32,7 +32,7 @@ static bool child_start(struct bench_peer *p, const char *python, const char *sc
     int down[2] = {-1, -1}, up[2] = {-1, -1};
     const char *const arguments[] = {python, "-c", script, argument, NULL};
     posix_spawn_file_actions_t actions;
-    /* Another peer must not hold these ends open. */
+    /* The ends must not be inherited by another peer. */
     if (pipe2(down, O_CLOEXEC) || pipe2(up, O_CLOEXEC))
         return bench_fail("a pipe could not be made: %s", strerror(errno));
     posix_spawn_file_actions_init(&actions);
@@ -95,7 +95,8 @@ struct bench_peer *bench_peer_start(const struct diffusion_scene *s, const char 
         return NULL;
     }
     p->field_bytes = (size_t)s->width * (size_t)s->height * sizeof(float);
-    signal(SIGPIPE, SIG_IGN); /* a child that is gone is an error, not our end */
+    signal(SIGPIPE, SIG_IGN); /* writing to a dead child must be an error, not end this
+                               * process */
     for (size_t i = 0; i < sizeof pythons / sizeof *pythons; i++) {
         if (!child_start(p, pythons[i], script, argument)) {
             child_end(p);

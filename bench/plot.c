@@ -71,7 +71,7 @@ static void mix(struct plot *p, int x, int y, struct colour c, int cover)
         pixel[i] = (uint8_t)((pixel[i] * (255 - cover) + to[i] * cover + 127) / 255);
 }
 
-/* Its width; draws it from x on, on the base line y, if c is given. */
+/* Returns the text's width; draws it from x on, on the base line y, if c is given. */
 static int text(struct plot *p, const char *s, int size_px, int x, int y,
                 const struct colour *c)
 {
@@ -135,7 +135,7 @@ static int doubles_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* What fills the axis: the longest, unless a few are far longer than most. */
+/* The value at the axis's end: the longest, unless a few are far longer than most. */
 static double axis_end(const double *values, int count)
 {
     double sorted[BENCH_ROWS_MAX];
@@ -164,7 +164,7 @@ static void value_text(char *out, size_t size, double value)
     snprintf(out, size, "%.*f", decimals, value);
 }
 
-/* The bars of the group that row `first` begins; y where the next may be. */
+/* Draws the bars of the group that begins with row `first`; returns y for the next group. */
 static int group_draw(struct plot *p, const struct bench_report *r, int first, int y)
 {
     double values[BENCH_ROWS_MAX];

@@ -1,4 +1,4 @@
-/* prefix.h - the peers of scans and ranks: plain C on one thread, as one would write it. */
+/* prefix.h - the peers of scans and ranks: straightforward C on one thread. */
 #ifndef LUTETIA_BENCH_PREFIX_H
 #define LUTETIA_BENCH_PREFIX_H
 
@@ -7,7 +7,7 @@
 
 void prefix_sum(const uint32_t *in, uint32_t *out, size_t count);
 void prefix_sum_floats(const float *in, float *out, size_t count);
-/* Begins anew where begins is not 0. */
+/* Begins a new sum where `begins` is not 0. */
 void prefix_sum_segments(const uint32_t *in, const uint8_t *begins, uint32_t *out,
                          size_t count);
 /* ranks[i]: where in[i] goes when sorted, equal ones in order. Radix sort in three passes of 11

@@ -14,8 +14,8 @@ enum {
     TUNE_ROUNDS_LEAST = 2,
     TUNE_ROUNDS_MOST = 12
 };
-static const double TUNE_S = 0.7; /* no further round after that */
-/* What took so much longer than the fastest in its first round is not run again. */
+static const double TUNE_S = 0.7; /* no further round after this time */
+/* A candidate that took so much longer than the fastest in its first round is dropped. */
 static const double TUNE_HOPE = 1.3;
 
 static size_t round_up(size_t n, size_t unit)
@@ -23,7 +23,7 @@ static size_t round_up(size_t n, size_t unit)
     return (n + unit - 1) / unit * unit;
 }
 
-/* Rows that begin at the same place of a page would fight for the same lines of the cache. */
+/* Rows that begin at the same offset from a page would compete for the same cache sets. */
 static size_t off_page(size_t row_floats)
 {
     return row_floats % PAGE_FLOATS ? row_floats : row_floats + ROLLING_LANES;
@@ -107,8 +107,9 @@ void rolling_tiling_clamp(struct rolling_tiling *t, const struct rolling_layout 
         t->steps_count = 1;
 }
 
-/* A wide strip has little rim; what the second-level cache does not hold comes from the third.
- * Few bands, for the same reason, but one for each thread at least. */
+/* Wide strips have proportionally small rims; data that the second-level cache does not hold
+ * comes from the third-level. Few bands, for the same reason, but one for each thread at
+ * least. */
 static int candidates_list(const struct rolling_layout *l, int threads_count,
                            struct rolling_tiling *list, int list_max)
 {
@@ -121,7 +122,7 @@ static int candidates_list(const struct rolling_layout *l, int threads_count,
         for (int strips = 1; count < list_max; strips *= 2) {
             struct rolling_tiling t = {steps[i], strips, (threads_count + strips - 1) / strips};
             if (l->height / t.bands_count >= 64 * steps[i])
-                t.bands_count *= 2; /* a thread that is late has less to do */
+                t.bands_count *= 2; /* more bands, for load balance */
             rolling_tiling_clamp(&t, l);
             if (t.strips_count != strips)
                 break;

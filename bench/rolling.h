@@ -1,38 +1,41 @@
-/* rolling.h - the diffusion step in rolling rows, both axes in one pass, one or several steps at
- * a time: the yardsticks, in OpenCL and in C.
+/* rolling.h - the diffusion step in rolling rows, both axes in one pass, one or several steps
+ * at a time: the yardsticks, in OpenCL and in C.
  *
  *     struct diffusion_rolling *r =
  *         diffusion_rolling_create(&scene, NULL, DIFFUSION_TIME_TILED, NULL);
  *     diffusion_rolling_steps(r, 16);
  *     diffusion_rolling_read(r, DIFFUSION_WATER, array);
  *
- * How. Rows are walked from the last to the first. When row y - 1 has had its pass along x, row
- * y can have its pass along y. What flows out of a fiber is what flows into the next one, and
- * that was computed just before: it is kept, in a register along x, in a row buffer along y.
+ * Rows are processed from the last to the first. When the pass along x of row y - 1 is done,
+ * the pass along y of row y can be done. The outflow of a fiber is the inflow of the next one,
+ * which was computed just before: it is kept in a register along x, and in a row buffer along
+ * y.
  *
  *       y - 1   x   read, moved along x, kept --+
  *       y       y   kept by the row before -----+--> moved along y: written
  *       y + 1       its flow in is row y's flow out
  *
- * With several steps at a time each has such rows of its own, and lies one row behind the step
- * before it, so a row is read once and written once, steps_count steps later.
+ * With several steps at a time, each step has such rows of its own, and is one row behind the
+ * step before it. So a row is read once and written once, steps_count steps later.
  *
  *       row     y     y+1     y+2     y+3
  *       step    0      1       2       3       one after the other, then all go to y - 1
  *
- * The sheet is cut in strips of columns, whose rows fit a cache, and in bands of rows. A tile of
- * both is computed with rims around it that are thrown away: of steps_count fibers towards lower
- * neighbours and steps_count + 1 towards upper ones, as far as a flow reaches. Hence at most 15
- * steps: a rim is a vector of 16. Tiles read one copy of the sheet and write the other. The
- * single pass needs no rim, and goes in place.
+ * The sheet is divided into strips of columns, whose rows fit a cache, and into bands of rows.
+ * A tile of both is computed with rims around it, which are discarded: steps_count fibers
+ * towards lower neighbours and steps_count + 1 towards upper ones, as far as a flow reaches. A
+ * rim is a vector of 16, hence at most 15 steps. Tiles read one copy of the sheet and write the
+ * other. The single pass needs no rim, and goes in place.
  *
- * The same bits as the listing. The larger of flow * gravity and flow / gravity is the right one
- * (gravity is 1 or more; else the smaller): rounding keeps the order. An absorbency of 0 makes
- * flows of 0, which change nothing, so the end of the rectangle costs no mask.
+ * The bits are those of the listing. The result is the larger of flow * gravity and flow /
+ * gravity (gravity is 1 or more; else the smaller), since rounding keeps the order. An
+ * absorbency of 0 makes flows of 0, which change nothing, so the end of the rectangle costs no
+ * mask.
  *
  * Errors. Functions that can fail return NULL or false, and bench_error() says why. The
- * rectangle must leave the first row and the first column out: nothing here wraps.
- * Threads. One at a time. */
+ * rectangle must leave the first row and the first column out: nothing here wraps. Threads.
+ * One at a time.
+ */
 #ifndef LUTETIA_BENCH_ROLLING_H
 #define LUTETIA_BENCH_ROLLING_H
 
@@ -75,7 +78,7 @@ size_t rolling_row_floats(const struct rolling_layout *l, const struct rolling_t
 size_t rolling_tile_floats(const struct rolling_layout *l, const struct rolling_tiling *t);
 /* Fits t to the sheet: strips of at least four vectors, bands of at least a row. */
 void rolling_tiling_clamp(struct rolling_tiling *t, const struct rolling_layout *l);
-/* The fastest of those whose rows fit the second-level cache or nearly; run takes
+/* Finds the fastest of the tilings whose rows about fit the second-level cache; run takes
  * t->steps_count steps and leaves the sheet as it is. */
 bool rolling_tune(const struct rolling_layout *l, int threads_count,
                   bool (*run)(void *context, const struct rolling_tiling *t), void *context,
@@ -91,7 +94,7 @@ enum diffusion_rolling_kind {
 };
 
 struct diffusion_rolling;
-/* device: as in diffusion_hand_create. tiling: NULL: chosen, by a short measurement. */
+/* device: as in diffusion_hand_create(). tiling: NULL: chosen by a short measurement. */
 struct diffusion_rolling *diffusion_rolling_create(const struct diffusion_scene *s,
                                                    const char *device,
                                                    enum diffusion_rolling_kind kind,

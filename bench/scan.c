@@ -1,6 +1,6 @@
 /* scan.c - `lutetia bench scan` and `lutetia bench rank`: scans and ranks of one line of
- * processors, beside plain C on one thread in the same run. Results are compared first (floats
- * are not: they are added up in another order). */
+ * processors, beside plain C on one thread in the same run. Results are compared first,
+ * except floats, which are added in another order. */
 #include "bench.h"
 
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* scene.c - the sheet that every implementation starts from. */
+/* scene.c - the initial sheet of all implementations. */
 #include "scene.h"
 
 #include <stdint.h>
@@ -37,7 +37,7 @@ bool diffusion_scene_init(struct diffusion_scene *s, int width, int height)
         diffusion_scene_finish(s);
         return bench_fail("no memory for a sheet of %dx%d", width, height);
     }
-    /* Nowhere exactly dry: the speed of denormal numbers is not what is measured. */
+    /* Nowhere exactly dry, so that denormal numbers do not affect the times. */
     for (size_t k = 0; k < count; k++) {
         size_t blot = k % (size_t)width / BLOT_FIBERS + k / (size_t)width / BLOT_FIBERS * 1021;
         s->absorbency[k] = 0.05f + 0.15f * noise(k);

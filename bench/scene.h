@@ -1,5 +1,5 @@
-/* scene.h - the sheet that all implementations of the diffusion step start from, and what each
- * must offer.
+/* scene.h - the initial sheet of all implementations of the diffusion step, and their common
+ * interface.
  *
  *     struct diffusion_scene scene;
  *     if (!diffusion_scene_init(&scene, 1024, 1024))
@@ -14,10 +14,11 @@
  *     inward(k)  = gravitate(absorbency(k) * (p(k-1) - p(k)) [* water(k) * molecular_weight])
  *     p(k)       = max(min(p(k) + inward(k) - inward(k+1), 1), 0)
  *
- * where gravitate multiplies what is above zero by gravity and divides the rest by it. Fibers
- * outside the rectangle keep what they hold, and their inward is 0. The sheet wraps. All in
- * single precision, in this order: every implementation gives the same bits.
- * Errors. Functions that can fail return false or NULL, and bench_error() says why. */
+ * where gravitate multiplies what is above zero by gravity and divides the rest by it.
+ * Fibers outside the rectangle keep what they hold, and their inward is 0. The sheet wraps.
+ * All in single precision, in this order: every implementation gives the same bits. Errors.
+ * Functions that can fail return false or NULL, and bench_error() says why.
+ */
 #ifndef LUTETIA_BENCH_SCENE_H
 #define LUTETIA_BENCH_SCENE_H
 
@@ -32,9 +33,9 @@ struct diffusion_scene {
     int x0, y0, x1, y1;
     float gravity; /* above zero */
     float molecular_weight[3];
-    float
-        humidity; /* water that every fiber loses after a step; 0 in the listing, and only openmp.c knows it */
-    /* As they are at the start: row-major, width by height. */
+    float humidity; /* water that every fiber loses after a step; 0 in the listing, and
+                   * supported by openmp.c only */
+    /* initial values: row-major, width by height */
     float *absorbency, *field[DIFFUSION_FIELDS_COUNT]; /* water, three pigments */
 };
 
@@ -58,8 +59,8 @@ enum diffusion_shape { DIFFUSION_SHAPE_BEST, DIFFUSION_IN_PLACE, DIFFUSION_STREA
 
 struct diffusion_hand;
 /* Device: part of its name or its index, or NULL: LUTETIA_DEVICE, else the first. BEST: in
- * place where the sheet fits the last cache and the rectangle keeps off the edges, else
- * streaming. */
+ * place if the sheet fits the last-level cache and the rectangle does not touch the edges,
+ * else streaming. */
 struct diffusion_hand *diffusion_hand_create(const struct diffusion_scene *s,
                                              const char *device, enum diffusion_shape shape);
 void diffusion_hand_destroy(struct diffusion_hand *h);

@@ -1,8 +1,11 @@
-/* springs.c - `lutetia bench springs`: ours beside plain loops, Chipmunk and Box2D, in one run; a million springs beside OpenMP, on the
- * machine, too; and how an undamped letter's energy drifts.
+/* springs.c - `lutetia bench springs`: ours beside plain loops, Chipmunk and Box2D, in one run;
+ * a million springs beside OpenMP, on the machine, too; and how an undamped letter's energy
+ * drifts.
  *
- * Before anything is measured, plain loops and ours must agree on where masses are after a tenth of a second. The engines have
- * contacts and turning bodies, which masses on springs do not need; how far they are from a finer solution of ours is a row. */
+ * First, plain loops and our library must agree on the positions after a tenth of a second.
+ * The engines also compute contacts and rotating bodies, which masses on springs do not
+ * need. A row gives their distance from a finer solution of ours.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,7 +125,7 @@ static void ours_destroy(void *engine)
 
 static void ours_step(void *engine, double dt, int count)
 {
-    (void)dyn_network_step(engine, dt, count); /* of what was prepared: it cannot fail */
+    (void)dyn_network_step(engine, dt, count); /* allocated before: it cannot fail */
 }
 
 static void ours_state(const void *engine, int mass, double state[4])
@@ -147,7 +150,7 @@ static const struct engine chipmunk = {"chipmunk",      &springs_chipmunk_built,
 static const struct engine box2d = {"box2d",       &springs_box2d_built, box2d_create,
                                     box2d_destroy, box2d_step,           box2d_state};
 
-/* How far apart masses are on average (root of the mean square). */
+/* The mean distance between masses (root of the mean square). */
 static double apart(const struct engine *a, const void *of_a, const struct engine *b,
                     const void *of_b, int masses)
 {
@@ -175,7 +178,7 @@ static bool run_work(void *context)
     return true;
 }
 
-/* Those engines that are there, of the same scene, in turns. scale: of a run's seconds. */
+/* Measures the available engines on the same scene, alternately. scale: of a run's seconds. */
 static bool engines_measure(struct bench_report *r, const struct springs_scene *s,
                             const struct engine *const *engines, int count, int steps,
                             int repeats, const char *of_case, bool rates)
@@ -207,8 +210,8 @@ static bool engines_measure(struct bench_report *r, const struct springs_scene *
     return ok;
 }
 
-/* After a tenth of a second: plain loops and ours are the same but for rounding. (Later a network that buckles tells roundings
- * apart, too.) */
+/* After a tenth of a second, plain loops and our library differ only by rounding. (Later a
+ * buckling network amplifies the rounding errors.) */
 static bool agree(const struct springs_scene *s, const struct engine *other, double least)
 {
     void *a = ours.create(s), *b = other->create(s);
@@ -227,7 +230,7 @@ static bool agree(const struct springs_scene *s, const struct engine *other, dou
             bench_fail("%s and ours are %g apart after a tenth of a second", other->what, far));
 }
 
-/* RMS distance after a second from ours at a thirtieth of the step. */
+/* RMS distance after a second from our solution with a thirtieth of the step. */
 static bool errors_measure(struct bench_report *r, const struct springs_scene *s,
                            const struct engine *const *engines, int count)
 {
@@ -336,7 +339,7 @@ static double energy_about(struct dyn_network *n)
     return sum / RATE_HZ;
 }
 
-/* Of a letter that swings and turns for a minute. */
+/* The energy's drift for a letter that swings and turns for a minute. */
 static bool drift_measure(struct bench_report *r)
 {
     struct springs_scene s;

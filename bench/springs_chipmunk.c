@@ -40,7 +40,7 @@ struct springs_chipmunk *springs_chipmunk_create(const struct springs_scene *s)
     for (int i = 0; i < s->springs_count; i++) {
         const struct springs_spring *spring = &s->springs[i];
         if (s->masses[spring->a].fixed && s->masses[spring->b].fixed)
-            continue; /* it refuses what cannot move */
+            continue; /* Chipmunk refuses springs between immovable masses */
         p->springs[p->springs_count++] = cpSpaceAddConstraint(
             p->space,
             cpDampedSpringNew(p->bodies[spring->a], p->bodies[spring->b], cpvzero, cpvzero,

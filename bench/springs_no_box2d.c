@@ -1,4 +1,4 @@
-/* springs_no_box2d.c - stands for springs_box2d where there is no such library. */
+/* springs_no_box2d.c - replaces springs_box2d where Box2D is missing. */
 #include <stddef.h>
 
 #include "springs_scene.h"

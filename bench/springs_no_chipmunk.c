@@ -1,4 +1,4 @@
-/* springs_no_chipmunk.c - stands for springs_chipmunk where there is no such library. */
+/* springs_no_chipmunk.c - replaces springs_chipmunk where Chipmunk is missing. */
 #include <stddef.h>
 
 #include "springs_scene.h"

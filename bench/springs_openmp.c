@@ -1,7 +1,9 @@
 /* springs_openmp.c - large networks in C with OpenMP: see springs_scene.h.
  *
- * No two threads may add to one mass. So each spring keeps its force, and each mass adds up those of its springs, whose
- * numbers are in a row for each mass: to its first ends with one sign, to its second ends with the other. */
+ * Two threads must not add to the same mass. So each spring stores its force, and each mass
+ * sums the forces of its springs, with opposite signs for their first and second ends. Each
+ * mass has a list of its springs.
+ */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
-/* springs_scene.h - networks that are measured, as plain arrays, and the same steps by others: C loops, OpenMP, Chipmunk, Box2D.
+/* springs_scene.h - the measured networks, as plain arrays, and other implementations of the
+ * step: C loops, OpenMP, Chipmunk, Box2D.
  *
  *     struct springs_scene scene;
  *     if (!springs_scene_grid(&scene, 100, 100))
@@ -8,8 +9,9 @@
  *     springs_plain_destroy(plain);
  *     springs_scene_finish(&scene);
  *
- * Errors. Functions that can fail return false or NULL, and bench_error() says why, but for the two engines: they have no
- * memory. */
+ * Errors. Functions that can fail return false or NULL, and bench_error() says why; for the
+ * two engines, memory was short.
+ */
 #ifndef LUTETIA_BENCH_SPRINGS_SCENE_H
 #define LUTETIA_BENCH_SPRINGS_SCENE_H
 
@@ -40,7 +42,7 @@ bool springs_scene_grid(struct springs_scene *s, int width, int height);
 bool springs_scene_word(struct springs_scene *s, int letters);
 void springs_scene_finish(struct springs_scene *s);
 
-/* Plain loops over structs, in doubles: semi-implicit Euler, what anyone would write. */
+/* Straightforward loops over structs, in doubles: semi-implicit Euler. */
 struct springs_plain;
 struct springs_plain *springs_plain_create(const struct springs_scene *s);
 void springs_plain_destroy(struct springs_plain *p); /* NULL is fine */

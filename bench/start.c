@@ -1,11 +1,15 @@
-/* start.c - `lutetia bench start`: how long the first picture takes from the command, with warm caches.
+/* start.c - `lutetia bench start`: the time from starting the command to its first picture,
+ * with warm caches.
  *
- * Each run is a process of its own, `lutetia`, that writes into a folder which is taken away afterwards. One
- * run of each warms the caches of kernels, fonts and files. Then they take turns; each gives the time until it has ended,
- * and the processor time that it took in all its threads: that is hardly longer where others use the machine.
+ * Each run is a process of `lutetia`, which writes into a temporary folder. One run of each
+ * kind warms the caches of kernels, fonts and files. Then the kinds run alternately. Each row
+ * gives the elapsed time, and the processor time of all threads, which depends less on other
+ * load.
  *
- * --thorough: how long a program that looks after each of its steps stands still, too, when no kernel is in any cache, with
- * better kernels compiled in the background and without. The first two steps, which need kernels at once, do not count. */
+ * --thorough also measures the longest pause of a program that looks after each step, with
+ * empty caches, with and without compiling better kernels in the background. The first two
+ * steps, which need kernels at once, do not count.
+ */
 #include <fcntl.h>
 #include <ftw.h>
 #include <spawn.h>
@@ -27,7 +31,7 @@
 
 enum { REPEAT_MIN = 3, COMMAND_WORDS = 12, STEPS = 400, STEPS_FIRST = 2, SIDE = 512, RUNS = 5 };
 static const char STEPS_INTO[] =
-    "--steps-into"; /* what a run of the steps is told, then a file */
+    "--steps-into"; /* argument for a run of the steps, followed by a file */
 
 extern char **environ;
 
@@ -148,7 +152,8 @@ static bool all_measure(struct bench_report *r, struct place *place, int repeat_
 
 /* ---- pauses ---- */
 
-/* A run of the steps: the longest time from the end of one to the end of the next, and all of it, in a file. */
+/* Runs the steps; writes the longest time between the ends of two steps, and the total time,
+ * to a file. */
 static bool steps_run(const char *path)
 {
     struct diffusion_scene scene;
@@ -202,7 +207,7 @@ static char *variable_kept(const char *name)
     return value ? strdup(value) : NULL;
 }
 
-/* One with caches of its own, which are empty. */
+/* Runs the steps in a process with empty caches of its own. */
 static bool steps_of(struct place *place, const char *background, double out[2])
 {
     static const char *const names[] = {"XDG_CACHE_HOME", "POCL_CACHE_DIR",
@@ -266,7 +271,7 @@ int bench_start_main(int argc, char **argv)
     struct place place = {0};
     char *background = variable_kept("LUTETIA_BACKGROUND");
     int status = bench_machine_start(&report, &options, false, argc, argv);
-    variable_put("LUTETIA_BACKGROUND", background); /* the runs are as anybody's */
+    variable_put("LUTETIA_BACKGROUND", background); /* the runs use the usual settings */
     if (status >= 0)
         return status;
     bool ok = place_make(&place) && all_measure(&report, &place, options.repeat_count) &&

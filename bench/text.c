@@ -1,6 +1,6 @@
-/* text.c - `lutetia bench text`: a book of justified lines, beside Pango in the same run, on one thread. The words are put
- * together at random, the same each time; both set all of the book anew in each turn, and the time is the
- * thread's own. */
+/* text.c - `lutetia bench text`: a book of justified lines, beside Pango in the same run, on
+ * one thread. The words are random, but the same each time. Both set the whole book in each
+ * run, and the time is the thread's processor time. */
 #include "bench.h"
 #include "harness.h"
 #include "text_edit.h"
@@ -54,7 +54,7 @@ static bool font_wrong(void)
     return bench_fail("%s", font_error());
 }
 
-/* Paragraphs of words with commas between some. */
+/* Adds paragraphs of words, with some commas. */
 static void paragraphs_add(struct reading *r, const struct book *b, int count, uint32_t *random)
 {
     for (int p = 0; p < count; p++)
@@ -88,7 +88,7 @@ static bool pangos(struct reading *r)
     return r->pango_lines > 0 || bench_fail("Pango failed");
 }
 
-/* As many paragraphs as make LINES lines. */
+/* Makes as many paragraphs as give LINES lines. */
 static bool reading_begin(struct reading *r, const struct book *b)
 {
     uint32_t random = 1;

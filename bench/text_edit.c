@@ -1,5 +1,5 @@
-/* text_edit.c - `lutetia bench text`, second part: a text of 200,000 words in pages. A letter is put in and taken out again in the
- * middle of it, and what is seen there, the page, is set anew each time. */
+/* text_edit.c - `lutetia bench text`, second part: a text of 200,000 words in pages. A
+ * letter is inserted and removed in the middle, and the visible page is set anew each time. */
 #include "text_edit.h"
 #include "harness.h"
 
@@ -71,7 +71,7 @@ static bool book_make(struct book *b, const char *const *words, uint32_t words_c
     return true;
 }
 
-/* A letter in or out, and the page seen; *seconds of the thread. */
+/* Inserts or removes a letter, and sets the visible page; *seconds of the thread. */
 static bool edit(struct book *b, int turn, int page, double *seconds)
 {
     struct font_layout seen;
@@ -98,7 +98,8 @@ bool bench_text_edit(struct bench_report *report, const char *const *words,
         ok = font_wrong();
     for (int i = -1; ok && i < EDITS - 1; i++) /* -1 warms up */
         ok = edit(&b, i + 2, page, &seconds[i + 1]);
-    /* A long word in and out: lines come and go, and all pages behind are filled again. */
+    /* Inserts and removes a long word: the number of lines changes, and all later pages are
+     * filled again. */
     for (int i = 0; ok && i < EDITS; i++) {
         static const char longer[] =
             "a line that is put in and taken out again so that all pages that are "

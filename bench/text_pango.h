@@ -1,4 +1,5 @@
-/* text_pango.h - the same text set by Pango, for `lutetia bench text`; where Pango was there when this was built.
+/* text_pango.h - the same text set by Pango, for `lutetia bench text`, if Pango was available
+ * at build time.
  *
  *     struct peer_pango *p = peer_pango_create("DejaVu Sans", 12, 400);
  *     int lines = peer_pango_layout(p, text, bytes);     // set anew each time
