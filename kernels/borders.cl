@@ -1,8 +1,11 @@
-/* borders.cl - the rows around strips, copied before strips write where they read: see host/machine/codegen/strips.h.
+/* borders.cl - the rows around strips, copied before strips write where they read: see
+ * host/machine/codegen/strips.h.
  *
- * to: one array after the other, those whose bit is set in `which` and room for the others; of each array, for each
- * strip of `run` rows, the `above` rows before it and the `below` rows after it. bytes: of an array's elements, four
- * bits for each array. */
+ * to: one array after the other; those whose bit in `which` is not set are skipped but have
+ * room. For each array and each strip of `run` rows it holds the `above` rows before the
+ * strip and the `below` rows after it. bytes: of an array's elements, four bits for each
+ * array.
+ */
 #define ARRAYS(F)                                                                              \
     F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7) F(8) F(9) F(10) F(11) F(12) F(13) F(14) F(15)
 #define PARAMETER(n) , const __global uchar *a##n

@@ -1,5 +1,6 @@
-/* copy.cl - so many bytes copied, as fast as the device does it: what other kernels' times are held against.
- * -DELEMENT=float16, or what the device likes; -DSTREAMS=1: by stores that pass the caches by. */
+/* copy.cl - copies bytes as fast as the device can: the reference for other kernels' times.
+ * -DELEMENT=float16, or a type that suits the device; -DSTREAMS=1: stores that bypass the
+ * caches. */
 #if STREAMS && __has_builtin(__builtin_nontemporal_store)
 #define PUT(to, v) __builtin_nontemporal_store(v, to)
 #else

@@ -1,5 +1,5 @@
-/* diffusion_per_axis.cl - the diffusion step by hand, one kernel an axis: what generated
- * kernels are measured against; after diffusion_vectors.cl.
+/* diffusion_per_axis.cl - the diffusion step by hand, one kernel for each axis: a reference for
+ * generated kernels. Follows diffusion_vectors.cl in the program.
  *
  * Sixteen fibers are a vector. A sheet is nine planes of one buffer, PLANE floats apart:
  *
@@ -8,17 +8,19 @@
  *     |<-- MARGIN -->|<------------ WIDTH ------------>|<-- MARGIN or more -->|
  *     |<------------------------------- PITCH ------------------------------->|   a row
  *
- * Neither PITCH nor PLANE is a multiple of a page: rows and planes that begin at the same place
- * of a page would fight for the same lines of the cache.
+ * Neither PITCH nor PLANE is a multiple of a page: rows and planes that begin at the same
+ * offset from a page would compete for the same cache sets.
  *
  * Two shapes give the same bits. Streaming goes from planes FROM to planes TO, computes a
- * neighbour's flow again, and writes past the caches: best where the sheet is larger than they
- * are. In place goes against the direction of what is read (from right to left, from the last
- * row to the first), so what it reads is still old, and carries the flow that the next fibers
- * need: best inside the cache; it does not wrap.
+ * neighbour's flow again, and bypasses the caches with its stores: it is best for sheets larger
+ * than the caches. In place goes from right to left and from the last row to the first, so the
+ * values that it reads are still old, and carries the flow for the next fibers. It is best
+ * inside the cache, and does not wrap.
  *
- * Context: the rectangle X0 <= x < X1, Y0 <= y < Y1 is the bounds of the loops; only the first
- * and the last vector of a row are masked. Flows into fibers outside it are 0. gravity > 0. */
+ * Context: the rectangle X0 <= x < X1, Y0 <= y < Y1 is the bounds of the loops; only the
+ * first and the last vector of a row are masked. Flows into fibers outside it are 0. gravity
+ * > 0.
+ */
 
 /* WIDTH, HEIGHT, PITCH, PLANE, X0, Y0, X1, Y1 are given when it is built. */
 #define MARGIN 16
@@ -55,8 +57,8 @@ static inline vector gradient(vector lower, vector here, vector absorbency)
     return (lower - here) * absorbency;
 }
 
-/* Which fibers of a row take part; x up to a margin past the row's end, where the row begins
- * again. */
+/* Which fibers of a row take part; x may be up to a margin beyond the row's end, where the
+ * row begins again. */
 static inline int16 active(int16 x)
 {
     int16 wrapped = x >= WIDTH ? x - WIDTH : x;
@@ -174,7 +176,7 @@ __kernel void diffusion_y_streaming(SHEET_AND_CONSTANTS)
 
 /* ---- in place ---- */
 
-/* One vector: the flows into it are left in flow[], which held those into the fibers beyond. */
+/* One vector: leaves its inflow in flow[], which held the inflow of the fibers beyond. */
 static inline void vector_in_place(__global float *sheet, struct constants c, long lower,
                                    long k, vector out[4], vector flow[4], bool along_row,
                                    int16 here_active, bool masked)
@@ -216,7 +218,7 @@ __kernel void diffusion_x_in_place(SHEET_AND_CONSTANTS)
     }
 }
 
-/* A work-item has a strip of columns, and keeps the flows out of its rows. */
+/* A work-item has a strip of columns, and keeps the outflow of its rows. */
 #define STRIP 256
 
 __kernel void diffusion_y_in_place(SHEET_AND_CONSTANTS)

@@ -46,7 +46,7 @@ static inline vector the_one(vector along, vector against)
     return RISES ? greatest(along, against) : least(along, against);
 }
 
-/* What flows into fibers of field i. wet: absorbency, or absorbency * water. */
+/* The inflow of fibers of field i. wet: absorbency, or absorbency * water. */
 static inline vector flow_in(vector lower, vector here, vector absorbency, vector water, int i,
                              struct constants c)
 {

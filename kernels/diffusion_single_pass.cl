@@ -1,14 +1,15 @@
 /* diffusion_single_pass.cl - one step in one pass, in place; after diffusion_row.cl.
  *
- * A work-item has a band of rows and walks it from its last row to its first: what it reads is
- * still old. Its scratch is twelve rows: four that have gone along x, four of flows, four that
- * are not kept. What a band needs of its neighbours may be new by then, so each step leaves a
- * copy of these rows for the next one, in edges:
+ * A work-item has a band of rows and processes it from its last row to its first, so the values
+ * that it reads are still old. Its scratch is twelve rows: four after the pass along x, four of
+ * flows, four that are not kept. The rows that a band needs of its neighbours may be
+ * overwritten by then, so each step copies these rows for the next one, to `edges`:
  *
  *       of each band   ya, ya + 1   for the band before it, which needs the flows into row yb
  *                      yb - 1       for the band after it
  *
- * A band has two rows or more. A row of edges is as long as one of the sheet. */
+ * A band has two rows or more. A row of edges is as long as one of the sheet.
+ */
 
 static inline struct rows edge_at(__global float *edges, long pitch, int band, int which)
 {

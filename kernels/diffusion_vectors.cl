@@ -33,7 +33,7 @@ static inline vector greatest(vector a, vector b)
     return a > b ? a : b;
 }
 
-/* Lanes 1..15 of a, then lane 0 of b: what lies one fiber further on. */
+/* Lanes 1..15 of a, then lane 0 of b: the vector one fiber further on. */
 static inline vector further(vector a, vector b)
 {
     return (vector)(a.s123, a.s4567, a.s89ab, a.scdef, b.s0);

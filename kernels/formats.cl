@@ -6,8 +6,8 @@
 /* 2^n as a double's bits */
 #define SHORT_POWER(n) ((ulong)(1023 + (n)) << 52)
 
-/* x rounded to nearest even: by adding, and taking away again, a number so great that the sum's
- * last place is the result's. */
+/* x rounded to nearest even: by adding and subtracting a number so large that the sum's last
+ * place is that of the result. */
 inline VD short_fit(VD x, int s, int e)
 {
     const int most = (1 << (e - 1)) - 1, least = 1 - most;

@@ -1,9 +1,11 @@
-/* functions.cl - declarations of those of OpenCL C's functions that the machine's kernels call.
+/* functions.cl - declares the functions of OpenCL C that the machine's kernels call.
  *
- * A driver that compiles with clang reads a header with all there are, thousands with each type, before each kernel: most of the
- * time of compiling a small one. Where its header can be left out (device/programs.c), this comes first instead. They are the same
- * functions: the same names, types and attributes. One that is missing here is an error of the compiler, and the
- * kernel is compiled with the header. */
+ * A driver that compiles with clang reads a header of all OpenCL functions before each
+ * kernel, which takes most of the time of compiling a small one. Where the header can be
+ * left out (device/programs.c), this file replaces it, with the same names, types and
+ * attributes. If a function is missing here, compiling fails, and the kernel is compiled
+ * with the header.
+ */
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
 #define CONSTANT __attribute__((overloadable, const))

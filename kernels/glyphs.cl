@@ -92,7 +92,7 @@ void nodes_add(__global const float *table, __global const float *node_x,
     }
 }
 
-/* Eight columns from `first` on of what is right of a line's end. */
+/* Eight columns from `first` on to the right of a line's end. */
 float8 line_end(__global const float *table, float a, int first)
 {
     int i = (int)a;

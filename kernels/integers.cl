@@ -1,12 +1,14 @@
-/* integers.cl - quotients, powers, shifts and counts of integers, in kernels that have such.
+/* integers.cl - quotients, powers, shifts and counts of integers; part of kernels that use
+ * them.
  *
- * Names end in the container: U for 2..32 bits, L for 33..64, Q for 65..128 (after wide.cl, one
- * lane). Operands have their unused high bits 0; so have results of the functions that take a
- * width w, those of the others are cut by the caller. Nothing divides by zero: a quotient by
- * zero is 0, what is left of a division by zero is the dividend; signed numbers are divided as
- * magnitudes, so that the least one over -1 is like any other. */
+ * Names end in the container: U for 2..32 bits, L for 33..64, Q for 65..128 (after wide.cl,
+ * one lane). The unused high bits of operands are 0, and so are those of results of
+ * functions with a width w; other results are cut by the caller. Division by zero is
+ * defined: the quotient is 0, the remainder is the dividend. Signed numbers are divided as
+ * magnitudes, so the least number divided by -1 needs no special case.
+ */
 
-/* Called rather than copied into each place: kernels of many such would compile for seconds. */
+/* Not inline: kernels with many copies would compile for seconds. */
 #define HEAVY static __attribute__((noinline))
 
 #define QUOTIENT_TRUNCATE 0
@@ -22,7 +24,8 @@ HEAVY VU quotient_U(VU a, VU b)
     VU d = SEL_U(none, (VU)(1), b);
 #if VECTOR == 1
     VU q = a / d;
-#else /* exact: what is not whole is further from the next number than a double is rounded */
+#else /* exact: a fraction is further from the next whole number than a double's rounding
+       * error */
     VU q = CONVERT(uint, CONVERT(double, a) / CONVERT(double, d));
 #endif
     return SEL_U(none, (VU)(0), q);
@@ -35,7 +38,7 @@ HEAVY VL quotient_L(VL a, VL b)
     return SEL_L(none, (VL)(0), a / d);
 }
 
-HEAVY VU square_root_U(VU a) /* a double's is exact enough, as above */
+HEAVY VU square_root_U(VU a) /* a double's root is exact enough, as above */
 {
     return CONVERT(uint, sqrt(CONVERT(double, a)));
 }

@@ -236,7 +236,7 @@ MATH_FUNCTION struct math_dd log1p_pair(struct math_dd z)
     return log_pair(dd_fast_sum(s.hi, s.lo + z.lo));
 }
 
-/* What all logarithms give where it is no number above 0: *x, and 1. */
+/* The result of all logarithms where x is not a number above 0: *x, and 1. */
 MATH_FUNCTION int log_special(double *x)
 {
     if (math_is_nan(*x) || *x == math_infinity())

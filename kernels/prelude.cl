@@ -1,4 +1,4 @@
-/* prelude.cl - what every generated kernel begins with.
+/* prelude.cl - the beginning of every generated kernel.
  *
  * A kernel handles VECTOR neighbouring processors of a row at a time, and is written once for
  * every VECTOR: VI  a bit of each, as 0 or -1        VU, VL  up to 32 and 64 bits, unused high
@@ -7,7 +7,9 @@
  * without a question. Where WRAPS is 1, or a kernel looks further than the halo, columns are
  * wrapped.
  *
- * A kernel of few short integers has narrow lanes: VI and VU of LANE bits, 8 or 16, and so many more of them. */
+ * A kernel of few short integers has narrow lanes: VI and VU of LANE bits, 8 or 16, and so
+ * many more of them.
+ */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -18,8 +20,8 @@
 #define LANE 32
 #endif
 
-/* Compilers that tune for processors which slow down at wide vectors would make two halves of each, but for functions that
- * say that they need them. */
+/* Compilers tuned for processors that slow down at wide vectors split each vector in two,
+ * except in functions that declare their need of wide ones. */
 #if VECTOR * LANE == 512 && defined(__has_attribute)
 #if __has_attribute(min_vector_width)
 #define WHOLE_VECTORS __attribute__((min_vector_width(512)))
@@ -29,8 +31,8 @@
 #define WHOLE_VECTORS
 #endif
 
-#if LANE <                                                                                     \
-    32 /* compilers for CPUs have longer vectors than OpenCL names; they do not convert by its functions */
+#if LANE < 32 /* compilers for CPUs have longer vectors than OpenCL names, but no conversion
+        * functions for them */
 #if LANE == 8
 #define SIGNED char
 #define UNSIGNED uchar
@@ -187,7 +189,7 @@ inline VU column(int x, int W)
 #define PREFETCH(p, writes) (void)0
 #endif
 
-/* How a kind is kept in memory, and how it comes from there and goes back. */
+/* For each type in memory: its element, and how it is loaded and stored. */
 #define TYPE_bit uchar
 #define TYPE_u8 uchar
 #define TYPE_u16 ushort
@@ -195,7 +197,7 @@ inline VU column(int x, int W)
 #define TYPE_u64 ulong
 #define TYPE_f32 float
 #define TYPE_f64 double
-#if LANE < 32 /* memory has 0 or 1: nothing is compared */
+#if LANE < 32 /* memory has only 0 or 1: no comparison is needed */
 #define FROM_bit(v) AS_S(-CONVERT(UNSIGNED, v))
 #else
 #define FROM_bit(v) CMP_U(CONVERT(SIGNED, v) != (SIGNED)0)
@@ -226,7 +228,7 @@ inline VU column(int x, int W)
 #endif
 #define LOAD_f64(p, i) GET(double, p, i)
 
-/* Past the caches: where arrays are larger than those, and every vector is aligned. */
+/* Stores that bypass the caches: for arrays larger than the caches, with aligned vectors. */
 #ifdef __has_builtin
 #if STREAMS && VECTOR > 1 && __has_builtin(__builtin_nontemporal_store)
 #define STREAM(type, p, i, v) __builtin_nontemporal_store(v, (__global type *)((p) + (i)))
@@ -334,8 +336,8 @@ inline VU column(int x, int W)
 
 /* ---- integers in floats and back ---- */
 
-/* Toward zero, to width bits; beyond the range its nearest end, NaN 0. limit is 2^width, or
- * 2^(width - 1) */
+/* Rounds toward zero, to width bits; out of range the nearest end of the range, NaN 0. limit
+ * is 2^width, or 2^(width - 1) */
 inline VU f_to_u_small(VF v, float limit, uint top)
 {
     VI inside = CMP_U(v > 0.0f) & CMP_U(v < limit);

@@ -1,22 +1,24 @@
-/* reshape.cl - the memory of physical processors, seen from VP sets of other ratios. See reshape.h.
+/* reshape.cl - the memory of physical processors, seen from VP sets of other ratios. See
+ * reshape.h.
  *
- * Virtual processor (p, r), the r-th of physical processor p, has the row-major index p * ratio + r in
- * send order and r * P + p in NEWS order. Each has k finer ones: coarse (p, j) is fine (p, j * k) to
- * (p, j * k + k - 1).
+ * Virtual processor (p, r), the r-th of physical processor p, has the row-major index p * ratio
+ * + r in send order and r * P + p in NEWS order. Each has k finer ones: coarse (p, j) is fine
+ * (p, j * k) to (p, j * k + k - 1).
  *
  *     slices   out i of coarse (p, j) = fine (p, j * k + first + i), for i < n
  *     weave    fine (p, j * k + first + i * parts + t) = the t-th `width` bits of in i of coarse (p, j)
  *     put      bits of one slot into images of the processors' memory
  *     get      and out of them
  *
- * What would be read from a processor that does not exist is 0. -DELEMENT= uchar .. ulong2, of fine
- * values in memory; -DWHOLE= of coarse ones. RUN physical processors are a work-item. */
+ * Processors beyond the set's size read as 0. -DELEMENT= uchar .. ulong2, of fine values in
+ * memory; -DWHOLE= of coarse ones. RUN physical processors are a work-item.
+ */
 
 #define SET(s)                                                                                 \
     uint s##_count, uint s##_ratio, uint s##_plog2, uint s##_send, uint s##_width,             \
         uint s##_pitch, uint s##_halo
 
-/* The row-major index; UINT_MAX: there is none. */
+/* The row-major index; UINT_MAX if there is no such processor. */
 inline uint index_at(uint p, uint r, uint count, uint ratio, uint plog2, uint send)
 {
     const ulong n = send ? (ulong)p * ratio + r : ((ulong)r << plog2) + p;
@@ -30,7 +32,7 @@ inline size_t place(uint n, uint width, uint pitch, uint halo)
 }
 #define PLACE(s, n) place(n, s##_width, s##_pitch, s##_halo)
 
-/* An element, and where it is repeated at the other end of its row. */
+/* Stores an element, and its copy at the other end of its row. */
 #define STORE(s, out, n, v)                                                                    \
     do {                                                                                       \
         const size_t at = PLACE(s, n);                                                         \

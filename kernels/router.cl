@@ -18,7 +18,7 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
 #define NONE 0xffffffffu
-#define NOBODY 0xfffffffeu /* sends, but there is no such processor */
+#define NOBODY 0xfffffffeu /* sends to a processor that does not exist */
 
 #define LAYOUT(s) uint s##_width, uint s##_pitch, uint s##_halo
 #define ORDER uint count, uint ratio, uint plog2, uint send
@@ -51,8 +51,8 @@ inline uint index_of(uint a, ORDER)
 #ifdef ADDRESS
 #define ADDRESS_OF(a) ((uint)(a)LOW)
 
-/* First everybody writes; then whoever finds a lower index there than his own puts that right. Where
- * nobody collides no atomic operation is done. */
+/* First every sender writes its index; then senders that find a lower index than their own
+ * correct it. Without collisions there is no atomic operation. */
 __kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second,
                     const __global ADDRESS *address, const __global uchar *context,
                     volatile __global uint *owner)
@@ -86,8 +86,9 @@ __kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
 }
 
 #ifdef ELEMENT
-/* out holds the old dest. Each work-item has a share of the destinations and passes all senders in order;
- * what is for others it puts to no use (trash, apart for each): no processor could foresee which. */
+/* out holds the old dest. Each work-item has a share of the destinations and passes over all
+ * senders in order. Messages for other shares are written to a dummy place (trash, one for
+ * each work-item), because a branch on them could not be predicted. */
 __kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint all, uint share,
                       uint notifies, uint trash, const __global ADDRESS *restrict address,
                       const __global uchar *restrict context,
@@ -220,8 +221,8 @@ inline ulong2 join(uint op, ulong2 a, ulong2 b, ulong2 sign, ulong2 mask)
 }
 #endif
 
-/* What others have is done too, to a place of no use (trash, apart for each work-item): which
- * destinations are its own no processor can foresee. */
+/* Messages for other shares are combined in a dummy place (trash, one for each work-item),
+ * because a branch on them could not be predicted. */
 __kernel void combine(LAYOUT(d), LAYOUT(s), uint op, uint senders, uint share, uint notifies,
                       uint trash, ulong sign_low, ulong sign_high, ulong mask_low,
                       ulong mask_high, const __global uint *restrict to,

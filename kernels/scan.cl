@@ -1,4 +1,4 @@
-/* scan.cl - running combinations along lines of elements, and what fills lines.
+/* scan.cl - running combinations along lines of elements, and filling lines.
  *
  *     line:    | run 0       | run 1       | run 2 ...     in the direction of the scan
  *     scan     each run by itself; its total, and where in it a segment first begins
@@ -6,16 +6,18 @@
  *     FINISHES combines that with the run's elements before the first beginning of a segment
  *     FILLS    fills lines with one element each
  *
- * Elements are xor-ed with `flip` as they come and as they go, which turns the greatest into the
- * least, signed order into unsigned, and `and` into `or`; and cut to the bits of `cut`.
+ * Elements are xor-ed with `flip` as they come and as they go, which turns the greatest into
+ * the least, signed order into unsigned, and `and` into `or`; and cut to the bits of `cut`.
  *
- * The order of combination is part of what the machine promises for floats: see machine_scan().
+ * For floats the order of combination is specified: see machine_scan().
  *
- * -DPART= 0 scan, 1 the others  -DTYPE= of elements: uint ulong (KIND 0), float double (KIND 1), ulong2 for numbers of
- * 128 bits (KIND 2)  -DMASK= int or long, as wide as TYPE  -DLANES= 1, or 16: so many neighbouring
- * lines at once, where there are as many columns. Element k of a line is at base + k * step; the
- * lines are `columns` neighbours in rows inner_stride apart, in blocks outer_stride apart. A row
- * of a buffer is `width` columns and, on both sides, `halo` that repeat the other end. */
+ * -DPART= 0 scan, 1 the others  -DTYPE= of elements: uint ulong (KIND 0), float double (KIND
+ * 1), ulong2 for numbers of 128 bits (KIND 2)  -DMASK= int or long, as wide as TYPE
+ * -DLANES= 1, or 16: so many neighbouring lines at once, where there are as many columns.
+ * Element k of a line is at base + k * step; the lines are `columns` neighbours in rows
+ * inner_stride apart, in blocks outer_stride apart. A row of a buffer is `width` columns
+ * and, on both sides, `halo` that repeat the other end.
+ */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
@@ -68,7 +70,7 @@ inline TYPE least2(TYPE a, TYPE v)
 #define DIFFERENT(a, v) ((a) ^ (v))
 #define FORMER(a, v) (a)
 
-/* Floats are summed and multiplied; the least and the greatest are found as whole numbers. */
+/* Floats are summed and multiplied here; their minimum and maximum are found as integers. */
 #if KIND == 1
 #define IF_COPY(body)
 #define FOR_OP(body)                                                                           \
@@ -100,7 +102,7 @@ inline TYPE least2(TYPE a, TYPE v)
 #define SHOW(T, v) (((v) & (T)(cut)) ^ (T)(flip))
 #endif
 
-/* What is in columns [from, to) is repeated beyond the ends of the row. */
+/* Copies columns [from, to) beyond the ends of the row, into the halos. */
 inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
 {
     for (int c = from; c < min(to, halo); c++)
@@ -146,9 +148,9 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
-/* Who takes part, and before whom a segment begins: where the element `back` before has a 1 (at
- * element 0 it does not matter). What there is none of is read at 0 and passed over, and choices
- * between whole numbers are made with masks: branches are slower. */
+/* Which elements are active, and before which ones a segment begins: where the element
+ * `back` before has a 1 (at element 0 it does not matter). Missing arrays are read at 0 and
+ * ignored, and integers are selected with masks, because branches are slower. */
 #if LANES == 1 && KIND == 0
 #define CHOOSE(m, a, b) (((a) & (V)(-(MASK)(m))) | ((b) & ~(V)(-(MASK)(m))))
 #else
@@ -174,7 +176,7 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
-/* Where all take part, and segments begin at a 1. */
+/* For lines where all elements are active, and segments begin at a 1. */
 #define SEGMENTED(combine)                                                                     \
     for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
         const M begins = BITS(bits, at);                                                       \
@@ -184,7 +186,7 @@ inline void repeat(__global TYPE *row, int from, int to, int width, int halo)
         const V shown = exclusive ? old : acc;                                                 \
         STORE(out, at, SHOW(V, shown));                                                        \
     }
-/* The first element of a segment that takes part. */
+/* The first active element of a segment. */
 #define COPIED                                                                                 \
     for (int k = begin; k < end; k++, at += (size_t)step) {                                    \
         FLAGS has &= begins == (M)0;                                                           \

@@ -1,12 +1,14 @@
-/* soft.cl - floats of other formats than single and double, in whole numbers.
+/* soft.cl - floats of other formats than single and double, by integer arithmetic.
  *
  * A format has a significand of s bits and an exponent of e bits (1 <= s <= 52, 2 <= e <= 11),
  * as IEEE's have: bias 2^(e - 1) - 1, subnormals, infinities, NaNs. All its numbers are
  * doubles, so that a value of it is held as the double; x and y here are doubles' bits. Results
  * are rounded once, to nearest even, to the format; a NaN is the double's canonical one.
  *
- * In kernels of one lane, and as C on the host: see host/machine/base/types.c. Between unpacking and
- * rounding a number is sign, exponent and magnitude: m * 2^(exponent - 63), 2^63 <= m < 2^64. */
+ * In kernels of one lane, and as C on the host: see host/machine/base/types.c. Between
+ * unpacking and rounding a number is sign, exponent and magnitude: m * 2^(exponent - 63),
+ * 2^63 <= m < 2^64.
+ */
 #ifdef __OPENCL_VERSION__
 #define SOFT_CLZ(x) ((int)clz(x))
 #define SOFT_HIGH(x, y) mul_hi(x, y)
@@ -47,7 +49,7 @@ SOFT_INLINE soft_number soft_number_of(ulong x)
     return r;
 }
 
-/* Rounded; more: the true number is a little further from 0 than m says. */
+/* Rounds; more: the exact number is slightly further from 0 than m. */
 SOFT_INLINE ulong soft_round(ulong sign, int exponent, ulong m, int more, int s, int e)
 {
     int most = (1 << (e - 1)) - 1, least = 1 - most;
@@ -89,7 +91,7 @@ SOFT_FUNCTION ulong soft_fit(ulong x, int s, int e)
     return soft_round(a.sign, a.exponent, a.m, 0, s, e);
 }
 
-/* The whole number hi:lo, which is below 0 where negative. */
+/* The integer hi:lo, which is negative where `negative` is set. */
 SOFT_FUNCTION ulong soft_whole(int negative, ulong lo, ulong hi, int s, int e)
 {
     ulong sign = negative ? SOFT_SIGN : 0;

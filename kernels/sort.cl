@@ -1,13 +1,15 @@
-/* sort.cl - one pass of a radix sort from the lowest digit, along lines, and ranks from the last.
+/* sort.cl - one pass of a radix sort from the lowest digit, along lines, and ranks from the
+ * last.
  *
- * A line is cut in chunks. PART 0 counts the digits of each chunk; the counts, by digit and then
- * by chunk, are summed up (scan.cl) and say where each chunk's first key of each digit goes; PART
- * 1 puts keys there in order, so that equal digits keep theirs. Keys of more than 32 bits are
- * sorted word by word. SOURCE says where a key comes from: 0 the word itself, in its line's order;
- * 1 a pair (key, position along the axis) of the pass before; 2 the word at the position that a
- * pair of the word before has, which PART 0 puts into the pair.
+ * A line is divided into chunks. PART 0 counts the digits of each chunk; the counts, by digit
+ * and then by chunk, are summed up (scan.cl) and say where each chunk's first key of each digit
+ * goes; PART 1 puts keys there in order, so that equal digits keep theirs. Keys of more than 32
+ * bits are sorted word by word. SOURCE says where a key comes from: 0 the word itself, in its
+ * line's order; 1 a pair (key, position along the axis) of the pass before; 2 the word at the
+ * position that a pair of the word before has, which PART 0 puts into the pair.
  *
- * Geometry as in scan.cl, one line in each work-item. */
+ * Geometry as in scan.cl, one line in each work-item.
+ */
 enum { WORD, PAIR, GATHER };
 
 #define PLACE                                                                                  \

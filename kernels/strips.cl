@@ -1,7 +1,9 @@
-/* strips.cl - rows in strips: what kernels by strips_text.c have besides the prelude.
+/* strips.cl - the part of kernels in strips (strips_text.c) that follows the prelude.
  *
- * Vectors lie where x is a multiple of VECTOR. At the ends of a row some lanes of them may be beyond its halos: what
- * is loaded there is never looked at (and is memory: see DEVICE_GUARD_BYTES), and nothing is stored there. */
+ * Vectors lie where x is a multiple of VECTOR. At the ends of a row some lanes may be beyond
+ * its halos. Values loaded there are never used (the memory exists: see DEVICE_GUARD_BYTES),
+ * and nothing is stored there.
+ */
 
 /* The last column that a store of a whole vector may end at; the halos' columns are in such vectors then. */
 #define WHOLE (W % VECTOR ? W - VECTOR : W)
@@ -59,15 +61,16 @@
     } while (0)
 #endif
 
-/* What is stored past the caches must not be fetched into them. */
+/* Arrays whose stores bypass the caches must not be prefetched into them. */
 #if STREAMS
 #define PREFETCH_STORE(q) (void)0
 #else
 #define PREFETCH_STORE(q) PREFETCH(q, 1)
 #endif
 
-/* Of more arrays than a processor can follow, rows are fetched one after the other, a few pieces in each turn of the
- * loop over columns: so few places of the memory are at work at the same time. */
+/* If there are more arrays than the hardware prefetcher follows, their rows are prefetched
+ * one after the other, a few pieces in each iteration of the loop over columns. So few
+ * places of the memory are accessed at the same time. */
 #define PIECE_BYTES 512
 struct row_ahead {
     const __global uchar *at;

@@ -1,4 +1,4 @@
-/* wide.cl - numbers of 65..128 bits, in kernels that have such. */
+/* wide.cl - integers of 65..128 bits; part of kernels that use them. */
 typedef struct {
     VL lo, hi;
 } VQ;
@@ -181,7 +181,7 @@ inline VI l_smul_overflows(VM a, VM b, int width)
 
 /* ---- and floats ---- */
 
-/* Rounded once, to nearest even: shifted so that 64 bits hold it, what is lost kept as a sticky
+/* Rounds once, to nearest even: shifted so that 64 bits hold it; lost bits become a sticky
  * lowest bit. */
 inline VL q_leading(VQ a, VL *shift)
 {
