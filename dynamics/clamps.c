@@ -1,4 +1,5 @@
-/* clamps.c - see clamps.h. Keys lie in the order of masses, then times; so a mass's are in a row. */
+/* clamps.c - see clamps.h. Keys are sorted by mass, then time, so a mass's keys are
+ * contiguous. */
 #include "clamps.h"
 #include "clamps_internal.h"
 #include "internal.h"
@@ -27,7 +28,7 @@ int dyn_clamps_count(const struct dyn_clamps *c)
     return c->count;
 }
 
-/* The first key that is not before the mass's time. */
+/* Finds the first key that is not before the given mass and time. */
 static int key_find(const struct dyn_clamps *c, int mass, double time_s)
 {
     int low = 0, high = c->count;
@@ -93,7 +94,7 @@ static bool leads(const struct dyn_clamps *c, int at, int mass)
     return at >= 0 && at < c->count && c->keys[at].mass == mass && !c->keys[at].free;
 }
 
-/* The speed at a key: between its neighbours, 0 at an end. */
+/* The velocity at a key: the mean velocity between its neighbours, 0 at an end. */
 static void speed_at(const struct dyn_clamps *c, int at, int mass, double v[2])
 {
     v[0] = v[1] = 0;
@@ -114,7 +115,7 @@ bool dyn_clamps_at(const struct dyn_clamps *c, int mass, double time_s, double *
     }
     if (!leads(c, after - 1, mass) ||
         (after < c->count && c->keys[after].mass == mass && c->keys[after].time_s == time_s))
-        return false; /* not yet led, or let go just now */
+        return false; /* not clamped yet, or just released */
     const struct dyn_key *a = &c->keys[after - 1];
     *x = a->x;
     *y = a->y;
@@ -135,7 +136,7 @@ bool dyn_clamps_at(const struct dyn_clamps *c, int mass, double time_s, double *
 
 #define FLIES_WITHIN_S 0.05
 
-/* Lets go of the mass, which was led until the key at `last`. */
+/* Releases the mass, which was clamped until the key at `last`. */
 static void let_go(const struct dyn_clamps *c, struct dyn_network *n, int last, double time_s)
 {
     const struct dyn_key *b = &c->keys[last], *a = b - 1;
@@ -148,7 +149,7 @@ static void let_go(const struct dyn_clamps *c, struct dyn_network *n, int last, 
     n->state[b->mass].vy = fmin(fmax((b->y - a->y) / span, -limit), limit);
 }
 
-/* Each mass that has keys, to where it must be at the step's end. */
+/* Moves each mass that has keys to its place at the step's end. */
 static void lead(const struct dyn_clamps *c, struct dyn_network *n, double dt_s)
 {
     double to = n->time_s + dt_s;
@@ -162,7 +163,7 @@ static void lead(const struct dyn_clamps *c, struct dyn_network *n, double dt_s)
                           fmin(fmax(y, -DYN_EDGE), DYN_EDGE));
             continue;
         }
-        /* the key that let go of it: the last one not after `to` */
+        /* the key that released it: the last one not after `to` */
         next = key_find(c, mass, to);
         next -= !(next < c->count && c->keys[next].mass == mass && c->keys[next].time_s == to);
         if ((n->hold[mass] & DYN_HELD) && leads(c, next - 1, mass) &&

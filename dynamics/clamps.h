@@ -1,15 +1,18 @@
-/* clamps.h - masses led along keys: animation by hand or by script, which the rest of the network follows.
+/* clamps.h - masses that follow keyframes: animation by hand or by script; the rest of the
+ * network moves by the springs.
  *
  *     dyn_clamps_key(clamps, 3, 0.0, 1, 2);       // mass 3 is at (1, 2) at the beginning,
  *     dyn_clamps_key(clamps, 3, 1.5, 4, 2);       // a second and a half later at (4, 2),
  *     dyn_clamps_free(clamps, 3, 2.0);            // and then let go
  *     dyn_clamps_step(clamps, network, 1.0 / 240, 480);
  *
- * Before its first key a mass is as it is. Between two keys it goes along a Catmull-Rom spline (cubic, through the keys; a key's
- * speed is that between its neighbours, at rest at the ends), after the last it stays. Where it is let go
- * within a twentieth of a second after its last key it flies on at the mean speed between the last two; later it is at rest.
+ * Before its first key a mass moves freely. Between two keys it follows a Catmull-Rom spline
+ * (cubic, through the keys; a key's velocity is that between its neighbours, 0 at the ends).
+ * After the last key it stays. If it is released within a twentieth of a second after its last
+ * key, it keeps the mean velocity between the last two; later it starts at rest.
  *
- * Source: Catmull and Rom, A class of local interpolating splines, 1974. */
+ * Source: Catmull and Rom, A class of local interpolating splines, 1974.
+ */
 #ifndef LUTETIA_DYN_CLAMPS_H
 #define LUTETIA_DYN_CLAMPS_H
 
@@ -31,12 +34,13 @@ enum dyn_status dyn_clamps_key(struct dyn_clamps *c, int mass, double time_s, do
 enum dyn_status dyn_clamps_free(struct dyn_clamps *c, int mass, double time_s);
 int dyn_clamps_count(const struct dyn_clamps *c);
 
-/* Steps as dyn_network_step() does, and leads masses to where they must be at each step's end. Errors: as dyn_network_step(), and
- * BAD_ARGUMENT for keys of masses that the network has not; it is as it was. */
+/* Steps as dyn_network_step() does, and moves masses to their places at each step's end.
+ * Errors: as dyn_network_step(), and BAD_ARGUMENT for keys of masses that the network lacks;
+ * nothing changes. */
 enum dyn_status dyn_clamps_step(const struct dyn_clamps *c, struct dyn_network *n, double dt_s,
                                 int count);
 
-/* Where a mass is led to at a time. False: nobody leads it then. */
+/* The place of a clamped mass at a time. False: it is not clamped then. */
 bool dyn_clamps_at(const struct dyn_clamps *c, int mass, double time_s, double *x, double *y);
 
 /* As text: `clamps 1`, then lines `key MASS TIME X Y` and `free MASS TIME`, then `end`. Errors: as dyn_network_read() and _write(). */

@@ -1,4 +1,4 @@
-/* clamps_internal.h - what clamps are: clamps.c, clamps_file.c. */
+/* clamps_internal.h - struct dyn_clamps, for clamps.c and clamps_file.c. */
 #ifndef LUTETIA_DYN_CLAMPS_INTERNAL_H
 #define LUTETIA_DYN_CLAMPS_INTERNAL_H
 

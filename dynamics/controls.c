@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define AT(member) offsetof(struct dyn_world, member)
-#define FAR_AWAY 1e5 /* of sides: well within the edges of the plane */
+#define FAR_AWAY 1e5 /* limit of the sides' places: well within the edges of the plane */
 
 const struct dyn_control dyn_controls[] = {
     {"gravity", "units/s2", -100, 100, 9.81, DYN_LINEAR, NULL, "pulls masses down",
@@ -103,7 +103,7 @@ enum dyn_status dyn_control_write(const struct dyn_control *c, void *of, double 
     return status;
 }
 
-/* The number of the word among those of a list with blanks between them; else -1. */
+/* The index of the word in a list separated by blanks; -1: not in it. */
 static int word_number(const char *list, const char *word)
 {
     size_t length = strlen(word);

@@ -1,10 +1,11 @@
-/* fields_write.c - a field of one or of all: see fields.h. */
+/* fields_write.c - sets a field of one mass or spring or of all: see fields.h. */
 #include "fields.h"
 #include "internal.h"
 
 #include <string.h>
 
-/* The struct as it is with one of its numbers changed: others may be what no one could set, such as a place far outside. */
+/* Checks only the changed number: others may have values that could not be set, such as a
+ * place far outside. */
 enum dyn_status dyn_mass_write(struct dyn_network *n, int index,
                                const struct dyn_control *field, double value)
 {

@@ -21,7 +21,7 @@ static void put(struct dyn_network *n, int mass, double x, double y)
     n->state[mass] = (struct dyn_state){x, y, 0, 0};
 }
 
-/* Of the mass, which is let go. */
+/* Reports a twang of a released mass. */
 static void twang(struct dyn_network *n, int mass)
 {
     double most = TWANG_STRAIN;

@@ -1,13 +1,15 @@
-/* hand.h - what a hand does to a network: takes hold of masses, pulls them, tacks them, cuts springs.
+/* hand.h - a hand in a network: holds, pulls and tacks masses, and cuts springs.
  *
  *     int mass = dyn_network_nearest(network, x, y, 0.3);
  *     dyn_pull_begin(network, mass, x, y, 200);     // a light pull: a spring of the hand's own
  *     ... dyn_pull_move(network, mass, x, y) ...
  *     dyn_mass_tack(network, mass);                 // pressed harder: it stays, with a click
  *
- * Source: the thesis, section 2.1, which knows masses that a cursor holds and ones that stick.
+ * Source: the thesis, section 2.1, with masses that a cursor holds and masses that stick.
  *
- * Errors. BAD_ARGUMENT: no such mass or spring, or a place that is not a number within the field's range. */
+ * Errors. BAD_ARGUMENT: no such mass or spring, or a place that is not a number within the
+ * field's range.
+ */
 #ifndef LUTETIA_DYN_HAND_H
 #define LUTETIA_DYN_HAND_H
 
@@ -15,36 +17,39 @@
 
 enum { DYN_PULLS_MAX = 32 };
 
-/* Holds the mass at the point, at once; called again, moves it. It is still while it is held. */
+/* Holds the mass at the point, from now on; called again, moves it. A held mass does not
+ * move by itself. */
 enum dyn_status dyn_mass_hold(struct dyn_network *n, int mass, double x, double y);
-/* Lets go of a held mass: a twang, if one of its springs is strained by more than a fiftieth. */
+/* Releases a held mass: a twang, if one of its springs is strained by more than a fiftieth. */
 enum dyn_status dyn_mass_release(struct dyn_network *n, int mass);
 
-/* Pulls the mass to the point by a spring of that constant and no length, damped to a third of what is critical. A mass
- * has one pull: a second begin moves it. Errors: TOO_LARGE past DYN_PULLS_MAX. */
+/* Pulls the mass to the point by a spring of that constant and zero length, damped to a
+ * third of the critical damping. A mass has one pull: a second begin moves it. Errors:
+ * TOO_LARGE past DYN_PULLS_MAX. */
 enum dyn_status dyn_pull_begin(struct dyn_network *n, int mass, double x, double y,
                                double constant);
 enum dyn_status dyn_pull_move(struct dyn_network *n, int mass, double x, double y);
-/* A twang as for a release. */
+/* Ends the pull, with a twang as for a release. */
 enum dyn_status dyn_pull_end(struct dyn_network *n, int mass);
 
-/* Sticks the mass where it is: a click, unless it sticks already; a pull or hold on it ends. */
+/* Tacks the mass where it is: a click, unless it is tacked already; ends a pull or hold on
+ * it. */
 enum dyn_status dyn_mass_tack(struct dyn_network *n, int mass);
 /* Takes the tack out. */
 enum dyn_status dyn_mass_untack(struct dyn_network *n, int mass);
 
-/* Puts the mass there, at rest. */
+/* Moves the mass to the point, at rest. */
 enum dyn_status dyn_mass_place(struct dyn_network *n, int mass, double x, double y);
 
-/* Puts the mass there and tacks it: to shape a word. */
+/* Moves the mass to the point and tacks it: to shape a word. */
 enum dyn_status dyn_mass_clamp(struct dyn_network *n, int mass, double x, double y);
 
-/* Cuts the spring: a snap, unless it was broken. */
+/* Cuts the spring: a snap, unless it is broken already. */
 enum dyn_status dyn_spring_cut(struct dyn_network *n, int spring);
-/* Cuts all that the stroke from one point to the other crosses; *cut: how many. */
+/* Cuts all springs that the line between the two points crosses; *cut: how many. */
 enum dyn_status dyn_network_cut(struct dyn_network *n, double x0, double y0, double x1,
                                 double y1, int *cut);
-/* Gives both ends the speed across the spring, to opposite sides: a twang. */
+/* Gives both ends a velocity across the spring, in opposite directions: a twang. */
 enum dyn_status dyn_spring_pluck(struct dyn_network *n, int spring, double speed);
 
 #endif

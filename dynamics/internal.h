@@ -1,6 +1,6 @@
-/* internal.h - what the simulation's files share.
+/* internal.h - shared by the simulation's files.
  *
- * What the user set is kept apart from what a step reads:
+ * Parameters as set by the user are separate from those that a step reads:
  *
  *     mass_field[]   spring_field[]   world          as set: fields.c, network.c
  *          \              |             /
@@ -10,12 +10,15 @@
  *                         |
  *     state (x y vx vy of each mass)    force (fx fy of each mass)
  *
- * Parameters are structures of arrays, and vectors go along them. What a spring looks up of its ends is kept together: a mass's
- * state is 32 bytes, a force 16, so that an end is one load, and a force one load and store, where arrays of x, y, vx and
- * vy would be four. Vectors are turned from one form to the other in registers.
+ * Parameters are structures of arrays, read by vectors. States and forces are arrays of
+ * structures: a mass's state is 32 bytes, a force 16. So a spring reads the state of an end by
+ * one load, and adds a force by one load and store, where separate arrays of x, y, vx and vy
+ * would take four. Vectors are transposed between the two forms in registers.
  *
- * Arrays of masses are as long as a whole number of vectors of 8, and one mass more: number masses_count is nobody's, is fixed, and
- * is both ends of the springs that fill the last vector. */
+ * Arrays of masses are padded to a whole number of vectors of 8, with at least one dummy
+ * mass: number masses_count, which is fixed, and is both ends of the springs that pad the
+ * last vector.
+ */
 #ifndef LUTETIA_DYN_INTERNAL_H
 #define LUTETIA_DYN_INTERNAL_H
 
@@ -31,15 +34,15 @@
 
 #define DYN_SPEED_MAX 1e4
 #define DYN_TIME_MAX 1e12 /* s; of networks in files */
-#define DYN_EDGE 1e6      /* of the plane: masses bounce there */
+#define DYN_EDGE 1e6      /* edge of the plane: masses bounce there */
 
 /* Keeps the text for dyn_error() and returns the status. */
 extern _Thread_local struct error_text dyn_last_error;
 #define dyn_fail(status, ...)                                                                  \
     ((enum dyn_status)error_text_fail(&dyn_last_error, (int)(status), __VA_ARGS__))
 
-/* Makes room for count elements, aligned to 64 bytes, of an array with room for *capacity; what it holds stays. The room grows by
- * doubling. False: no memory, and all is as it was. */
+/* Makes room for count elements, aligned to 64 bytes, of an array with room for *capacity;
+ * its content stays. The room grows by doubling. False: no memory; nothing has changed. */
 bool dyn_array_reserve(void **array, size_t *capacity, size_t count, size_t element_bytes);
 
 /* ---- as set ---- */
@@ -72,11 +75,11 @@ struct dyn_pull {
     double x, y, constant, damping;
 };
 
-/* Of springs that are not broken; count is a multiple of 8. */
+/* The springs that are not broken; count is a multiple of 8. */
 struct dyn_packed {
     int32_t *end[2];
     double *k, *k_rest, *c, *limit; /* limit: the length at which it breaks */
-    int32_t *which;                 /* the spring's number; -1 of those that fill up */
+    int32_t *which;                 /* the spring's number; -1 for padding */
     int count;
 };
 
@@ -116,7 +119,7 @@ struct dyn_network {
     int events_first, events_count;
     long long events_lost;
     struct dyn_prepared prepared;
-    bool changed; /* what was prepared is no longer so */
+    bool changed; /* prepared parameters are out of date */
 };
 
 static inline double *dyn_mass_row(const struct dyn_network *n, int row)
@@ -129,33 +132,34 @@ static inline double *dyn_spring_row(const struct dyn_network *n, int row)
     return n->spring_field + (size_t)row * n->springs_capacity;
 }
 
-/* Masses with those that fill a vector up, and nobody's. */
+/* The number of masses including padding. */
 static inline size_t dyn_masses_padded(int count)
 {
     return ((size_t)count + 1 + 7) / 8 * 8;
 }
 
-/* prepare.c: makes what a step of dt_s reads, if something changed. Errors: NO_MEMORY. */
+/* prepare.c: computes the parameters that a step of dt_s reads, if something changed.
+ * Errors: NO_MEMORY. */
 enum dyn_status dyn_prepare(struct dyn_network *n, double dt_s);
 void dyn_prepared_finish(struct dyn_prepared *p);
 
-/* events.c: side, mass and spring as they are. */
+/* events.c: appends an event; side, mass and spring as given. */
 void dyn_event_add(struct dyn_network *n, struct dyn_event event);
-/* The spring breaks, strained as much as that, at that time. */
+/* Breaks the spring, with that strain, at that time. */
 void dyn_snap(struct dyn_network *n, int spring, double strain, double time_s);
 
-/* network.c: all that can be set, unchecked. */
+/* network.c: sets all parameters, unchecked. */
 void dyn_mass_put(struct dyn_network *n, int index, const struct dyn_mass *mass);
 void dyn_spring_put(struct dyn_network *n, int index, const struct dyn_spring *spring);
 
-/* hand.c: NULL: nobody pulls the mass. */
+/* hand.c: the mass's pull; NULL: none. */
 struct dyn_pull *dyn_pull_of(struct dyn_network *n, int mass);
 
-/* fields.c: whether the mass is there. */
+/* fields.c: checks that the mass exists. */
 enum dyn_status dyn_mass_check(const struct dyn_network *n, int mass);
 enum dyn_status dyn_spring_check(const struct dyn_network *n, int spring);
 
-/* step_thesis.c: one step; what it reads is prepared. */
+/* step_thesis.c: one step with the prepared parameters. */
 void dyn_thesis_step(struct dyn_network *n, double dt_s);
 
 /* ---- kernels ---- */
@@ -168,17 +172,16 @@ struct dyn_job {
     struct dyn_packed springs;
     double h, dt_s; /* of a part, of a step */
     double least_x, most_x, least_y,
-        most_y; /* where the sides are; infinities where there are none */
+        most_y; /* the places of the sides; infinite where there are none */
     double slow_speed, clank_speed, speed_limit;
-    bool verlet;      /* kick, keep and push are of half an h */
-    int parts, steps; /* as many parts in each of the steps */
-    bool
-        stop; /* after the step in which it was set; what is left of the steps stays in `steps` */
+    bool verlet;      /* kick, keep and push are for half of h */
+    int parts, steps; /* parts in each of the steps */
+    bool stop; /* stop after the step in which it was set; `steps` holds the remaining steps */
     double time_s; /* of the part's end */
     struct dyn_network *network;
     void (*on_clank)(struct dyn_job *job, int mass, enum dyn_side side, double speed);
     void (*on_snap)(struct dyn_job *job, int packed, double length);
-    void (*pull)(struct dyn_job *job); /* adds to forces; NULL: nobody pulls */
+    void (*pull)(struct dyn_job *job); /* adds pulls to the forces; NULL: no pulls */
 };
 
 void dyn_kernel_plain(struct dyn_job *job);

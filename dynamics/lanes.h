@@ -1,5 +1,5 @@
-/* lanes.h - LANES doubles side by side, for step_kernel.h: 8 (AVX-512), 4 (AVX2) or 1. Each function rounds as plain C
- * does, lane by lane. */
+/* lanes.h - vectors of LANES doubles, for step_kernel.h: 8 (AVX-512), 4 (AVX2) or 1. Each
+ * function rounds as plain C does, lane by lane. */
 #ifndef LUTETIA_DYN_LANES_H
 #define LUTETIA_DYN_LANES_H
 

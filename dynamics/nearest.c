@@ -1,4 +1,4 @@
-/* nearest.c - what is next to a point: see network.h. */
+/* nearest.c - the mass or spring nearest to a point: see network.h. */
 #include "internal.h"
 
 #include <math.h>

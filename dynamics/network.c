@@ -37,7 +37,7 @@ bool dyn_array_reserve(void **array, size_t *capacity, size_t count, size_t elem
     return true;
 }
 
-/* Rows that are one block: each begins elsewhere when the block grows. */
+/* Grows rows that are in one block: each row moves when the block grows. */
 static bool rows_reserve(double **rows, size_t *capacity, size_t count, int rows_count)
 {
     if (count <= *capacity)

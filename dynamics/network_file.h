@@ -1,4 +1,5 @@
-/* network_file.h - networks as text: written and read to the same bits. The format: docs/springs.md.
+/* network_file.h - networks as text; reading what was written gives the same bits. The format:
+ * docs/springs.md.
  *
  *     if (dyn_network_write(network, "word.springs") != DYN_OK)
  *         die(dyn_error());
@@ -6,7 +7,8 @@
  *     if (dyn_network_read("word.springs", &again) != DYN_OK)
  *         die(dyn_error());                      // word.springs:12: a spring cannot go from mass 3 to itself
  *
- * All that a network is goes with it, but for events that wait. */
+ * Everything is written except waiting events.
+ */
 #ifndef LUTETIA_DYN_NETWORK_FILE_H
 #define LUTETIA_DYN_NETWORK_FILE_H
 
@@ -14,19 +16,20 @@
 
 #include <stdio.h>
 
-/* Errors: BAD_FILE: the file cannot be read, or a line of it says what cannot be (with the file's name and the line's number);
- * TOO_LARGE, NO_MEMORY. *out is then NULL. */
+/* Errors: BAD_FILE: the file cannot be read, or a line is wrong (with the file's name and
+ * the line's number); TOO_LARGE, NO_MEMORY. *out is then NULL. */
 enum dyn_status dyn_network_read(const char *path, struct dyn_network **out);
 
-/* The same of a text in memory; name: what errors call it. */
+/* The same for a text in memory; name: used in errors. */
 enum dyn_status dyn_network_parse(const char *text, size_t bytes, const char *name,
                                   struct dyn_network **out);
 
-/* Errors: BAD_FILE: the file cannot be written; BAD_ARGUMENT: a mass is where no file can have it (the thesis's step
- * explodes). What had the name stays. */
+/* Errors: BAD_FILE: the file cannot be written; BAD_ARGUMENT: a mass's place is out of a
+ * file's range (the thesis's step explodes). An existing file stays. */
 enum dyn_status dyn_network_write(const struct dyn_network *n, const char *path);
 
-/* The same text to a stream, whose errors are the caller's to look for. Errors: BAD_ARGUMENT as above, before anything is written. */
+/* Prints the same text to a stream; the caller checks the stream for errors. Errors:
+ * BAD_ARGUMENT as above, before anything is written. */
 enum dyn_status dyn_network_print(const struct dyn_network *n, FILE *to);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* name=value. *seen: bits of those of the fields that the line has had. */
+/* Reads name=value. *seen: a bit for each field that the line has had. */
 static enum dyn_status field_read(struct dyn_reader *r, const struct dyn_control *fields,
                                   const struct dyn_control *(*find)(const char *), char *word,
                                   void *of, unsigned *seen)

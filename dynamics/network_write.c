@@ -6,7 +6,7 @@
 #include <output_file.h>
 #include <string.h>
 
-/* name=value of those that are not as usual. */
+/* Prints name=value for fields that differ from the usual value. */
 static void fields_print(FILE *to, const struct dyn_control *fields, int count, const void *of)
 {
     for (int i = 0; i < count; i++) {
@@ -44,7 +44,8 @@ static void spring_print(FILE *to, const struct dyn_spring *spring)
     fprintf(to, "spring %d %d", spring->end[0], spring->end[1]);
     fields_print(to, dyn_spring_fields, dyn_spring_fields_count, spring);
     if (spring->rest_length == dyn_spring_field_find("rest_length")->usual)
-        fprintf(to, " rest_length=%g", spring->rest_length); /* without it, it is as placed */
+        fprintf(to, " rest_length=%g", spring->rest_length); /* the default is the distance
+                                                              * of the ends */
     fputs(spring->broken ? " broken\n" : "\n", to);
 }
 

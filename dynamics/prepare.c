@@ -1,4 +1,5 @@
-/* prepare.c - what a step reads, from what was set: see internal.h and step.h. */
+/* prepare.c - computes the parameters that a step reads from those that were set: see
+ * internal.h and step.h. */
 #include "internal.h"
 
 #include <math.h>
@@ -7,11 +8,11 @@
 
 enum { MASS_ROWS = 10, SPRING_ROWS = 4, SPRING_NUMBERS = 3 };
 
-/* Of masses, beside what the kernels read. */
+/* For each mass, values that the kernels do not read. */
 struct sums {
-    double *inverse;             /* 1/m; 0 of those that are fixed */
+    double *inverse;             /* 1/m; 0 if the mass is fixed */
     double *stiffness, *damping; /* K and C of step.h */
-    double *soft;                /* what of its springs' strength it bears */
+    double *soft;                /* the factor by which its springs must be softened */
 };
 
 void dyn_prepared_finish(struct dyn_prepared *p)
@@ -125,7 +126,7 @@ static double stable_part(const struct dyn_network *n, const struct sums *sums)
     return least;
 }
 
-/* Springs on masses that ask for more parts than there are: as strong as those can bear. */
+/* Softens springs on masses that would need more parts than the maximum. */
 static int soften(struct dyn_network *n, const struct sums *sums, double h)
 {
     struct dyn_packed *s = &n->prepared.springs;

@@ -88,7 +88,8 @@ static enum dyn_status line_read(struct dyn_reader *r, const struct dyn_reader_l
     return more ? dyn_reader_fail(r, "'%.40s' is one word too many", more) : status;
 }
 
-/* Copies a line, without what ends it, into r->text. Returns where the next one begins; NULL: it is no line of text. */
+/* Copies a line, without its end, into r->text. Returns where the next line begins; NULL: it
+ * is not text. */
 static const char *line_take(struct dyn_reader *r, const char *text, const char *end)
 {
     const char *newline = memchr(text, '\n', (size_t)(end - text));

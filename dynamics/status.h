@@ -1,17 +1,18 @@
-/* status.h - what can go wrong in the simulation.
+/* status.h - the simulation's errors.
  *
  *     if (dyn_network_create(&network) != DYN_OK)
  *         die(dyn_error());
  *
- * Threads. dyn_error() belongs to the thread that failed. */
+ * Threads. dyn_error() belongs to the thread that failed.
+ */
 #ifndef LUTETIA_DYN_STATUS_H
 #define LUTETIA_DYN_STATUS_H
 
 enum dyn_status {
     DYN_OK = 0,
-    DYN_BAD_ARGUMENT, /* a number, name or index that cannot be */
-    DYN_BAD_FILE,     /* a network that cannot be read, or a file that cannot be written */
-    DYN_TOO_LARGE,    /* beyond the limits in network.h */
+    DYN_BAD_ARGUMENT, /* a number, name or index that is invalid */
+    DYN_BAD_FILE,     /* a file that cannot be read or written, or is malformed */
+    DYN_TOO_LARGE,    /* exceeds the limits in network.h */
     DYN_NO_MEMORY
 };
 

@@ -2,9 +2,11 @@
  *     LANES    doubles in a vector: 1, 4 or 8
  *     KERNEL   the function's name
  *
- * A part of a step is two passes: along the springs, whose forces are added to their ends, and along the masses, which are moved and
- * meet the sides. Formulas: step.h. All instruction sets do the same operations in the same order, none fused, so that
- * the bits are the same. */
+ * A part of a step is two passes: over the springs, whose forces are added to their ends,
+ * and over the masses, which are moved and reflected at the sides. Formulas: step.h. All
+ * instruction sets do the same operations in the same order, none fused, so that the bits
+ * are the same.
+ */
 #include "turn.h"
 
 #include <string.h>
@@ -35,13 +37,15 @@ INLINE void springs_pass(struct dyn_job *job)
     }
 }
 
-/* Bounces that are to be told, of LANES masses: told mass by mass, whatever LANES is. */
+/* Bounces to report, of LANES masses: reported mass by mass, so that the order does not
+ * depend on LANES. */
 struct heard {
     unsigned any, of_side[DYN_RIGHT + 1];
     double speed[DYN_RIGHT + 1][LANES];
 };
 
-/* One side: p is the place across it and v the speed, t the speed along it. inwards: 1 where p grows inwards, else -1. */
+/* Reflects at one side: p is the place across it and v the velocity, t the velocity along
+ * it. inwards: 1 if p grows inwards, else -1. */
 INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
                       lanes *p, lanes *v, lanes *t, struct heard *heard)
 {
@@ -90,7 +94,8 @@ static void clanks_tell(struct dyn_job *job, int i, const struct heard *heard)
     }
 }
 
-/* Forces to speeds; and, where `moves`, speeds to places, and forces to 0. */
+/* Computes velocities from forces; if `moves`, also places from velocities, and sets forces
+ * to 0. */
 INLINE void masses_pass(struct dyn_job *job, bool moves)
 {
     const lanes limit = lanes_all(job->speed_limit), h = lanes_all(job->h);

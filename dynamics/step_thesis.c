@@ -1,8 +1,10 @@
 /* step_thesis.c - the thesis's step. Source: its appendix 7.1; see docs/springs.md.
  *
- * Each operation is in the order of the listing, in doubles, so that results are the same to the bit. The listing takes a spring's
- * angle and length as given; here they are those of the line from the second end to the first, so that its signs
- * pull where the spring is too long. */
+ * Each operation is in the order of the listing, in doubles, so that results are the same to
+ * the bit. The listing takes a spring's angle and length as given. Here they are those of
+ * the line from the second end to the first; with the listing's signs, a spring that is too
+ * long then pulls.
+ */
 #include "internal.h"
 
 #include <math.h>
@@ -33,7 +35,7 @@ static void forces_of_springs(struct dyn_network *n)
     }
 }
 
-/* The floor's share: the speed is reversed where it goes down. */
+/* The floor: reverses the velocity of a mass that moves down. */
 static void floor_meet(struct dyn_network *n, int i)
 {
     const struct dyn_world *w = &n->world;

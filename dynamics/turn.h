@@ -1,7 +1,9 @@
-/* turn.h - states and forces, which lie together mass by mass, as lanes and back: for step_kernel.h.
+/* turn.h - transposes states and forces, which are stored mass by mass, to lanes and back: for
+ * step_kernel.h.
  *
  *     memory      x0 y0 vx0 vy0   x1 y1 vx1 vy1   ...          fx0 fy0   fx1 fy1   ...
- *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0 fy1 ... */
+ *     lanes       x0 x1 ...   y0 y1 ...   vx0 vx1 ...   vy0 vy1 ...        fx0 fx1 ...   fy0 fy1 ...
+ */
 #ifndef LUTETIA_DYN_TURN_H
 #define LUTETIA_DYN_TURN_H
 
@@ -172,8 +174,8 @@ INLINE void forces_clear(struct dyn_force *force)
 
 #endif
 
-/* To the first ends the forces, from the second ones: a spring after the other, so that masses with several have theirs
- * added in the springs' order whatever LANES is. */
+/* Adds forces to the first ends and subtracts them from the second, one spring after the
+ * other, so that the order of a mass's forces does not depend on LANES. */
 #if LANES > 1
 
 INLINE void force_pass(struct dyn_force *force, int a, int b, __m128d f)

@@ -22,7 +22,7 @@ static CM_field_id_t real_field(void)
     return CM_allocate_heap_field(REAL_BITS);
 }
 
-/* A field of the current set from an array of doubles. */
+/* Makes a field of the current set from an array of doubles. */
 static CM_field_id_t real_of(const double *values, int count)
 {
     CM_field_id_t field = real_field();
@@ -74,7 +74,7 @@ static void masses_make(struct dyn_masses *m, const struct dyn_network *n, doubl
     m->friction = real_of(p->friction, m->count);
 }
 
-/* Springs that fill up a vector are left out: they are last. */
+/* The number of springs without padding, which is at the end. */
 static int springs_in(const struct dyn_packed *packed)
 {
     int count = packed->count;

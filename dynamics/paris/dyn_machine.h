@@ -1,4 +1,5 @@
-/* dyn_machine.h - large networks as a program in C/Paris: a processor for each mass and one for each spring.
+/* dyn_machine.h - large networks as a program in C/Paris: a processor for each mass and one for
+ * each spring.
  *
  *     struct dyn_machine *machine;
  *     if (dyn_machine_create(network, 1.0 / 240, &machine) != DYN_OK || dyn_machine_step(machine, 240) != DYN_OK ||
@@ -12,9 +13,10 @@
  * which a mass's forces are added (first those of springs whose first end it is); at the edge of the plane, where there is no
  * side, masses stop and do not bounce; nothing is heard.
  *
- * The network's parameters are copied when it is made; later changes of them are not seen.
+ * The network's parameters are copied at creation; later changes have no effect.
  *
- * Threads. Paris's calls belong to one thread, and so do these. */
+ * Threads. All calls of Paris and of this header are made by one thread.
+ */
 #ifndef LUTETIA_DYN_MACHINE_H
 #define LUTETIA_DYN_MACHINE_H
 
@@ -22,20 +24,22 @@
 
 struct dyn_machine;
 
-/* Errors: BAD_ARGUMENT (no masses or no springs; another integrator than symplectic; a hand pulls; dt_s as in step.h), NO_MEMORY,
- * and BAD_FILE never: what the machine says, too, is BAD_ARGUMENT, with its words. */
+/* Errors: BAD_ARGUMENT (no masses or no springs; another integrator than symplectic; a hand
+ * pulls; dt_s as in step.h), NO_MEMORY. Errors of the machine are BAD_ARGUMENT, too, with
+ * the machine's message. */
 enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s,
                                    struct dyn_machine **out);
 void dyn_machine_destroy(struct dyn_machine *m); /* NULL is fine */
 
-/* Asks for so many steps; the machine computes them when they are looked at. Errors: what the machine says. */
+/* Requests that many steps; the machine computes them when they are observed. Errors: those
+ * of the machine. */
 enum dyn_status dyn_machine_step(struct dyn_machine *m, int count);
 
-/* Waits until all that was asked for is computed. Errors: what the machine says. */
+/* Waits until all steps are computed. Errors: those of the machine. */
 enum dyn_status dyn_machine_finish(struct dyn_machine *m);
 
-/* Puts states and broken springs into a network like the one it was made of, and its time on. Errors: what the machine says,
- * NO_MEMORY, BAD_ARGUMENT: the network has other counts. */
+/* Copies states, broken springs and the time to a network like the one at creation. Errors:
+ * those of the machine, NO_MEMORY, BAD_ARGUMENT: the network has other counts. */
 enum dyn_status dyn_machine_read(struct dyn_machine *m, struct dyn_network *n);
 
 #endif

@@ -154,7 +154,7 @@ static void speeds_change(const struct dyn_machine *machine)
     CM_deallocate_stack_through(way);
 }
 
-/* One side across an axis; inwards: 1 where places grow inwards, else -1. */
+/* Reflects masses at one side of an axis; inwards: 1 if coordinates grow inwards, else -1. */
 static void side_meet(const struct dyn_machine *machine, int axis, double bound, int inwards)
 {
     const struct dyn_masses *m = &machine->masses;

@@ -1,4 +1,4 @@
-/* dyn_machine_program.h - the program's fields: dyn_machine.c, dyn_machine_program.c. */
+/* dyn_machine_program.h - the program's fields, for dyn_machine.c and dyn_machine_program.c. */
 #ifndef LUTETIA_DYN_MACHINE_PROGRAM_H
 #define LUTETIA_DYN_MACHINE_PROGRAM_H
 
@@ -51,7 +51,7 @@ struct dyn_machine {
     double dt_s;
     int32_t *which;            /* of each spring: its number in the network */
     int of_masses, of_springs; /* the network's counts */
-    int steps;                 /* made since the network's time was read */
+    int steps;                 /* steps since the network's time was read */
 };
 
 /* dyn_machine_program.c: one part of a step. */

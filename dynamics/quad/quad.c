@@ -10,7 +10,8 @@ static double triangle(const double a[2], const double b[2], const double c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
 }
 
-/* t_i of quad.h, over the greatest of them, with the quad's sense as positive. Returns the condition; 0: no quad at all. */
+/* t_i of quad.h divided by the greatest of them, with the quad's orientation as positive.
+ * Returns the condition; 0: no quad at all. */
 static double weights(const double q[4][2], double t[4])
 {
     t[0] = triangle(q[1], q[2], q[3]);
@@ -121,13 +122,14 @@ void dyn_quad_coefficients(const struct dyn_quad_map *map, double c[3][4])
     }
 }
 
-/* How far outside of the square; 0 within. */
+/* The distance outside of the square; 0 within. */
 static double outside(double u, double v)
 {
     return fmax(fmax(fmax(-u, u - 1), fmax(-v, v - 1)), 0);
 }
 
-/* One of the solutions, if it is better than the best so far: v is known, u is from the equation in which it counts more. */
+/* Tries a solution, which replaces the best so far if it is better: v is known; u comes from
+ * the equation in which it has the larger coefficient. */
 static void solution(const struct dyn_quad_map *map, const double e[2][4], double v,
                      double *best, double *to_u, double *to_v)
 {
@@ -142,7 +144,8 @@ static void solution(const struct dyn_quad_map *map, const double e[2][4], doubl
     }
 }
 
-/* Two equations, e[k] = (x w) - x w = 0, of the form a + b u + c v + d u v: without u they are a quadratic one of v. */
+/* Two equations, e[k] = (x w) - x w = 0, of the form a + b u + c v + d u v. Eliminating u
+ * gives a quadratic equation in v. */
 bool dyn_quad_inverse(const struct dyn_quad_map *map, double x, double y, double *u, double *v)
 {
     double c[3][4], e[2][4], best = INFINITY;

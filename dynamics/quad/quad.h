@@ -1,4 +1,4 @@
-/* quad.h - the unit square onto four corners, and back.
+/* quad.h - maps the unit square onto four corners, and back.
  *
  *     const double corners[4][2] = {{0, 0}, {2, 0}, {2.5, 1}, {0, 1}};
  *     struct dyn_quad_map map;
@@ -8,7 +8,8 @@
  *     if (dyn_quad_inverse(&map, x, y, &u, &v) && u >= 0 && u <= 1 && v >= 0 && v <= 1)
  *         ...                                           // (x, y) is in the letter
  *
- * Corners go round: (0, 0), (1, 0), (1, 1), (0, 1) of the square come to lie in them, in either sense.
+ * Corners go round: (0, 0), (1, 0), (1, 1), (0, 1) of the square come to lie in them, in either
+ * sense.
  *
  * A point is the corners' mean, with Bernstein's weights times one number for each corner:
  *     p (u, v) = sum of B_i w_i q_i / sum of B_i w_i,    B = (1-u)(1-v), u (1-v), u v, (1-u) v
@@ -21,10 +22,12 @@
  *   Bilinear: w_i is 1. It exists for any corners.
  *   Smooth: w_i goes from one to the other with the condition.
  *
- * The condition is the least t_i over the greatest, where the quad's own sense counts as positive: 1 a parallelogram, 0 three
- * corners in a line or less than a quad, negative a dent or sides that cross. Smooth is projective at and above
- * DYN_QUAD_PROJECTIVE_FROM, bilinear at and below DYN_QUAD_BILINEAR_TO, and the share goes as a smoothstep between them: points and
- * their speeds are continuous while corners move. */
+ * The condition is the least t_i over the greatest, where the quad's own sense counts as
+ * positive: 1 a parallelogram, 0 three corners in a line or less than a quad, negative a
+ * dent or sides that cross. Smooth is projective at and above DYN_QUAD_PROJECTIVE_FROM,
+ * bilinear at and below DYN_QUAD_BILINEAR_TO, and the share goes as a smoothstep between
+ * them: points and their speeds are continuous while corners move.
+ */
 #ifndef LUTETIA_DYN_QUAD_H
 #define LUTETIA_DYN_QUAD_H
 
@@ -36,13 +39,13 @@ enum dyn_quad_kind { DYN_QUAD_PROJECTIVE, DYN_QUAD_BILINEAR, DYN_QUAD_SMOOTH };
 #define DYN_QUAD_BILINEAR_TO 0.02
 
 struct dyn_quad_map {
-    enum dyn_quad_kind kind; /* what it is: SMOOTH only where it is neither of the others */
+    enum dyn_quad_kind kind; /* the map's kind: SMOOTH only if it is neither of the others */
     double corner[4][2];
     double weight[4];      /* the greatest t_i is 1 */
-    double condition, mix; /* mix: the share of 1 in the weights */
+    double condition, mix; /* mix: the weights' share of 1 */
 };
 
-/* -1..1; 0 where a corner is no finite number. */
+/* -1..1; 0 if a corner is not finite. */
 double dyn_quad_condition(const double corners[4][2]);
 
 /* False: a corner is not finite, or PROJECTIVE is asked for and the quad is not strictly convex. */
@@ -54,8 +57,8 @@ bool dyn_quad_make(struct dyn_quad_map *map, enum dyn_quad_kind kind,
 bool dyn_quad_point(const struct dyn_quad_map *map, double u, double v, double *x, double *y,
                     double jacobian[4]);
 
-/* A point of the plane that is mapped there: of several, one within the square if there is one. False: there is none, or none is
- * found. */
+/* Finds a point of the plane that is mapped to (x, y): of several, one within the square if
+ * there is one. False: none was found. */
 bool dyn_quad_inverse(const struct dyn_quad_map *map, double x, double y, double *u, double *v);
 
 /* As polynomials: x w, y w and w are c[.][0] + c[.][1] u + c[.][2] v + c[.][3] u v. The last are 0 for w where the kind is

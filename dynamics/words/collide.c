@@ -9,7 +9,7 @@
 
 #define PUSH 0.5        /* of the depth, each time */
 enum { ROUNDS = 4 };    /* a letter between others is pushed by all of them */
-#define SLOW_SPEED 0.25 /* approaches that do not bounce, units/s */
+#define SLOW_SPEED 0.25 /* approaching speeds below this do not bounce, units/s */
 
 struct body {
     const struct dyn_word *word;
@@ -18,7 +18,8 @@ struct body {
     double corner[4][2];
 };
 
-/* One side's view of another box: how far the box's deepest corner is in front of it, negative behind. */
+/* Another box as seen from one side: how far the box's deepest corner is in front of the
+ * side, negative behind. */
 struct touch {
     double apart, nx, ny; /* the normal points out of the side's own box */
     int side, corner;
@@ -52,7 +53,7 @@ static int by_x(const void *a, const void *b)
     return p->letter - q->letter;
 }
 
-/* Whether letters that are linked are left alone. */
+/* Whether the letters are linked, and so do not collide. */
 static bool are_linked(const struct dyn_network *n, const struct body *a, const struct body *b)
 {
     int first = a->letter < b->letter ? a->letter : b->letter;
@@ -63,7 +64,7 @@ static bool are_linked(const struct dyn_network *n, const struct body *a, const 
     return link[0] >= 0 && (!n->broken[link[0]] || !n->broken[link[1]]);
 }
 
-/* The side of a that is least behind which b lies. */
+/* Finds the side of a behind which b lies least deep. */
 static struct touch sides_look(const struct body *a, const struct body *b)
 {
     struct touch best = {.apart = -INFINITY};
@@ -84,7 +85,7 @@ static struct touch sides_look(const struct body *a, const struct body *b)
     return best;
 }
 
-/* A corner and the side that it is behind: three masses, how much each moves for the corner's sake. */
+/* A corner and the side that it is behind: three masses, and the weights by which they move. */
 struct contact {
     struct dyn_state *state[3];
     double part[3], inverse[3];
@@ -112,7 +113,7 @@ static struct contact contact_make(struct dyn_network *n, const struct body *a,
     return c;
 }
 
-/* How fast the corner moves against the side, along (x, y). */
+/* The velocity of the corner relative to the side, along (x, y). */
 static double speed_along(const struct contact *c, double x, double y)
 {
     double speed = 0;
@@ -152,7 +153,7 @@ static void push(struct dyn_network *n, const struct body *a, const struct body 
     speeds_change(&c, -y, x, -fmax(fmin(along / give, most), -most));
 }
 
-/* False: they do not touch. */
+/* Separates a pair. False: they do not touch. */
 static bool pair_meet(struct dyn_network *n, const struct body *a, const struct body *b)
 {
     if (a->y1 <= b->y0 || b->y1 <= a->y0 || are_linked(n, a, b))
@@ -167,7 +168,7 @@ static bool pair_meet(struct dyn_network *n, const struct body *a, const struct 
     return true;
 }
 
-/* All letters as they are now, from left to right. Returns how many can touch. */
+/* Collects all letters as they are now, from left to right. Returns how many can collide. */
 static int bodies_make(const struct dyn_network *n, const struct dyn_word *const *words,
                        int words_count, struct body *bodies)
 {

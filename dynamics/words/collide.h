@@ -5,14 +5,17 @@
  *         dyn_words_collide(network, words, 2, &contacts);
  *     }
  *
- * Two letters whose boxes overlap touch at the side through which the way out is shortest (separating axes), with the corner that is
- * deepest behind it. The corner and the side's two ends are moved apart, as their masses and the corner's place along the
- * side say, by half of the depth; and where they still approach each other their speeds are changed as in a bounce, with the world's restitution and
- * friction. All
- * that is done four times, while any touch. Momentum is kept. Letters that are linked to each other are left alone while a link of theirs holds if
- * their boxes are of ink, for kerned ink overlaps at rest. A box that is not strictly convex touches nothing.
+ * Two letters whose boxes overlap are in contact at the side with the shortest way out
+ * (separating axes), with the corner that is deepest behind it. The corner and the side's two
+ * ends are moved apart by half of the depth, in proportions given by their masses and the
+ * corner's place along the side. If they still approach each other, they bounce, with the
+ * world's restitution and friction. This is repeated up to four times, while any letters touch.
+ * Momentum is conserved. Linked letters with boxes of ink do not collide while a link holds,
+ * because kerned ink overlaps at rest. A box that is not strictly convex does not collide.
  *
- * Source: Erin Catto, Fast and simple physics using sequential impulses, 2006, for the bounce. */
+ * Source: Erin Catto, Fast and simple physics using sequential impulses, 2006, for the
+ * bounce.
+ */
 #ifndef LUTETIA_DYN_COLLIDE_H
 #define LUTETIA_DYN_COLLIDE_H
 

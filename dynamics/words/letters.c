@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LAYOUT_PX = 100 }; /* the size of the layout; nothing is rounded to pixels */
+enum { LAYOUT_PX = 100 }; /* the size of the layout; positions are not rounded to pixels */
 #define SIDE_LEAST 0.06   /* of a box, of an em */
-#define MARGIN_MOST 0.25  /* of an advance, on each side */
+#define MARGIN_MOST 0.25  /* as a part of the advance, on each side */
 
-/* Of the capital M: how high it is, and how much white its sides have, of an em. */
+/* The capital M: its height, and the white space at its sides, in ems. */
 struct capital {
     double y0, y1, margin;
 };
@@ -62,7 +62,7 @@ static void box_make(struct dyn_letter *letter, const struct font_outline *outli
     at_least(&letter->y0, &letter->y1, SIDE_LEAST * def->size);
 }
 
-/* A glyph without ink is no letter: a space. */
+/* A glyph without ink, such as a space, is no letter. */
 static enum dyn_status letter_add(struct dyn_word *word, const struct dyn_word_def *def,
                                   const struct font_placed *placed, struct dyn_place *places)
 {

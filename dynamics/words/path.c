@@ -1,4 +1,4 @@
-/* path.c - what baselines go along: see word.h and word_internal.h. */
+/* path.c - paths for baselines: see word.h and word_internal.h. */
 #include "word_internal.h"
 
 #include <math.h>
@@ -49,6 +49,6 @@ struct dyn_place dyn_path_place(const struct dyn_path *path, double x, double y)
     const double *a = path->points[i - 1], *b = path->points[i];
     double length = path->at[i] - path->at[i - 1];
     double ux = (b[0] - a[0]) / length, uy = (b[1] - a[1]) / length;
-    double along = x - path->at[i - 1]; /* beyond an end it goes straight on */
+    double along = x - path->at[i - 1]; /* straight on beyond an end */
     return (struct dyn_place){a[0] + ux * along - uy * y, a[1] + uy * along + ux * y};
 }

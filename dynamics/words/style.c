@@ -1,4 +1,4 @@
-/* style.c - what can be adjusted of a word, and the presets: see word.h. */
+/* style.c - the parameters of words, and the presets: see word.h. */
 #include "word.h"
 #include "word_internal.h"
 

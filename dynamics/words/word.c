@@ -30,7 +30,8 @@ static struct dyn_spring spring_of(const struct dyn_word_style *style, enum dyn_
     double breaking = part == DYN_SIDE || part == DYN_DIAGONAL ? style->letter_breaking
                                                                : style->link_breaking;
     double k = constants[part],
-           both = style->letter_mass / 4 / 2; /* two equal masses swing as half of one */
+           both = style->letter_mass / 4 / 2; /* two equal masses oscillate with the reduced
+                                               * mass, a half */
     struct dyn_spring spring = dyn_spring_usual();
     spring.constant = k;
     spring.damping = 2 * style->damping_ratio * sqrt(k * both);
@@ -66,7 +67,7 @@ static enum dyn_status box_springs(struct dyn_word *word, struct dyn_network *n,
     return status;
 }
 
-/* The lower corner of the word's letters in that line that is next to the mass; -1: it has none. */
+/* The lower corner of the word's letters in that line that is nearest to the mass; -1: none. */
 static int lower_corner(const struct dyn_word *word, const struct dyn_network *n, int line,
                         int mass)
 {
@@ -85,7 +86,7 @@ static int lower_corner(const struct dyn_word *word, const struct dyn_network *n
     return next;
 }
 
-/* Lines that have letters, from the top: a line may be empty. */
+/* The nearest line above that has letters: a line may be empty. */
 static int line_above(const struct dyn_word *word, int line)
 {
     int above = -1;

@@ -15,21 +15,24 @@
  *     }
  *     dyn_word_destroy(word);
  *
- * Text is shaped and broken into lines by fontpipe; each glyph that has ink is a letter: four masses at its box's corners, springs
- * along its sides and diagonals, and a pair of springs to the next letter of its line. Lines hang from each other:
+ * Text is shaped and broken into lines by fontpipe; each glyph that has ink is a letter: four
+ * masses at its box's corners, springs along its sides and diagonals, and a pair of springs to
+ * the next letter of its line. Lines hang from each other:
  *
  *       3-------2 ~~~~ 3-------2          0 1 2 3   masses of a letter: its box's corners, as numbered in a quad
  *       | \   / |      |       |          - | \     sides and diagonals
  *       |   X   |      |       |          ~         links, with the real advance and kerning between
- *       | /   \ |      |       |          :         what a line hangs from
+ *       | /   \ |      |       |          :         springs on which a line hangs
  *       0-------1 ~~~~ 0-------1
  *         :   :          :
  *       3-------2 ~~~~ ...
  *
- * A word's masses and springs are in a row in the network, to which they belong; a network may have many words, and other
- * things. All springs are at rest where the letters are put, along a path or straight.
+ * A word's masses and springs are contiguous in the network, which owns them; a network may
+ * have many words, and other masses. All springs are at rest where the letters are put,
+ * straight or along a path.
  *
- * Source: the thesis, section 2.3. */
+ * Source: the thesis, section 2.3.
+ */
 #ifndef LUTETIA_DYN_WORD_H
 #define LUTETIA_DYN_WORD_H
 
@@ -43,14 +46,15 @@ enum dyn_box { DYN_BOX_EM, DYN_BOX_INK };
  * the first line; all lower ones of the last line. */
 enum dyn_tack { DYN_TACK_NONE, DYN_TACK_FIRST, DYN_TACK_ENDS, DYN_TACK_TOP, DYN_TACK_BOTTOM };
 
-/* Doubles all, for the table's sake. */
+/* All members are doubles, so that the table can describe them. */
 struct dyn_word_style {
     double letter_mass;                /* kg; each corner has a quarter */
     double side, diagonal, link, hang; /* springs' constants, kg/s2 */
-    double damping_ratio;              /* of each spring with its masses alone: 1 is critical */
+    double damping_ratio;              /* for each spring alone with its masses: 1 is
+                                        * critical */
     double letter_breaking; /* breaking strain of sides and diagonals; 0: they never break */
-    double link_breaking;   /* of links and what lines hang from */
-    double box, tack;       /* enum dyn_box, enum dyn_tack: when a word is made */
+    double link_breaking;   /* for links and for springs between lines */
+    double box, tack;       /* enum dyn_box, enum dyn_tack: used when a word is made */
 };
 
 extern const struct dyn_control dyn_word_controls[]; /* the rows of struct dyn_word_style */
@@ -65,66 +69,69 @@ struct dyn_preset {
 extern const struct dyn_preset dyn_presets[];
 extern const int dyn_presets_count;
 
-/* Sets what the preset sets; the rest of the style is as usual, of the world as it was. Errors: BAD_ARGUMENT: there is none of that
- * name, and dyn_error() tells which there are. */
+/* Sets the preset's controls; other controls of the style get their usual values, others of
+ * the world stay. Errors: BAD_ARGUMENT: there is no preset of that name, and dyn_error()
+ * lists the names. */
 enum dyn_status dyn_preset_apply(const char *name, struct dyn_word_style *style,
                                  struct dyn_world *world);
 
 struct dyn_word_def {
     const char *text;           /* UTF-8, ended by a 0 */
     struct font_shaper *shaper; /* borrowed; its faces must outlive the word */
-    double size;                /* of an em, in units: 0.01..1000 */
+    double size;                /* size of an em, in units: 0.01..1000 */
     double x, y;                /* where the first baseline begins */
-    double width; /* of the column that lines are broken for; 0: only at newlines */
+    double width; /* width of the column to which lines are broken; 0: only at newlines */
     enum font_align align;
-    const char *features; /* as font_text_options has them; NULL is fine */
-    const double (*path)
-        [2]; /* points that a line's baseline goes along, instead of (x, y); further lines stand under it */
+    const char *features; /* as in font_text_options; NULL is fine */
+    const double (
+        *path)[2]; /* points of a path for the first baseline, in place of (x, y); further lines
+              * are below it */
     int path_count; /* 0: straight */
     struct dyn_word_style style;
 };
 struct dyn_word_def dyn_word_def_usual(void);
 
-/* A circle for a path, clockwise from so many degrees on (90: its top), a whole round. */
+/* A circle as a path, clockwise from that angle in degrees (90: its top), once round. */
 void dyn_path_circle(double x, double y, double radius, double from_degrees,
                      double (*points)[2], int count);
 
 struct dyn_word;
 
-/* Errors: BAD_ARGUMENT (a text without ink or that cannot be shaped, a number outside of its range, a path without a length), TOO_LARGE,
- * NO_MEMORY; the network is as it was. */
+/* Errors: BAD_ARGUMENT (a text without ink or that cannot be shaped, a number outside of its
+ * range, a path without a length), TOO_LARGE, NO_MEMORY; the network is unchanged. */
 enum dyn_status dyn_word_create(struct dyn_network *n, const struct dyn_word_def *def,
                                 struct dyn_word **out);
-void dyn_word_destroy(struct dyn_word *word); /* NULL is fine; masses and springs stay */
+void dyn_word_destroy(struct dyn_word *word); /* NULL is fine; masses and springs stay in the
+                                               * network */
 
 struct dyn_letter {
     struct font_face *face;
     uint32_t glyph;
     double size; /* of an em, in units */
     double x0, y0, x1,
-        y1; /* its box in the glyph's own plane: units from its origin, y upwards */
-    int link
-        [2]; /* springs to the next letter of its line, below and above; -1: it is the last */
+        y1;      /* the box in the glyph's own coordinates: units from its origin, y upwards */
+    int link[2]; /* springs to the next letter of its line, below and above; -1: last letter */
     int mass[4]; /* lower left, lower right, upper right, upper left */
-    int cluster; /* byte of the text that it comes from */
+    int cluster; /* byte offset of its character in the text */
     int line;
 };
 
 int dyn_word_letters_count(const struct dyn_word *word);
 const struct dyn_letter *dyn_word_letter(const struct dyn_word *word, int index);
 
-/* Where the letter's corners are, in the order of its masses. */
+/* The places of the letter's corners, in the order of its masses. */
 void dyn_word_quad(const struct dyn_word *word, const struct dyn_network *n, int index,
                    double corners[4][2]);
 
-/* The letter whose box has the point in it: of several the last, which is drawn above the others; -1: none. (u, v): where in the box;
- * NULL is fine. */
+/* The letter whose box contains the point: of several the last, which is drawn on top; -1:
+ * none. (u, v): the place in the box; NULL is fine. */
 int dyn_word_letter_at(const struct dyn_word *word, const struct dyn_network *n, double x,
                        double y, double uv[2]);
 
 enum dyn_part { DYN_SIDE, DYN_DIAGONAL, DYN_LINK, DYN_HANG };
 
-/* The word's springs and masses in the network: from the first so many. What a spring is: index from 0 on. */
+/* The word's springs and masses in the network: first number and count. The kind of a
+ * spring: index from 0 on. */
 struct dyn_word_range {
     int first_mass, masses_count, first_spring, springs_count;
 };
@@ -132,13 +139,14 @@ struct dyn_word_range dyn_word_range(const struct dyn_word *word);
 enum dyn_part dyn_word_part(const struct dyn_word *word, int index);
 
 struct dyn_word_style dyn_word_style_get(const struct dyn_word *word);
-/* Gives masses and springs that style; box and tacks stay. Errors: BAD_ARGUMENT. */
+/* Applies the style to the word's masses and springs; box and tacks stay. Errors:
+ * BAD_ARGUMENT. */
 enum dyn_status dyn_word_style_set(struct dyn_word *word, struct dyn_network *n,
                                    const struct dyn_word_style *style);
 
-/* Hangs the first line of one word from the last line of another, by springs of the lower one's style: each upper corner from the
- * lower corner that is next to it. *first: the number of the first spring; *count: how many. Errors: TOO_LARGE, NO_MEMORY;
- * the network is as it was. */
+/* Hangs the first line of one word from the last line of another, by springs of the lower
+ * one's style: each upper corner from the nearest lower corner. *first: the number of the
+ * first spring; *count: how many. Errors: TOO_LARGE, NO_MEMORY; the network is unchanged. */
 enum dyn_status dyn_words_hang(struct dyn_network *n, const struct dyn_word *upper,
                                const struct dyn_word *lower, int *first, int *count);
 

@@ -1,4 +1,4 @@
-/* word_internal.h - what the files of springy words share. */
+/* word_internal.h - shared by the files of springy words. */
 #ifndef LUTETIA_DYN_WORD_INTERNAL_H
 #define LUTETIA_DYN_WORD_INTERNAL_H
 
@@ -15,19 +15,20 @@ struct dyn_word {
     int parts_capacity;
 };
 
-/* letters.c: the letters of the text, with their boxes; their masses are not there yet. place: of each letter's origin, in units
- * from where the first baseline begins, y upwards; owns: the caller frees it. */
+/* letters.c: makes the letters of the text, with their boxes, without masses. place: each
+ * letter's origin, in units from the beginning of the first baseline, y upwards; the caller
+ * frees it. */
 struct dyn_place {
     double x, y;
 };
 enum dyn_status dyn_letters_make(struct dyn_word *word, const struct dyn_word_def *def,
                                  struct dyn_place **places);
 
-/* path.c: a point along a path: x from its beginning, y to its left. Errors: BAD_ARGUMENT: no length, or a point that is no
- * number. */
+/* path.c: a point along a path: x from its beginning, y to its left. Errors: BAD_ARGUMENT: a
+ * path without length, or a point that is not finite. */
 struct dyn_path {
     const double (*points)[2];
-    double *at; /* how far each point is along it */
+    double *at; /* the distance of each point along the path */
     int count;
 };
 enum dyn_status dyn_path_make(struct dyn_path *path, const double (*points)[2], int count);
