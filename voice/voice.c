@@ -4,7 +4,8 @@
  *        |
  *        '-- low-pass, every n-th --> pitch, formants, energy's upper part        about 11,000 a second
  *
- * Both streams are kept as far back as the next frame looks. */
+ * Both streams are kept as far back as the next frame needs.
+ */
 #include "voice.h"
 
 #include "voice_attack.h"
@@ -18,7 +19,7 @@
 #define PI 3.14159265358979323846
 #define LEVEL_S 0.02
 #define FORMANT_S 0.032
-#define LOW_HZ 10000.0 /* the slower stream has at least so many a second */
+#define LOW_HZ 10000.0 /* the lower sampling rate is at least this */
 
 /* Samples from number `begin` on. */
 struct samples {
@@ -30,7 +31,7 @@ struct samples {
 struct voice {
     struct voice_def def;
     double rate_hz, low_hz; /* of the two streams */
-    int factor;             /* samples for one of the slower stream */
+    int factor;             /* samples for each sample of the lower rate */
     int taps;               /* of the low-pass, odd */
     float *low_pass;
     struct samples full, low;
@@ -40,7 +41,7 @@ struct voice {
     size_t frames_count, frames_room, frames_decided;
     long next; /* the number of the next frame */
     bool ended;
-    int low_window; /* of pitch and formants: samples of the slower stream */
+    int low_window; /* window of pitch and formants, in samples of the lower rate */
     float *piece, *pitch_room;
     double *formant_room;
 };
@@ -77,7 +78,7 @@ const char *voice_def_wrong(const struct voice_def *def)
 
 /* ---- life ---- */
 
-/* A sinc under a Hann window, which lets through what is below 0.45 of the slower rate. */
+/* A windowed sinc (Hann), which passes frequencies below 0.45 of the lower rate. */
 static void low_pass_make(float *taps, int count, int factor)
 {
     double sum = 0;
@@ -173,7 +174,7 @@ static float sample(const struct samples *s, long number)
     return at >= 0 && at < (long)s->count ? s->at[at] : 0;
 }
 
-/* The slower stream up to where the low-pass has all that it needs, or to the end. */
+/* Computes the lower-rate stream as far as the low-pass has its inputs, or to the end. */
 static bool low_follow(struct voice *v)
 {
     int reach = (v->taps - 1) / 2;
@@ -206,7 +207,7 @@ static double level_at(const struct voice *v, double time_s)
     return sqrt(sum / weights);
 }
 
-/* The mean square of differences between neighbours of the slower stream. */
+/* The mean square of differences between neighbours of the lower-rate stream. */
 static double upper_energy(const struct voice *v, double time_s)
 {
     int count = (int)fmax(2, LEVEL_S * v->low_hz);
@@ -260,7 +261,7 @@ static bool frame_room(struct voice *v)
     return true;
 }
 
-/* The attacks' next frame; which decides upon one some frames ago. */
+/* Adds a frame for the attacks, which decides about an earlier frame. */
 static void attack_decide(struct voice *v, double energy, double upper)
 {
     bool attack = voice_attack_next(&v->attack, energy, upper);
@@ -284,7 +285,7 @@ static bool frame_make(struct voice *v, double time_s)
     return true;
 }
 
-/* All frames whose samples are there. */
+/* Computes all frames whose samples are there. */
 static bool frames_follow(struct voice *v)
 {
     double back_s = fmax(LEVEL_S, v->low_window / v->low_hz) / 2 + 0.002;

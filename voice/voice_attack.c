@@ -1,4 +1,5 @@
-/* voice_attack.c - a sound begins where its energy rises fastest, on a logarithm's scale, in all of it or in its upper part. */
+/* voice_attack.c - a sound begins where the logarithm of its energy rises fastest, in the
+ * whole spectrum or in its upper part. */
 #include "voice_attack.h"
 
 #include <math.h>
@@ -34,8 +35,7 @@ bool voice_attack_next(struct voice_attack *a, double energy, double upper)
     *at(a->energy[1], now) = upper;
     for (int band = 0; band < 2; band++) {
         double before = then >= 0 ? *at(a->energy[band], then) : *at(a->energy[band], 0);
-        if (now <
-            a->span) /* before the sound there was silence, which the first frame stands for */
+        if (now < a->span) /* silence before the sound: the first frame stands for it */
             before = a->energy[band][0];
         rise += fmax(0, *at(a->energy[band], now) - before) / 2;
     }

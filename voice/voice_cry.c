@@ -1,5 +1,6 @@
-/* voice_cry.c - see voice_cry.h. The throat: all harmonics below 0.45 of the rate, alike, which fall by 12 dB an octave above 100 Hz.
- * The mouth: two resonators of Klatt's kind, WIDTH_HZ wide, one after the other. */
+/* voice_cry.c - see voice_cry.h. The glottis: all harmonics below 0.45 of the rate, which
+ * fall by 12 dB an octave above 100 Hz. The vocal tract: two Klatt resonators of bandwidth
+ * WIDTH_HZ in series. */
 #include "voice_cry.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 #define SOFT_HZ 100.0
 #define LOUDNESS 0.25 /* root of the mean square where loud() is 1 */
 
-/* One breath: it begins at `begin`, swells, and dies away. */
+/* One breath: begins at `begin`, swells, and dies away. */
 static double breath(double t, double begin, double seconds)
 {
     double part = (t - begin) / seconds;

@@ -1,4 +1,5 @@
-/* voice_cry.h - a voice of our own making: pulses of a throat through two resonances. For tests, and for who has no recording. */
+/* voice_cry.h - a synthetic voice: glottal pulses through two resonances. For tests, and in
+ * place of a recording. */
 #ifndef LUTETIA_VOICE_CRY_H
 #define LUTETIA_VOICE_CRY_H
 
@@ -12,9 +13,10 @@ struct voice_cry {
     void (*vowel)(double time_s, double formant_hz[2]);
 };
 
-/* A small child's, of three breaths. */
+/* The cry of a small child, of three breaths. */
 struct voice_cry voice_cry_default(void);
-/* Shape: *count numbers, -1..1, as loud as loud() says wherever the vowel stays the same. NULL: no memory. Owns: the caller frees it. */
+/* Shape: *count numbers, -1..1; as long as the vowel stays the same, the loudness is loud().
+ * NULL: no memory. Owns: the caller frees it. */
 float *voice_cry_make(const struct voice_cry *cry, size_t *count);
 
 #endif

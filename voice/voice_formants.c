@@ -1,7 +1,11 @@
-/* voice_formants.c - linear prediction by Burg's method, and the polynomial's roots by Durand and Kerner's.
+/* voice_formants.c - linear prediction by Burg's method, and the polynomial's roots by Durand
+ * and Kerner's.
  *
- * A root r exp(±ia) is a resonance at a / 2 pi of the rate, as wide as -ln r / pi of it. Formants are those within FORMANT_LEAST_HZ and
- * FORMANT_MOST_HZ that are narrower than a width which grows with their height. Samples are lifted by 6 dB an octave before, which a voice falls by. */
+ * A root r exp(±ia) is a resonance at a / 2 pi of the rate, with bandwidth -ln r / pi of it.
+ * Formants are resonances within FORMANT_LEAST_HZ and FORMANT_MOST_HZ whose bandwidth is
+ * below a limit that grows with frequency. The samples are first pre-emphasised by 6 dB an
+ * octave.
+ */
 #include "voice_formants.h"
 
 #include <complex.h>
@@ -15,7 +19,7 @@
 #define WIDTH_HZ 250.0
 #define WIDTH_PART 0.4
 
-/* a[0] = 1 .. a[order]: x[i] is foretold as -sum a[k] x[i - k]. */
+/* a[0] = 1 .. a[order]: x[i] is predicted as -sum a[k] x[i - k]. */
 static void burg(const float *x, int count, int order, double *room, double *a)
 {
     double *forward = room, *backward = room + count, before[VOICE_ORDER_MAX + 1];

@@ -1,4 +1,5 @@
-/* voice_formants.h - the resonances of a throat and mouth: roots of a linear prediction. Inside of the library. */
+/* voice_formants.h - the resonances of a vocal tract: roots of a linear prediction. Private
+ * to the library. */
 #ifndef LUTETIA_VOICE_FORMANTS_H
 #define LUTETIA_VOICE_FORMANTS_H
 

@@ -1,10 +1,12 @@
-/* voice_pitch.c - de Cheveigné and Kawahara's YIN: the lag at which a sound differs least from itself.
+/* voice_pitch.c - de Cheveigné and Kawahara's YIN: the lag at which a signal differs least from
+ * itself.
  *
  *     d(lag)  = sum over half the samples of (x[i] - x[i + lag])^2
  *     d'(lag) = d(lag) / mean of d(1..lag)
  *
- * The first dip of d' below DIP is the period, else the deepest dip where that is below NONE; a parabola through it and its neighbours
- * places it between samples. */
+ * The first dip of d' below DIP is the period, else the deepest dip where that is below
+ * NONE; a parabola through it and its neighbours places it between samples.
+ */
 #include "voice_pitch.h"
 
 #include <math.h>
@@ -23,7 +25,7 @@ static float difference(const float *x, int count, int lag)
     return sum;
 }
 
-/* Where the parabola through three numbers around `lag` is least. */
+/* The place of the minimum of the parabola through three numbers around `lag`. */
 static double between(const float *d, int lag)
 {
     double a = (double)d[lag - 1], b = (double)d[lag], c = (double)d[lag + 1],

@@ -1,4 +1,4 @@
-/* voice_sound_none.c - a build without libsndfile says so. */
+/* voice_sound_none.c - for builds without libsndfile: reading fails with a message. */
 #include "voice_sound.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* voice_sound_read.c - sounds in files, by libsndfile, which is loaded when the first sound is read: it brings a codec for each kind of
- * file, and most commands read none. */
+/* voice_sound_read.c - reads sound files by libsndfile. The library is loaded when the first
+ * sound is read, because it brings many codecs, and most commands read no sounds. */
 #include "voice_sound.h"
 
 #include <sndfile.h>
@@ -22,7 +22,7 @@ struct sndfile {
     int (*close)(SNDFILE *);
 };
 
-/* False: it is not installed. */
+/* False: libsndfile is not installed. */
 static bool sndfile_load(struct sndfile *out)
 {
     static const char *const names[] = {"sf_open_fd", "sf_readf_float", "sf_close"};
@@ -34,10 +34,11 @@ static bool sndfile_load(struct sndfile *out)
         memcpy(functions[i], &function, sizeof function);
         there = function != NULL;
     }
-    return there; /* what is loaded stays: the next sound finds it at once */
+    return there; /* libsndfile stays loaded for the next sound */
 }
 
-/* Appends what the file still has. False: no memory, or it is too long: then *too_long is true. */
+/* Appends the rest of the file. False: no memory, or the sound is too long: then *too_long
+ * is true. */
 static bool frames_read(const struct sndfile *library, SNDFILE *file, const SF_INFO *info,
                         struct voice_sound *out, bool *too_long)
 {
@@ -85,7 +86,7 @@ bool voice_sound_read(const char *path, struct voice_sound *out, char *why, size
     struct sndfile library;
     bool too_long;
     *out = (struct voice_sound){0};
-    /* without waiting for a pipe's other end */
+    /* O_NONBLOCK: does not wait for a pipe's other end */
     int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (descriptor < 0)
         return refuse(out, why, room, path, strerror(errno));
