@@ -10,8 +10,9 @@
 
 enum { PLATFORMS_MAX = 16 };
 
-/* PoCL makes as many threads as there are processors, numbers them and ties each to the processor of its number:
- * where one of those is not ours, it would end the program. */
+/* PoCL makes as many threads as there are processors, and ties thread n to processor n. If
+ * one of these processors is not available to this process, PoCL would end the program, so
+ * threads are not tied then. */
 static void pocl_threads_tie(void)
 {
     cpu_set_t ours;
@@ -25,9 +26,10 @@ static void pocl_threads_tie(void)
     setenv("POCL_AFFINITY", "1", 0);
 }
 
-/* PoCL loads what lies in its cache as code. By itself it would keep it in a folder of a fixed name in /tmp where there is no
- * HOME, and end the program where POCL_CACHE_DIR is empty. So it is always told a folder of this user's. One that the
- * user has chosen, and that cannot be made, is left as it is: PoCL says that it has no device. */
+/* PoCL loads files of its cache as code. Without HOME it would use a folder with a fixed
+ * name in /tmp, and with an empty POCL_CACHE_DIR it ends the program. So it is always given
+ * a folder of this user. A folder that the user has chosen, and that cannot be made, is left
+ * as it is; PoCL then reports no device. */
 static void pocl_cache_settle(void)
 {
     const char *said = getenv("POCL_CACHE_DIR");
