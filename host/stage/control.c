@@ -37,7 +37,7 @@ enum stage_status stage_control_write(const struct stage_control *row, void *act
     return row->write(actor, row->index, value);
 }
 
-/* The choice of that number; its length. NULL: there is none. */
+/* The choice of that number, and its length. NULL: none. */
 static const char *choice_at(const char *choices, int number, size_t *length)
 {
     while (choices && *choices) {
@@ -91,7 +91,8 @@ void stage_control_text(const struct stage_control *row, double value, char *tex
 
 /* ---- along a slider ---- */
 
-/* Of a range that begins at 0 or below: where logarithms begin, and how much of the slider is before. */
+/* For ranges that begin at 0 or below: where the logarithmic part begins, and the part of
+ * the slider before it. */
 static const double linear_part = 0.01, linear_share = 0.2;
 
 double stage_control_along(const struct stage_control *row, double value)

@@ -40,7 +40,7 @@ void stage_view_to_world(struct stage_view view, double x_px, double y_px, doubl
     *y = view.scale != 0 ? (view.y0_px - y_px) / view.scale : y_px;
 }
 
-/* A new item at the end; NULL: no memory. */
+/* Appends a new item; NULL: no memory. */
 static struct stage_item *item_add(struct stage_draw_list *list, enum stage_draw_kind kind,
                                    struct stage_color color)
 {

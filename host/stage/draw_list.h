@@ -1,5 +1,6 @@
-/* draw_list.h - a picture as a list of what is drawn, from back to front: letters under any map, lines, discs, rings, boxes.
- * Actors write it; renderer.h draws it by OpenGL and exact.h through fontpipe's filter.
+/* draw_list.h - a picture as a list of shapes, from back to front: letters under any map,
+ * lines, discs, rings, boxes. Actors write it; renderer.h draws it by OpenGL and exact.h
+ * through fontpipe's filter.
  *
  *     struct stage_draw_list list = {0};
  *     stage_draw_begin(&list, view);                         // the world: y upwards
@@ -8,11 +9,12 @@
  *     ...
  *     stage_draw_finish(&list);
  *
- * Units. Places are in the world's units and go through the view, which the list has when they are given; widths are in
- * pixels. What is kept is in pixels, y downwards.
- * Errors. Where there is no memory the list is incomplete, and says so when it is drawn. Places that are no numbers or far
- * beyond any picture are left out.
- * Threads. A list belongs to one thread at a time. */
+ * Units. Places are in the world's units, and are converted by the list's present view;
+ * widths are in pixels. Items are stored in pixels, y downwards. Errors. If memory is short,
+ * the list is incomplete, and drawing it returns the error. Shapes at places that are not
+ * finite or far outside of any picture are left out. Threads. A list belongs to one thread
+ * at a time.
+ */
 #ifndef LUTETIA_STAGE_DRAW_LIST_H
 #define LUTETIA_STAGE_DRAW_LIST_H
 
@@ -27,7 +29,7 @@
 struct stage_view {
     double scale, x0_px, y0_px;
 };
-/* Pixels as they are: y is downwards. */
+/* A view for places in pixels: y is downwards. */
 #define STAGE_VIEW_PIXELS ((struct stage_view){0, 0, 0})
 
 enum stage_draw_kind { STAGE_DRAW_BAR, STAGE_DRAW_GLYPH };
@@ -35,7 +37,7 @@ enum stage_draw_kind { STAGE_DRAW_BAR, STAGE_DRAW_GLYPH };
 struct stage_bar {
     double x_px, y_px, ux, uy;
     double half_length_px, half_width_px, radius_px;
-    double ring_px; /* 0: filled; else its outline, so wide */
+    double ring_px; /* 0: filled; else the width of its outline */
 };
 
 struct stage_glyph {
@@ -44,7 +46,7 @@ struct stage_glyph {
     double size_px;
     struct font_map map; /* from the glyph at that size to the picture */
     double x_px,
-        y_px; /* of its origin, where the map is affine; its translation is then not used */
+        y_px; /* of its origin, if the map is affine; the map's translation is then not used */
 };
 
 struct stage_item {
@@ -66,9 +68,9 @@ struct stage_draw_list {
 
 void stage_draw_finish(struct stage_draw_list *list); /* frees; zeros it */
 
-/* An empty list whose memory is used again. */
+/* Empties the list and keeps its memory for reuse. */
 void stage_draw_begin(struct stage_draw_list *list, struct stage_view view);
-/* The view of what comes next. */
+/* Sets the view of the following shapes. */
 void stage_draw_view(struct stage_draw_list *list, struct stage_view view);
 
 void stage_draw_line(struct stage_draw_list *list, double x0, double y0, double x1, double y1,
@@ -77,32 +79,36 @@ void stage_draw_disc(struct stage_draw_list *list, double x, double y, double ra
                      struct stage_color color);
 void stage_draw_ring(struct stage_draw_list *list, double x, double y, double radius_px,
                      double width_px, struct stage_color color);
-/* A box from one corner to the opposite one, with round corners; ring_px above 0: its outline. */
+/* A box between two opposite corners, with round corners; ring_px above 0: its outline. */
 void stage_draw_box(struct stage_draw_list *list, double x0, double y0, double x1, double y1,
                     double radius_px, double ring_px, struct stage_color color);
 
-/* A letter: what of its plane comes to lie in the corners. */
+/* A letter, and the box of its plane that is mapped to the corners. */
 struct stage_letter {
     struct font_face *face;
     uint32_t glyph;
-    double size; /* an em is so long in the plane, y downwards, the origin on the baseline */
-    double x0, y0, x1, y1; /* the box that is spread between the corners */
+    double size; /* the length of an em in the plane; y is downwards, the origin is on the
+                  * baseline */
+    double x0, y0, x1, y1; /* the box that is mapped to the corners */
 };
 
-/* A letter whose corners are further apart, along x or y, is left out: nobody sees more than a stroke of it. */
+/* A letter whose corners are further apart, along x or y, is left out: only part of a stroke
+ * would be visible. */
 enum { STAGE_LETTER_MAX_PX = 8192 };
 
-/* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places. The map is projective where
- * they go well round a shape without a dent, bilinear where they do not, and continuous between (font_map_corners()). */
+/* The letter with its box's corners (x0, y0), (x1, y0), (x1, y1), (x0, y1) at these places.
+ * The map is projective for clearly convex corners, bilinear for others, and continuous in
+ * between (font_map_corners()). */
 void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *letter,
                        const struct font_point corners[4], struct stage_color color);
 
-/* A layout with its origin there, at its own size in pixels; and of all its lines. */
+/* Draws a layout with its origin at that place, at its own size in pixels. */
 void stage_draw_text(struct stage_draw_list *list, const struct font_layout *layout, double x,
                      double y, struct stage_color color);
 
-/* Everything of another list, or its letters alone, moved by so many pixels. tint: in that colour, covering as much of what is
- * behind as both together; NULL: as it was. fade: 0..1, covering so much less. */
+/* Appends another list, or its letters only, moved by that many pixels. tint: in that
+ * colour, with the product of the opacities; NULL: unchanged. fade: 0..1, a factor of the
+ * opacity. */
 void stage_draw_again(struct stage_draw_list *list, const struct stage_draw_list *other,
                       double x_px, double y_px, const struct stage_color *tint, double fade,
                       bool letters_only);

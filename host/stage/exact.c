@@ -1,4 +1,5 @@
-/* exact.c - see exact.h. The picture is kept as light, three floats a pixel, until all is drawn. */
+/* exact.c - see exact.h. The picture is linear light, three floats a pixel, until everything
+ * is drawn. */
 #include "exact.h"
 
 #include <gray.h>
@@ -17,7 +18,8 @@ struct stage_exact {
     float *light;
     size_t light_count;
     uint8_t to_number[TO_NUMBER +
-                      1]; /* by the root of light: dark numbers are as close as light ones */
+                      1]; /* indexed by the root of light, so that dark numbers have as many
+                           * entries as light ones */
     int left_out;
 };
 
@@ -94,9 +96,9 @@ static void gray_blend(struct stage_exact *e, const struct font_gray *gray, int 
 static enum font_status contour_add(struct font_outline *o, const struct stage_bar *b, double x,
                                     double y, double grow)
 {
-    /* A quarter of a circle is this cubic within 3e-4 of its radius. */
+    /* This cubic is a quarter of a circle, to 3e-4 of its radius. */
     const double arc = 0.5522847498;
-    static const int quarter[4][4] = {/* corner, and which way it is gone round */
+    static const int quarter[4][4] = {/* corner, and the direction in which it is traversed */
                                       {1, -1, 0, 1},
                                       {1, 1, -1, 0},
                                       {-1, 1, 0, -1},
@@ -126,8 +128,8 @@ static enum font_status contour_add(struct font_outline *o, const struct stage_b
     return status == FONT_OK ? font_outline_close(o) : status;
 }
 
-/* Cuts from the bar's length what is beyond the picture: its middle line against the picture with a margin. False: nothing
- * of it is seen. */
+/* Clips the bar's length to the picture: its middle line against the picture with a margin.
+ * False: it is not visible. */
 static bool bar_clip(struct stage_bar *b, const struct display_image *image)
 {
     double margin = b->half_width_px + b->radius_px + b->ring_px + 16;

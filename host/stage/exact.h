@@ -1,5 +1,6 @@
-/* exact.h - a draw list as a picture of the best quality: every shape through fontpipe's filter, mixed as light. No OpenGL, no
- * display. For stills and films, and what the other ways are compared with.
+/* exact.h - draws a list at the best quality: every shape through fontpipe's filter, mixed as
+ * light, without OpenGL and without a display. For stills and films, and as the reference for
+ * other ways.
  *
  *     struct stage_exact *exact;
  *     stage_exact_create("gaussian-fast", &exact);
@@ -8,10 +9,10 @@
  *     stage_exact_draw(exact, &list, theme.colors[STAGE_COLOR_BACKGROUND], &image);
  *     stage_exact_destroy(exact);
  *
- * A letter is its outline under its map, filtered: what the filter says of each pixel, and no more. Lines, discs and boxes
- * are outlines, too.
+ * A letter is its mapped outline, filtered. Lines, discs and boxes are outlines, too.
  *
- * Threads. One belongs to one thread at a time. */
+ * Threads. One belongs to one thread at a time.
+ */
 #ifndef LUTETIA_STAGE_EXACT_H
 #define LUTETIA_STAGE_EXACT_H
 
@@ -24,13 +25,13 @@ struct stage_exact;
 enum stage_status stage_exact_create(const char *filter, struct stage_exact **out);
 void stage_exact_destroy(struct stage_exact *exact); /* NULL is fine */
 
-/* Draws into an image of three channels. What a map sends beyond the horizon, and what is too large to be filtered, is left out.
- * Errors: NO_MEMORY. */
+/* Draws into an image of three channels. Shapes that a map sends beyond the horizon, or that
+ * are too large to be filtered, are left out. Errors: NO_MEMORY. */
 enum stage_status stage_exact_draw(struct stage_exact *exact,
                                    const struct stage_draw_list *list,
                                    struct stage_color background, struct display_image *image);
 
-/* How many letters the last picture left out. */
+/* The number of letters that the last picture left out. */
 int stage_exact_left_out(const struct stage_exact *exact);
 
 #endif

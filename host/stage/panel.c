@@ -88,7 +88,7 @@ static bool is_clicked(const struct stage_control *row)
     return row->curve == STAGE_SWITCH || row->curve == STAGE_CHOICE;
 }
 
-/* Of places in a world without end a slider hits none: they are typed. */
+/* Controls with an unbounded range of places have no slider; their values are typed. */
 static bool has_slider(const struct stage_control *row)
 {
     return !is_clicked(row) &&
@@ -185,7 +185,7 @@ void stage_panel_draw(struct stage_panel *p, struct stage *stage, int width_px, 
 
 /* ---- input ---- */
 
-/* What went wrong is remembered; nothing to undo then. */
+/* An error is kept for the message; then there is nothing to undo. */
 static void value_set(struct stage_panel *p, struct stage *stage,
                       const struct stage_control *row, double value)
 {
@@ -253,7 +253,7 @@ static void typed_commit(struct stage_panel *p, struct stage *stage)
         stage_mark_drop(stage);
 }
 
-/* While a value is typed all keys are the panel's. */
+/* While a value is being typed the panel takes all keys. */
 static bool typed_input(struct stage_panel *p, struct stage *stage, const struct input_event *e)
 {
     size_t length = strlen(p->typed);

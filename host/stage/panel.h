@@ -1,16 +1,18 @@
-/* panel.h - a stage's controls as sliders, at the right of the picture: made from the table, so a new row there is a new slider.
+/* panel.h - a stage's controls as sliders, at the right of the picture. Each row of the table
+ * gives a slider.
  *
  *     struct stage_panel *panel;
  *     stage_panel_create("DejaVuSans", &panel);
  *     if (!stage_panel_input(panel, stage, &event))
- *         ...the event is somebody else's...
+ *         ...the event is not the panel's...
  *     stage_panel_draw(panel, stage, width_px, height_px, px, &list);
  *     stage_panel_destroy(panel);
  *
  *     gravity              9.81 em/s2      the value: click it and type another one, then Enter
  *     ------------o------------------      drag; a switch and a choice change with a click
  *
- * The wheel scrolls what does not fit. Each change can be undone. */
+ * The wheel scrolls a panel that does not fit. Each change can be undone.
+ */
 #ifndef LUTETIA_STAGE_PANEL_H
 #define LUTETIA_STAGE_PANEL_H
 
@@ -26,24 +28,25 @@ void stage_panel_destroy(struct stage_panel *panel); /* NULL is fine */
 bool stage_panel_shown(const struct stage_panel *panel);
 void stage_panel_show(struct stage_panel *panel, bool shown);
 
-/* Draws it over what is there, if it is shown. */
+/* Draws the panel on top of the list, if it is shown. */
 void stage_panel_draw(struct stage_panel *panel, struct stage *stage, int width_px,
                       int height_px, double px, struct stage_draw_list *list);
 
-/* True: the event was the panel's. What was wrong with a value that was typed is in stage_panel_message(). */
+/* True: the panel took the event. stage_panel_message() has the error of a typed value. */
 bool stage_panel_input(struct stage_panel *panel, struct stage *stage,
                        const struct input_event *event);
 const char *stage_panel_message(const struct stage_panel *panel);
 
-/* Text by the panel's font, its left end on the baseline at (x_px, y_px); returns how wide it is. size_px: its size. right: (x_px,
- * y_px) is its right end. */
+/* Draws text in the panel's font, with its left end on the baseline at (x_px, y_px); returns
+ * its width. size_px: its size. right: (x_px, y_px) is its right end. */
 double stage_panel_text(struct stage_panel *panel, struct stage_draw_list *list,
                         const char *text, double x_px, double y_px, double size_px, bool right,
                         struct stage_color color);
 
 /* ---- for tests, and who wants to point at it ---- */
 
-/* Where a row's slider and its value are, in pixels of the last picture; false: it has none, or it is not on the picture. */
+/* The places of a row's slider and value, in pixels of the last picture; false: it has none,
+ * or is not on the picture. */
 bool stage_panel_place(const struct stage_panel *panel, int row, struct font_box *slider,
                        struct font_box *value);
 

@@ -1,4 +1,5 @@
-/* renderer.c - see renderer.h. The list is drawn in runs: bars that follow each other by one call, glyphs by another. */
+/* renderer.c - see renderer.h. The list is drawn in runs: consecutive bars by one call,
+ * consecutive glyphs by another. */
 #include "renderer.h"
 
 #include <gl_offscreen.h>
@@ -33,7 +34,7 @@ static enum stage_status fail_display(enum display_status status)
                       "%s", display_error());
 }
 
-/* Makes what keeps glyphs, again where the picture has become large. */
+/* Makes the atlas of glyphs, and makes it again when the picture has become larger. */
 static enum display_status type_make(struct stage_renderer *r)
 {
     struct gl_type_def def = gl_type_def_default();
@@ -137,7 +138,7 @@ static void color_put(struct stage_color color, float out[4])
     out[3] = color.a;
 }
 
-/* Draws the bars from item i on; returns the item after them. */
+/* Draws the run of bars from item i on; returns the item after them. */
 static int bars_draw(struct stage_renderer *r, const struct stage_draw_list *list, int i)
 {
     int count = 0;

@@ -1,5 +1,5 @@
-/* renderer_none.c - stands for renderer.c where Lutetia is built without OpenGL: making one says so, and what takes one is
- * never called. */
+/* renderer_none.c - replaces renderer.c in builds without OpenGL: making a renderer fails
+ * with a message, and functions that take one are never called. */
 #include "renderer.h"
 
 #include <stdlib.h>

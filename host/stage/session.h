@@ -1,11 +1,12 @@
-/* session.h - what was done on a stage, at which step: kept as it happens, written as text, and done again to the bit.
+/* session.h - the actions on a stage, each with its step: recorded, written as text, and
+ * repeated to the bit.
  *
  *     stage_session_save(stage, "word.session");            // after an hour of play
  *     ...a stage that began as that one did...
  *     stage_session_replay(again, "word.session");          // before its first frame
  *     stage_film(again, &film);                             // the same motion, drawn exactly
  *
- * A session is a line for each thing that was done; the number is how many steps had been made by then:
+ * A session has a line for each action; the number is that of steps made before it:
  *
  *     session 1
  *     412 mark
@@ -16,8 +17,9 @@
  *     612 undo                                 and mark, drop (a mark), reset, hand cancel
  *     end
  *
- * Time is in steps, so stopping is not seen and slow motion is what it was. What is loaded from files is not in it: a session
- * in which something was loaded cannot be saved. */
+ * Time is in steps, so pauses and slow motion do not matter. Loaded files are not part of
+ * it: a session in which a file was loaded cannot be saved.
+ */
 #ifndef LUTETIA_STAGE_SESSION_H
 #define LUTETIA_STAGE_SESSION_H
 
@@ -35,7 +37,7 @@ enum stage_deed_kind {
 };
 
 struct stage_deed {
-    int64_t step; /* how many steps had been made */
+    int64_t step; /* the number of steps made before it */
     enum stage_deed_kind kind;
     struct stage_event event; /* HAND */
     int control;              /* SET: the row of the stage's table */
@@ -53,17 +55,17 @@ struct stage_session {
 
 void stage_session_finish(struct stage_session *session); /* frees; zeros it */
 
-/* Where there is no more room the session is broken. */
+/* If memory is short the session is marked broken. */
 void stage_session_add(struct stage_session *session, const struct stage_deed *deed);
 
-/* rows: what controls are called. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
+/* rows: the controls' names. Errors: BAD_FILE, BAD_ARGUMENT (broken). */
 enum stage_status stage_session_write(const struct stage_session *session,
                                       const struct stage_control *rows, const char *path);
 
 /* Errors: BAD_FILE, with the file's name and the line; NO_MEMORY. *out is then empty. */
 enum stage_status stage_session_read(const char *path, const struct stage_control *rows,
                                      int rows_count, struct stage_session *out);
-/* The same of a text in memory; name: what errors call it. */
+/* The same for a text in memory; name: used in errors. */
 enum stage_status stage_session_parse(const char *text, size_t bytes, const char *name,
                                       const struct stage_control *rows, int rows_count,
                                       struct stage_session *out);

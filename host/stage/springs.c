@@ -1,4 +1,4 @@
-/* springs.c - see springs.h. springs_hand.c is what hands do, springs_draw.c how it looks. */
+/* springs.c - see springs.h. springs_hand.c handles the pointer, springs_draw.c draws. */
 #include "springs.h"
 
 #include <collide.h>
@@ -14,7 +14,7 @@
 
 enum { OWN_ROWS = 7 };
 
-/* Of a plane in which letters have their boxes. */
+/* The size of the plane in which letters have their boxes. */
 static const double plane_size = 100;
 
 struct stage_springs_def stage_springs_def_default(void)
@@ -117,7 +117,8 @@ row_of(const struct dyn_control *c, int index, double (*read)(void *actor, int i
                                   .index = index};
 }
 
-/* A style's choices (its box, its tacks) are made when the word is: they are no rows. */
+/* A style's choices (box, tacks) take effect only when the word is made, so they are not
+ * rows. */
 static enum stage_status rows_make(struct springs *s)
 {
     int most = OWN_ROWS + dyn_controls_count + (s->word ? dyn_word_controls_count : 0);
@@ -268,7 +269,8 @@ static const struct stage_actor_kind springs_kind = {.name = "springs",
                                                      .heard = springs_heard,
                                                      .destroy = springs_destroy};
 
-/* A letter of a word, whose box is given from its origin upwards, corners from the lower left one on. */
+/* Converts a word's letter, whose box has y upwards from its origin and corners from the
+ * lower left one on. */
 static struct stage_springs_letter letter_of(const struct dyn_letter *l)
 {
     double scale = plane_size / l->size;

@@ -7,13 +7,15 @@
  *     if (stage_springs_create(&def, &actor) != STAGE_OK)
  *         die(stage_error());
  *
- * A letter's box is spread between four masses. Its controls are those of the network's world (dynamics/controls.h), those of the
- * word's style, and how it is shown.
+ * A letter's box is mapped to four masses. Its controls are those of the network's world
+ * (dynamics/controls.h), those of the word's style, and how it is shown.
  *
- * Hands. A mass near the pointer is pulled by a spring of the hand's own, and let go. With Shift, or a pen pressed hard, it is where
- * the pointer is, and stays there, tacked, with a click; a tacked one that is taken without Shift is moved and stays tacked, and
- * with Shift and no movement the tack is taken out. A letter that is taken between its masses is pulled as a whole. The right
- * button cuts the springs that its stroke crosses. */
+ * Hands. Dragging a mass pulls it by a spring, until it is released. With Shift, or a pen
+ * pressed hard, the mass is moved to the pointer, and stays there tacked, with a click. A
+ * tacked mass that is dragged without Shift is moved and stays tacked; Shift and a click
+ * without movement remove the tack. A letter that is dragged between its masses is pulled as
+ * a whole. The right button cuts the springs that its stroke crosses.
+ */
 #ifndef LUTETIA_STAGE_SPRINGS_H
 #define LUTETIA_STAGE_SPRINGS_H
 
@@ -33,21 +35,22 @@ struct stage_springs_def {
     struct dyn_network *network;
     const struct stage_springs_letter *letters; /* their faces must outlive the actor */
     int letters_count;
-    struct dyn_word *
-        word; /* the actor's; its letters come besides, and its style is adjustable; NULL: none */
+    struct dyn_word *word; /* owned by the actor, which shows its letters too, and its style is
+               * adjustable; NULL: none */
     struct dyn_word_style style;    /* that of the word */
-    struct dyn_clamps *clamps;      /* the actor's; lead masses; NULL: nobody does */
+    struct dyn_clamps *clamps;      /* owned by the actor; keys of masses; NULL: none */
     bool show_masses, show_springs; /* true */
-    /* The world that is seen: x0 < x1 and y0 < y1; else that around what there is. */
+    /* The visible part of the world: x0 < x1 and y0 < y1; otherwise the actor's extent. */
     struct font_box extent;
 };
 struct stage_springs_def stage_springs_def_default(void);
 
-/* Owns: the network, the word and the clamps, also on failure. Errors: BAD_ARGUMENT (a letter on a mass that is not there), NO_MEMORY. */
+/* Owns: the network, the word and the clamps, also on failure. Errors: BAD_ARGUMENT (a
+ * letter on a mass that does not exist), NO_MEMORY. */
 enum stage_status stage_springs_create(const struct stage_springs_def *def,
                                        struct stage_actor *out);
 
-/* The network of an actor that is one of these. */
+/* The network of an actor made by stage_springs_create(). */
 struct dyn_network *stage_springs_network(const struct stage_actor *actor);
 
 #endif

@@ -1,4 +1,5 @@
-/* springs_draw.c - how springs look: sides, springs by strain, letters, masses, the hand; from back to front. */
+/* springs_draw.c - draws springs: sides, springs by strain, letters, masses, the hand; from
+ * back to front. */
 #include "springs_internal.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@ struct font_point springs_place(const struct springs *s, int mass, double ahead_
     return (struct font_point){at->x + at->vx * ahead_s, at->y + at->vy * ahead_s};
 }
 
-/* A line along a side of the world, as far as the picture goes. */
+/* A line along a side of the world, across the whole picture. */
 static void sides_draw(const struct springs *s, const struct stage_look *look,
                        struct stage_draw_list *list)
 {
@@ -84,7 +85,7 @@ static void masses_draw(const struct springs *s, const struct stage_look *look, 
     }
 }
 
-/* The hand's springs, and where a stroke that cuts is. */
+/* Draws the hand's springs, and the stroke of a cut. */
 static void hand_draw(const struct springs *s, const struct stage_look *look, double ahead_s,
                       struct stage_draw_list *list)
 {

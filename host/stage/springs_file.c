@@ -1,4 +1,4 @@
-/* springs_file.c - springs in files: the network, as dynamics writes it; and what dynamics says is wrong. */
+/* springs_file.c - saves and loads the network by dynamics, and converts its errors. */
 #include "springs_internal.h"
 
 #include <network_file.h>
@@ -24,7 +24,7 @@ enum stage_status springs_save(void *actor, const char *path)
     return status == DYN_OK ? STAGE_OK : springs_fail(status);
 }
 
-/* A network that the letters stand on: it must have their masses. */
+/* Loads a network for the letters, which must have their masses. */
 enum stage_status springs_load(void *actor, const char *path)
 {
     struct springs *s = actor;

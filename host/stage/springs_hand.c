@@ -1,4 +1,4 @@
-/* springs_hand.c - what hands do to springs: see springs.h and the drawing in springs_internal.h. */
+/* springs_hand.c - handles the pointer: see springs.h and the drawing in springs_internal.h. */
 #include "springs_internal.h"
 
 #include <hand.h>
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* A pen pressed harder than this tacks. */
+/* A pen pressed harder than this tacks masses. */
 static const double tack_pressure = 0.75;
 
 /* Twice the area of a triangle, positive if it goes round to the left. */
@@ -15,7 +15,7 @@ static double turn(struct font_point a, struct font_point b, double x, double y)
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/* The letter between whose masses a point is: of several the one that is drawn last; -1: none. */
+/* The letter between whose masses a point lies: of several the one drawn last; -1: none. */
 static int letter_at(const struct springs *s, double x, double y)
 {
     for (int i = s->letters_count - 1; i >= 0; i--) {
@@ -41,7 +41,7 @@ static void pulls_move(struct springs *s)
         dyn_pull_move(s->network, h->masses[i], h->x + h->away_x[i], h->y + h->away_y[i]);
 }
 
-/* The mass is where the pointer is, at once. */
+/* Moves the mass to the pointer at once. */
 static void hold(struct springs *s)
 {
     s->hand.mode = SPRINGS_HOLD;
@@ -67,7 +67,7 @@ static bool mass_take(struct springs *s, int mass, const struct stage_event *e)
     return dyn_pull_begin(s->network, mass, e->x, e->y, s->set.hand) == DYN_OK;
 }
 
-/* Its masses are pulled to where they are now; a fourth of the hand's stiffness each. */
+/* Pulls the letter's masses, each with a fourth of the hand's stiffness. */
 static bool letter_take(struct springs *s, int letter, const struct stage_event *e)
 {
     struct springs_hand *h = &s->hand;
@@ -157,7 +157,8 @@ enum dyn_status springs_record(struct springs *s)
     return status;
 }
 
-/* The last key of a mass that was held: where it stays, or from where it goes free. */
+/* Adds the last key of a mass that was held: the place where it stays, or from which it
+ * moves freely. */
 static void record_end(struct springs *s)
 {
     const struct springs_hand *h = &s->hand;

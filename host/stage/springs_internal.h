@@ -1,10 +1,10 @@
-/* springs_internal.h - what springs.c, springs_hand.c and springs_draw.c share. */
+/* springs_internal.h - shared by springs.c, springs_hand.c and springs_draw.c. */
 #ifndef LUTETIA_STAGE_SPRINGS_INTERNAL_H
 #define LUTETIA_STAGE_SPRINGS_INTERNAL_H
 
 #include "springs.h"
 
-/* What a hand is doing.
+/* The state of the hand.
  *
  *     NONE --press--> PULL      one mass by the hand's spring; Shift or pressure make it a HOLD
  *                     LETTER    four masses by springs, each as far from the pointer as it was
@@ -17,13 +17,14 @@ struct springs_hand {
     enum springs_mode mode;
     int button;
     int masses[4], masses_count;
-    double away_x[4], away_y[4]; /* of masses from the pointer, when they were taken */
+    double away_x[4], away_y[4]; /* offsets of the masses from the pointer when they were
+                                  * taken */
     double x, y, near;           /* the pointer */
     double from_x, from_y;       /* where it was pressed */
-    bool moved, untack;          /* further than a touch; if not, the tack is taken out */
+    bool moved, untack;          /* moved further than a touch; if not, the tack is removed */
 };
 
-/* What can be adjusted besides the network's world; doubles all, for the tables' sake. */
+/* Parameters besides the network's world; all doubles, so that the tables can describe them. */
 struct springs_settings {
     double hand, show_masses, show_springs, show_letters, full_strain, collide, record_hand;
     struct dyn_word_style style;
@@ -38,7 +39,7 @@ struct springs {
     struct font_box extent;
     struct dyn_word *word;
     struct dyn_clamps *clamps;
-    struct dyn_clamps *recorded; /* what hands held while that was recorded; NULL: nothing */
+    struct dyn_clamps *recorded; /* keys of what hands held while recording; NULL: none */
     double recorded_s;           /* the last key's time */
     struct springs_settings set;
     struct springs_hand hand;
@@ -49,13 +50,13 @@ enum stage_status springs_save(void *actor, const char *path);
 enum stage_status springs_load(void *actor, const char *path);
 void springs_draw(void *actor, const struct stage_look *look, struct stage_draw_list *list);
 
-/* Where a mass is, so many seconds ahead of the last step. */
+/* A mass's place, extrapolated by that many seconds from the last step. */
 struct font_point springs_place(const struct springs *s, int mass, double ahead_s);
 
-/* After a step: a key of what the hand holds, thirty a second. */
+/* After a step: adds keys of what the hand holds, thirty a second. */
 enum dyn_status springs_record(struct springs *s);
 
-/* Remembers what the simulation said. */
+/* Converts dynamics's error to the stage's. */
 enum stage_status springs_fail(enum dyn_status status);
 
 #endif

@@ -8,12 +8,12 @@
 
 enum { OWN_CONTROLS = 6 };
 
-/* What of a stage can be adjusted, all doubles. */
+/* The stage's own parameters, all doubles. */
 struct settings {
     double rate, skins, skin_every_s, skin_of, grid, shadow;
 };
 
-/* A state to go back to; actor: what its keep() made, NULL if it has none. */
+/* A state to go back to; actor: made by its keep(), NULL if it has none. */
 struct mark {
     struct settings settings;
     void *actor;
@@ -33,15 +33,15 @@ struct stage {
     struct stage_view view;
     int width_px, height_px;
     double px;
-    /* What earlier frames left: a ring, the newest at skins_last. */
+    /* Earlier frames: a ring, the newest at skins_last. */
     struct stage_draw_list own, skins[STAGE_SKINS_MAX];
     int skins_last, skins_count;
     double skin_taken_s;
     /* States to go back to. */
     struct mark marks[STAGE_UNDO_MAX], beginning;
     int marks_count;
-    bool handed; /* the actor took a press that is not released yet */
-    /* What was done; what is to be done again, and how much of that has been. */
+    bool handed; /* the actor took a press that has not been released yet */
+    /* The actions so far; the actions to replay, and how many have been replayed. */
     struct stage_session session, replay;
     int replayed_count;
 };
@@ -53,7 +53,7 @@ struct stage_def stage_def_default(void)
 
 /* ---- the session ---- */
 
-/* Remembers what was done, from the first frame on. */
+/* Records an action, from the first frame on. */
 static void deed_add(struct stage *s, struct stage_deed deed)
 {
     deed.step = s->clock.steps_count;
@@ -116,7 +116,7 @@ static const struct stage_control *actors_row(const struct stage *s, int index)
     return &s->actors_rows[index];
 }
 
-/* The actor's rows are wrapped, so that all are handed the stage. */
+/* The actor's rows are wrapped, so that all rows take the stage as their object. */
 static double actors_read(void *stage, int index)
 {
     const struct stage *s = stage;
@@ -213,7 +213,7 @@ static enum stage_status mark_restore(struct stage *s, const struct mark *mark)
     return mark->actor ? s->actor.kind->restore(s->actor.self, mark->actor) : STAGE_OK;
 }
 
-/* The state that a reset goes back to: that before the first frame, when all has been set. */
+/* Keeps the state for resets: that before the first frame, when all parameters are set. */
 static enum stage_status beginning_keep(struct stage *s)
 {
     return s->beginning.kept ? STAGE_OK : mark_keep(s, &s->beginning);
@@ -230,7 +230,7 @@ static struct stage_look look_of(const struct stage *s)
                                .step_s = s->clock.step_s};
 }
 
-/* After each step that ends a skin's time the letters are kept as they are. */
+/* Keeps the letters after each step that ends a skin's interval. */
 static void skin_take(struct stage *s)
 {
     double now_s = (double)s->clock.steps_count * s->clock.step_s;
@@ -247,7 +247,7 @@ static void skin_take(struct stage *s)
     s->actor.kind->draw(s->actor.self, &look, &s->skins[s->skins_last]);
 }
 
-/* Hands the actor what a hand does in the world. */
+/* Passes a pointer action to the actor, in world coordinates. */
 static bool hand_do(struct stage *s, const struct stage_event *event)
 {
     if (!s->actor.kind->event || (event->kind != STAGE_POINTER_DOWN && !s->handed))
@@ -262,7 +262,7 @@ static bool hand_do(struct stage *s, const struct stage_event *event)
     return taken;
 }
 
-/* Does again what was done before the next step. */
+/* Replays the actions that are due before the next step. */
 static void replay_do(struct stage *s)
 {
     const struct stage_session *r = &s->replay;
@@ -316,7 +316,7 @@ enum stage_status stage_frame(struct stage *s, double now_s, int *steps)
 
 /* ---- pictures ---- */
 
-/* The actor in the middle, with room around it; the same units across as up. */
+/* Centres the actor with a margin; the scale is the same along both axes. */
 static void view_make(struct stage *s, int width_px, int height_px, double px)
 {
     struct font_box box = {-1, -1, 1, 1};
@@ -347,7 +347,7 @@ static void grid_draw(const struct stage *s, struct stage_draw_list *list)
         stage_draw_line(list, x0, y, x1, y, px, color);
 }
 
-/* The newest of earlier moments covers so much of what the present does. */
+/* The opacity of the newest skin, relative to the present. */
 static const double skin_most = 0.7;
 
 static void skins_draw(const struct stage *s, struct stage_draw_list *list)

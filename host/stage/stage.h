@@ -1,4 +1,5 @@
-/* stage.h - actors, their time, and a picture of them; the same in a window, in a film and in a test.
+/* stage.h - actors, their time, and a picture of them; the same in a window, in a film and in a
+ * test.
  *
  *     struct stage *stage;
  *     struct stage_def def = stage_def_default();
@@ -11,12 +12,13 @@
  *     }
  *     stage_destroy(stage);
  *
- * Time goes in fixed steps (frame_clock.h); what a picture shows between two steps is drawn so far ahead. Time for a film is
- * frame / fps, for a window what its clock says: the actor sees no difference.
+ * Time advances in fixed steps (frame_clock.h); a picture between two steps is extrapolated. A
+ * film's time is frame / fps, a window's is the clock's; the actor sees no difference.
  *
- * Each thing that a person does can be undone: stage_mark() before it keeps the state.
+ * Each action of the user can be undone: stage_mark() keeps the state before it.
  *
- * Threads. A stage belongs to one thread. */
+ * Threads. A stage belongs to one thread.
+ */
 #ifndef LUTETIA_STAGE_H
 #define LUTETIA_STAGE_H
 
@@ -42,23 +44,24 @@ struct stage_actor stage_actor(const struct stage *stage);
 
 /* ---- controls ---- */
 
-/* Those of the stage and then those of the actor, as one table: handed `stage` by stage_control_read() and so on. */
+/* The controls of the stage and then those of the actor, as one table: pass `stage` to
+ * stage_control_read() and so on. */
 const struct stage_control *stage_controls(struct stage *stage, int *count);
-/* NAME=VALUE. Errors: BAD_ARGUMENT. */
+/* Sets NAME=VALUE. Errors: BAD_ARGUMENT. */
 enum stage_status stage_set(struct stage *stage, const char *assignment);
 
 /* ---- time ---- */
 
-/* A frame at a real time (the first one begins): as many steps as are due. *steps: how many, if it is not NULL. Errors: the
- * actor's. */
+/* Advances to a real time (the first call begins): makes as many steps as are due. *steps:
+ * how many, if it is not NULL. Errors: the actor's. */
 enum stage_status stage_frame(struct stage *stage, double now_s, int *steps);
-/* Its clock: to pause, to step, to ask. */
+/* The stage's clock, to pause, step and read it. */
 struct frame_clock *stage_clock(struct stage *stage);
 
 /* ---- pictures ---- */
 
-/* The picture of the present, back to front. px: pixels in one of a screen of 96 dpi. The view is such that the whole actor, as
- * it is when a size is first asked for, is seen, and the same from then on. */
+/* Draws the present, back to front. px: pixels for each pixel of a 96 dpi screen. The view
+ * shows the whole actor, as it is when a size is first requested, and does not change later. */
 void stage_picture(struct stage *stage, int width_px, int height_px, double px,
                    struct stage_draw_list *list);
 struct stage_view stage_view(const struct stage *stage);
@@ -67,29 +70,33 @@ struct stage_color stage_background(const struct stage *stage);
 
 /* ---- hands ---- */
 
-/* Hands what a person does in the picture to the actor; places in pixels of the last picture. True: it took it. */
+/* Passes a pointer action in the picture to the actor; places are pixels of the last
+ * picture. True: the actor took it. */
 bool stage_hand(struct stage *stage, enum stage_event_kind kind, double x_px, double y_px,
                 double pressure, int button, unsigned modifiers);
 
 /* ---- going back ---- */
 
-/* Keeps the state before something is done; of many the oldest are forgotten. Errors: NO_MEMORY. */
+/* Keeps the state before an action; of many the oldest are dropped. Errors: NO_MEMORY. */
 enum stage_status stage_mark(struct stage *stage);
-/* Nothing was done after all: the last mark is forgotten. */
+/* Drops the last mark: there was no action. */
 void stage_mark_drop(struct stage *stage);
-/* Back to what was marked last. False: nothing is marked. */
+/* Goes back to the last mark. False: there is none. */
 bool stage_undo(struct stage *stage);
-/* As it was in the beginning, which can be undone. */
+/* Goes back to the beginning; this can be undone. */
 enum stage_status stage_reset(struct stage *stage);
-/* A file, see actor.h; loading can be undone. Errors: the actor's, or that it has no files. */
+/* Saves and loads a file, see actor.h; loading can be undone. Errors: the actor's, or that
+ * it has no files. */
 enum stage_status stage_save(struct stage *stage, const char *path);
 enum stage_status stage_load(struct stage *stage, const char *path);
 
 /* ---- sessions: see session.h ---- */
 
-/* What was done since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: something was loaded, or it was too much. */
+/* Saves the actions since the first frame. Errors: BAD_FILE; BAD_ARGUMENT: a file was
+ * loaded, or there were too many actions. */
 enum stage_status stage_session_save(struct stage *stage, const char *path);
-/* Does what a session says, at its steps; before the first frame. Errors: BAD_FILE, NO_MEMORY. */
+/* Repeats a session's actions at their steps; call before the first frame. Errors: BAD_FILE,
+ * NO_MEMORY. */
 enum stage_status stage_session_replay(struct stage *stage, const char *path);
 
 #endif

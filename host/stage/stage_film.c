@@ -19,7 +19,7 @@ struct film {
     struct stage_renderer *renderer;
     struct stage_draw_list list;
     struct display_image image;
-    struct display_image strip; /* the moments so far; no pixels: there is none */
+    struct display_image strip; /* the strip's moments so far; no pixels: no strip */
     int moments;
     struct video *video;
 };
@@ -100,7 +100,7 @@ static enum stage_status png_write(const char *path, const struct display_image 
     return status == DISPLAY_OK ? STAGE_OK : fail_display(status);
 }
 
-/* The next moment of the strip, from left to right and then below. */
+/* Adds the next moment to the strip, from left to right and then below. */
 static void strip_add(struct film *f)
 {
     const int columns = f->def->strip[0], w = f->image.width_px, h = f->image.height_px;

@@ -1,4 +1,5 @@
-/* stage_film.h - a stage without a window: a still, a strip of moments, a film, or a folder of pictures.
+/* stage_film.h - a stage without a window: a still, a strip of moments, a film, or a folder of
+ * pictures.
  *
  *     struct stage_film_def def = stage_film_def_default();
  *     def.still = "word.png";
@@ -6,7 +7,8 @@
  *     if (stage_film(stage, &def) != STAGE_OK)
  *         die(stage_error());
  *
- * Time is frame / fps: the same pictures come each time, however long they take. */
+ * Time is frame / fps: the pictures are the same each time, however long drawing takes.
+ */
 #ifndef LUTETIA_STAGE_FILM_H
 #define LUTETIA_STAGE_FILM_H
 
@@ -14,23 +16,23 @@
 
 #include "stage.h"
 
-/* How pictures are drawn: through fontpipe's filter, or by OpenGL in one of its ways. */
+/* The way of drawing: through fontpipe's filter, or by OpenGL in one of its ways. */
 enum stage_film_way { STAGE_FILM_EXACT, STAGE_FILM_EGL, STAGE_FILM_OSMESA };
 
 struct stage_film_def {
-    /* What is written; NULL: it is not. */
+    /* The files to write; NULL: not written. */
     const char *still; /* a PNG of the last moment */
     const char *video; /* as video.h has it */
     int sound; /* a descriptor of a whole WAV file for the video, see video.h; -1: none */
-    const char *frames; /* a folder that is there, for frame-000000.png and so on */
-    int strip
-        [2]; /* a still of so many columns and rows of moments, from the first to the last; 1, 1: of the last */
-    int width_px, height_px; /* 1280x720; of a strip, of all together */
-    double px;               /* pixels in one of a screen of 96 dpi; 1 */
+    const char *frames; /* an existing folder, for frame-000000.png and so on */
+    int strip[2]; /* columns and rows of moments in the still, from the first to the last; 1, 1:
+              * the last only */
+    int width_px, height_px; /* 1280x720; of a strip, the size of the whole */
+    double px;               /* pixels for each pixel of a 96 dpi screen; 1 */
     int fps;                 /* 30 */
     double seconds;          /* 5 */
     enum stage_film_way way; /* EXACT */
-    const char *filter;      /* of exact pictures; "gaussian-fast" */
+    const char *filter;      /* for exact pictures; "gaussian-fast" */
     /* Called before each picture's steps, for whoever plays the stage; NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
     /* Called when a picture is drawn, with what it was drawn from, and may change it; then all pictures are drawn, also those that are not
@@ -43,8 +45,8 @@ struct stage_film_def {
 };
 struct stage_film_def stage_film_def_default(void);
 
-/* Runs the stage from the beginning. Errors: NO_DISPLAY (no OpenGL in that way), BAD_FILE (what cannot be written), NO_MEMORY, and
- * the actor's. A file that is not whole is not there. */
+/* Runs the stage from the beginning. Errors: NO_DISPLAY (no OpenGL in that way), BAD_FILE (a
+ * file cannot be written), NO_MEMORY, and the actor's. Incomplete files are removed. */
 enum stage_status stage_film(struct stage *stage, const struct stage_film_def *def);
 
 #endif

@@ -83,7 +83,7 @@ static void recording_begin(struct stage_window *w)
     say(w, "recording to %s", video_path(w->video));
 }
 
-/* Films have even sides: a last odd column or row is left out. */
+/* Films have even sides: an odd last column or row is cut off. */
 static void image_make_even(struct display_image *image)
 {
     int width = image->width_px & ~1, height = image->height_px & ~1;
@@ -94,7 +94,7 @@ static void image_make_even(struct display_image *image)
     image->height_px = height;
 }
 
-/* The picture that was drawn is that of all times until now that have none. */
+/* Repeats the last picture for all frames due until now. */
 static void recording_add(struct stage_window *w, double now_s)
 {
     if (!w->video || now_s < w->record_next_s)
@@ -214,7 +214,8 @@ static void key_end(struct stage_window *w)
         window_close(w->window);
 }
 
-/* shift: pressed with it; control: with it. Without a function: what hands do. */
+/* shift: pressed with Shift; control: with Control. Rows without a function describe the
+ * pointer. */
 static const struct {
     int key;
     bool shift, control;
@@ -321,7 +322,7 @@ static void help_draw(struct stage_window *w, double px)
     }
 }
 
-/* Beside the panel: how often pictures come. */
+/* Draws the frame rate beside the panel. */
 static void frames_draw(struct stage_window *w, int width, double px)
 {
     const struct stage_theme *theme = stage_theme(w->stage);
@@ -412,7 +413,7 @@ enum stage_status stage_window_create(struct stage *stage, const struct stage_wi
         status = stage_renderer_window(w->window, &w->renderer);
     if (status == STAGE_OK)
         status = stage_panel_create(def->font, &w->panel);
-    if (status == STAGE_OK) /* hands may come at once: they must find a view */
+    if (status == STAGE_OK) /* pointer events may come at once, and need a view */
         status = frame_draw(w, input_now_s());
     if (status == STAGE_OK)
         *out = w;

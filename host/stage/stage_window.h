@@ -8,10 +8,12 @@
  *         ;
  *     stage_window_destroy(w);
  *
- * A turn takes all that people did, makes the steps that are due, and draws: where the pointer is now is in the simulation and
- * on the screen in the same picture. `?` shows the keys (stage_window_keys()).
+ * Each turn takes all input, makes the steps that are due, and draws. So the pointer's place
+ * takes effect in the simulation and on the screen in the same picture. `?` shows the keys
+ * (stage_window_key()).
  *
- * Threads. The main thread, as window.h. */
+ * Threads. The main thread, as window.h.
+ */
 #ifndef LUTETIA_STAGE_WINDOW_H
 #define LUTETIA_STAGE_WINDOW_H
 
@@ -26,8 +28,8 @@ struct stage_window_def {
     int width_px, height_px; /* 1280x800 */
     const char *record_path; /* where recordings go; "stage.mp4" */
     const char *save_path;   /* where the actor is saved and loaded; "stage.net" */
-    const char *font;        /* of the panel; "DejaVuSans" */
-    double fps;              /* pictures a second at most; 60 */
+    const char *font;        /* the panel's font; "DejaVuSans" */
+    double fps;              /* the most pictures a second; 60 */
     /* Before a turn's steps: whoever plays the stage besides hands does so here; what it does is in the same picture. And first
      * of all for a key that goes down or up: true, it was taken. NULL: nobody does. */
     enum stage_status (*before)(void *context, struct stage *stage, double now_s);
@@ -40,32 +42,32 @@ struct stage_window;
 /* stage: borrowed. Errors: NO_DISPLAY, FAILED (no font), NO_MEMORY. */
 enum stage_status stage_window_create(struct stage *stage, const struct stage_window_def *def,
                                       struct stage_window **out);
-/* Ends a recording. NULL is fine. */
+/* Ends a recording, and destroys the window. NULL is fine. */
 void stage_window_destroy(struct stage_window *w);
 
-/* One frame: waits until it is due. Errors: what the actor or the drawing says; a file that could not be written or read is only
- * said on the screen. */
+/* One frame: waits until it is due. Errors: those of the actor and of drawing; errors of
+ * files are only shown on the screen. */
 enum stage_status stage_window_turn(struct stage_window *w);
 
-/* Nobody has closed it, nor pressed Esc. */
+/* False after the user closed the window, or pressed Esc. */
 bool stage_window_open(const struct stage_window *w);
 
-/* Where the last recording is; NULL: nothing was recorded. */
+/* The last recording's path; NULL: none. */
 const char *stage_window_recorded(const struct stage_window *w);
 
-/* What was said last on the screen; "" if nothing was. */
+/* The last message on the screen; "" if there was none. */
 const char *stage_window_message(const struct stage_window *w);
 
-/* What the last turn drew, as rgb; the image is made larger or smaller as needed. Errors: NO_MEMORY. */
+/* The last turn's picture, as rgb; the image is resized as needed. Errors: NO_MEMORY. */
 enum stage_status stage_window_picture(struct stage_window *w, struct display_image *image);
 
-/* Says something on the screen for some seconds. */
+/* Shows a message on the screen for some seconds. */
 void stage_window_say(struct stage_window *w, const char *text);
 
 /* Its panel, for tests. */
 struct stage_panel *stage_window_panel(struct stage_window *w);
 
-/* A row of the table of keys: what it is called and does. NULL: there is no such row. */
+/* A row of the table of keys: its key and description. NULL: there is no such row. */
 const char *stage_window_key(int row, const char **does);
 
 #endif

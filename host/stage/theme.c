@@ -71,7 +71,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Without the blanks on both sides. */
+/* Removes blanks on both sides. */
 static const char *trimmed(const char *text, size_t *length)
 {
     while (*length && is_blank(text[0]))

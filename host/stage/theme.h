@@ -4,10 +4,11 @@
  *     if (stage_theme_open("dark", &theme) != STAGE_OK)      // light, dark, or a file
  *         die(stage_error());
  *
- * A theme's file has a line for each name, `name = value`; what follows a # that begins a line is a comment. A colour is
- * #rrggbb, or #rrggbbaa where it lets what is behind it through (sRGB). A size is a number of pixels of a screen of 96 dpi.
- * What a file does not name is as the light theme has it. themes/light.theme and themes/dark.theme name everything and say
- * what it is. */
+ * A theme's file has a line for each name, `name = value`; what follows a # that begins a
+ * line is a comment. A colour is #rrggbb, or #rrggbbaa with an opacity (sRGB). A size is a
+ * number of pixels of a screen of 96 dpi. Names that are missing have the light theme's
+ * values. themes/light.theme and themes/dark.theme contain and explain all names.
+ */
 #ifndef LUTETIA_STAGE_THEME_H
 #define LUTETIA_STAGE_THEME_H
 
@@ -58,7 +59,7 @@ enum stage_theme_size { STAGE_THEME_SIZES(STAGE_THEME_SIZE) STAGE_SIZES_COUNT };
 #undef STAGE_THEME_SIZE
 
 struct stage_color {
-    float r, g, b, a; /* 0..1, as numbers of sRGB; a: how much it covers */
+    float r, g, b, a; /* sRGB numbers 0..1; a: opacity */
 };
 
 struct stage_theme {
@@ -69,13 +70,14 @@ struct stage_theme {
 /* "light", "dark", or a file's path. Errors: BAD_FILE, with the file's name and the line. */
 enum stage_status stage_theme_open(const char *name, struct stage_theme *theme);
 
-/* Reads a theme's text over what *theme holds. name: for messages. Errors: BAD_FILE; *theme is as it was. */
+/* Reads a theme's text over what *theme holds. name: for messages. Errors: BAD_FILE; *theme
+ * is unchanged. */
 enum stage_status stage_theme_read(const char *text, size_t bytes, const char *name,
                                    struct stage_theme *theme);
 
-/* So much of the one and the rest of the other, 0..1, mixed as light. */
+/* A mix of two colours as light: that part, 0..1, of the one, the rest of the other. */
 struct stage_color stage_color_mix(struct stage_color from, struct stage_color to, double part);
-/* The same colour, covering so much less. */
+/* The same colour with its opacity multiplied. */
 struct stage_color stage_color_fade(struct stage_color color, double part);
 
 #endif
