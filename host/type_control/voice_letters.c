@@ -15,7 +15,8 @@ static bool is_space(uint32_t c)
            c == 0x205f || c == 0x3000;
 }
 
-/* Marks that belong to the letter before them: combining ones, joiners, variation selectors, skin tones. */
+/* Whether a character belongs to the letter before it: combining marks, joiners, variation
+ * selectors, skin tones. */
 static bool is_mark(uint32_t c)
 {
     static const uint32_t ranges[][2] = {
@@ -46,7 +47,7 @@ static bool is_punctuation(uint32_t c)
     return false;
 }
 
-/* Words without a letter consist of punctuation, which is then what letters are. */
+/* In a word without a letter, punctuation is treated as letters. */
 static bool word_has_letter(const char *at, const char *end)
 {
     uint32_t c;
@@ -86,9 +87,10 @@ static void words_walk(struct voice_words *out, const char *end)
             last->end = last->after = after;
         } else if (lettered && (is_punctuation(c) || is_mark(c))) {
             if (last)
-                last->after = after; /* else it goes before the first letter */
+                last->after = after; /* else it is put before the first letter */
         } else {
-            /* an apostrophe within a word goes before the next letter, as it follows the last one: once is enough */
+            /* an apostrophe within a word is put before the next letter only, not also after
+             * the last one */
             out->letters[out->letters_count++] = (struct voice_letter){
                 last ? begin : before, begin, after, after, out->count - 1};
             begun = true;

@@ -1,9 +1,11 @@
 /* voice_letters.h - which letters of a text a moment of a voice shows.
  *
- * A text of one word is shown as a whole, as long as the voice is heard. Words are spread over the sounds: with more words than
- * sounds each sound shows some, with fewer each word lasts for some sounds. Along a line words are drawn out: their letters share
- * their sounds' time, and a letter is set again as long as it lasts ("Aaaaagggh"). Punctuation is set once, with the letter beside
- * it. */
+ * A text of one word is shown as a whole, as long as the voice sounds. Several words are
+ * distributed over the sounds: with more words than sounds, each sound shows several; with
+ * fewer, each word lasts for several sounds. Along a line words are prolonged: their letters
+ * share their sounds' time, and a letter is repeated as long as its share lasts
+ * ("Aaaaagggh"). Punctuation is set once, with the letter beside it.
+ */
 #ifndef LUTETIA_VOICE_LETTERS_H
 #define LUTETIA_VOICE_LETTERS_H
 
@@ -19,18 +21,19 @@ struct voice_words {
     const char *text; /* UTF-8, borrowed */
     int count;        /* of its words */
     int letters_count;
-    int *first; /* letter of each word, and letters_count behind the last */
+    int *first; /* index of each word's first letter; the last entry is letters_count */
     struct voice_letter *letters;
 };
 
-/* White space parts words. False: no memory, or there is no word (*empty true). Owns: the caller finishes *out. */
+/* Splits the text at white space. False: no memory, or there is no word (*empty true). Owns:
+ * the caller finishes *out. */
 bool voice_words_make(const char *text, struct voice_words *out, bool *empty);
 void voice_words_finish(struct voice_words *words);
 
-/* The bytes that are shown at that time. */
+/* The bytes of the text that are shown at that time. */
 void voice_words_at(const struct voice_words *words, const struct voice_score *score,
                     double time_s, int *begin, int *end);
-/* The letter that the time along a line falls to, and when its part of the time ends. */
+/* The letter for a time on the line, and the end of its share of the time. */
 int voice_letter_at(const struct voice_words *words, const struct voice_score *score,
                     double time_s, double *until_s);
 

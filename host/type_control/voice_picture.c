@@ -18,7 +18,7 @@ struct voice_type {
     const struct voice_score *score;
     struct font_shaper *shaper;
     struct font_painter *painter;
-    struct font_axis weight, slant; /* tag "": the font has none */
+    struct font_axis weight, slant; /* tag "": the font lacks the axis */
     uint8_t *gray;                  /* of what is set at once */
     size_t gray_room;
     double light[256]; /* of sRGB numbers */
@@ -131,7 +131,7 @@ static void paper_fill(const struct voice_type *t, struct font_picture *picture)
                     (uint8_t)lround(255 * t->def.paper[c]);
 }
 
-/* Mixes ink into a picture where gray is, in light. */
+/* Mixes ink into a picture by the gray coverage, as light. */
 static void ink_mix(const struct voice_type *t, const struct font_cover *cover, int left,
                     int top, const double ink[3], struct font_picture *picture)
 {
@@ -150,7 +150,7 @@ static void ink_mix(const struct voice_type *t, const struct font_cover *cover, 
         }
 }
 
-/* The axes and the shear of a moment. */
+/* Computes the axes and the shear of a moment. */
 static enum font_status instrument_set(struct voice_type *t, double time_s,
                                        struct font_map *map)
 {
@@ -158,7 +158,7 @@ static enum font_status instrument_set(struct voice_type *t, double time_s,
            weight = played(t, TYPE_WEIGHT, time_s, -1);
     enum font_status status = FONT_OK;
     *map = font_map_shear(0);
-    if (weight >= 0 && t->weight.tag[0]) /* in steps, so that glyphs are met again */
+    if (weight >= 0 && t->weight.tag[0]) /* quantised, so that glyphs can be reused */
         status = font_face_axis_set(t->face, "wght",
                                     t->weight.least + (t->weight.most - t->weight.least) *
                                                           round(weight * 32) / 32);
@@ -221,7 +221,7 @@ enum font_status voice_type_moment(struct voice_type *t, double time_s,
         status = font_shaper_layout(t->shaper, t->words->text + begin, (size_t)(end - begin),
                                     size, NULL, &layout);
     if (status == FONT_OK) {
-        /* what goes up and what goes down of letters is as far from the middle */
+        /* centred: the ascent and descent of letters are at equal distances from the middle */
         double x = (picture->width_px - layout.width_px) / 2,
                y = picture->height_px / 2.0 + 0.25 * size - baseline_rise(t, time_s) +
                    (t->def.mapping.feature[TYPE_BASELINE]
@@ -234,16 +234,16 @@ enum font_status voice_type_moment(struct voice_type *t, double time_s,
     return status;
 }
 
-/* Where a line has come to, and when. */
+/* The present position on a line, and its time. */
 struct line {
     double x, time_s;
-    double until_s;               /* the letter's part of the time ends */
+    double until_s;               /* the end of the letter's share of the time */
     int letter;                   /* -1: none yet */
-    struct font_picture *picture; /* NULL: nothing is drawn, only how long the line gets */
+    struct font_picture *picture; /* NULL: only the line's length is computed */
     double baseline_px;
 };
 
-/* Sets some bytes of the text as the moment plays them; the line goes on by what they take. */
+/* Sets some bytes of the text as at that moment; the line advances by their width. */
 static enum font_status bytes_set(struct voice_type *t, struct line *line, int begin, int end)
 {
     struct font_layout layout = {0};
@@ -266,7 +266,8 @@ static enum font_status bytes_set(struct voice_type *t, struct line *line, int b
     return status;
 }
 
-/* The letter before is over: what follows it is set, a space where a word ends, and what goes before the next. */
+/* Ends the letter before: sets what follows it, a space at a word's end, and what precedes
+ * the next. */
 static enum font_status letter_change(struct voice_type *t, struct line *line, int letter)
 {
     const struct voice_letter *next = &t->words->letters[letter], *last = NULL;
@@ -283,8 +284,9 @@ static enum font_status letter_change(struct voice_type *t, struct line *line, i
     return status;
 }
 
-/* One letter, or a bit of silence. A letter lasts as long as its width is in time, but not longer than its part of it: so each letter
- * is set at least once, and where there are many for a moment the line takes more room. */
+/* Sets one letter, or a piece of silence. A letter lasts as long as its width corresponds
+ * to, but not longer than its share of the time. So each letter is set at least once, and
+ * where many letters share a short time, the line becomes longer. */
 static enum font_status letter_set(struct voice_type *t, struct line *line, double second_px)
 {
     double size = voice_type_size(t, line->time_s);
@@ -341,7 +343,7 @@ enum font_status voice_type_line(struct voice_type *t, double second_px, double 
 void voice_type_envelope(const struct voice_type *t, double margin_px,
                          struct font_picture *picture)
 {
-    enum { PARTS = 8 }; /* of a pixel's width that are looked at */
+    enum { PARTS = 8 }; /* samples for each pixel's width */
     const struct voice_score *s = t->score;
     double width = picture->width_px - 2 * margin_px,
            height = picture->height_px - 3 * margin_px;

@@ -83,7 +83,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The range that pitches have, but for those that are rare. */
+/* Finds the range of the pitches, without rare ones. */
 static bool pitches_measure(struct voice_score *s)
 {
     double *octaves = malloc(sizeof *octaves * (size_t)(s->count ? s->count : 1));
@@ -108,7 +108,7 @@ static double part(double x, double least, double most)
     return fmin(1, fmax(0, (x - least) / (most - least)));
 }
 
-/* Values where there are none are kept from before; those before the first are the first's. */
+/* Missing values repeat the last one before; those at the beginning repeat the first. */
 static void kept_make(double *kept, const double *values, int count)
 {
     double now = -1;
@@ -151,7 +151,7 @@ static bool kept_all(struct voice_score *s)
     return memory;
 }
 
-/* Sounds begin at attacks; what is heard before the first one begins where it can be heard. */
+/* Sounds begin at attacks; sound before the first attack begins where it becomes audible. */
 static bool begins_find(struct voice_score *s, double silence)
 {
     s->begin_s = malloc(sizeof *s->begin_s * (size_t)(s->count + 1));
@@ -165,7 +165,7 @@ static bool begins_find(struct voice_score *s, double silence)
         if (f->attack || (heard && s->begins == 0))
             s->begin_s[s->begins++] = f->time_s;
     }
-    /* a sound that begins right after it could be heard is the same one */
+    /* a sound that begins just after the voice becomes audible is the same one */
     if (s->begins > 1 && s->begin_s[1] - s->begin_s[0] < 0.1) {
         memmove(s->begin_s, s->begin_s + 1, sizeof *s->begin_s * (size_t)(s->begins - 1));
         s->begins--;
