@@ -15,7 +15,7 @@ void keys_letters_names(struct keys_letters *out)
         snprintf(out->of[i], KEYS_LETTER_BYTES, "%s", names[i % 12]);
 }
 
-/* A mark that belongs to the letter before it. */
+/* Whether a character is a mark of the letter before it. */
 static bool is_mark(uint32_t c)
 {
     return (c >= 0x300 && c <= 0x36f) || (c >= 0xfe00 && c <= 0xfe0f) || c == 0x200d;
@@ -26,7 +26,7 @@ static bool is_space(uint32_t c)
     return c <= ' ' || c == 0xa0 || (c >= 0x2000 && c <= 0x200a) || c == 0x3000;
 }
 
-/* The next letter with its marks; NULL: there is none. *count: its bytes. */
+/* The next letter with its marks; NULL: none. *count: its bytes. */
 static const char *letter_next(const char **at, const char *end, size_t *count)
 {
     const char *begin = NULL;

@@ -1,4 +1,5 @@
-/* keys_letters.h - which letter a key has: its note's name, a text's letters one after the other, or a file's.
+/* keys_letters.h - the letters of keys: names of notes, letters of a text, or letters from a
+ * file.
  *
  *     c4 A          a key, as a note or a number, and what it plays; # begins a comment
  *     d4 at
@@ -16,11 +17,12 @@ struct keys_letters {
 
 /* C, C-sharp, D, ... of all keys. */
 void keys_letters_names(struct keys_letters *out);
-/* The letters of the text go to the keys that are played, from the lowest, and begin again where there are more keys. Marks stay with
- * their letters; white space is passed over. False: there is no letter in it. */
+/* Assigns the letters of the text to the keys that are played, from the lowest, repeating
+ * the text if there are more keys. Marks stay with their letters; white space is skipped.
+ * False: the text has no letter. */
 bool keys_letters_text(const struct keys_score *score, const char *text,
                        struct keys_letters *out);
-/* False: `why` has one line. Keys that the file does not have keep what they had. */
+/* False: `why` gets one line. Keys that are not in the file keep their letters. */
 bool keys_letters_file(const char *path, struct keys_letters *out, char *why, size_t room);
 
 #endif

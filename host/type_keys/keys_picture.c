@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double FILL = 0.94; /* of a picture's width is for letters */
+static const double FILL = 0.94; /* the part of a picture's width for letters */
 static const double OVERLAP =
-    2.6; /* so much wider than its part a letter may be: not all sound at once */
+    2.6; /* the largest ratio of a letter's width to its share: not all keys sound at once */
 static const double LETTER_HIGH = 0.9; /* of the em, from the foot of a g to the head of an h */
 
 struct keys_type {
@@ -74,7 +74,7 @@ static void paper_fill(const struct keys_type *t, struct font_picture *picture)
             memcpy(picture->rgb + (size_t)y * (size_t)picture->pitch + 3 * (size_t)x, paper, 3);
 }
 
-/* A key's letter at a level, with its middle or its left end at x. */
+/* Draws a key's letter at a level, with its middle or its left end at x. */
 static enum font_status letter_draw(struct keys_type *t, int key, int channel, double level,
                                     double x, bool middle, double y,
                                     struct font_picture *picture)
@@ -87,7 +87,7 @@ static enum font_status letter_draw(struct keys_type *t, int key, int channel, d
     enum font_status status =
         font_shaper_layout(t->shaper, letter, strlen(letter), size, NULL, &layout);
     const double half = layout.width_px / 2;
-    if (middle) /* whole, also at the edges */
+    if (middle) /* entirely visible, also at the edges */
         x = fmax(half, fmin(x, picture->width_px - half)) - half;
     if (status == FONT_OK)
         status =
@@ -102,7 +102,8 @@ enum font_status keys_type_moment(struct keys_type *t, double time_s,
     const struct keys_score *s = t->score;
     const double part = FILL * picture->width_px / s->keys_count;
     const double left = (1 - FILL) / 2 * picture->width_px;
-    /* what goes up and what goes down of the largest letters is as far from the middle */
+    /* centred: the largest letters' ascent and descent are at equal distances from the
+     * middle */
     const double baseline = picture->height_px / 2.0 + 0.25 * t->def.size_px[1];
     enum font_status status = FONT_OK;
     paper_fill(t, picture);

@@ -1,7 +1,10 @@
-/* keys_picture.h - letters that keys play, as pictures: a moment, and a line along which time runs.
+/* keys_picture.h - pictures of letters played by keys: a moment, and a line along which time
+ * runs.
  *
- * A moment has all keys that are played, the lowest at the left, on one baseline, each as large as it sounds. On the line each note is set once,
- * where it begins, as large as it gets; higher notes stand higher. A channel has an ink of its own. */
+ * A moment has all keys that are played, the lowest at the left, on one baseline, each as
+ * large as it sounds. On the line each note is set once, where it begins, as large as it
+ * gets; higher notes stand higher. A channel has an ink of its own.
+ */
 #ifndef LUTETIA_KEYS_PICTURE_H
 #define LUTETIA_KEYS_PICTURE_H
 
@@ -32,7 +35,7 @@ enum font_status keys_type_moment(struct keys_type *type, double time_s,
 /* `second_px` pixels for a second, from margin_px on; the lowest key's baseline at baseline_px. */
 enum font_status keys_type_line(struct keys_type *type, double second_px, double margin_px,
                                 double baseline_px, struct font_picture *picture);
-/* The most size with which a moment fits a picture. Errors: those of shapers. */
+/* The largest size at which all moments fit a picture. Errors: those of shapers. */
 enum font_status keys_type_fit(struct font_face *face, const struct keys_score *score,
                                const struct keys_letters *letters, int width_px, int height_px,
                                double *size_px);

@@ -7,7 +7,7 @@
 
 enum { SUSTAIN = 64, ALL_SOUND_OFF = 120, ALL_NOTES_OFF = 123 };
 
-/* Of the most size: nobody sees what is less. */
+/* Relative size below which a letter is invisible. */
 #define FADED 1e-3
 
 struct keys_def keys_def_default(void)
@@ -15,11 +15,11 @@ struct keys_def keys_def_default(void)
     return (struct keys_def){.attack_s = 0.03, .release_s = 0.25, .pressure = 1};
 }
 
-/* What is down, as messages go by. */
+/* The keys that are down while messages are read. */
 struct keys_hands {
     int notes_room, pressures_room;
     int sounding[MIDI_CHANNELS][MIDI_NOTES]; /* 1 + the note's index; 0: none */
-    bool kept[MIDI_CHANNELS][MIDI_NOTES];    /* let go, and the pedal is down */
+    bool kept[MIDI_CHANNELS][MIDI_NOTES];    /* released while the pedal is down */
     bool pedal[MIDI_CHANNELS];
     double time_s;
     bool failed;
@@ -153,7 +153,7 @@ void keys_score_range(struct keys_score *s, int lowest, int highest)
     }
 }
 
-/* Of a sounding note all pressures since its beginning count. */
+/* Pressures matter from the beginning of a sounding note on. */
 static void pressures_forget(struct keys_score *s, double before_s)
 {
     int kept = 0;
@@ -180,7 +180,8 @@ void keys_score_forget(struct keys_score *s, double time_s)
     pressures_forget(s, first_s);
 }
 
-/* Which keys are played, from the lowest; notes that nobody let go end with the song. */
+/* Finds the keys that are played, from the lowest; notes without an end last to the song's
+ * end. */
 static void keys_find(struct keys_score *s)
 {
     bool played[MIDI_NOTES] = {false};
@@ -223,7 +224,7 @@ void keys_score_finish(struct keys_score *s)
     *s = (struct keys_score){0};
 }
 
-/* The last aftertouch of the key or of its channel since the note began; 0: none. */
+/* The last aftertouch of the key or its channel since the note began; 0: none. */
 static double pressure_at(const struct keys_score *s, const struct keys_note *n, double time_s)
 {
     double value = 0;
@@ -248,7 +249,8 @@ double keys_note_level(const struct keys_score *s, int index, double time_s)
         n->velocity + (1 - n->velocity) * s->def.pressure * pressure_at(s, n, until_s);
     if (time_s <= n->end_s)
         return rise * held;
-    /* let go at once it goes at twice the middle's pace, slowly at half of it */
+    /* released quickly, it shrinks twice as fast as at the middle velocity; slowly, half as
+     * fast */
     const double fall_s = s->def.release_s * exp2(1 - 2 * n->release);
     return fall_s > 0 ? rise * held * exp(-(time_s - n->end_s) / fall_s) : 0;
 }
