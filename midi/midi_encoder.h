@@ -5,11 +5,14 @@
  *     size_t count = midi_encoder_put(&encoder, &message, bytes);
  *     write(port, bytes, count);
  *
- * With running status a channel message whose status is that of the last one goes without it: two bytes instead of three,
- * 640 us instead of 960 on a MIDI cable. Real-time messages leave that as it is.
+ * With running status a channel message whose status is that of the last one goes without it:
+ * two bytes instead of three, 640 us instead of 960 on a MIDI cable. Real-time messages do not
+ * change the running status.
  *
- * A message that is no real-time one ends a system exclusive that is still open: the f7 is written before it. A piece that
- * goes on where nothing is open is refused. So a parser reads from the bytes the messages that went in, and never others. */
+ * A message other than a real-time one ends an open system exclusive: f7 is written before
+ * it. A continuing piece is refused if no system exclusive is open. So a parser always reads
+ * exactly the encoded messages from the bytes.
+ */
 #ifndef LUTETIA_MIDI_ENCODER_H
 #define LUTETIA_MIDI_ENCODER_H
 
@@ -26,7 +29,8 @@ struct midi_encoder { /* zeros, but for the choice */
     bool in_sysex;
 };
 
-/* How many bytes were written; 0: the message is none, or goes on where nothing is open. */
+/* Returns the number of bytes written; 0: the message is invalid, or continues a system
+ * exclusive that is not open. */
 size_t midi_encoder_put(struct midi_encoder *e, const struct midi_message *m,
                         uint8_t bytes[static MIDI_ENCODED_MAX]);
 

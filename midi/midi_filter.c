@@ -1,4 +1,4 @@
-/* midi_filter.c - see midi_filter.h. The links' text is read in midi_filter_read.c. */
+/* midi_filter.c - see midi_filter.h. midi_filter_read.c parses the text of the links. */
 #include "midi_filter_internal.h"
 
 #include <stdlib.h>
@@ -28,18 +28,19 @@ static bool is_note(const struct midi_message *m)
 
 /* ---- thinning ---- */
 
-/* Which value this is, one number for each that may be held back; -1: none. */
+/* A key that identifies the controller or value, if it may be thinned; -1: it may not. */
 static int thin_key(const struct midi_message *m)
 {
     const int channel = m->bytes[0] & 15, data = m->bytes[1];
     switch (m->bytes[0] & 0xf0) {
     case MIDI_POLY_PRESSURE:
         return channel << 8 | 0x80 | data;
-    case MIDI_CONTROL: /* not banks (0, 32), data entry (6, 38) or what is a switch or a parameter's number */
+    case MIDI_CONTROL: /* except banks (0, 32), data entry (6, 38), switches and parameter
+                        * numbers */
         if ((data >= 1 && data <= 31 && data != 6) || (data >= 70 && data <= 95))
             return channel << 8 | data;
         return -1;
-    case MIDI_PRESSURE: /* of no controller that is thinned: 120 and 121 are channel modes */
+    case MIDI_PRESSURE: /* a mode or reset, which is not thinned */
         return channel << 8 | 120;
     case MIDI_BEND:
         return channel << 8 | 121;
@@ -57,7 +58,8 @@ static void thin_release(struct midi_chain *chain, int index, struct midi_held *
     pass(chain, index + 1, &m, sink);
 }
 
-/* The value of that link that has waited longest, of those that are chosen; NULL: none. channel -1: any. */
+/* The value of that link that has waited longest, among those selected; NULL: none. channel
+ * -1: any. */
 static struct midi_held *thin_oldest(struct midi_link *link, int channel, uint64_t due_by_ns)
 {
     struct midi_held *oldest = NULL;
@@ -71,7 +73,7 @@ static struct midi_held *thin_oldest(struct midi_link *link, int channel, uint64
     return oldest;
 }
 
-/* The value's place, or one of a value that is free to go again; NULL: all are in use. */
+/* The value's place, or the place of one that may be sent again; NULL: all are in use. */
 static struct midi_held *thin_place(struct midi_link *link, int key, uint64_t now_ns,
                                     bool *known)
 {
@@ -157,7 +159,7 @@ static bool link_passes(const struct midi_link *link, struct midi_message *m)
 {
     const int channel = midi_message_channel(m);
     switch (link->kind) {
-    case MIDI_LINK_DROP: /* the rest of a system exclusive is system exclusive */
+    case MIDI_LINK_DROP: /* all pieces of a system exclusive are treated alike */
         return !(link->rows >> (m->bytes[0] < 0x80 || m->bytes[0] == MIDI_SYSEX_END
                                     ? midi_row_of(MIDI_SYSEX) - midi_row_of(0x80)
                                     : midi_row_of(m->bytes[0]) - midi_row_of(0x80)) &

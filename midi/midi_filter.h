@@ -1,4 +1,4 @@
-/* midi_filter.h - a chain of filters between where messages come from and where they go.
+/* midi_filter.h - a chain of filters for messages.
  *
  *     struct midi_chain *chain;
  *     if (midi_chain_create("drop=aftertouch,clock channels=1-4 transpose=-12 thin=20", &chain) != MIDI_OK)
@@ -8,7 +8,7 @@
  *     midi_chain_flush(chain, now_ns, message_taken, context);
  *     midi_chain_destroy(chain);
  *
- * The links work one after the other, as they are written:
+ * The links are applied in the order in which they are written:
  *
  *     drop=NAMES          takes out messages by name (midi_message.h), or aftertouch, real-time, controls
  *     keep=NAMES          takes out all others
@@ -20,11 +20,13 @@
  *     split=c4:2          notes below c4 go to channel 2
  *     thin=MS             continuous controllers, bend and pressures: at most one value in so many milliseconds each
  *
- * Thinning keeps the newest value and hands it on when its time has come, or before the next message of another kind on its
- * channel, whichever is first: the last value always arrives, and a note finds the values that were set before it.
- * Switches (pedals), parameter numbers and banks are never thinned. A value handed on late keeps the time of its reading.
+ * Thinning holds the newest value back until its interval is over, or until the next message of
+ * another kind on its channel, whichever is first. So the last value always arrives, and values
+ * set before a note arrive before it. Switches (pedals), parameter numbers and banks are never
+ * thinned. A value that was held back keeps its original time.
  *
- * Threads: a chain belongs to one at a time. */
+ * Threads: a chain belongs to one at a time.
+ */
 #ifndef LUTETIA_MIDI_FILTER_H
 #define LUTETIA_MIDI_FILTER_H
 
@@ -32,15 +34,16 @@
 
 struct midi_chain;
 
-/* The text's links; an empty text passes all. Errors: BAD_ARGUMENT, with what is known; NO_MEMORY. */
+/* Parses the text's links; an empty text passes everything. Errors: BAD_ARGUMENT, with the
+ * known names; NO_MEMORY. */
 enum midi_status midi_chain_create(const char *text, struct midi_chain **out);
 void midi_chain_destroy(struct midi_chain *chain); /* takes NULL */
 
 void midi_chain_take(struct midi_chain *chain, const struct midi_message *m, midi_take *take,
                      void *context);
-/* When a value that is held back is due; UINT64_MAX: none is. */
+/* The time at which a value that is held back is due; UINT64_MAX: none. */
 uint64_t midi_chain_due_ns(const struct midi_chain *chain);
-/* Hands on what is due by now; with UINT64_MAX all that is held back. */
+/* Passes on the values that are due; with UINT64_MAX all values. */
 void midi_chain_flush(struct midi_chain *chain, uint64_t now_ns, midi_take *take,
                       void *context);
 

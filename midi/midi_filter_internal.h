@@ -1,4 +1,4 @@
-/* midi_filter_internal.h - a chain of filters: its links as they are kept. */
+/* midi_filter_internal.h - the links of a chain of filters. */
 #ifndef LUTETIA_MIDI_FILTER_INTERNAL_H
 #define LUTETIA_MIDI_FILTER_INTERNAL_H
 
@@ -21,8 +21,8 @@ enum midi_link_kind {
 /* A value that is thinned. */
 struct midi_held {
     int key;
-    bool waits;       /* message is held back until sent_ns + interval */
-    uint64_t sent_ns; /* when one was last handed on */
+    bool waits;       /* the message is held back until sent_ns + interval */
+    uint64_t sent_ns; /* when a value was last passed on */
     uint64_t order;   /* of beginning to wait */
     struct midi_message message;
 };

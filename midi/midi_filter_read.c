@@ -1,4 +1,4 @@
-/* midi_filter_read.c - the text of a chain of filters to its links. */
+/* midi_filter_read.c - parses the text of a chain of filters. */
 #include "midi_filter_internal.h"
 
 #include <math.h>
@@ -97,10 +97,10 @@ static enum midi_status channels_read(char *text, struct midi_link *link)
 
 static enum midi_status notes_read(char *text, struct midi_link *link)
 {
-    /* the first - after the first character parts them: c-1-c4 */
+    /* the first - after the first character separates the two notes: c-1-c4 */
     char *part = text[0] ? strchr(text + 1, '-') : NULL;
     if (part && (part[-1] < '0' || part[-1] > '9'))
-        part = strchr(part + 1, '-'); /* that one was an octave's sign */
+        part = strchr(part + 1, '-'); /* that - was the sign of an octave */
     if (part)
         *part++ = '\0';
     link->least = midi_note_read(text);
@@ -128,7 +128,7 @@ static enum midi_status velocity_read(char *text, struct midi_link *link)
         return midi_fail(MIDI_BAD_ARGUMENT,
                          "velocity= takes a power, 0.05..20, or fixed:1..127 (got '%.20s')",
                          text);
-    for (int v = 1; v < 128; v++) { /* a strike stays one: never 0 */
+    for (int v = 1; v < 128; v++) { /* a note-on stays a note-on: never velocity 0 */
         const double curved = 127 * pow(v / 127.0, power);
         link->curve[v] = (uint8_t)(fixed ? fixed : fmax(1, round(curved)));
     }

@@ -1,4 +1,4 @@
-/* midi_internal.h - what the files of this folder and of those in it share. */
+/* midi_internal.h - shared by the files of this folder and its subfolders. */
 #ifndef LUTETIA_MIDI_INTERNAL_H
 #define LUTETIA_MIDI_INTERNAL_H
 
@@ -8,7 +8,7 @@
 
 extern _Thread_local struct error_text midi_last_error;
 
-/* Keeps the text for midi_error() and returns the status. */
+/* Keeps the message for midi_error() and returns the status. */
 #define midi_fail(status, ...)                                                                 \
     ((enum midi_status)error_text_fail(&midi_last_error, (int)(status), __VA_ARGS__))
 

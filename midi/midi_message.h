@@ -1,4 +1,4 @@
-/* midi_message.h - a message of MIDI 1.0, the table of all there are, and messages as words.
+/* midi_message.h - a message of MIDI 1.0, the table of all messages, and messages as text.
  *
  *     struct midi_message m = midi_message_make(now_ns, 0x90, 60, 100);
  *     char text[MIDI_TEXT_MAX];
@@ -6,8 +6,9 @@
  *     if (midi_message_read("control 1 7 127", &m) != MIDI_OK)
  *         die(midi_error());
  *
- * A message is one status byte and its data bytes. System exclusive can be of any length, so it comes in pieces, each a
- * message of up to MIDI_BYTES_MAX bytes, which tell by themselves what they are:
+ * A message is one status byte and its data bytes. System exclusive can be of any length, so it
+ * is divided into pieces, each a message of up to MIDI_BYTES_MAX bytes. The bytes of a piece
+ * show its kind:
  *
  *     f0 . . . .      the first byte is f0: a first piece
  *     . . . . . .     the first byte is data: one that goes on
@@ -15,7 +16,8 @@
  *
  * Between two pieces of one system exclusive only real-time messages (f8 to ff) may come.
  *
- * Source: The Complete MIDI 1.0 Detailed Specification, table of status bytes. */
+ * Source: The Complete MIDI 1.0 Detailed Specification, table of status bytes.
+ */
 #ifndef LUTETIA_MIDI_MESSAGE_H
 #define LUTETIA_MIDI_MESSAGE_H
 
@@ -25,7 +27,8 @@
 #include <stdint.h>
 
 enum {
-    MIDI_BYTES_MAX = 244, /* of a piece of system exclusive; a whole struct is then 256 bytes */
+    MIDI_BYTES_MAX = 244, /* bytes of a piece of system exclusive; the whole struct then has
+                           * 256 bytes */
     MIDI_TEXT_MAX = 3 * MIDI_BYTES_MAX + 32,
     MIDI_CHANNELS = 16,
     MIDI_NOTES = 128
@@ -59,7 +62,7 @@ enum midi_kind {
     MIDI_KIND_SYSEX,              /* f0, and what goes on */
     MIDI_KIND_COMMON,             /* f1 to f6: ends running status */
     MIDI_KIND_REAL_TIME,          /* f8 to ff: may come inside any other message */
-    MIDI_KIND_UNDEFINED,          /* f4, f5: as common ones; dropped */
+    MIDI_KIND_UNDEFINED,          /* f4, f5: end running status like common messages; dropped */
     MIDI_KIND_UNDEFINED_REAL_TIME /* f9, fd: dropped */
 };
 
@@ -70,29 +73,30 @@ struct midi_row {
     uint8_t data_count; /* bytes that follow */
 };
 
-/* The row of a status byte, 0x80 to 0xff; data bytes have none (NULL). */
+/* The row of a status byte, 0x80 to 0xff; NULL for data bytes. */
 const struct midi_row *midi_row_of(uint8_t status);
 const struct midi_row *midi_rows(int *count);
 
 /* ---- messages ---- */
 
-/* Of up to two data bytes; those that the status has not are left out. Range: status is 0x80 or more and no system
- * exclusive; data 0..127 (masked). */
+/* Makes a message with up to two data bytes; superfluous ones are ignored. Range: status is
+ * 0x80 or more and not system exclusive; data 0..127 (masked). */
 struct midi_message midi_message_make(uint64_t time_ns, uint8_t status, uint8_t first,
                                       uint8_t second);
 
-/* The kind, by the first byte: data is the rest of a system exclusive. */
+/* The kind, by the first byte; a data byte means a continued system exclusive. */
 enum midi_kind midi_message_kind(const struct midi_message *m);
-/* 0..15, or -1 where it has none. */
+/* 0..15, or -1 if the message has no channel. */
 int midi_message_channel(const struct midi_message *m);
-/* Whether the count and each byte are as a message's must be. */
+/* Whether the number of bytes and each byte are valid. */
 bool midi_message_good(const struct midi_message *m);
-/* The piece leaves its system exclusive open: another one follows. */
+/* Whether another piece of the system exclusive follows. */
 bool midi_message_open(const struct midi_message *m);
 /* Times left out. */
 bool midi_message_equal(const struct midi_message *a, const struct midi_message *b);
 
-/* A note-on whose velocity is not 0; and what ends one: a note-off, or a note-on of velocity 0. */
+/* Whether it is a note-on with a velocity above 0; whether it ends a note: a note-off, or a
+ * note-on with velocity 0. */
 bool midi_message_strikes(const struct midi_message *m);
 bool midi_message_releases(const struct midi_message *m);
 
@@ -103,9 +107,9 @@ bool midi_message_releases(const struct midi_message *m);
 void midi_message_text(const struct midi_message *m, char text[static MIDI_TEXT_MAX]);
 /* Reads what the above wrote; notes may be numbers, too. Errors: BAD_ARGUMENT, with the known names. */
 enum midi_status midi_message_read(const char *text, struct midi_message *m);
-/* "c4", "f#-1", or a number, 0..127. -1: it is neither. */
+/* Reads "c4", "f#-1", or a number, 0..127. -1: it is neither. */
 int midi_note_read(const char *word);
-/* The other way; 8 bytes are enough. */
+/* The note as text; 8 bytes are enough. */
 void midi_note_text(int note, char text[static 8]);
 
 #endif

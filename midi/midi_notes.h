@@ -1,9 +1,10 @@
-/* midi_notes.h - which notes sound, so that none goes on when whoever plays it is gone.
+/* midi_notes.h - which notes sound, so that all can be ended when their player is gone.
  *
  *     struct midi_notes notes = {0};
  *     midi_notes_take(&notes, &message);                      // for each message that goes by
  *     ...
- *     midi_notes_release(&notes, now_ns, message_taken, context);   // ends all of them */
+ *     midi_notes_release(&notes, now_ns, message_taken, context);   // ends all of them
+ */
 #ifndef LUTETIA_MIDI_NOTES_H
 #define LUTETIA_MIDI_NOTES_H
 
@@ -14,12 +15,14 @@ struct midi_notes { /* zeros: none */
     uint16_t pedals; /* a bit for each channel whose sustain pedal is down */
 };
 
-/* Notes, sustain pedals, and the controllers and the reset that end all notes; else nothing. */
+/* Follows notes, sustain pedals, and the controllers and the reset that end all notes;
+ * ignores other messages. */
 void midi_notes_take(struct midi_notes *n, const struct midi_message *m);
 int midi_notes_count(const struct midi_notes *n);
-/* A note-off for each note, and pedals up; then none sounds. At most MIDI_CHANNELS * (MIDI_NOTES + 1) messages. */
+/* Sends a note-off for each note, and pedals up; afterwards no note sounds. At most
+ * MIDI_CHANNELS * (MIDI_NOTES + 1) messages. */
 void midi_notes_release(struct midi_notes *n, uint64_t time_ns, midi_take *take, void *context);
-/* For who knows nothing of what came before: on each channel pedal up and all notes off. */
+/* Without knowledge of earlier messages: sends pedal up and all notes off on each channel. */
 void midi_notes_silence(uint64_t time_ns, midi_take *take, void *context);
 
 #endif

@@ -30,7 +30,7 @@ static void sysex_byte(struct midi_parser *p, uint8_t byte, const struct sink *s
     }
 }
 
-/* What a status byte that is no real-time one does to what was being read. */
+/* A status byte other than a real-time one ends the message being read. */
 static void break_off(struct midi_parser *p, const struct sink *sink)
 {
     if (p->in_sysex)
@@ -58,7 +58,8 @@ static void status_byte(struct midi_parser *p, uint8_t byte, const struct sink *
         p->in_sysex = false;
         return;
     }
-    /* A status that still waits for its data, unless it is a running one, was for nothing. */
+    /* A status still waiting for its first data bytes, which is no running status, is
+     * dropped. */
     if (!p->in_sysex && p->partial.count == 1)
         p->counts.broken++;
     break_off(p, sink);

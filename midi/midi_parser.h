@@ -1,11 +1,11 @@
-/* midi_parser.h - bytes to messages, however the bytes are cut.
+/* midi_parser.h - parses bytes to messages.
  *
  *     struct midi_parser parser;
  *     midi_parser_init(&parser);
  *     while ((count = read(port, bytes, sizeof bytes)) > 0)
- *         midi_parser_take(&parser, clock_now_ns(), bytes, count, message_taken, context);
+ *         midi_parser_take(&parser, midi_now_ns(), bytes, count, message_taken, context);
  *
- * The messages depend on the bytes alone, not on where a read ended:
+ * The messages depend only on the bytes, not on how they are divided into reads:
  *   - a status byte stands for the channel messages after it, too (running status), until a system message other than a
  *     real-time one;
  *   - real-time bytes are messages at once, also inside others, which they leave as they were;
@@ -14,7 +14,9 @@
  *   - what is undefined (f4, f5, f9, fd), data without a status, an f7 without a beginning, and a message broken off by
  *     another are dropped and counted.
  *
- * A message's time is that of the read which brought its last byte. The parser asks for no memory. */
+ * A message's time is that of the read which brought its last byte. The parser allocates no
+ * memory.
+ */
 #ifndef LUTETIA_MIDI_PARSER_H
 #define LUTETIA_MIDI_PARSER_H
 
@@ -32,8 +34,7 @@ struct midi_parser_counts {
 struct midi_parser {
     struct midi_parser_counts counts;
     /* private */
-    uint8_t
-        running; /* the status of the message that is being read, or that may go on; 0: none */
+    uint8_t running; /* the status of the message being read, or of a running one; 0: none */
     bool in_sysex;
     struct midi_message partial;
 };
@@ -41,10 +42,11 @@ struct midi_parser {
 typedef void midi_take(void *context, const struct midi_message *message);
 
 void midi_parser_init(struct midi_parser *p);
-/* Calls take for each message that these bytes complete, in order. */
+/* Calls `take` for each message that these bytes complete, in order. */
 void midi_parser_take(struct midi_parser *p, uint64_t time_ns, const uint8_t *bytes,
                       size_t count, midi_take *take, void *context);
-/* The source is gone: an open system exclusive is ended, a message begun is dropped, running status is forgotten. */
+/* The source is gone: ends an open system exclusive, drops an incomplete message, and
+ * forgets the running status. */
 void midi_parser_end(struct midi_parser *p, uint64_t time_ns, midi_take *take, void *context);
 
 #endif

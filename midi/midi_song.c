@@ -65,7 +65,7 @@ void midi_song_destroy(struct midi_song *song)
 
 static const uint64_t TIME_MAX_NS = UINT64_MAX / 4;
 
-/* ticks of factor_us / parts microseconds each, to nanoseconds. */
+/* Converts ticks of factor_us / parts microseconds each to nanoseconds. */
 static uint64_t ticks_ns(uint64_t ticks, uint64_t factor_us, uint64_t parts)
 {
     const uint64_t product = ticks * factor_us; /* below 2^32 and 2^24 */
@@ -74,7 +74,8 @@ static uint64_t ticks_ns(uint64_t ticks, uint64_t factor_us, uint64_t parts)
     return product / parts * 1000 + product % parts * 1000 / parts;
 }
 
-/* A tick's length as a fraction, of quarter notes or of frames; 29 frames are 30 of 1001/1000. */
+/* A tick's length as a fraction, of quarter notes or of frames; 29 frames a second are
+ * 30/1.001. */
 static void tick_length(const struct midi_song *song, uint32_t tempo_us, uint64_t *factor_us,
                         uint64_t *parts)
 {
@@ -128,7 +129,7 @@ enum midi_status song_sort(struct midi_song *song)
     if (song->sorted)
         return MIDI_OK;
     song->open_track =
-        -1; /* the event that it is recorded into may not be the last one any more */
+        -1; /* the event of the recorded system exclusive may no longer be the last */
     if (song->events_count)
         qsort(song->events, song->events_count, sizeof *song->events, event_order);
     song->tempos_count = 0;
@@ -145,7 +146,7 @@ enum midi_status song_sort(struct midi_song *song)
     return status;
 }
 
-/* The last stretch that begins at the tick, or at the time, or before. */
+/* The last tempo that begins at or before the tick, or the time. */
 static const struct song_tempo *tempo_at(struct midi_song *song, uint32_t tick, uint64_t ns)
 {
     size_t low = 0, high;
@@ -315,7 +316,8 @@ enum midi_status midi_song_record(struct midi_song *song, int track,
     if (kind != MIDI_KIND_CHANNEL && kind != MIDI_KIND_SYSEX)
         return MIDI_OK;
     if (kind == MIDI_KIND_SYSEX && m->bytes[0] != MIDI_SYSEX) {
-        /* What goes on is added to the bytes of the last event, which lie last. */
+        /* A continued piece is appended to the bytes of the last event, which are last in
+         * memory. */
         if (song->open_track != track)
             return MIDI_OK;
         enum midi_status status = bytes_add(song, m->bytes, m->count);
@@ -325,7 +327,8 @@ enum midi_status midi_song_record(struct midi_song *song, int track,
             song->open_track = -1;
         return status;
     }
-    /* By the usual tempo: sorting what is recorded so far, for the sake of tempo events, would take ever longer. */
+    /* By the default tempo: sorting the events so far to apply tempo events would take ever
+     * longer. */
     const struct song_tempo usual = {.tempo_us = MIDI_TEMPO_USUAL_US};
     const uint64_t ns = m->time_ns > begin_ns ? m->time_ns - begin_ns : 0;
     const struct midi_song_event e = {.tick = tick_near(song, &usual, ns),

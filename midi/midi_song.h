@@ -10,23 +10,28 @@
  *     }
  *     midi_song_destroy(song);
  *
- * What is read and written again has the same events; running status is used where it saves a byte.
+ * A file that is read and written again has the same events; running status is used where it
+ * saves a byte.
  *
- * Read, too: a file within RIFF (RMID), chunks of other kinds (skipped), a missing end of a track, running status across
- * meta events, fewer tracks than the header says. Refused: format 2, files over 64 MiB, anything cut off.
+ * Also accepted: a file within RIFF (RMID), chunks of other kinds (skipped), a missing end of a
+ * track, running status across meta events, fewer tracks than the header says. Refused: format
+ * 2, files over 64 MiB, truncated files.
  *
- * Time. A division is ticks for a quarter note, whose length tempo events change, or for a frame of SMPTE time. The tempo
- * map is exact to a nanosecond for each of its stretches, and holds for all tracks.
+ * Time. A division is ticks for a quarter note, whose length tempo events change, or for a
+ * frame of SMPTE time. The tempo map is exact to a nanosecond for each of its stretches, and
+ * holds for all tracks.
  *
- * Source: Standard MIDI-File Format Spec. 1.1. */
+ * Source: Standard MIDI-File Format Spec. 1.1.
+ */
 #ifndef LUTETIA_MIDI_SONG_H
 #define LUTETIA_MIDI_SONG_H
 
 #include "midi_parser.h"
 
 enum {
-    MIDI_TEMPO_USUAL_US = 500000, /* of a quarter note, where no tempo is said: 120 a minute */
-    MIDI_DIVISION_USUAL = 9600,   /* of recordings: a tick is 52 us */
+    MIDI_TEMPO_USUAL_US = 500000, /* microseconds of a quarter note, if there is no tempo
+                                   * event: 120 a minute */
+    MIDI_DIVISION_USUAL = 9600,   /* for recordings: a tick is 52 us */
     MIDI_META_TRACK_NAME = 0x03,
     MIDI_META_END = 0x2f,
     MIDI_META_TEMPO = 0x51
@@ -35,7 +40,7 @@ enum {
 enum midi_song_kind {
     MIDI_SONG_MESSAGE, /* a channel message; the bytes begin with its status */
     MIDI_SONG_SYSEX,   /* the bytes begin with f0, and end with f7 if no packet follows */
-    MIDI_SONG_ESCAPE,  /* bytes as they are: packets of a system exclusive, or anything */
+    MIDI_SONG_ESCAPE,  /* raw bytes: packets of a system exclusive, or anything */
     MIDI_SONG_META
 };
 
@@ -46,7 +51,7 @@ struct midi_song_event {
     enum midi_song_kind kind;
     uint8_t meta; /* its type; of META */
     uint32_t count;
-    const uint8_t *bytes; /* the song's; NULL where there are none */
+    const uint8_t *bytes; /* owned by the song; NULL: none */
 };
 
 struct midi_song;
@@ -64,10 +69,10 @@ void midi_song_destroy(struct midi_song *song); /* takes NULL */
 
 /* Errors: BAD_FILE, IO_FAILED, NO_MEMORY; *out is then NULL. */
 enum midi_status midi_song_read(const char *path, struct midi_song **out);
-/* name: what errors call it. */
+/* name: used in errors. */
 enum midi_status midi_song_parse(const char *name, const uint8_t *bytes, size_t count,
                                  struct midi_song **out);
-/* Whole under its name or not at all. Errors: IO_FAILED, NO_MEMORY. */
+/* Writes a whole file or none. Errors: IO_FAILED, NO_MEMORY. */
 enum midi_status midi_song_write(struct midi_song *song, const char *path);
 /* Owns: the caller frees *bytes. */
 enum midi_status midi_song_bytes(struct midi_song *song, uint8_t **bytes, size_t *count);
@@ -83,7 +88,8 @@ struct midi_song_info {
 struct midi_song_info midi_song_info(struct midi_song *song);
 /* Range: index is below events_count. */
 struct midi_song_event midi_song_event(struct midi_song *song, size_t index);
-/* The event as messages, through the caller's parser, which keeps what of a system exclusive is open. Meta events are none. */
+/* The event as messages, through the caller's parser, which keeps the state of an open
+ * system exclusive. Meta events give none. */
 void midi_song_play(const struct midi_song_event *e, struct midi_parser *parser,
                     midi_take *take, void *context);
 
@@ -92,15 +98,16 @@ uint32_t midi_song_tick(struct midi_song *song, uint64_t time_ns); /* the neares
 
 /* ---- making one ---- */
 
-/* An event anywhere; there are as many tracks as the largest number needs. The bytes are copied.
- * Errors: BAD_ARGUMENT (a track that format 0 has not, bytes that are none of the kind's), NO_MEMORY. */
+/* Adds an event anywhere; there are as many tracks as the largest number requires. The bytes
+ * are copied. Errors: BAD_ARGUMENT (a track that format 0 lacks, bytes that do not fit the
+ * kind), NO_MEMORY. */
 enum midi_status midi_song_add(struct midi_song *song, const struct midi_song_event *event);
-/* A message at its time_ns since begin_ns, by the usual tempo: a song that is recorded has no tempo events. Pieces of a system
- * exclusive become one event. Real-time and common messages have no place in a file and are left out.
- * Errors: those of midi_song_add(). */
+/* Records a message at its time_ns since begin_ns, by the default tempo: a recorded song has
+ * no tempo events. Pieces of a system exclusive become one event. Files cannot hold
+ * real-time and common messages, which are left out. Errors: those of midi_song_add(). */
 enum midi_status midi_song_record(struct midi_song *song, int track,
                                   const struct midi_message *m, uint64_t begin_ns);
-/* The track ends there or at its last event, whichever is later. */
+/* Ends the track at that time or at its last event, whichever is later. */
 enum midi_status midi_song_end(struct midi_song *song, int track, uint32_t tick);
 
 #endif

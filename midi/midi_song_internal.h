@@ -1,4 +1,5 @@
-/* midi_song_internal.h - a song as it is kept: events in a list, their bytes in one piece of memory. */
+/* midi_song_internal.h - struct midi_song: events in a list, their bytes in one block of
+ * memory. */
 #ifndef LUTETIA_MIDI_SONG_INTERNAL_H
 #define LUTETIA_MIDI_SONG_INTERNAL_H
 
@@ -30,12 +31,12 @@ struct midi_song {
     uint32_t *end_ticks; /* of each track */
     struct song_tempo *tempos;
     size_t tempos_count, tempos_room;
-    int open_track; /* of a system exclusive that is being recorded; -1: none */
+    int open_track; /* the track of the system exclusive being recorded; -1: none */
 };
 
-/* Room for one more of items of that size. Errors: NO_MEMORY. */
+/* Makes room for one more item of that size. Errors: NO_MEMORY. */
 enum midi_status song_room(void **items, size_t *room, size_t count, size_t item_bytes);
-/* Sorts the events and gives them times. */
+/* Sorts the events and computes their times. */
 enum midi_status song_sort(struct midi_song *song);
 
 #endif

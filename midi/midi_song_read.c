@@ -1,4 +1,4 @@
-/* midi_song_read.c - the bytes of a Standard MIDI File to a song.
+/* midi_song_read.c - parses a Standard MIDI File.
  *
  *     MThd 6 format tracks division          numbers with the high byte first
  *     MTrk length  (delta event)...          delta: seven bits a byte, the high bit says that another follows
@@ -15,12 +15,12 @@
 struct reader {
     const char *name;
     const uint8_t *bytes; /* of the whole file */
-    size_t at, end;       /* end: of the chunk that is read, or of the file */
-    int track;            /* from 1, for errors; 0: outside */
+    size_t at, end;       /* end: of the present chunk, or of the file */
+    int track;            /* from 1, for errors; 0: outside of tracks */
     enum midi_status status;
 };
 
-/* Returns false, for whoever has to. */
+/* Sets the error and returns false. */
 static bool wrong(struct reader *r, const char *what)
 {
     if (r->track)
@@ -39,7 +39,7 @@ static uint32_t number(struct reader *r, int bytes_count)
     return value;
 }
 
-/* A number of one to four bytes. */
+/* Reads a variable-length number of one to four bytes. */
 static bool length_read(struct reader *r, uint32_t *value)
 {
     *value = 0;
@@ -54,7 +54,7 @@ static bool length_read(struct reader *r, uint32_t *value)
     return wrong(r, "has a number of more than four bytes");
 }
 
-/* `count` bytes from here are there. */
+/* Whether `count` more bytes exist. */
 static bool there(struct reader *r, size_t count)
 {
     return count <= r->end - r->at || wrong(r, "ends within an event");
@@ -76,7 +76,8 @@ static bool meta_read(struct reader *r, struct midi_song_event *e, bool *ended)
     return true;
 }
 
-/* What follows f0 or f7. A system exclusive is kept with its f0, which stands before the length in the file. */
+/* Reads what follows f0 or f7. A system exclusive is kept with its f0, which precedes the
+ * length in the file. */
 static bool sysex_read(struct reader *r, struct midi_song *song, struct midi_song_event *e,
                        bool begins)
 {
@@ -172,7 +173,7 @@ static enum midi_status track_read(struct reader *r, struct midi_song *song)
         tick += delta;
         if (r->status != MIDI_OK)
             break;
-        if (r->at == r->end) /* a last delta before nothing: some programs end so */
+        if (r->at == r->end) /* a last delta without an event: some programs end tracks so */
             r->status = midi_song_end(song, r->track - 1, tick);
         else
             event_read(r, song, tick, &running, &ended);
@@ -180,7 +181,7 @@ static enum midi_status track_read(struct reader *r, struct midi_song *song)
     return r->status;
 }
 
-/* A chunk's four letters and its length; r->at is at its content, which ends at *end. */
+/* Reads a chunk's four letters and its length; r->at is at its content, which ends at *end. */
 static bool chunk_read(struct reader *r, size_t file_end, const char *letters, size_t *end)
 {
     if (file_end - r->at < 8)
@@ -243,7 +244,7 @@ enum midi_status midi_song_parse(const char *name, const uint8_t *bytes, size_t 
             "together)",
             name, format);
     struct midi_song_def def = {format, division};
-    if (division & 0x8000) /* minus the frames, and the ticks of one */
+    if (division & 0x8000) /* frames are negative; the ticks of a frame follow */
         def.division = -((256 - (division >> 8)) << 8 | (division & 255));
     if (midi_song_create(&def, out) == MIDI_NO_MEMORY)
         return MIDI_NO_MEMORY;
@@ -260,7 +261,7 @@ enum midi_status midi_song_parse(const char *name, const uint8_t *bytes, size_t 
     return r.status;
 }
 
-/* Reads all of an open file. */
+/* Reads a whole open file. */
 static enum midi_status file_read(const char *path, int file, uint8_t **bytes, size_t *count)
 {
     struct stat about;

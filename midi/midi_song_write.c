@@ -1,4 +1,4 @@
-/* midi_song_write.c - a song to the bytes of a Standard MIDI File. */
+/* midi_song_write.c - writes a song as a Standard MIDI File. */
 #include "midi_song_internal.h"
 
 #include <output_file.h>
@@ -39,13 +39,14 @@ static void put_length(struct writer *w, uint32_t value)
         put(w, &(uint8_t){(uint8_t)((value >> 7 * groups & 0x7f) | (groups ? 0x80 : 0))}, 1);
 }
 
-/* Longer than a number of a file can say: empty text events (ff 01 00) part it, which is within every program's reach. */
+/* A delta larger than a number of the file is divided by empty text events (ff 01 00), which
+ * every program can read. */
 static void put_delta(struct writer *w, uint32_t delta)
 {
     enum { DELTA_MAX = 0x0fffffff };
     for (; delta > DELTA_MAX; delta -= DELTA_MAX) {
         put_length(w, DELTA_MAX);
-        put(w, "\xff\x01", 3); /* and the 0 that ends the literal */
+        put(w, "\xff\x01", 3); /* includes the 0 that ends the literal */
     }
     put_length(w, delta);
 }
@@ -79,7 +80,7 @@ static void put_event(struct writer *w, const struct midi_song_event *e, uint8_t
     *running = 0;
 }
 
-/* The events of one track lie apart among all; first[track] and next[] string them together. */
+/* The events of a track are scattered among all; first[track] and next[] link them. */
 static void put_track(struct writer *w, struct midi_song *song, int track,
                       const uint32_t *first, const uint32_t *next)
 {

@@ -11,7 +11,7 @@ uint64_t midi_now_ns(void)
     return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
 }
 
-/* Octaves by the highest bit, sixteenths of one by the four bits below it. */
+/* The octave is the highest bit; its sixteenths are the four bits below. */
 static int bin_of(uint64_t ns)
 {
     if (ns < 16)

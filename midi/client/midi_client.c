@@ -1,4 +1,5 @@
-/* midi_client.c - see midi_client.h. What arrives becomes events in a queue; commands wait for their reply among it. */
+/* midi_client.c - see midi_client.h. Received frames become events in a queue; while a
+ * command waits for its reply, other frames are queued, too. */
 #include "midi_client.h"
 #include "midi_connect.h"
 #include "midi_wire.h"
@@ -38,17 +39,17 @@ struct midi_client {
     size_t in_count;
     struct midi_client_event *queue;
     size_t first, count, room; /* a ring */
-    uint32_t lost_here;        /* left out because the queue is full */
+    uint32_t lost_here;        /* dropped because the queue is full */
     struct listen_to listens[LISTENS_MAX];
     int listens_count;
     char devices[MIDI_WIRE_DEVICES][NAME_MAX_BYTES]; /* "": none */
     struct midi_notes heard[MIDI_WIRE_DEVICES];
-    /* the command that is waited for */
+    /* the command whose reply is awaited */
     uint32_t command, sent;
     bool welcome, replied, refused;
     char *reply;
     size_t reply_room;
-    char farewell[160]; /* what the server said at the end */
+    char farewell[160]; /* the server's last message */
 };
 
 struct midi_client_def midi_client_def_default(const char *name)
@@ -157,7 +158,7 @@ static void device_take(struct midi_client *c, const struct midi_wire_frame *f)
     memcpy(e->text, text, sizeof text);
 }
 
-/* False: that was no frame of ours, or the server ends the connection. */
+/* Handles a frame. False: it was malformed, or the server ends the connection. */
 static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
 {
     struct midi_client_event *e;
@@ -204,7 +205,7 @@ static bool frame_take(struct midi_client *c, const struct midi_wire_frame *f)
     }
 }
 
-/* Reads what is there, without waiting. */
+/* Reads the available bytes, without blocking. */
 static void input_take(struct midi_client *c)
 {
     const ssize_t got =
@@ -231,7 +232,7 @@ static void input_take(struct midi_client *c)
     c->in_count -= at;
 }
 
-/* Until it is readable, writable or the time has come. */
+/* Waits until the socket is readable or writable, or the time is over. */
 static bool wait_for(struct midi_client *c, short events, uint64_t until_ns)
 {
     const uint64_t now_ns = midi_now_ns();
@@ -278,7 +279,7 @@ static enum midi_status text_send(struct midi_client *c, uint8_t kind, const cha
                                                    .payload = (const uint8_t *)text});
 }
 
-/* Waits until *done, for a reply. */
+/* Waits for a reply, until *done. */
 static enum midi_status reply_wait(struct midi_client *c, const bool *done, const char *text)
 {
     const uint64_t until_ns = midi_now_ns() + REPLY_WAIT_MS * UINT64_C(1000000);
@@ -343,7 +344,7 @@ static enum midi_status connect_to(struct midi_client *c)
     c->reply_room = 0;
     for (int i = 0; status == MIDI_OK && i < c->listens_count; i++)
         status = listen_say(c, &c->listens[i]);
-    if (status == MIDI_OK) /* once that is answered, all devices are known */
+    if (status == MIDI_OK) /* the reply comes after the list of all devices */
         status = command(c, "devices", NULL, 0);
     if (status != MIDI_OK && c->file >= 0) {
         close(c->file);
@@ -407,7 +408,7 @@ enum midi_status midi_client_listen(struct midi_client *c, const char *device,
     while (i < c->listens_count && strcmp(c->listens[i].device, device) != 0)
         i++;
     if (i == LISTENS_MAX)
-        return MIDI_OK; /* heard, but not again after a reconnection */
+        return MIDI_OK; /* it listens now, but will not after a reconnection */
     c->listens[i] = l;
     c->listens_count = i == c->listens_count ? i + 1 : c->listens_count;
     return MIDI_OK;
@@ -444,7 +445,7 @@ int midi_client_descriptor(const struct midi_client *c)
     return c->file;
 }
 
-/* While the server is gone: waits until the next try, and tries. */
+/* While the server is gone: waits until the next attempt, and tries to connect. */
 static void try_again(struct midi_client *c, uint64_t until_ns)
 {
     const uint64_t now_ns = midi_now_ns();
@@ -473,7 +474,7 @@ enum midi_status midi_client_next(struct midi_client *c, int wait_ms,
         if (event_take(c, event))
             return MIDI_OK;
         if (last)
-            return MIDI_OK; /* NOTHING: event_take() has cleared it */
+            return MIDI_OK; /* NOTHING: set by event_take() */
         if (c->file < 0 && !c->stays)
             return midi_fail(MIDI_NO_SERVER, "the server is gone");
         last = midi_now_ns() >= until_ns;
@@ -482,6 +483,6 @@ enum midi_status midi_client_next(struct midi_client *c, int wait_ms,
         else if (wait_for(c, POLLIN, until_ns))
             input_take(c);
         else if (until_ns == UINT64_MAX)
-            last = true; /* a signal: the caller may want to look */
+            last = true; /* interrupted by a signal: return to the caller */
     }
 }

@@ -1,4 +1,4 @@
-/* midi_client.h - a program's way to instruments: through the server, `lutetia midi serve`.
+/* midi_client.h - connects a program to instruments, through the server `lutetia midi serve`.
  *
  *     struct midi_client_def def = midi_client_def_default("my program");
  *     struct midi_client *client;
@@ -12,10 +12,12 @@
  *
  *     cc prog.c $(pkg-config --cflags --libs lutetia-midi)
  *
- * Where the server goes away the notes that sound are ended by messages of their own, and the client says so
- * (MIDI_CLIENT_GONE), tries again until it is back, listens to what it listened to before, and says so (MIDI_CLIENT_BACK).
+ * When the connection is lost, the client generates messages that end the sounding notes, and
+ * reports it (MIDI_CLIENT_GONE). It reconnects as soon as possible, listens to the same devices
+ * again, and reports it (MIDI_CLIENT_BACK).
  *
- * Threads: a client belongs to one at a time. */
+ * Threads: a client belongs to one at a time.
+ */
 #ifndef LUTETIA_MIDI_CLIENT_H
 #define LUTETIA_MIDI_CLIENT_H
 
@@ -26,20 +28,21 @@
 struct midi_client;
 
 struct midi_client_def {
-    const char *name; /* what the server's status calls it */
+    const char *name; /* the program's name in the server's status */
     const char *
         address; /* NULL: the user's own server; a socket's path; or HOST:PORT, a TCP port of this machine */
-    const char *token; /* for TCP: what the server wants to hear */
-    bool stays;        /* tries again where the server goes away; else that is NO_SERVER */
+    const char *token; /* for TCP: the server's token */
+    bool stays;        /* reconnects when the server goes away; otherwise that is NO_SERVER */
 };
 struct midi_client_def midi_client_def_default(const char *name); /* stays */
 
 enum midi_client_kind {
     MIDI_CLIENT_NOTHING, /* the time is over */
     MIDI_CLIENT_MESSAGE,
-    MIDI_CLIENT_DEVICE, /* device and text: one is there, has come or gone: "NAME KIND in,out up" */
-    MIDI_CLIENT_LOST, /* this program was too slow: `lost` messages were left out */
-    MIDI_CLIENT_GONE, /* the server is; text says why */
+    MIDI_CLIENT_DEVICE, /* device and text: a device exists, has come or gone: "NAME KIND
+                         * in,out up" */
+    MIDI_CLIENT_LOST,   /* this program was too slow: `lost` messages were dropped */
+    MIDI_CLIENT_GONE,   /* the connection is lost; text says why */
     MIDI_CLIENT_BACK
 };
 
@@ -55,26 +58,29 @@ struct midi_client_event {
 enum midi_status midi_client_open(const struct midi_client_def *def, struct midi_client **out);
 void midi_client_close(struct midi_client *client); /* takes NULL */
 
-/* From now on messages of the device ("*": of all) arrive, through these filters (midi_filter.h).
- * Errors: REFUSED, with the server's reason; NO_SERVER. */
+/* Receive the device's messages ("*": of all devices) from now on, through these filters
+ * (midi_filter.h). Errors: REFUSED, with the server's reason; NO_SERVER. */
 enum midi_status midi_client_listen(struct midi_client *client, const char *device,
                                     const char *filters);
-/* Any command of docs/midi.md; the reply is cut where it does not fit. reply may be NULL. Errors: as above. */
+/* Sends any command of docs/midi.md; a reply that does not fit is cut. reply may be NULL.
+ * Errors: as above. */
 enum midi_status midi_client_command(struct midi_client *client, const char *command,
                                      char *reply, size_t room);
-/* The number of a device; -1: there is none of that name. */
+/* The number of a device; -1: there is no device of that name. */
 int midi_client_device(const struct midi_client *client, const char *name);
-/* NULL: none has that number. */
+/* The name of a device; NULL: there is no device of that number. */
 const char *midi_client_device_name(const struct midi_client *client, int device);
 
-/* To a device; time_ns 0: now. Waits where the device is slower than the caller, so long as the server lives.
- * Errors: BAD_ARGUMENT, NO_SERVER. */
+/* Sends to a device; time_ns 0: now. Blocks while the device is slower than the caller, as
+ * long as the server lives. Errors: BAD_ARGUMENT, NO_SERVER. */
 enum midi_status midi_client_send(struct midi_client *client, int device,
                                   const struct midi_message *m);
-/* The next event; waits so long at most, -1: for ever. Errors: NO_SERVER, where the client does not stay. */
+/* Waits for the next event, for that long at most, -1: without limit. Errors: NO_SERVER, if
+ * the client does not stay. */
 enum midi_status midi_client_next(struct midi_client *client, int wait_ms,
                                   struct midi_client_event *event);
-/* Readable when midi_client_next() has something to do; -1 while the server is gone. It may change. */
+/* A descriptor that is readable when midi_client_next() has something to do; -1 while the
+ * server is gone. It can change. */
 int midi_client_descriptor(const struct midi_client *client);
 
 #endif

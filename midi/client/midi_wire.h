@@ -1,4 +1,5 @@
-/* midi_wire.h - what server and clients say to each other: frames over a stream. docs/midi.md is the protocol's description.
+/* midi_wire.h - the protocol between server and clients: frames over a stream. docs/midi.md
+ * describes it.
  *
  *     byte 0  bytes of the payload (16 bits)      all numbers with the low byte first
  *          2  kind
@@ -27,14 +28,15 @@ enum {
 enum midi_wire_kind {
     MIDI_WIRE_HELLO =
         1, /* client: the greeting, a line with its name, a line with the token (TCP) */
-    MIDI_WIRE_COMMAND = 2, /* client: words; number: any, the reply has it, too */
+    MIDI_WIRE_COMMAND = 2, /* client: words; number: chosen by the client, and repeated in
+                            * the reply */
     MIDI_WIRE_MIDI =
         3, /* both: a message to or from the device; number: counts a client's messages from 0 */
     MIDI_WIRE_WELCOME = 16, /* server: the greeting */
     MIDI_WIRE_DEVICE =
-        17, /* server: a device is there, has come or gone: "NAME KIND in|out|in,out up|down" */
+        17, /* server: a device exists, has come or gone: "NAME KIND in|out|in,out up|down" */
     MIDI_WIRE_LOST =
-        18, /* server: the client was too slow, and number messages were not sent to it */
+        18, /* server: the client was too slow, and `number` messages were dropped */
     MIDI_WIRE_REPLY = 19, /* server: the answer to a command */
     MIDI_WIRE_ERROR =
         20 /* server: a command was wrong (its number), or (device 0) the connection ends */
@@ -50,13 +52,15 @@ struct midi_wire_frame {
 
 /* The head's bytes. */
 void midi_wire_head(const struct midi_wire_frame *f, uint8_t bytes[static MIDI_WIRE_HEAD]);
-/* How many bytes the frame at the beginning of these takes; 0: it is not whole yet. payload points into the bytes. */
+/* The length of the frame at the beginning of the bytes; 0: it is incomplete. payload points
+ * into the bytes. */
 size_t midi_wire_read(const uint8_t *bytes, size_t count, struct midi_wire_frame *f);
-/* The frame's message; false: its payload is none. */
+/* Gets the frame's message; false: the payload is not one. */
 bool midi_wire_message(const struct midi_wire_frame *f, struct midi_message *m);
 
-/* Where the user's server listens if nothing else is said: $XDG_RUNTIME_DIR/lutetia-midi, else lutetia-midi in
- * /tmp/lutetia-UID, a folder that is made with mode 0700. False: that cannot be, or is not this user's alone; *why says so. */
+/* The default address of the user's server: $XDG_RUNTIME_DIR/lutetia-midi, else lutetia-midi
+ * in /tmp/lutetia-UID, a folder made with mode 0700. False: the folder cannot be made, or is
+ * not this user's alone; *why says so. */
 bool midi_wire_usual_path(char path[static 108], const char **why);
 
 #endif

@@ -113,7 +113,7 @@ enum midi_status device_start(struct server_device *d)
     d->why[0] = '\0';
     d->counts.opened++;
     d->changed(d);
-    /* Whoever played it before may have died with keys down. */
+    /* The device's last player may have died with keys down. */
     if (d->up && d->plays && !d->kind->stays) {
         midi_notes_silence(midi_now_ns(), put_take, d);
         device_write_out(d);
@@ -139,7 +139,7 @@ void device_down(struct server_device *d, const char *why)
     d->sounding = (struct midi_notes){0};
     retry_set(d);
     d->changed(d);
-    d->drained(d); /* who waits need not wait any longer */
+    d->drained(d); /* clients that wait for it need not wait any longer */
 }
 
 void device_destroy(struct server_device *d)

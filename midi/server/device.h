@@ -1,6 +1,8 @@
-/* device.h - where messages come from and go to: what all kinds of devices have in common.
+/* device.h - the part that all kinds of devices have in common.
  *
- * Bytes in go through a parser, messages out through an encoder and a ring of bytes. A device that is away is tried again. */
+ * Input bytes go through a parser; output messages go through an encoder and a ring of
+ * bytes. A device that is away is reopened when it is back.
+ */
 #ifndef LUTETIA_MIDI_DEVICE_H
 #define LUTETIA_MIDI_DEVICE_H
 
@@ -13,30 +15,33 @@
 enum {
     DEVICE_NAME_BYTES = 64,
     DEVICE_ARGUMENT_BYTES = 400,
-    DEVICE_OUT_BYTES = 32768, /* so much in all: there is room for the ends of all notes */
-    DEVICE_OUT_USUAL = 512 /* so much of messages: what waits longer waits with who sends it */
+    DEVICE_OUT_BYTES = 32768, /* the ring's size: includes room for the ends of all notes */
+    DEVICE_OUT_USUAL = 512 /* the limit for messages; further messages wait at their senders */
 };
 
 struct server_device;
 
 struct device_kind {
     const char *name, *argument, *help;
-    bool plays;   /* all of this kind take messages; else open() says */
+    bool plays;   /* all devices of this kind can play; otherwise open() tells */
     bool hears;   /* all give some */
-    int retry_ms; /* between tries while it is away; 0: 100 */
-    bool stays;   /* goes and comes with the server: nobody else has played it */
-    /* Tries to be there. Errors: NO_DEVICE, IO_FAILED: it is tried again later. BAD_ARGUMENT, BAD_FILE: it never will be. */
+    int retry_ms; /* between attempts while it is away; 0: 100 */
+    bool stays;   /* it exists only with the server: nobody else has played it */
+    /* Tries to open the device. Errors: NO_DEVICE, IO_FAILED: will be tried again later.
+     * BAD_ARGUMENT, BAD_FILE: permanent. */
     enum midi_status (*open)(struct server_device *d);
-    void (*close)(struct server_device *d);  /* also after an open() that failed */
+    void (*close)(struct server_device *d);  /* also called after a failed open() */
     void (*finish)(struct server_device *d); /* for good; may be NULL */
-    /* Takes what it can now of the bytes; where that is not all, device_write_out() is to be called later. */
+    /* Writes as many of the bytes as is possible now; if not all, device_write_out() must be
+     * called later. */
     size_t (*write)(struct server_device *d, const uint8_t *bytes, size_t count);
     void (*more)(struct server_device *d,
-                 bool wanted); /* call device_write_out() when it can take some; may be NULL */
+                 bool wanted); /* call device_write_out() when the device can take bytes; may
+                                * be NULL */
 };
 
 struct device_counts {
-    uint64_t in, out, refused; /* refused: from programs while it was away */
+    uint64_t in, out, refused; /* refused: messages of programs while it was away */
     uint32_t opened;
 };
 
@@ -50,7 +55,7 @@ struct server_device {
     struct device_counts counts;
     struct midi_parser parser;
     void *own; /* the kind's */
-    /* upcalls */
+    /* called after all messages of a read */
     void *owner;
     void (*received)(struct server_device *d, const struct midi_message *m);
     void (*read)(struct server_device *d);    /* after all messages of a read */
@@ -60,18 +65,18 @@ struct server_device {
     struct midi_encoder encoder;
     uint8_t out[DEVICE_OUT_BYTES];
     size_t out_first, out_count;
-    bool more_wanted,
-        writing; /* writing: further down, what is written is heard, and may be answered */
+    bool more_wanted, writing; /* within a write, whose messages may be heard and answered */
     struct midi_notes sounding;
     struct server_timer retry;
 };
 
-/* `NAME=KIND:ARGUMENT`, or without the name. Owns: the caller destroys it. Errors: BAD_ARGUMENT, NO_MEMORY. */
+/* Parses `NAME=KIND:ARGUMENT`, or without the name. Owns: the caller destroys the device.
+ * Errors: BAD_ARGUMENT, NO_MEMORY. */
 enum midi_status device_create(const struct device_kind *const *kinds, const char *spec,
                                struct server_loop *loop, struct server_device **out);
-/* Tries to open it, and again until it is there. Errors: what will never be. */
+/* Tries to open the device until it succeeds. Errors: permanent ones. */
 enum midi_status device_start(struct server_device *d);
-/* Ends the notes that it plays, waits for that for a moment, and closes it. */
+/* Ends the notes that it plays, waits a moment for that, and closes it. */
 void device_destroy(struct server_device *d);
 
 /* ---- for kinds ---- */
@@ -82,14 +87,14 @@ void device_message(struct server_device *d,
                     const struct midi_message *m); /* one that is whole */
 void device_read_end(struct server_device *d);
 void device_write_out(struct server_device *d);
-/* It is away; it is tried again soon. */
+/* Marks the device as away; it is tried again soon. */
 void device_down(struct server_device *d, const char *why);
 
 /* ---- for the server ---- */
 
-/* Whether a message of a program has room now. */
+/* Whether there is room for a message of a program. */
 bool device_has_room(const struct server_device *d);
-/* False: it is not up, or takes none. device_write_out() sends what was put. */
+/* False: the device is not up, or cannot play. device_write_out() sends what was put. */
 bool device_put(struct server_device *d, const struct midi_message *m);
 
 #endif

@@ -1,4 +1,5 @@
-/* device_bytes.c - devices that are a stream of bytes: a MIDI port's file, a serial line, a pseudo-terminal of our own. */
+/* device_bytes.c - devices with a stream of bytes: a MIDI port's file, a serial line, a
+ * pseudo-terminal of ours. */
 #include "device_kinds.h"
 #include "serial_speed.h"
 
@@ -19,7 +20,7 @@ enum { READ_BYTES = 1024 };
 
 struct stream {
     struct server_watch watch;
-    bool linked; /* a pseudo-terminal's other end has its link */
+    bool linked; /* the pseudo-terminal's other end has its link */
 };
 
 static void stream_ready(struct server_watch *w, uint32_t events)
@@ -95,7 +96,7 @@ static enum midi_status watch_begin(struct server_device *d)
     return MIDI_OK;
 }
 
-/* Nothing of a terminal's ways: no echo, no lines, no signals, all eight bits. */
+/* Raw mode: no echo, no lines, no signals, all eight bits. */
 static bool terminal_raw(int file)
 {
     struct termios t;
@@ -168,7 +169,8 @@ static enum midi_status serial_open(struct server_device *d)
 
 /* ---- a pseudo-terminal of our own ---- */
 
-/* It stays while the device is away, which is as long as nobody has its other end open. */
+/* The pseudo-terminal exists while the device is away, which is while nobody has the other
+ * end open. */
 static enum midi_status pty_create(struct server_device *d)
 {
     char other[128];
@@ -186,13 +188,13 @@ static enum midi_status pty_create(struct server_device *d)
             close(slave);
         return midi_fail(MIDI_NO_DEVICE, "no pseudo-terminal: %s", strerror(error));
     }
-    close(slave); /* from now on our end says that nobody is at the other one */
+    close(slave); /* from now on reads report when nobody has the other end open */
     enum midi_status status = stream_create(d, file);
     if (status != MIDI_OK)
         return status;
     struct stream *s = d->own;
     if (lstat(d->argument, &there) == 0 && S_ISLNK(there.st_mode))
-        unlink(d->argument); /* of a server that was killed */
+        unlink(d->argument); /* a link left by a killed server */
     if (symlink(other, d->argument) != 0)
         return midi_fail(MIDI_BAD_ARGUMENT,
                          "%s: cannot be made a link to the pseudo-terminal: %s", d->argument,

@@ -1,4 +1,4 @@
-/* device_file.c - a Standard MIDI File that is played in time, once or again and again. */
+/* device_file.c - a Standard MIDI File, played in time, once or repeatedly. */
 #include "device_kinds.h"
 
 #include <midi_internal.h>

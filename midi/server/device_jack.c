@@ -3,7 +3,9 @@
  *     JACK's thread   process(): events of the period -> heard -> the server's loop, woken by an eventfd
  *                                events to write      <- said  <-
  *
- * An event keeps its time within the period. What is said is written at the next period's beginning. */
+ * A received event keeps its time within the period. Events to send are written at the
+ * beginning of the next period.
+ */
 #include "device_kinds.h"
 #include "jack_library.h"
 #include "message_ring.h"
@@ -26,7 +28,7 @@ struct jack_device {
     struct server_watch watch;
     struct message_ring heard, said;
     _Atomic bool gone;
-    struct midi_parser parser; /* of what is written: JACK wants whole messages */
+    struct midi_parser parser; /* of output: JACK takes whole messages */
     uint8_t sysex[EVENT_BYTES_MAX];
     size_t sysex_count;
     uint8_t event[EVENT_BYTES_MAX]; /* process()'s own */
@@ -39,7 +41,7 @@ static void wake(const struct jack_device *j)
     (void)written;
 }
 
-/* JACK's thread: nothing here waits or asks for memory. */
+/* Runs on JACK's thread: never blocks or allocates. */
 static int process(uint32_t frames, void *context)
 {
     struct jack_device *j = context;
@@ -52,7 +54,7 @@ static int process(uint32_t frames, void *context)
     struct jack_event e;
     for (uint32_t i = 0; i < count; i++)
         if (jack->jack_midi_event_get(&e, in, i) == 0) {
-            /* the period before this one is what is heard: its events are that old */
+            /* events are of the previous period, and so that old */
             const uint64_t old = (uint64_t)frames + ago - (e.time < frames ? e.time : 0);
             (void)ring_put(&j->heard, now_ns - old * 1000000000 / j->rate_hz, e.buffer, e.size);
         }
@@ -111,7 +113,8 @@ static enum midi_status jack_open(struct server_device *d)
     const struct jack_library *jack;
     enum midi_status status = jack_load(&jack);
     if (status != MIDI_OK)
-        return MIDI_BAD_ARGUMENT; /* it will not be installed while the server runs */
+        return MIDI_BAD_ARGUMENT; /* permanent: JACK will not be installed while the server
+                                   * runs */
     struct jack_device *j = calloc(1, sizeof *j);
     if (!j)
         return midi_fail(MIDI_NO_MEMORY, "no memory");
@@ -151,7 +154,7 @@ static void say(void *context, const struct midi_message *m)
         memcpy(j->sysex + j->sysex_count, m->bytes, m->count);
     j->sysex_count += m->count;
     if (!midi_message_open(m) &&
-        j->sysex_count <= sizeof j->sysex) /* longer ones JACK has no room for */
+        j->sysex_count <= sizeof j->sysex) /* JACK's buffer cannot hold longer ones */
         (void)ring_put(&j->said, 0, j->sysex, j->sysex_count);
 }
 

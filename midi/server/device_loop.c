@@ -1,4 +1,5 @@
-/* device_loop.c - a device that is none: what programs send to it, programs that listen to it hear. */
+/* device_loop.c - a virtual device: programs that listen to it receive what programs send to
+ * it. */
 #include "device_kinds.h"
 
 #include <midi_time.h>

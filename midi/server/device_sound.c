@@ -1,4 +1,4 @@
-/* device_sound.c - a synthesizer of the server's own: FluidSynth, heard or written to a WAV file. */
+/* device_sound.c - a synthesizer in the server: FluidSynth, played or written to a WAV file. */
 #include "device_kinds.h"
 
 #include <midi_internal.h>
@@ -23,7 +23,8 @@ static enum midi_status sound_open(struct server_device *d)
     enum midi_status status = sound_create(&def, &s->sound);
     if (status == MIDI_OK)
         status = sound_listen(s->sound, d->argument[0] ? d->argument : NULL);
-    /* Trying that again ten times a second would keep the instruments waiting: it is said once, at the start. */
+    /* Trying again ten times a second would delay the instruments, so a failure is
+     * permanent, and reported at the start. */
     return status == MIDI_OK ? MIDI_OK : MIDI_BAD_ARGUMENT;
 }
 

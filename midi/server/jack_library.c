@@ -37,7 +37,7 @@ static const struct {
 
 static void told(const char *text)
 {
-    (void)text; /* what fails we say ourselves */
+    (void)text; /* we report failures ourselves */
 }
 
 enum midi_status jack_load(const struct jack_library **out)

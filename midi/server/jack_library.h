@@ -1,4 +1,4 @@
-/* jack_library.h - JACK, loaded when it is first asked for. */
+/* jack_library.h - loads JACK on first use. */
 #ifndef LUTETIA_MIDI_JACK_LIBRARY_H
 #define LUTETIA_MIDI_JACK_LIBRARY_H
 
@@ -17,7 +17,8 @@ struct jack_event {
 enum { JACK_NO_START = 1, JACK_PORT_IN = 1, JACK_PORT_OUT = 2 };
 #define JACK_MIDI_TYPE "8 bit raw midi"
 
-/* The functions that we call, as JACK declares them; clients and ports are ours to hand around. */
+/* The functions that we call, as JACK declares them; its clients and ports are opaque
+ * pointers. */
 struct jack_library {
     void *(*jack_client_open)(const char *name, int options, int *status, ...);
     int (*jack_client_close)(void *client);
@@ -42,7 +43,7 @@ struct jack_library {
     void (*jack_set_info_function)(void (*told)(const char *text));
 };
 
-/* Errors: NO_DEVICE: it is not installed. Threads: one first. */
+/* Errors: NO_DEVICE: it is not installed. Threads: the first call by one thread. */
 enum midi_status jack_load(const struct jack_library **out);
 
 #endif

@@ -1,7 +1,7 @@
 /* message_ring.c - see message_ring.h. */
 #include "message_ring.h"
 
-enum { HEAD = 10 }; /* the time, and how many bytes follow */
+enum { HEAD = 10 }; /* the time, and the number of bytes that follow */
 
 static void byte_put(struct message_ring *r, uint32_t at, uint64_t value, int count)
 {

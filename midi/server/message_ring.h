@@ -1,6 +1,7 @@
-/* message_ring.h - bytes with times from one thread to another, neither of which ever waits.
+/* message_ring.h - a lock-free queue of bytes with times from one thread to another.
  *
- * One thread puts, one takes. What does not fit is refused and counted. */
+ * One thread puts, one takes. Messages that do not fit are refused and counted.
+ */
 #ifndef LUTETIA_MIDI_MESSAGE_RING_H
 #define LUTETIA_MIDI_MESSAGE_RING_H
 
@@ -18,7 +19,8 @@ struct message_ring {            /* zeros: empty */
 };
 
 bool ring_put(struct message_ring *r, uint64_t time_ns, const uint8_t *bytes, size_t count);
-/* How many bytes the next one has, which are copied; 0: none is there. room: at least what is put at most. */
+/* Copies the next message and returns its length; 0: none. room: at least the length of the
+ * longest message put. */
 size_t ring_take(struct message_ring *r, uint64_t *time_ns, uint8_t *bytes, size_t room);
 
 #endif

@@ -1,4 +1,4 @@
-/* midi_server.c - see midi_server.h: puts devices, clients and sockets together. */
+/* midi_server.c - see midi_server.h: connects devices, clients and sockets. */
 #include "midi_server.h"
 #include "device_kinds.h"
 #include "server_commands.h"
@@ -65,7 +65,7 @@ static enum midi_status device_add(struct midi_server *s, const char *spec)
         return status;
     const size_t length = strlen(d->name);
     for (int i = 0, count = 2; i < s->devices_count; i++)
-        if (!strcmp(s->devices[i]->name, d->name)) { /* a name of its own: serial, serial2 */
+        if (!strcmp(s->devices[i]->name, d->name)) { /* make the name unique: serial, serial2 */
             snprintf(d->name + length, sizeof d->name - length, "%d", count++);
             i = -1;
         }
@@ -81,7 +81,7 @@ static enum midi_status device_add(struct midi_server *s, const char *spec)
 
 /* ---- clients ---- */
 
-/* The time that it takes does not depend on how much is right. */
+/* Compares in a time that does not depend on how many characters are right. */
 static bool token_right(const struct midi_server *s, const char *said)
 {
     const size_t count = strlen(s->token);
@@ -149,7 +149,7 @@ static void client_ended(struct server_client *c)
 {
     struct midi_server *s = c->owner;
     route_client_away(s, c);
-    loop_timer(&s->loop, &s->second, midi_now_ns()); /* it is destroyed when nobody uses it */
+    loop_timer(&s->loop, &s->second, midi_now_ns()); /* destroyed when it is no longer in use */
 }
 
 static void accept_ready(struct server_watch *w, uint32_t events)
@@ -207,7 +207,7 @@ static void second_fire(struct server_timer *t, uint64_t now_ns)
             s->dropped++;
             tell(s, "client %u %s is dropped: it does nothing", c->number, c->name);
         }
-        if (!c->dead && c->waits_for >= 0) /* a system exclusive that nobody ends */
+        if (!c->dead && c->waits_for >= 0) /* a system exclusive that is never ended */
             route_drained(s->devices[c->waits_for]);
     }
     clients_sweep(s);

@@ -1,4 +1,5 @@
-/* serial_speed.c - see serial_speed.h. Apart, for the kernel's header and the C library's do not go together. */
+/* serial_speed.c - see serial_speed.h. A separate file, because the kernel's header
+ * conflicts with the C library's. */
 #include "serial_speed.h"
 
 #include <asm/termbits.h>

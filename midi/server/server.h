@@ -1,4 +1,4 @@
-/* server.h - the server's own: what its files share. */
+/* server.h - struct midi_server, shared by the server's files. */
 #ifndef LUTETIA_MIDI_SERVER_INTERNAL_H
 #define LUTETIA_MIDI_SERVER_INTERNAL_H
 
@@ -11,13 +11,14 @@ struct midi_server {
     struct server_loop loop;
     struct server_device *devices[MIDI_WIRE_DEVICES];
     int devices_count;
-    struct server_client *owners[MIDI_WIRE_DEVICES]; /* who has a system exclusive open there */
+    struct server_client *owners[MIDI_WIRE_DEVICES]; /* the client with an open system
+                                                      * exclusive on each device */
     uint64_t owned_ns[MIDI_WIRE_DEVICES];            /* since when */
     struct server_client *clients;
     int clients_count;
     uint32_t clients_seen, dropped;
     struct midi_histogram latency;
-    struct server_timer thinned; /* the next value that a filter holds back */
+    struct server_timer thinned; /* for the next value that a filter holds back */
     struct server_timer second;  /* housekeeping */
     uint64_t began_ns, rates_ns;
     uint64_t in_before[MIDI_WIRE_DEVICES], out_before[MIDI_WIRE_DEVICES]; /* a second ago */

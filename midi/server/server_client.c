@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-enum { ROOM_KEPT = 2048 /* for what is told, and the ends of notes */ };
+enum { ROOM_KEPT = 2048 /* room reserved for reports and the ends of notes */ };
 
 static void client_ready(struct server_watch *w, uint32_t events);
 
@@ -108,7 +108,7 @@ bool client_put_text(struct server_client *c, uint8_t kind, int device, uint32_t
                .payload = (const uint8_t *)text});
 }
 
-/* What others will follow, or nobody misses. */
+/* Whether a message may be dropped: a later one replaces it, or it is not missed. */
 static bool spare(const struct midi_message *m)
 {
     const uint8_t status = m->bytes[0] & 0xf0;
@@ -165,7 +165,8 @@ static void release_take(void *context, const struct midi_message *m)
     const struct releasing *r = context;
     if (message_frame(r->client, r->device, m))
         return;
-    /* No room: the note or the pedal is down still, and is ended when the loss is told. */
+    /* No room for the end: the note or pedal stays down, and is ended when the loss is
+     * reported. */
     struct midi_message down = *m;
     const bool note = (m->bytes[0] & 0xf0) == MIDI_NOTE_OFF;
     down.bytes[0] = (uint8_t)(note ? m->bytes[0] | 0x10 : m->bytes[0]);
@@ -180,7 +181,8 @@ void client_release(struct server_client *c, int device)
     midi_notes_release(&c->heard[device], midi_now_ns(), release_take, &r);
 }
 
-/* Once there is room again: how many were lost, and the ends of the notes of which the end may be among them. */
+/* When there is room again: reports how many messages were lost, and ends notes whose ends
+ * may be among them. */
 static void losses_tell(struct server_client *c)
 {
     if (!c->lost_untold || c->out_count > CLIENT_OUT_BYTES / 2)
@@ -270,7 +272,7 @@ static void client_ready(struct server_watch *w, uint32_t events)
         return;
     if (!(events & (EPOLLIN | EPOLLHUP | EPOLLERR)))
         return;
-    if (c->waits_for >= 0) { /* it hung up while a frame of its waits */
+    if (c->waits_for >= 0) { /* it hung up while one of its frames waits */
         if (events & (EPOLLHUP | EPOLLERR))
             die(c);
         return;

@@ -1,8 +1,12 @@
-/* server_client.h - a program at the other end of a socket: frames in, frames out, and what is done where it does not read.
+/* server_client.h - a program at the other end of a socket: frames in, frames out, and what
+ * happens if it does not read.
  *
- * Frames out wait in a ring. Where it is three quarters full, what can be spared is not put there (clocks, active sensing,
- * values that others will follow); where it is full, nothing is. The client is told how many messages it has lost as soon as it reads
- * again, and the notes that it believes to sound are ended. One that takes nothing for ten seconds is dropped. */
+ * Outgoing frames wait in a ring. When it is three quarters full, dispensable messages are
+ * dropped (clocks, active sensing, values that later ones replace); when it is full, all
+ * are. As soon as the client reads again, it is told how many messages it has lost, and the
+ * notes that it believes to sound are ended. A client that reads nothing for ten seconds is
+ * disconnected.
+ */
 #ifndef LUTETIA_MIDI_SERVER_CLIENT_H
 #define LUTETIA_MIDI_SERVER_CLIENT_H
 
@@ -23,7 +27,7 @@ enum {
 
 enum client_verdict {
     CLIENT_GOES_ON,
-    CLIENT_WAITS, /* the frame cannot be taken now; client_wake() when it can */
+    CLIENT_WAITS, /* the frame cannot be handled now; client_wake() is called when it can */
     CLIENT_ENDS
 };
 
@@ -35,7 +39,7 @@ struct server_client {
     bool tcp, greeted, dead;
     char name[CLIENT_NAME_BYTES];
     uint64_t came_ns,
-        progress_ns; /* progress: when it last took something, or had nothing to take */
+        progress_ns; /* progress: when it last read something, or had nothing to read */
     uint8_t in[CLIENT_IN_BYTES];
     size_t in_count;
     int waits_for; /* the device; -1: none */
@@ -44,10 +48,10 @@ struct server_client {
     uint8_t out[CLIENT_OUT_BYTES];
     size_t out_first, out_count;
     /* of each device */
-    struct midi_chain *hears[MIDI_WIRE_DEVICES]; /* NULL: it does not listen */
+    struct midi_chain *hears[MIDI_WIRE_DEVICES]; /* NULL: it does not listen to the device */
     struct midi_chain *sends[MIDI_WIRE_DEVICES]; /* NULL: unfiltered */
     struct midi_notes heard[MIDI_WIRE_DEVICES], played[MIDI_WIRE_DEVICES];
-    uint32_t cut; /* a bit for each device: the rest of a system exclusive is left out */
+    uint32_t cut; /* a bit for each device: the rest of a system exclusive is dropped */
     /* what it was given */
     uint32_t messages; /* numbered so */
     uint64_t sent, received, thinned, lost;
@@ -58,30 +62,30 @@ struct server_client {
     /* upcalls */
     void *owner;
     enum client_verdict (*frame)(struct server_client *c, const struct midi_wire_frame *f);
-    void (*ended)(struct server_client *c); /* it is dead; destroy it later */
+    void (*ended)(struct server_client *c); /* the client is dead; destroy it later */
 };
 
 /* Takes the descriptor over. NULL: no memory; the descriptor is closed. */
 struct server_client *client_create(struct server_loop *loop, int file, bool tcp);
 void client_destroy(struct server_client *c);
-/* Watches it, from now on. */
+/* Watches its socket from now on. */
 bool client_begin(struct server_client *c);
 
-/* False: there was no room, or it is dead. */
+/* False: there was no room, or the client is dead. */
 bool client_put(struct server_client *c, const struct midi_wire_frame *f);
 bool client_put_text(struct server_client *c, uint8_t kind, int device, uint32_t number,
                      const char *text);
-/* A message of a device, as the client hears it. */
+/* Puts a message of a device, as the client receives it. */
 void client_put_message(struct server_client *c, int device, const struct midi_message *m);
-/* The notes of that device that the client believes to sound end. */
+/* Ends the notes of that device that the client believes to sound. */
 void client_release(struct server_client *c, int device);
 /* Writes what it takes. */
 void client_flush(struct server_client *c);
-/* Takes up the frame that had to wait. */
+/* Handles the frame that had to wait. */
 void client_wake(struct server_client *c);
-/* Says why, if it can, and ends it. */
+/* Sends the reason, if possible, and disconnects. */
 void client_end(struct server_client *c, const char *why);
-/* Now and then: drops it where it does nothing. */
+/* Called regularly: disconnects a client that does not read. */
 void client_look(struct server_client *c, uint64_t now_ns);
 
 #endif

@@ -33,7 +33,7 @@ void command_device_text(const struct server_device *d, char text[static 160])
              d->up ? "up" : "down");
 }
 
-/* The devices of that name, or all for *: a bit each. 0: there is none, and that has been said. */
+/* The devices of that name, or all for *: a bit each. 0: none, and the error was sent. */
 static uint32_t devices_named(const struct midi_server *s, const char *name, struct reply *r)
 {
     uint32_t found = 0;
@@ -194,7 +194,7 @@ enum { COMMANDS_COUNT = sizeof commands / sizeof *commands };
 
 void command_do(struct midi_server *s, struct server_client *c, uint32_t number, char *text)
 {
-    static struct reply r; /* one thread: one at a time */
+    static struct reply r; /* static, since there is one thread */
     char *rest = text;
     const char *name = strsep(&rest, " ");
     int i = 0;

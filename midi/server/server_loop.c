@@ -43,7 +43,7 @@ void loop_unwatch(struct server_loop *l, struct server_watch *w)
 {
     if (w->file >= 0)
         (void)epoll_ctl(l->epoll, EPOLL_CTL_DEL, w->file, NULL);
-    for (int i = 0; i < l->events_count; i++) /* those at hand may have it still */
+    for (int i = 0; i < l->events_count; i++) /* events already fetched may still refer to it */
         if (l->events[i].data.ptr == w)
             l->events[i].events = 0;
 }
@@ -69,7 +69,8 @@ void loop_timer_remove(struct server_loop *l, struct server_timer *t)
     t->due_ns = UINT64_MAX;
 }
 
-/* Calls the timers that are due, one at a time: each may change the list. Returns when the next one is. */
+/* Calls the timers that are due, one at a time, since each may change the list. Returns when
+ * the next one is due. */
 static uint64_t timers_fire(struct server_loop *l)
 {
     for (;;) {
@@ -113,7 +114,8 @@ void loop_run(struct server_loop *l)
         for (int i = 0; i < l->events_count && !l->stops; i++) {
             struct server_watch *w = l->events[i].data.ptr;
             if (!w)
-                set_ns = 0; /* the clock: fired above, and set again */
+                set_ns = 0; /* the clock descriptor: its timers were called above, and it is
+                             * set again */
             else if (l->events[i].events)
                 w->ready(w, l->events[i].events);
         }

@@ -1,6 +1,8 @@
 /* server_loop.h - one thread that waits for descriptors and for times.
  *
- * A watch and a timer lie in the structs of their owners, and are taken out before those go. */
+ * Watches and timers are members of their owners' structs, and are removed before these are
+ * freed.
+ */
 #ifndef LUTETIA_MIDI_SERVER_LOOP_H
 #define LUTETIA_MIDI_SERVER_LOOP_H
 
@@ -34,14 +36,13 @@ struct server_loop {
 
 bool loop_create(struct server_loop *l); /* false: errno */
 void loop_finish(struct server_loop *l);
-/* Until loop->stops; what is due and ready is called. */
+/* Calls what is due and ready, until loop->stops. */
 void loop_run(struct server_loop *l);
 
 /* events: EPOLLIN, EPOLLOUT. False: errno. */
 bool loop_watch(struct server_loop *l, struct server_watch *w, uint32_t events);
 void loop_change(struct server_loop *l, struct server_watch *w, uint32_t events);
-void loop_unwatch(struct server_loop *l,
-                  struct server_watch *w); /* takes one that is not watched */
+void loop_unwatch(struct server_loop *l, struct server_watch *w); /* an unwatched one is fine */
 
 void loop_timer(struct server_loop *l, struct server_timer *t, uint64_t due_ns);
 void loop_timer_remove(struct server_loop *l, struct server_timer *t);

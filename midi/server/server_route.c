@@ -1,7 +1,10 @@
 /* server_route.c - see server_route.h. */
 #include "server_route.h"
 
-enum { SYSEX_WAIT_MS = 2000 }; /* so long one client's system exclusive keeps others waiting */
+enum {
+    SYSEX_WAIT_MS = 2000
+}; /* the longest time that one client's system exclusive delays
+                                * others */
 
 struct hearing {
     struct server_client *client;
@@ -14,7 +17,7 @@ static void hear_take(void *context, const struct midi_message *m)
     client_put_message(h->client, h->device, m);
 }
 
-/* When the next value is due that a filter holds back, of all chains. */
+/* Sets the timer to the next value that a filter holds back, in all chains. */
 static void thinned_set(struct midi_server *s)
 {
     uint64_t due_ns = UINT64_MAX;
@@ -58,7 +61,8 @@ void route_hear(struct midi_server *s, struct server_client *c, int device,
     if (c->hears[device]) {
         midi_chain_flush(c->hears[device], UINT64_MAX, hear_take, &h);
         midi_chain_destroy(c->hears[device]);
-        client_release(c, device); /* ends of notes may not come through other filters */
+        client_release(c, device); /* the ends of notes must go through the same filters as
+                                    * the notes */
     }
     c->hears[device] = chain;
     thinned_set(s);
@@ -106,7 +110,8 @@ static bool owned_by_another(struct midi_server *s, const struct server_client *
         return false;
     if (midi_now_ns() < s->owned_ns[device] + SYSEX_WAIT_MS * UINT64_C(1000000))
         return true;
-    s->owners[device] = NULL; /* the next message ends that system exclusive: see the encoder */
+    s->owners[device] = NULL; /* the encoder ends that system exclusive before the next
+                               * message */
     return false;
 }
 
@@ -114,7 +119,7 @@ void route_drained(struct server_device *d)
 {
     struct midi_server *s = d->owner;
     const uint64_t now_ns = midi_now_ns();
-    while (!d->up || device_has_room(d)) { /* who has waited longest comes first */
+    while (!d->up || device_has_room(d)) { /* the client that has waited longest comes first */
         struct server_client *longest = NULL;
         for (struct server_client *c = s->clients; c; c = c->next)
             if (c->waits_for == d->number && c->waits_since_ns < now_ns && !c->dead &&
@@ -158,7 +163,8 @@ enum client_verdict route_message(struct midi_server *s, struct server_client *c
         play_take(&p, &m);
     }
     device_write_out(d);
-    if (owned && !s->owners[f->device]) /* its system exclusive has ended: others may go on */
+    if (owned && !s->owners[f->device]) /* its system exclusive has ended: others may
+                                         * continue */
         route_drained(d);
     return CLIENT_GOES_ON;
 }
@@ -223,7 +229,7 @@ void route_thinned(struct server_timer *t, uint64_t now_ns)
         }
     for (struct server_client *c = s->clients; c; c = c->next)
         if (c->batch) {
-            c->batch = 0; /* held back on purpose: no measure of the server */
+            c->batch = 0; /* held back on purpose: not part of the server's latency */
             client_flush(c);
         }
     thinned_set(s);

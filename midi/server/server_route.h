@@ -8,20 +8,21 @@
 void route_received(struct server_device *d, const struct midi_message *m);
 void route_read(struct server_device *d);
 void route_drained(struct server_device *d);
-/* It is away: what sounds of it ends, and nobody plays it. */
+/* The device is away: ends its sounding notes, and forgets its players. */
 void route_device_away(struct midi_server *s, int device);
 
-/* A message of a client for a device. */
+/* Routes a message of a client to a device. */
 enum client_verdict route_message(struct midi_server *s, struct server_client *c,
                                   const struct midi_wire_frame *f);
-/* The notes that only this client plays end. */
+/* Ends the notes that only this client plays. */
 void route_client_away(struct midi_server *s, struct server_client *c);
-/* What the client hears of the device, from now on; chain NULL: nothing. Takes the chain over. */
+/* Sets what the client receives of the device from now on; chain NULL: nothing. Takes the
+ * chain over. */
 void route_hear(struct midi_server *s, struct server_client *c, int device,
                 struct midi_chain *chain);
 void route_send_filter(struct midi_server *s, struct server_client *c, int device,
                        struct midi_chain *chain);
-/* Values that filters held back and that are due. */
+/* Sends the values that filters held back and that are due. */
 void route_thinned(struct server_timer *t, uint64_t now_ns);
 
 #endif

@@ -15,7 +15,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-/* A file beside the socket says whether a server lives: its lock goes with the process, however that ends. */
+/* A lock file beside the socket shows whether a server lives: the lock ends with the
+ * process, even if it is killed. */
 static enum midi_status lock_take(const char *path, int *lock)
 {
     char name[128];
@@ -114,5 +115,6 @@ void socket_leave(const char *path, int file, int lock)
         close(file);
     }
     if (lock >= 0)
-        close(lock); /* the file stays: removing it would open a race for the next one's lock */
+        close(lock); /* the file stays: removing it would be a race with the next server's
+                      * lock */
 }

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Each name of the struct, and where in it. */
+/* A function's name, and its place in the struct. */
 #define FUNCTION(name)                                                                         \
     {                                                                                          \
 #name, offsetof(struct fluid, name)                                                    \
@@ -64,7 +64,7 @@ enum midi_status fluid_load(const struct fluid **out)
         memcpy((char *)&loaded + functions[i].at, &function, sizeof function);
     }
     for (int level = 0; level < LEVELS; level++)
-        loaded.fluid_set_log_function(level, NULL, NULL); /* what fails we say ourselves */
+        loaded.fluid_set_log_function(level, NULL, NULL); /* we report failures ourselves */
     there = true;
     return MIDI_OK;
 }

@@ -1,11 +1,11 @@
-/* fluid.h - FluidSynth, loaded when it is first asked for; a machine without it does everything else. */
+/* fluid.h - loads FluidSynth on first use; without it everything else works. */
 #ifndef LUTETIA_MIDI_FLUID_H
 #define LUTETIA_MIDI_FLUID_H
 
 #include <midi_status.h>
 
-/* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers, drivers and renderers are all ours to
- * hand around and never to look into. */
+/* The functions that we call, as FluidSynth 2 declares them: its settings, synthesizers,
+ * drivers and renderers are opaque pointers. */
 struct fluid {
     void *(*new_fluid_settings)(void);
     void (*delete_fluid_settings)(void *settings);
@@ -32,7 +32,7 @@ struct fluid {
                                     void *data);
 };
 
-/* Errors: NO_DEVICE: it is not installed. Threads: one first. */
+/* Errors: NO_DEVICE: it is not installed. Threads: the first call by one thread. */
 enum midi_status fluid_load(const struct fluid **out);
 
 #endif

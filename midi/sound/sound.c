@@ -47,7 +47,8 @@ enum midi_status sound_font_find(const char *font, const char **found)
                      "LUTETIA_SOUNDFONT");
 }
 
-/* What is no SoundFont FluidSynth's helpers complain of in words of their own: it is looked at before. */
+/* Checks that a file is a SoundFont, because FluidSynth prints messages of its own if it is
+ * not. */
 static bool font_good(const char *path)
 {
     char head[12] = "";
@@ -158,7 +159,8 @@ void sound_message(struct sound *s, const struct midi_message *m)
         f->fluid_synth_noteoff(s->synth, channel, a);
         break;
     case MIDI_NOTE_ON:
-        f->fluid_synth_noteon(s->synth, channel, a, b); /* velocity 0 is an off to it, too */
+        f->fluid_synth_noteon(s->synth, channel, a, b); /* FluidSynth treats velocity 0 as
+                                                         * note-off, too */
         break;
     case MIDI_POLY_PRESSURE:
         f->fluid_synth_key_pressure(s->synth, channel, a, b);
@@ -232,7 +234,7 @@ enum midi_status sound_render(const struct sound_def *def, struct midi_song *son
     s->renderer = s->fluid->new_fluid_file_renderer(s->synth);
     status = s->renderer ? blocks_render(s, song, def->rate_hz, seconds)
                          : midi_fail(MIDI_IO_FAILED, "%s: FluidSynth cannot write it", path);
-    sound_destroy(s); /* the file's head is written at the end */
+    sound_destroy(s); /* destroying it writes the file's header */
     if (status != MIDI_OK)
         output_file_abandon(&out);
     else if (!output_file_commit(&out))

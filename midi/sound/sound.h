@@ -1,4 +1,4 @@
-/* sound.h - messages to sound: a synthesizer with a SoundFont, heard at once or rendered to a file.
+/* sound.h - plays messages by a synthesizer with a SoundFont, live or rendered to a file.
  *
  *     struct sound_def def = sound_def_default();
  *     if (sound_render(&def, song, 0, "song.wav") != MIDI_OK)            // all of a song
@@ -9,20 +9,22 @@
  *         sound_message(sound, &message);
  *     sound_destroy(sound);
  *
- * FluidSynth is loaded by the first call; where it or a SoundFont is missing, NO_DEVICE says what to install. */
+ * FluidSynth is loaded by the first call; if it or a SoundFont is missing, NO_DEVICE's
+ * message says what to install.
+ */
 #ifndef LUTETIA_MIDI_SOUND_H
 #define LUTETIA_MIDI_SOUND_H
 
 #include <midi_song.h>
 
-enum { SOUND_BLOCK = 64 }; /* samples: a message is heard within so many of its time, 1.5 ms */
+enum { SOUND_BLOCK = 64 }; /* samples: the timing error of a message is at most this, 1.5 ms */
 
 struct sound_def {
     const char *
         font; /* a SoundFont's path; NULL: LUTETIA_SOUNDFONT of the environment, else the distribution's */
     int rate_hz;   /* 44100 */
     double gain;   /* 0..10; 0.6 */
-    double tail_s; /* rendered after the end of a song; 1.5 */
+    double tail_s; /* seconds rendered after the end of a song; 1.5 */
     bool room;     /* reverberation and chorus */
 };
 struct sound_def sound_def_default(void);
@@ -33,24 +35,25 @@ struct sound;
 /* Errors: NO_DEVICE, BAD_ARGUMENT, NO_MEMORY. */
 enum midi_status sound_create(const struct sound_def *def, struct sound **out);
 void sound_destroy(struct sound *sound); /* takes NULL */
-/* Through a driver of FluidSynth's (pulseaudio, alsa, jack, ...; NULL: its usual one), or, if the name ends with .wav, into that
- * file, in real time. Errors: NO_DEVICE. */
+/* Plays through a driver of FluidSynth (pulseaudio, alsa, jack, ...; NULL: its default), or,
+ * if the name ends with .wav, into that file, in real time. Errors: NO_DEVICE. */
 enum midi_status sound_listen(struct sound *sound, const char *driver);
-/* What has no sound is passed over. Threads: any. */
+/* Ignores messages without sound. Threads: any. */
 void sound_message(struct sound *sound, const struct midi_message *m);
 
 /* ---- to a file ---- */
 
-/* A WAV file of 16 bits and two channels, `seconds` long (0: the song and its tail); it appears when it is whole. Errors: NO_DEVICE,
- * IO_FAILED, BAD_ARGUMENT. */
+/* Renders a WAV file of 16 bits and two channels, `seconds` long (0: the song and its tail);
+ * the file appears when it is complete. Errors: NO_DEVICE, IO_FAILED, BAD_ARGUMENT. */
 enum midi_status sound_render(const struct sound_def *def, struct midi_song *song,
                               double seconds, const char *path);
 
-/* The same as a file without a name, open for reading from its beginning: for what goes into a film. Owns: the caller closes *file. */
+/* The same to an unnamed file, open for reading from its beginning: for the sound of a film.
+ * Owns: the caller closes *file. */
 enum midi_status sound_render_open(const struct sound_def *def, struct midi_song *song,
                                    double seconds, int *file);
 
-/* The SoundFont that is taken: the given one, or the first that is there. Errors: NO_DEVICE. */
+/* The SoundFont that is used: the given one, or the first that exists. Errors: NO_DEVICE. */
 enum midi_status sound_font_find(const char *font, const char **found);
 
 #endif

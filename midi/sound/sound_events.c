@@ -8,7 +8,8 @@
 
 enum { PAN = 10, DRUMS = 9, AGOGO = 113, WOODBLOCK = 115, CLEAN_GUITAR = 27 };
 
-/* Channels and programs from 0; notes from the lowest to the highest. Hand claps are a drum kit's note 39. */
+/* Channels and programs from 0; notes from the lowest to the highest. The clap is note 39 of
+ * a drum kit. */
 static const struct {
     const char *name;
     uint8_t channel, program, lowest, highest;
@@ -46,7 +47,8 @@ struct midi_message sound_kind_program(enum sound_kind kind)
 
 static uint8_t within(double value, double least, double most)
 {
-    return (uint8_t)lrint(fmin(fmax(value, least), most)); /* fmax() takes NaN for the least */
+    return (uint8_t)lrint(fmin(fmax(value, least), most)); /* fmax() replaces a NaN by the
+                                                            * least */
 }
 
 void sound_event_messages(const struct sound_event *e, uint64_t time_ns,
