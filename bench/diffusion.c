@@ -3,8 +3,7 @@
  *
  * For each size all contenders first take the same few steps, and must agree in every bit
  * (the relaxed ones nearly). Then they are timed in turn. The slow contenders, the listing
- * in eager mode and numpy, come last and less often; eager mode has a machine of its own.
- */
+ * in eager mode and numpy, come last and less often; eager mode has a machine of its own. */
 #include "bench.h"
 
 #include <math.h>
@@ -33,18 +32,15 @@ enum {
     SMALL_SIDE = 128,
     SMALL_STEPS = 100, /* between two looks at it */
     SMALL_LOOKS_SETTLED = 24,
-    SMALL_REPEATS = 5, /* how many times more runs than for other sizes: each takes
-                        * milliseconds */
+    SMALL_REPEATS = 5, /* times as many runs: each takes milliseconds */
     COPY_BYTES = 256 << 20
 };
-static const double FIBERS_SMALL = 4e6; /* sheets that mostly fit the last-level cache: a run
-                                         * has more steps */
+static const double FIBERS_SMALL = 4e6; /* mostly in the last-level cache */
 /* On larger sheets Halide, numpy and the relaxed kernels are left out: they would take most
  * of the time and, with --thorough, the memory. */
 static const double FIBERS_PEERS = 8e6, FIBERS_PEERS_THOROUGH = 32e6;
 
-/* Bytes read and written for each fiber and axis: water and pigments both ways, absorbency
- * one way. */
+/* Bytes for each fiber and axis: water and pigments both ways, absorbency one way. */
 static const double COMPULSORY_BYTES = 2 * (2 * DIFFUSION_FIELDS_COUNT + 1) * sizeof(float);
 
 static const char FIBER_STEP[] = "ns/fiber-step";
@@ -238,8 +234,7 @@ static void sheet_finish(struct sheet *s)
 
 enum { RUNNERS_MAX = 16 };
 
-/* Lists the contenders that are available. A counted run of a time-tiled one is a whole
- * number of passes. */
+/* Lists the available contenders. Runs of time-tiled ones are whole numbers of passes. */
 static int runners_list(struct sheet *s, struct runner *list)
 {
     const bool small = (double)s->scene.width * s->scene.height < FIBERS_SMALL;
@@ -291,8 +286,7 @@ static bool agree(const struct diffusion_scene *scene, const struct runner *r, i
                       k % (size_t)scene->width, (double)mine[k], (double)yardstick[k]);
 }
 
-/* OpenMP and each contender take so many further steps; steps_before: steps that they have
- * taken. */
+/* OpenMP and each contender take that many more steps, after steps_before ones. */
 static bool all_agree(struct sheet *s, struct runner *runners, int runners_count,
                       int steps_before, int steps_count)
 {
@@ -321,8 +315,7 @@ static bool all_agree(struct sheet *s, struct runner *runners, int runners_count
 static bool runner_ready(void *context)
 {
     struct runner *r = context;
-    /* as many as one pipeline has; else two, since many steps read one copy of the sheet and
-     * write another */
+    /* the steps of one pipeline; else two, since steps read one copy and write another */
     return r->steps(r->sheet, r->which, r->steps == peer_steps && r->which == 2 ? 4 : 2);
 }
 
