@@ -94,8 +94,8 @@ unsigned int CM_fe_from_gray_code(unsigned int code)
 
 /* ---- on the machine ---- */
 
-/* Fields for addresses are longer than those, as a rule, and 0 above: then the whole of 32 bits is stored,
- * which is the same and a value of one piece. */
+/* Fields for addresses are usually longer than the addresses. Then all 32 bits are stored,
+ * with zeros above: the same content, as a single value. */
 static unsigned int address_room(struct machine *m, CM_field_id_t dest, unsigned int bits)
 {
     struct machine_field_info info;

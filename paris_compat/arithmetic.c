@@ -1,12 +1,15 @@
 /* Arithmetic, comparisons and conversions: rows of the families binary, unary, compare,
  * convert.
  *
- * Integers of several lengths. Sources are filled to the longest of the lengths with zeros or
- * the sign, the operation is done there, and the result is cut off to dest's length; overflow
- * says that the true result does not fit in dest. Constants are cut off to their length. */
+ * Integers of several lengths. Sources are extended to the longest of the lengths with zeros
+ * or the sign, the operation is done at that length, and the result is truncated to dest's
+ * length. Overflow is 1 if the true result does not fit in dest. Constants are truncated to
+ * their length.
+ */
 #include "paris_state.h"
 
-/* The overflow flag is also 1 where the result, computed at a greater width, is not dest's. */
+/* The overflow flag is also 1 if the result, computed at a greater width, does not fit in
+ * dest. */
 static bool overflow_narrow(struct machine *m, struct machine_value *wide, unsigned int len,
                             bool is_signed)
 {
@@ -52,7 +55,7 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
     paris_store(m, dest, result, self->scope);
 }
 
-/* Without a sign only the negative of zero fits. */
+/* Unsigned, only the negative of zero fits. */
 static bool overflow_negated(struct machine *m, struct machine_value *x, bool is_signed)
 {
     if (is_signed)
@@ -139,8 +142,7 @@ static double power_of_two(unsigned int n)
     return x;
 }
 
-/* Overflow is 1 where x, which is whole, is not one of the numbers of len bits; NaN is none of
- * them. */
+/* Overflow is 1 if the whole number x does not fit in len bits; a NaN never fits. */
 static bool overflow_range(struct machine *m, struct machine_value *x, unsigned int len,
                            bool is_signed)
 {
@@ -171,7 +173,7 @@ void paris_to_bits(const struct paris_instruction *self, struct paris_operand de
     struct machine_value *x = paris_load(m, a, "source", self->scope);
     if (!x)
         return;
-    if (machine_value_type(x).s) /* what is whole need not be in another format */
+    if (machine_value_type(x).s) /* a whole number may not fit another format */
         x = machine_to_float(m, x, MACHINE_F64, false);
     x = machine_unary(m, self->op, x);
     struct machine_value *result = x ? machine_to_bits(m, x, (int)dest.len, is_signed) : NULL;

@@ -1,8 +1,9 @@
-/* Front-end arrays: blocks of them to and from blocks of processors.
+/* Transfers blocks of front-end arrays to and from blocks of processors.
  *
- * The array has block.rank dimensions and is row-major. Its element (offset + k), for each k of
- * the block, belongs to the processor whose coordinate on axis[j] is start[j] + k[j]; end is
- * exclusive; on axes that are not named the coordinate is 0. The context does not matter. */
+ * The array has block.rank dimensions and is row-major. Its element (offset + k), for each k
+ * of the block, belongs to the processor whose coordinate on axis[j] is start[j] + k[j]; end
+ * is exclusive; on axes that are not named the coordinate is 0. The context does not matter.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,11 +156,11 @@ static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes,
     }
 }
 
-/* count elements, steps in bytes. */
+/* Copies `count` elements; steps in bytes. */
 static void row_copy(struct element to, unsigned char *t, size_t to_step, struct element from,
                      const unsigned char *f, size_t from_step, uint64_t count)
 {
-    /* The same bits on both sides; else unused bits want to be cleared or filled. */
+    /* whether both sides have the same bits; else unused bits must be cleared or filled */
     bool same = to.bytes == from.bytes && (to.letter == 'f' || to.width == from.width);
     if (same && to_step == to.bytes && from_step == from.bytes) {
         memcpy(t, f, count * to.bytes);

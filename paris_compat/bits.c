@@ -1,5 +1,5 @@
-/* Moves and logical operations, on fields of any length: what is longer than an integer may be
- * goes in pieces. */
+/* Moves and logical operations on fields of any length: fields longer than an integer are
+ * processed in pieces. */
 #include "paris_state.h"
 
 #include <stdlib.h>
@@ -28,8 +28,8 @@ struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
     return v && how[truth].not_result ? machine_unary(m, MACHINE_NOT, v) : v;
 }
 
-/* The piece of an operand that begins offset bits on; a constant's is zero beyond its word, or
- * its sign. */
+/* The piece of an operand that begins at bit `offset`; beyond the word of a constant, zeros
+ * or its sign. */
 static struct paris_operand piece(struct paris_operand a, unsigned int offset, unsigned int len)
 {
     a.len = len;
@@ -44,8 +44,8 @@ static struct paris_operand piece(struct paris_operand a, unsigned int offset, u
     return a;
 }
 
-/* What is stored in the piece of dest that begins at bit at. NULL: it is wrong, and that has
- * been said. */
+/* Returns the value to store in the piece of dest that begins at bit `at`. NULL: an error,
+ * which has been reported. */
 typedef struct machine_value *piece_value(struct machine *m,
                                           const struct paris_instruction *self,
                                           const struct paris_operand *sources,
@@ -58,7 +58,7 @@ static bool crosses(struct paris_operand dest, struct paris_operand source)
            dest.field < source.field + source.len && source.field < dest.field + dest.len;
 }
 
-/* A long field, piece by piece. before: all pieces are read before one is stored. */
+/* Stores a long field piece by piece. before: reads all pieces before storing one. */
 static void store_pieces(struct machine *m, const struct paris_instruction *self,
                          struct paris_operand dest, const struct paris_operand *sources,
                          piece_value *value, bool before)
@@ -103,7 +103,7 @@ static struct machine_value *logical_piece(struct machine *m,
     return v;
 }
 
-/* A field of no bits is an empty loop's: nothing is done to it. */
+/* A field of no bits occurs in empty loops: nothing is done. */
 void paris_logical(const struct paris_instruction *self, struct paris_operand dest,
                    struct paris_operand a, struct paris_operand b)
 {
@@ -141,7 +141,7 @@ static void move_float(struct machine *m, const struct paris_instruction *self,
 static void move_short(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a)
 {
-    if (a.len == 1) /* a bit, though there is no signed number of one */
+    if (a.len == 1) /* one bit, though there is no signed number of one bit */
         a.letter = 'b';
     struct machine_value *v = paris_load(m, a, a.is_constant ? "value" : "source", self->scope);
     if (!v)
@@ -151,7 +151,7 @@ static void move_short(struct machine *m, const struct paris_instruction *self,
     paris_store(m, dest, v, self->scope);
 }
 
-/* dest's bits beyond the source's: zero, or the source's last bit. */
+/* Fills dest's bits beyond the source's: with zeros, or with the source's last bit. */
 static struct machine_value *filling(struct machine *m, const struct paris_instruction *self,
                                      struct paris_operand a, unsigned int len)
 {

@@ -1,10 +1,11 @@
 /* Complex numbers: the instructions.
  *
- * Sums, differences and products are made part by part in the format itself (a product is
- * (ac - bd, ad + bc), each operation rounded); all else by doubles, rounded to the format at
- * the end. Overflow is 1 where a part of the result is infinite or a NaN, and none of the
- * operands' is. What has infinite parts is not brought back to infinity where the formula
- * makes it a NaN. */
+ * Sums, differences and products are computed part by part in the format itself (a product
+ * is (ac - bd, ad + bc), each operation rounded). All other functions are computed in
+ * doubles, and rounded to the format at the end. Overflow is 1 if a part of the result is
+ * infinite or a NaN, and no part of the operands is. A NaN that the formulas give for
+ * infinite operands is not corrected to infinity.
+ */
 #include "paris_state.h"
 
 static const struct paris_cvalue nothing = {NULL, NULL};
@@ -14,7 +15,7 @@ static bool type_of(struct paris_complex a, const char *role, struct machine_typ
     return paris_type(a.re, role, type);
 }
 
-/* In either mode that both parts are there: an instruction stores both or none. */
+/* In either mode, checks that both parts exist: an instruction stores both or none. */
 static bool check(struct paris_complex a, const char *role)
 {
     struct machine_field_info info;
@@ -69,7 +70,7 @@ static struct paris_cvalue doubles(struct machine *m, struct paris_cvalue z)
     return converted(m, z, MACHINE_F64);
 }
 
-/* No square of a number of the format leaves the doubles. */
+/* Whether the square of every number of the format is in a double's range. */
 static bool is_narrow(struct paris_operand a)
 {
     return a.e <= 9 && a.len <= 32;
@@ -100,7 +101,7 @@ static struct machine_value *is_finite(struct machine *m, struct paris_cvalue z)
     return machine_binary(m, MACHINE_FEQ, re, im);
 }
 
-/* a.re NULL: the operands are one. */
+/* a.re NULL: there is one operand. */
 static bool overflow(struct machine *m, const struct paris_instruction *self,
                      struct paris_complex dest, struct paris_cvalue r, struct paris_cvalue a,
                      struct paris_cvalue b)
@@ -227,7 +228,7 @@ void paris_complex_raise(const struct paris_instruction *self, struct paris_comp
         good(z) ? paris_load(m, b, b.is_constant ? "value" : "source2", self->scope) : NULL;
     if (!n)
         return;
-    /* Few bits, so few products: those of other numbers are of no use. */
+    /* A small constant exponent is cut to its low bits, so that few products are computed. */
     if (b.is_constant && (b.letter == 's'   ? b.value.bits + 512 < 1024
                           : b.letter == 'u' ? b.value.bits < 1024
                                             : false))

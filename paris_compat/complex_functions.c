@@ -1,5 +1,5 @@
-/* Functions of complex numbers, out of the machine's operations on doubles, so that they fuse
- * with whatever is around them.
+/* Functions of complex numbers, composed of the machine's operations on doubles, so that they
+ * fuse with the operations around them.
  *
  * Accuracy. Each part is within a few units in the last place of a double, if it is not much
  * smaller than what it is the difference of (a part that nearly cancels is right within a few
@@ -9,11 +9,13 @@
  * Branch cuts are those of C's Annex G, and a zero's sign says on which side of a cut it is:
  * sqrt, ln and powers along the negative real axis; asin, acos and atanh on the real axis
  * beyond -1 and 1; acosh on it below 1; asinh and atan on the imaginary axis beyond -i and i.
- * Not all of Annex G's results for infinite parts and NaNs are kept: what has a NaN in it may
- * have two.
+ * Not all of Annex G's results for infinite parts and NaNs are kept: if one part of the operand
+ * is a NaN, both parts of the result may be.
  *
- * The inverse functions are W. Kahan's ("Branch Cuts for Complex Elementary Functions", 1987):
- * of sqrt(1 + z) and sqrt(1 - z), whose parts are multiplied and added without cancelling. */
+ * The inverse functions are W. Kahan's ("Branch Cuts for Complex Elementary Functions",
+ * 1987): of sqrt(1 + z) and sqrt(1 - z), whose parts are multiplied and added without
+ * cancelling.
+ */
 #include <math.h>
 
 #include "paris_state.h"
@@ -84,14 +86,14 @@ static complex_value swapped(complex_value z)
     return (complex_value){z.im, z.re};
 }
 
-/* The sign of a double as a bit, a zero's too. */
+/* The sign of a double as a bit, also for zeros. */
 static real sign_of(real x)
 {
     struct machine *m = paris_the.machine;
     return machine_extract(m, machine_reinterpret(m, x, MACHINE_UINT(64)), 63, 1);
 }
 
-/* a, which has no sign, with x's. */
+/* a, which is not negative, with the sign of x. */
 static real signed_as(real a, real x)
 {
     return pick(sign_of(x), negated(a), a);
@@ -111,7 +113,7 @@ static real ln_one_more(real u)
 
 /* ---- magnitude and direction ---- */
 
-/* The greater and the lesser of |x| and |y|; a NaN is one of them. */
+/* The greater and the lesser of |x| and |y|; if one is a NaN, so is a result. */
 static void by_size(complex_value z, real *great, real *small)
 {
     real x = magnitude(z.re), y = magnitude(z.im), second = less(x, y);
@@ -137,7 +139,7 @@ static real angle_of(complex_value z)
     return two_op(MACHINE_FATAN2, z.im, z.re);
 }
 
-/* ln |z|: of the greater part and the ratio; where |z| is near 1, of |z|^2 - 1 */
+/* ln |z|: from the greater part and the ratio; near |z| = 1, from |z|^2 - 1 */
 static real ln_size(complex_value z)
 {
     real great, small, one = double_of(1), none = double_of(0);
@@ -167,7 +169,8 @@ complex_value paris_complex_multiply(complex_value a, complex_value b)
     return pair(sub(mul(a.re, b.re), mul(a.im, b.im)), add(mul(a.re, b.im), mul(a.im, b.re)));
 }
 
-/* R. Smith's way (1962): by the ratio of the divisor's parts. By zero: each part by it. */
+/* R. Smith's method (1962): by the ratio of the divisor's parts. Division by zero divides
+ * each part by it. */
 complex_value paris_complex_divide(complex_value a, complex_value b)
 {
     real wide = less(magnitude(b.re), magnitude(b.im));
@@ -190,7 +193,7 @@ static complex_value signum(complex_value z, bool narrow)
 static complex_value square_root(complex_value z, bool narrow)
 {
     real x = z.re, y = z.im, back = NULL;
-    if (!narrow) { /* sums of the ends of the range would leave it */
+    if (!narrow) { /* sums near the ends of the range could overflow */
         real great, small, one = double_of(1);
         by_size(z, &great, &small);
         real large = less(double_of(0x1p1000), great), tiny = less(great, double_of(0x1p-900));
@@ -260,7 +263,7 @@ static complex_value hyperbolic_cosine(complex_value z)
 {
     complex_value turn = paris_complex_cis(z.im);
     complex_value r = times_hyperbolic(turn.re, turn.im, z.re);
-    /* sinh x sin y is a zero of their signs */
+    /* sinh x sin y is a zero with the product of their signs */
     real none = double_of(0), zero = two_op(MACHINE_OR, equal(z.re, none), equal(z.im, none));
     r.im = pick(zero, mul(signed_as(double_of(1), z.re), signed_as(none, turn.im)), r.im);
     return r;
@@ -318,14 +321,14 @@ static complex_value arc_hyperbolic_cosine(complex_value z, bool narrow)
                 mul(double_of(2), two_op(MACHINE_FATAN2, a.im, b.re)));
 }
 
-/* Of -z for x < 0: the function is odd. */
+/* For x < 0, negates the result for -z: the function is odd. */
 static complex_value arc_hyperbolic_tangent(complex_value z)
 {
     real one = double_of(1), turned = sign_of(z.re);
     real x = magnitude(z.re), y = pick(turned, negated(z.im), z.im);
     real rest = sub(one, x), more = add(one, x);
     real far = less(double_of(0x1p500), add(x, magnitude(y)));
-    /* close to 1: of the distances' logarithms */
+    /* close to 1: from the logarithms of the distances */
     real distance = add(mul(rest, rest), mul(y, y));
     real close = less(distance, double_of(0.25));
     real by_logarithms =
@@ -342,7 +345,8 @@ static complex_value arc_hyperbolic_tangent(complex_value z)
 
 /* ---- powers ---- */
 
-/* Of zero: 1 where the exponent is 0, else 0 (the exponent's real part is above 0) or NaN. */
+/* Powers of zero: 1 if the exponent is 0, else 0 (if the exponent's real part is positive)
+ * or NaN. */
 static complex_value power_of_zero(complex_value r, complex_value z, real exponent,
                                    real is_zero)
 {
@@ -367,7 +371,7 @@ complex_value paris_complex_power_real(complex_value z, real y)
     return power_of_zero(r, z, y, equal(y, double_of(0)));
 }
 
-/* By squares where |n| is below 2^WHOLE_BITS: products of whole parts are exact. */
+/* By repeated squaring if |n| is below 2^WHOLE_BITS: products of whole parts are exact. */
 enum { WHOLE_BITS = 10 };
 
 complex_value paris_complex_power_whole(complex_value z, real n, bool is_signed)

@@ -1,8 +1,10 @@
-/* Send addresses made of coordinates and coordinates of send addresses, in the processors. The geometry
- * may be any, not only that of the current VP set.
+/* Computes send addresses from coordinates, and coordinates from send addresses, in the
+ * processors, for any geometry.
  *
- * All is done with 64-bit numbers. The machine has no division, and needs none: for n < 2^31 and a
- * divisor d, with k = 31 + the least s for which d <= 2^s, n / d is n * (2^k / d + 1) >> k. */
+ * All computations use 64-bit integers. Division by a constant is a multiplication: for n <
+ * 2^31 and a divisor d, with k = 31 + the least s for which d <= 2^s, n / d is n * (2^k / d
+ * + 1) >> k.
+ */
 #include "paris_state.h"
 
 enum { WIDTH = 64 };

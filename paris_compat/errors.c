@@ -1,4 +1,4 @@
-/* errors.c - the state of the library, and the one place where errors end. */
+/* errors.c - the library's error state and error handling. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 struct paris_state paris_the = {.call = "Paris"};
 
 static char error_text[1024];
-static unsigned int error_status; /* CM_error_...: of what error_text says */
+static unsigned int error_status; /* the CM_error_... that belongs to error_text */
 static void (*error_handler)(const char *message);
 
 void paris_error_print(void)
@@ -60,7 +60,7 @@ PARIS_PRINTF(2, 3) static void fail_as(unsigned int status, const char *format, 
     va_end(args);
 }
 
-/* NULL: there is no machine, for want of memory. */
+/* NULL: no machine could be made, for want of memory. */
 static unsigned int status_of(const struct machine *m)
 {
     enum machine_status status = m ? machine_status_last(m) : MACHINE_NO_MEMORY;

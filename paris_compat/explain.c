@@ -1,7 +1,10 @@
-/* explain.c - gathers what machine_explain() tells of each machine, and writes it when the program ends.
+/* explain.c - collects the reports of machine_explain() for each machine, and writes them when
+ * the program ends.
  *
- * Ctrl-C ends a program that explains itself between two instructions, by exit(130), so that it does explain; a second
- * one ends it at once. A handler of the program's own is left alone. */
+ * When explanations are on, Ctrl-C ends the program between two instructions by exit(130),
+ * so that the report is written; a second Ctrl-C ends it at once. A handler of the program's
+ * own is not replaced.
+ */
 #include "explain.h"
 
 #include <errno.h>
@@ -32,7 +35,7 @@ static struct output {
 };
 enum { OUTPUTS_COUNT = sizeof outputs / sizeof *outputs };
 
-static pid_t owner; /* 0: not asked yet. A child of a fork has no say */
+static pid_t owner; /* 0: not known yet. Forked children write nothing */
 static volatile sig_atomic_t interrupts;
 
 static void complain(const struct output *o, const char *what)
@@ -53,8 +56,8 @@ static void between(void)
         exit(130);
 }
 
-/* Before there is a machine: the driver's compiler puts a handler of its own before whatever there is, and passes the
- * signal on to that. */
+/* Called before there is a machine: the driver's compiler installs a handler of its own,
+ * which passes the signal on to the one before it. */
 static void interrupt_catch(void)
 {
     struct sigaction now,
@@ -97,7 +100,7 @@ void paris_explain_end(struct machine *m)
         return;
     const struct machine_explained *x = machine_explain(m, true);
     if (!x || (!x->stores && !x->kernels_count))
-        return; /* another one was made in its place before it did anything */
+        return; /* the machine was replaced before it did anything */
     for (int i = 0; i < OUTPUTS_COUNT; i++) {
         struct output *o = &outputs[i];
         char *text = NULL;

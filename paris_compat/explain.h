@@ -1,5 +1,6 @@
-/* explain.h - LUTETIA_EXPLAIN=FILE and LUTETIA_EXPLAIN_JSON=FILE: what the program's machines did, and why, as text
- * and as JSON, written when the program ends. `lutetia explain` asks for both. */
+/* explain.h - LUTETIA_EXPLAIN=FILE and LUTETIA_EXPLAIN_JSON=FILE: reports on what the
+ * program's machines did, and why, as text and as JSON, written when the program ends.
+ * `lutetia explain` uses both. */
 #ifndef PARIS_EXPLAIN_H
 #define PARIS_EXPLAIN_H
 
@@ -7,18 +8,21 @@
 
 #include <stdio.h>
 
-/* One of them is asked for, and its file can be written; what cannot be is said, once. */
+/* Whether a report is requested and its file can be written; if not, an error is printed
+ * once. */
 bool paris_explain_wanted(void);
-/* A machine has been made, or is going to be destroyed, or the program ends. machine NULL is fine. */
+/* Called when a machine has been made, before it is destroyed, and when the program ends.
+ * machine NULL is fine. */
 void paris_explain_begin(struct machine *m);
 void paris_explain_end(struct machine *m);
 void paris_explain_write(void);
 
-/* explain_text.c, explain_json.c: one machine */
+/* explain_text.c, explain_json.c: the report of one machine */
 void explain_text(FILE *out, const struct machine_explained *x);
 void explain_json(FILE *out, const struct machine_explained *x);
 
-/* explain_words.c: the kernel's bound, by what it is: as many bytes copied, or the cost model's operations; 0: not known. */
+/* explain_words.c: the kernel's bound: the time of copying as many bytes, or of the
+ * operations by the cost model; 0: unknown. */
 double explain_bound_s(const struct machine_explained_kernel *k, const char **by);
 const char *explain_why(enum machine_cut why);
 const char *explain_way(enum machine_plan_way way);

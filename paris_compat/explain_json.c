@@ -1,4 +1,4 @@
-/* explain_json.c - what a machine did, as an object of JSON; docs/engine.md says what its members are. */
+/* explain_json.c - the report as a JSON object; docs/engine.md explains its members. */
 #include "explain.h"
 
 static void text(FILE *out, const char *s)
@@ -13,7 +13,7 @@ static void text(FILE *out, const char *s)
     fputc('"', out);
 }
 
-/* second: what the bytes of these rows are called; NULL: they have none. */
+/* second: the name of these rows' bytes; NULL: they have none. */
 static void rows(FILE *out, const char *name, const struct machine_explained_row *r, int count,
                  const char *second, bool times)
 {

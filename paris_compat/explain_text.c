@@ -1,4 +1,4 @@
-/* explain_text.c - what a machine did, for people to read. */
+/* explain_text.c - the report as text. */
 #include "explain.h"
 
 #include <string.h>

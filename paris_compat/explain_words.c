@@ -1,4 +1,4 @@
-/* explain_words.c - what the reports as text and as JSON say alike. */
+/* explain_words.c - shared by the reports as text and as JSON. */
 #include "explain.h"
 
 double explain_bound_s(const struct machine_explained_kernel *k, const char **by)

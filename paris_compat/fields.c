@@ -1,4 +1,4 @@
-/* Fields: allocation, parts, and what may be asked of them. */
+/* Fields: allocation, parts, and queries. */
 #include "paris_state.h"
 
 static CM_field_id_t allocate(const char *name, unsigned int len, CM_vp_set_id_t vp_set,
@@ -84,8 +84,8 @@ static bool field_info(const char *name, CM_field_id_t field, struct machine_fie
     return false;
 }
 
-/* Programs step through a field and take one step too many at its end, so only the start must
- * be a field. */
+/* Programs that step through a field compute one address too many at its end, so only the
+ * start must be in a field. */
 CM_field_id_t CM_add_offset_to_field_id(CM_field_id_t field, int offset)
 {
     struct machine_field_info info;

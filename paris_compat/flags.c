@@ -1,5 +1,5 @@
-/* The flags, and single bits. What is done to the context is done in all processors: a
- * generated row of the context has the scope EVERYWHERE. */
+/* The flags, and single bits. Operations on the context act on all processors: their
+ * generated rows have the scope EVERYWHERE. */
 #include "paris_state.h"
 
 static struct machine_value *bit_constant(struct machine *m, unsigned int value)

@@ -32,7 +32,7 @@ bool paris_float_overflow(struct machine *m, int op, struct machine_value *a,
     return operand && machine_overflow_record_result(m, result, operand) == MACHINE_OK;
 }
 
-/* Floats of other formats as the doubles that they are: their parts are found so. */
+/* Floats of other formats as the equal doubles, from which their parts are taken. */
 static struct machine_value *native(struct machine *m, struct machine_value *x)
 {
     return x && machine_value_type(x).s ? machine_to_float(m, x, MACHINE_F64, false) : x;
@@ -47,9 +47,9 @@ static struct machine_value *with_sign(struct machine *m, struct machine_value *
     return negative ? machine_select(m, sign, negative, x) : x;
 }
 
-/* x to the power n, in double. An n that no double holds is the sum of two that doubles do hold:
- * what is above its low 32 bits, and those. Beyond 2^64 all powers are 0, 1 or infinite, so the
- * former's own rounding does not matter. */
+/* x to the power n, in double. An n that is not a double is the sum of two that are: its low
+ * 32 bits, and the rest. Beyond 2^64 all powers are 0, 1 or infinite, so the rounding of the
+ * rest does not matter. */
 static struct machine_value *power(struct machine *m, struct machine_value *x,
                                    struct machine_value *n, bool is_signed)
 {
@@ -73,7 +73,7 @@ static struct machine_value *power(struct machine *m, struct machine_value *x,
                           machine_binary(m, MACHINE_FPOW, x, with_sign(m, low, sign)));
 }
 
-/* 53 bits hold it, signed or not. */
+/* Whether the constant fits in 53 bits, signed or not. */
 static bool constant_is_short(struct paris_operand b)
 {
     unsigned long offset = b.letter == 's' ? 1ul << 52 : 0;
@@ -136,7 +136,7 @@ void paris_float_pair(const struct paris_instruction *self, struct paris_operand
     struct machine_value *r =
         t ? machine_binary(m, second[self->op], to ? z : t, to ? t : z) : NULL;
     if (self->overflow && r) {
-        /* An infinite sum times 0 is a NaN, and has overflowed all the same. */
+        /* An infinite sum times 0 is a NaN, and counts as an overflow. */
         struct machine_value *operands =
             both(m, both(m, zero_if_finite(m, x), zero_if_finite(m, y)), zero_if_finite(m, z));
         struct machine_value *largest =
@@ -163,7 +163,7 @@ static struct machine_value *exponent_field(struct machine *m, struct machine_va
     return machine_extract(m, x, s, type.width - 1 - s);
 }
 
-/* Wide enough for any exponent and its sum with any other. */
+/* Enough bits for any exponent and for the sum of two. */
 enum { EXPONENT_WIDTH = 16 };
 
 static struct machine_value *is_finite(struct machine *m, struct machine_value *x)
@@ -179,7 +179,7 @@ static struct machine_value *is_zero(struct machine *m, struct machine_value *x)
                           machine_constant_float(m, machine_value_type(x), 0));
 }
 
-/* The n of |x| = f 2^n, 1 <= f < 2, in EXPONENT_WIDTH bits; of numbers that are not 0. */
+/* The n of |x| = f 2^n, 1 <= f < 2, in EXPONENT_WIDTH bits; for numbers other than 0. */
 static struct machine_value *exponent(struct machine *m, struct machine_value *x)
 {
     struct machine_type type = machine_value_type(x);
@@ -246,8 +246,8 @@ void paris_float_made(const struct paris_instruction *self, struct paris_operand
     paris_store(m, dest, r, self->scope);
 }
 
-/* An integer of dest's length from one of another; overflow is 1 where it does not fit, or fits
- * does not hold (NULL: always does). */
+/* Converts an integer to dest's length; overflow is 1 if it does not fit, or if `fits` is 0
+ * (NULL: always 1). */
 static void store_integer(struct machine *m, const struct paris_instruction *self,
                           struct paris_operand dest, struct machine_value *v,
                           struct machine_value *fits)
@@ -300,7 +300,7 @@ void paris_float_part(const struct paris_instruction *self, struct paris_operand
                       NULL);
         return;
     case PARIS_EXPONENT: {
-        /* 0 has the least number, whatever dest's length is: made at dest's length or w. */
+        /* for 0 the result is the least number of dest's length */
         int width = len > w ? len : w;
         struct machine_value *n = exponent(m, x);
         v = n ? machine_select(m, finite, n, paris_number(m, w, 0)) : NULL;

@@ -1,10 +1,11 @@
-/* geometry.c - geometries as data, and where processors are: Paris's send addresses are not the machine's
- * row-major indices.
+/* geometry.c - geometries as data, and the conversion between Paris's send addresses and the
+ * machine's row-major indices.
  *
  * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of
  * row-major index i is virtual processor i div P of physical processor i mod P, and its send
- * address is (i mod P) * R + i div P. Where all axes are in send order the row-major index is the
- * send address; a geometry that has axes of both orders is in NEWS order. */
+ * address is (i mod P) * R + i div P. Where all axes are in send order the row-major index
+ * is the send address; a geometry that has axes of both orders is in NEWS order.
+ */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* geometry_calls.c - the calls that make, find and ask about geometries. */
+/* geometry_calls.c - the calls that create, find and query geometries. */
 #include <string.h>
 
 #include "paris_state.h"
@@ -164,8 +164,8 @@ int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
     return g ? g->ordering[axis] : CM_news_order;
 }
 
-/* A row-major array gives a processor's virtual ones to the first axis, and what that cannot
- * hold to the next. */
+/* In a row-major array, a processor's virtual processors are along the first axis as far as
+ * that suffices, then along the next. */
 unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
 {
     paris_the.call = "CM_geometry_axis_vp_ratio";

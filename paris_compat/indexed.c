@@ -5,17 +5,19 @@
  *
  *     dest = index is 0 ? element 0 : index is 1 ? element 1 : ... : dest
  *
- * which is as much work as the machine had, that had no addresses of its own in each processor.
- * The choice is made in parts of CHUNK elements, each evaluated before the next: they are
- * alike, so one small kernel does them all.
+ * which is as much work as on the original machine, whose processors could not address memory
+ * individually. The selection is done in chunks of CHUNK elements, each evaluated before the
+ * next. All chunks are alike, so one small kernel computes them all.
  *
  * The original kept arrays for fast access "slicewise", 32 processors together: bit k of a
  * number in the memory of the k-th of them. CM_transpose32 went to and from that layout, and
- * aref32 wanted it. Here aref32 takes arrays as they are and the transposition leaves them so:
- * whoever fills an array by aset32, or by moves and a transposition, finds in it what he put
- * there. A shared array of n elements belongs to 32 physical processors (all, if there are
- * fewer): processor p of them has the elements p, p + 32, p + 64, ... one after the other,
- * which is what transposing moved there. VP k of each shares with VP k of the others. */
+ * aref32 wanted it. Here aref32 takes arrays in the usual layout, and the transposition does
+ * nothing: a program that fills an array by aset32, or by moves and a transposition, reads
+ * back what it stored. A shared array of n elements belongs to 32 physical processors (all,
+ * if there are fewer): processor p of them has the elements p, p + 32, p + 64, ... one after
+ * the other, which is what transposing moved there. VP k of each shares with VP k of the
+ * others.
+ */
 #include "paris_state.h"
 
 #include <stdlib.h>
@@ -26,7 +28,7 @@ enum { CHUNK = 16, GROUP = 32 };
 struct indexed {
     CM_field_id_t field, array; /* dest or source */
     unsigned int len, element_len, index_len;
-    uint64_t limit; /* elements that an index can reach */
+    uint64_t limit; /* number of elements that an index can reach */
 };
 
 static unsigned int reach(unsigned int index_limit, unsigned int index_len)
@@ -59,7 +61,7 @@ static struct machine_value *number(struct machine *m, unsigned int width, uint6
     return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){n, 0});
 }
 
-/* What follows takes these from memory. */
+/* Puts values that later chunks need into memory. */
 static bool settle(struct machine *m, struct machine_value **values, int count)
 {
     if (machine_settle(m, values, count) == MACHINE_OK)
@@ -82,7 +84,7 @@ static struct machine_value *hits(struct machine *m, const struct indexed *x,
     return machine_binary(m, MACHINE_EQ, index, number(m, x->index_len, i));
 }
 
-/* A long chain of elements is computed in chunks. */
+/* Ends a chunk: computes the selection so far, because the chain would become long. */
 static bool chunk_ends(const struct indexed *x, uint64_t i)
 {
     return (i + 1) % CHUNK == 0 && i + 1 < x->limit;
@@ -126,7 +128,7 @@ static bool set_piece(struct machine *m, const struct indexed *x, struct machine
     return source != NULL;
 }
 
-/* In pieces where the field is longer than an integer. */
+/* Processes fields longer than an integer in pieces. */
 static void indexed_do(struct machine *m, const struct indexed *x, CM_field_id_t index_field,
                        bool sets)
 {
@@ -186,7 +188,7 @@ void CM_aset32_2L(CM_field_id_t source, CM_field_id_t array, CM_field_id_t index
 
 struct shared {
     const struct paris_geometry *geometry;
-    uint64_t count, rows; /* virtual processors; elements in each */
+    uint64_t count, rows; /* number of virtual processors; elements in each */
     unsigned int group;
     size_t bytes, index_bytes; /* of an element, of an index */
     unsigned char *numbers, *indices, *context, *array;
@@ -200,7 +202,7 @@ static void shared_free(struct shared *s)
     free(s->array);
 }
 
-/* The context of the current VP set, through a field of the moment. */
+/* Reads the context of the current VP set, through a temporary field. */
 static bool context_read(struct machine *m, unsigned char *out)
 {
     uint32_t field = machine_field_allocate(m, machine_vpset_current(m), 1, MACHINE_HEAP);
@@ -240,7 +242,7 @@ static bool shared_read(struct machine *m, struct shared *s, const struct indexe
     return good;
 }
 
-/* Where the element is that a processor's index says; NULL: there is none. */
+/* The place of the element for a processor's index; NULL: there is none. */
 static unsigned char *shared_place(const struct shared *s, const struct indexed *x,
                                    uint64_t processor)
 {

@@ -1,15 +1,12 @@
 /* Quotients, remainders, powers, shifts and counts of integers: rows of the families integer,
  * integer1, power, shift, rotate.
  *
- * Lengths are as in arithmetic.c: sources are filled to the longest of the lengths, the
- * operation is done there, the result is cut off to dest's. Overflow is 1 where the true result
- * is none of dest's numbers, or there is none (a divisor of zero, the square root of a negative
- * number, zero to a negative power), else 0; it is computed only if somebody looks. What is
- * stored then:
- *     a quotient by zero is 0, what remains of a division by zero is the dividend
- *     the square root of a negative number is 0, and so is zero to a negative power
+ * Lengths are treated as in arithmetic.c: sources are extended to the longest of the lengths, the operation is done at that length, the result is truncated to dest's. Overflow is 1 if the true result does not fit in dest, or is undefined (a divisor of zero, the square root of a negative number, zero to a negative power), else 0; it is computed only if it is read. The result then is:
+ *     for a division by zero, the quotient 0 and the remainder the dividend
+ *     0 for the square root of a negative number, and for zero to a negative power
  *     the low bits of the true result, otherwise
- * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1. */
+ * A negative exponent gives the power's integer part: 0, but for the powers of 1 and -1.
+ */
 #include "paris_state.h"
 
 static struct machine_value *is_number(struct machine *m, struct machine_value *v, int x)
@@ -41,7 +38,7 @@ static struct machine_value *either(struct machine *m, struct machine_value *a,
     return machine_binary(m, MACHINE_OR, a, b);
 }
 
-/* The flag (NULL is an error that the machine has noted), then dest. */
+/* Stores the flag (NULL: an error that the machine has recorded), then dest. */
 static void finish(struct machine *m, const struct paris_instruction *self,
                    struct paris_operand dest, struct machine_value *result, bool is_signed,
                    struct machine_value *overflow)
@@ -118,7 +115,7 @@ void paris_power(const struct paris_instruction *self, struct paris_operand dest
 
 /* ---- of one number ---- */
 
-/* The bits that differ from the sign. */
+/* The bits, inverted where the sign is 1. */
 static struct machine_value *without_sign(struct machine *m, struct machine_value *x,
                                           bool is_signed)
 {
@@ -187,7 +184,8 @@ void paris_integer_unary(const struct paris_instruction *self, struct paris_oper
 
 /* ---- shifts ---- */
 
-/* To the left what comes back otherwise is lost, to the right what dest does not hold. */
+/* Shifted left, bits are lost that do not come back by shifting right; shifted right, bits
+ * that dest cannot hold. */
 static struct machine_value *shift_overflow(struct machine *m,
                                             const struct paris_instruction *self,
                                             struct machine_value *x,

@@ -1,12 +1,14 @@
 /* The lights on the machine's front: a hidden field of the VP set that latched last holds their
- * pattern, and where LUTETIA_LEDS is set each latch is recorded.
+ * pattern. If LUTETIA_LEDS is set, each latch is recorded.
  *
- * There are 4096 lights, 64 in a row, one for each chip of a full machine, and a chip has a patch of
- * neighbours of the grid: of a VP set with n rows and m columns (its last axis; all others together
- * are the rows) the light in row r and column c stands for rows r*n/64 up to (r+1)*n/64, one at
- * least, and the like of columns, and is on where a virtual processor of them latched a 1. Along a
- * single axis of n, light l stands for l*n/4096 up to (l+1)*n/4096. So the front shows a picture of
- * the set, whatever its size and the number of physical processors. */
+ * There are 4096 lights, 64 in a row, one for each chip of a full machine, and a chip has a
+ * patch of neighbours of the grid: of a VP set with n rows and m columns (its last axis; all
+ * others together are the rows) the light in row r and column c stands for rows r*n/64 up to
+ * (r+1)*n/64, one at least, and the like of columns, and is on where a virtual processor of
+ * them latched a 1. Along a single axis of n, light l stands for l*n/4096 up to
+ * (l+1)*n/4096. So the front shows a picture of the set, whatever its size and the number of
+ * physical processors.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -97,7 +99,7 @@ uint64_t paris_leds_read(uint8_t *out, uint64_t limit)
     return count;
 }
 
-/* A bit of these rows and columns is 1; of an empty span the first is looked at. */
+/* Whether a bit of these rows and columns is 1; an empty span stands for its first element. */
 static bool patch_on(const uint8_t *bits, uint64_t columns, const uint64_t row[2],
                      const uint64_t column[2])
 {

@@ -1,14 +1,14 @@
-/* leds.h - what the files about lights share: the recording. */
+/* leds.h - the recording of the lights, shared by the files about them. */
 #ifndef PARIS_LEDS_H
 #define PARIS_LEDS_H
 
 #include "paris_internal.h"
 
-/* LUTETIA_LEDS is set, and nothing has gone wrong with the file that it names. */
+/* Whether LUTETIA_LEDS is set, and its file has not failed. */
 bool leds_recording(void);
-/* Adds a frame; says what is wrong, once. */
+/* Adds a frame; prints an error once. */
 void leds_record(const uint8_t lights[PARIS_LIGHTS_BYTES]);
-/* LUTETIA_LEDS=window: where frames are written to, or -1; it has said why. */
+/* LUTETIA_LEDS=window: the descriptor for frames, or -1; the error has been printed. */
 int paris_lights_window_open(void);
 
 #endif

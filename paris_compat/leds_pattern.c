@@ -1,4 +1,4 @@
-/* The lights that the system shows when no program has them. */
+/* The lights that the system shows when no program uses them. */
 #include <string.h>
 
 #include "paris_internal.h"
@@ -20,7 +20,7 @@ static unsigned int bit_next(struct paris_pattern *p)
     return bit;
 }
 
-/* Both of two bits: a quarter of the lights is on. */
+/* The AND of two bits: a quarter of the lights is on. */
 static uint64_t light_next(struct paris_pattern *p)
 {
     unsigned int a = bit_next(p), b = bit_next(p);

@@ -1,13 +1,13 @@
-/* LUTETIA_LEDS=FILE: each state of the lights is added to FILE, as it becomes: a file that a
- * program that crashes leaves behind is whole up to its last latch, and a pipe shows what happens
- * now.
+/* LUTETIA_LEDS=FILE: each state of the lights is appended to FILE at once. So the file of a
+ * program that crashes is complete up to its last latch, and a pipe shows the present state.
  *
  *     "lutetia leds 1 4096\n"                             once, when the first frame is written
  *     microseconds since then, 8 bytes, lowest first      each frame: 520 bytes
  *     512 bytes of lights: light l is bit l mod 8 of byte l div 8
  *
  * `lutetia leds FILE` makes pictures of it. LUTETIA_LEDS=window: the file is a pipe to
- * `lutetia leds` (leds_window.c); a file of that name is ./window. */
+ * `lutetia leds` (leds_window.c); a file of that name is ./window.
+ */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ bool leds_recording(void)
 static void fail(const char *what)
 {
     int error = errno;
-    failed = true; /* an error handler is told once */
+    failed = true; /* so that an error handler is called once */
     paris_fail("LUTETIA_LEDS: cannot %s %.200s: %s; name a file that can be written", what,
                getenv("LUTETIA_LEDS"), strerror(error));
 }
@@ -59,7 +59,7 @@ static bool file_open(void)
     if (file >= 0)
         return true;
     if (strcmp(getenv("LUTETIA_LEDS"), "window") == 0) {
-        failed = true; /* while it is opened: an error handler need not come back */
+        failed = true; /* set while opening: an error handler may not return */
         file = paris_lights_window_open();
         failed = file < 0;
     } else {
@@ -85,5 +85,5 @@ void leds_record(const uint8_t lights[PARIS_LIGHTS_BYTES])
     for (int i = 0; i < 8; i++)
         frame[i] = (uint8_t)(us >> 8 * i);
     memcpy(frame + 8, lights, PARIS_LIGHTS_BYTES);
-    bytes_write(frame, sizeof frame); /* at once, so that a frame is whole or missing */
+    bytes_write(frame, sizeof frame); /* one write, so that a frame is complete or missing */
 }

@@ -1,8 +1,10 @@
 /* LUTETIA_LEDS=window: `lutetia leds` shows the lights in a window, reading them from a pipe.
  *
- * It is this program's child, and outlives it: the last lights stay to be looked at. It says with a
- * byte on its standard output, which is a pipe, too, that the window is ready. One that someone
- * closes before this program has ended interrupts it (LUTETIA_LEDS_PROGRAM says whom). */
+ * The viewer is this program's child, and outlives it, so that the last lights stay visible.
+ * It writes a byte to its standard output, which is a pipe, too, when the window is ready.
+ * If the user closes the window before this program has ended, the viewer interrupts the
+ * program (LUTETIA_LEDS_PROGRAM gives the process).
+ */
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -14,7 +16,7 @@
 #include "leds.h"
 #include "paris_state.h"
 
-/* The environment, with that variable. Owns: the caller frees the array. */
+/* The environment with that variable added. Owns: the caller frees the array. */
 static char **environment_with(char *variable)
 {
     size_t count = 0, name = strcspn(variable, "=") + 1;
@@ -32,7 +34,8 @@ static char **environment_with(char *variable)
     return all;
 }
 
-/* Runs it with those two as its standard input and output; 0, or why not. */
+/* Runs the viewer with these descriptors as its standard input and output; returns 0, or an
+ * errno. */
 static int viewer_spawn(int input, int output)
 {
     char lutetia[] = "lutetia", leds[] = "leds", window[] = "--window", standard_input[] = "-";
@@ -48,7 +51,8 @@ static int viewer_spawn(int input, int output)
         posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
         error = posix_spawnp(&child, lutetia, &actions, NULL, arguments, environment);
-        if (error == ENOENT) /* not in PATH: where it was installed with this library */
+        if (error == ENOENT) /* not in PATH: try the place where it was installed with this
+                              * library */
             error = posix_spawn(&child, LUTETIA_BINDIR "/lutetia", &actions, NULL, arguments,
                                 environment);
         posix_spawn_file_actions_destroy(&actions);
@@ -57,7 +61,8 @@ static int viewer_spawn(int input, int output)
     return error;
 }
 
-/* Away from 0, 1 and 2, which a program may have closed: they become the child's. */
+/* Makes a pipe with descriptors above 2: 0, 1 and 2, which a program may have closed, become
+ * the child's. */
 static bool pipe_make(int ends[2])
 {
     int low[2];
@@ -104,7 +109,8 @@ int paris_lights_window_open(void)
     if (answer[0] >= 0)
         close(answer[0]);
     if (result >= 0) {
-        fcntl(result, F_SETPIPE_SZ, 1 << 20); /* the program runs on while a picture is drawn */
+        fcntl(result, F_SETPIPE_SZ, 1 << 20); /* a larger pipe, so that the program runs on
+                                               * while a picture is drawn */
         return result;
     }
     if (lights[1] >= 0)

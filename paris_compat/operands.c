@@ -1,4 +1,4 @@
-/* Operands to values and values to fields: the checks of safety mode are here. */
+/* Converts operands to values, and stores values in fields, with the checks of safety mode. */
 #include "paris_state.h"
 
 /* ---- types ---- */
@@ -33,14 +33,14 @@ bool paris_type(struct paris_operand a, const char *role, struct machine_type *t
 
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
 {
-    /* What is long goes in pieces: the first must not be stored when the last cannot be. */
+    /* Long fields are stored in pieces: the first must not be stored if the last cannot be. */
     struct machine_field_info info;
     if (paris_runs_over(field, bits, role))
         return true;
     if (!paris_the.safety && bits <= PARIS_INTEGER_MAX) {
         int set = paris_the.lenient ? 0 : machine_field_vpset(paris_the.machine, field);
         if (!set || set == CM_current_vp_set)
-            return true; /* what else may be wrong the machine says */
+            return true; /* the machine reports other errors */
     }
     if (field == CM_no_field) {
         paris_fail("%s: is CM_no_field: allocate it with CM_allocate_stack_field or "
@@ -171,7 +171,7 @@ bool paris_store(struct machine *m, struct paris_operand dest, struct machine_va
     struct machine_type type;
     if (!paris_check_operand(dest, "dest"))
         return false;
-    /* What was done in double comes back to its format. */
+    /* rounds a result computed in double to its format */
     if (dest.letter == 'f' && value && machine_value_type(value).kind == MACHINE_FLOAT) {
         if (!paris_type(dest, "dest", &type))
             return false;

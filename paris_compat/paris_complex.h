@@ -18,7 +18,7 @@ static inline struct paris_complex paris_c_constant(double real, double imag, un
     return (struct paris_complex){paris_f_constant(real, s, e), paris_f_constant(imag, s, e)};
 }
 
-/* What instructions on complex numbers do. */
+/* The operations of instructions on complex numbers. */
 enum paris_complex_op {
     PARIS_C_ADD,
     PARIS_C_SUBTRACT,
@@ -56,21 +56,21 @@ enum paris_complex_op {
 /* ---- complex_functions.c: of values ---- */
 
 struct paris_cvalue {
-    struct machine_value *re, *im; /* either NULL: none, and the machine knows why */
+    struct machine_value *re, *im; /* if either is NULL, there was an error, which the
+                                    * machine has recorded */
 };
-/* Of doubles, to doubles; narrow: with exponents of 9 bits at most, so that no square
- * overflows. */
+/* On doubles; narrow: exponents have 9 bits at most, so that no square overflows. */
 struct paris_cvalue paris_complex_function(enum paris_complex_op op, struct paris_cvalue z,
                                            bool narrow);
 struct machine_value *paris_complex_part(enum paris_complex_op op, struct paris_cvalue z,
                                          bool narrow);
 struct paris_cvalue paris_complex_divide(struct paris_cvalue a, struct paris_cvalue b);
 struct paris_cvalue paris_complex_power(struct paris_cvalue z, struct paris_cvalue w);
-/* y: a double; n: whole numbers. */
+/* y: a double; n: integers. */
 struct paris_cvalue paris_complex_power_real(struct paris_cvalue z, struct machine_value *y);
 struct paris_cvalue paris_complex_power_whole(struct paris_cvalue z, struct machine_value *n,
                                               bool is_signed);
-/* In the type of the operands. */
+/* In the operands' type. */
 struct paris_cvalue paris_complex_multiply(struct paris_cvalue a, struct paris_cvalue b);
 /* cos and sin of x, a double. */
 struct paris_cvalue paris_complex_cis(struct machine_value *x);

@@ -1,4 +1,4 @@
-/* paris_internal.h - what the rest of the project may ask of the Paris library besides
+/* paris_internal.h - the Paris library's functions for the rest of the project, besides
  * <cm/paris.h>.
  *
  *     struct machine_config config = machine_config_default();
@@ -10,24 +10,26 @@
  *     }
  *
  * Paris has one machine, made by CM_init, CM_attach, CM_cold_boot or the first instruction,
- * from the environment or from the configuration last given to paris_reset(). Threads. All of
- * it belongs to the one thread that makes CM_ calls. */
+ * from the environment or from the configuration last given to paris_reset(). Threads. All
+ * functions must be called by the one thread that makes CM_ calls.
+ */
 #ifndef PARIS_INTERNAL_H
 #define PARIS_INTERNAL_H
 
 #include "machine.h"
 
-/* The machine, made if there is none. Errors: where none can be made, one line is printed and
- * the program exits with 1. Owns: the library does; valid until paris_reset(), CM_cold_boot()
- * or CM_detach(). */
+/* Returns the machine, and makes it if there is none. Errors: if none can be made, prints
+ * one line and exits with 1. Owns: the library; valid until paris_reset(), CM_cold_boot() or
+ * CM_detach(). */
 struct machine *paris_machine(void);
 
-/* Destroys the machine with all that is on it and makes another. Errors: false, and
- * paris_error() says why; there is no machine then. config NULL: from the environment. */
+/* Destroys the machine with its whole content, and makes another. Errors: false, with
+ * paris_error(); there is no machine then. config NULL: from the environment. */
 bool paris_reset(const struct machine_config *config);
 
-/* The mode that programs begin in: strict, but without what CM_set_safety_mode (1) adds; lenient if
- * LUTETIA_LENIENT=1. CM_set_safety_mode (0) is lenient. */
+/* Sets the initial safety mode of programs: strict, but without the checks that
+ * CM_set_safety_mode (1) adds; lenient if LUTETIA_LENIENT=1. CM_set_safety_mode (0) is
+ * lenient. */
 void paris_safety_usual(void);
 
 /* The text of the last failure, one line; "" if none. */
@@ -42,13 +44,13 @@ uint64_t paris_leds_read(uint8_t *out, uint64_t limit);
 
 enum { PARIS_LIGHTS = 4096, PARIS_LIGHTS_COLUMNS = 64, PARIS_LIGHTS_BYTES = PARIS_LIGHTS / 8 };
 
-/* What they show of that pattern: light l is bit l mod 8 of byte l div 8; leds.c says which
- * processors it stands for. False: nothing has been latched. */
+/* The lights for that pattern: light l is bit l mod 8 of byte l div 8; leds.c defines the
+ * processors of each light. False: nothing has been latched. */
 bool paris_lights_read(uint8_t lights[PARIS_LIGHTS_BYTES]);
 
-/* The system's own patterns, by their modes: all on; each light for itself, drawn anew in each
- * step; rows of random lights that move one step, odd ones to the left and even ones to
- * the right. All are of a shift register: the same each time. */
+/* The system's own patterns, by their modes: all on; each light for itself, drawn anew in
+ * each step; rows of random lights that move one step, odd ones to the left and even ones to
+ * the right. All come from a shift register, and are the same each time. */
 enum paris_pattern_mode {
     PARIS_PATTERN_ON = 1,
     PARIS_PATTERN_NOISE = 5,

@@ -1,5 +1,5 @@
-/* paris_state.h - what the files of the Paris library share: the state, operands, and the way
- * an instruction goes.
+/* paris_state.h - shared by the files of the Paris library: the state, operands, and the path
+ * of an instruction.
  *
  * An entry point (generated from instructions.tab) describes its operands and calls the
  * function of its family:
@@ -11,15 +11,15 @@
  *             machine_...   values from values; NULL goes through
  *             paris_store   checks dest and stores; says what is wrong where the value is NULL
  *
- * What is wrong is told to the error handler by paris_fail() once, and the call ends without
- * effect. */
+ * paris_fail() reports an error to the error handler once, and the call ends without effect.
+ */
 #ifndef PARIS_STATE_H
 #define PARIS_STATE_H
 
 #if defined(__GNUC__)
 #define PARIS_COLD __attribute__((cold, noinline))
 #define PARIS_PRINTF(a, b) __attribute__((format(printf, a, b)))
-/* The public header has no visibility of its own: it is C of 1990. */
+/* The public header sets no visibility: it is C of 1990. */
 #pragma GCC visibility push(default)
 #endif
 #include <cm/paris.h>
@@ -33,7 +33,8 @@
 /* One entry point. */
 struct paris_instruction {
     const char *name;
-    uint8_t op;       /* enum machine_op, a truth table, ... as its family has it */
+    uint8_t op;       /* enum machine_op, a truth table, or another number, depending on the
+                       * family */
     uint8_t overflow; /* 1: records overflow */
     uint8_t swap;     /* 1: the sources change places */
     uint8_t scope;    /* enum machine_scope of the store */
@@ -44,7 +45,7 @@ enum { PARIS_OP_TO_GRAY = 254, PARIS_OP_SIGNUM = 253 }; /* of paris_integer_unar
 enum paris_news { PARIS_NEWS_GET, PARIS_NEWS_SEND };
 
 #define PARIS_INTEGER_MAX CM_maximum_integer_length
-#define PARIS_PIECE 64 /* longer bit fields are moved in pieces of so many bits */
+#define PARIS_PIECE 64 /* longer bit fields are moved in pieces of this many bits */
 
 /* ---- operands ---- */
 
@@ -90,7 +91,7 @@ static inline unsigned int paris_operand_bits(struct paris_operand a)
     return a.letter == 'f' ? a.len + a.e + 1 : a.len;
 }
 
-/* False: there is no such type, and that has been said. */
+/* False: there is no such type; the error has been reported. */
 bool paris_type(struct paris_operand a, const char *role, struct machine_type *type);
 
 /* ---- the state ---- */
@@ -110,12 +111,12 @@ struct paris_state {
     struct machine *machine;
     const char *call; /* the name of the instruction under way, for messages */
     unsigned int safety;
-    bool lenient; /* what the real machine let pass is let pass: safety.c */
+    bool lenient; /* accept what the real machine accepted: safety.c */
     bool attached;
     bool pristine;                     /* nothing allocated since CM_init */
     struct paris_geometry *geometries; /* by id - 1 */
     int geometries_count;
-    int *set_geometry; /* geometry of each VP set, by the machine's id; 0: not in use */
+    int *set_geometry; /* geometry of each VP set, by the machine's id; 0: unused */
     int sets_count;
     CM_field_id_t leds; /* hidden field of the VP set that latched last */
 };
@@ -127,14 +128,15 @@ extern struct paris_state paris_the;
 void paris_fail(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
 /* The same where memory was short (CM_error_memory). */
 void paris_fail_memory(const char *format, ...) PARIS_PRINTF(1, 2) PARIS_COLD;
-/* The same with what the machine says. */
+/* Reports the machine's error. */
 void paris_fail_machine(void) PARIS_COLD;
-/* Prints what the last failure said; nothing in it does anything to a terminal. */
+/* Prints the last error, with control characters made visible. */
 void paris_error_print(void) PARIS_COLD;
-/* Keeps why there is no machine, for paris_error(), and tells nobody. m: what machine_create() left; NULL is fine. */
+/* Keeps the reason why there is no machine, for paris_error(), without reporting it. m: from
+ * machine_create(); NULL is fine. */
 void paris_fail_without(const struct machine *m) PARIS_COLD;
 
-/* Starts the instruction of this name. */
+/* Begins the instruction of this name. */
 static inline struct machine *paris_begin(const char *name)
 {
     struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
@@ -143,7 +145,7 @@ static inline struct machine *paris_begin(const char *name)
     return m;
 }
 
-/* An instruction that does nothing to what fields and flags hold, and does not look at it either. */
+/* Begins an instruction that neither changes nor reads fields and flags. */
 static inline struct machine *paris_inquire(const char *name)
 {
     struct machine *m = paris_the.machine ? paris_the.machine : paris_machine();
@@ -151,7 +153,7 @@ static inline struct machine *paris_inquire(const char *name)
     return m;
 }
 
-/* Around an instruction: see machine_call_foreseen(). */
+/* For each instruction: see machine_call_foreseen(). */
 static inline bool paris_foreseen(struct machine_call *call)
 {
     return machine_call_foreseen(paris_the.machine ? paris_the.machine : paris_machine(), call);
@@ -161,7 +163,7 @@ static inline void paris_performed(void)
     if (paris_the.machine)
         machine_call_performed(paris_the.machine);
 }
-/* An instruction written by hand that is given one field; if `only`, it does no more than to compute. */
+/* A hand-written instruction with one field; if `only`, it does nothing but compute. */
 #define PARIS_OF_A_FIELD(instruction, field, only, body)                                       \
     static void again_##instruction(const struct machine_call *call)                           \
     {                                                                                          \
@@ -195,17 +197,17 @@ static inline double paris_double(uint64_t word)
     return (union paris_both){.word = word}.number;
 }
 
-/* The integer that a constant operand is, of 128 bits. */
+/* A constant operand as an integer of 128 bits. */
 static inline struct machine_scalar paris_constant_bits(struct paris_operand a)
 {
     return a.letter == 's' ? scalar_signed((long)a.value.bits)
                            : (struct machine_scalar){a.value.bits, 0};
 }
 
-/* The operand's value in the current VP set; NULL when it is wrong, which has been said. */
+/* The operand's value in the current VP set; NULL: an error, which has been reported. */
 struct machine_value *paris_load(struct machine *m, struct paris_operand a, const char *role,
                                  enum machine_scope scope);
-/* The values of an instruction's two sources. False: one is wrong, and that has been said. */
+/* The values of an instruction's two sources. False: an error, which has been reported. */
 bool paris_load_two(struct machine *m, const struct paris_instruction *self,
                     struct paris_operand dest, struct paris_operand a, struct paris_operand b,
                     struct machine_value **x, struct machine_value **y);
@@ -215,7 +217,7 @@ bool paris_load_widest(struct machine *m, const struct paris_instruction *self,
                        struct paris_operand dest, struct paris_operand a,
                        struct paris_operand b, bool y_signed, struct machine_value **x,
                        struct machine_value **y);
-/* value may be NULL. False: it was not stored, and why has been said. */
+/* value may be NULL. False: nothing was stored; the error has been reported. */
 bool paris_store(struct machine *m, struct paris_operand dest, struct machine_value *value,
                  enum machine_scope scope);
 /* The same for one bit. */
@@ -223,26 +225,26 @@ struct machine_value *paris_load_bit(struct machine *m, CM_field_id_t field, con
                                      enum machine_scope scope);
 bool paris_store_bit(struct machine *m, CM_field_id_t field, struct machine_value *value,
                      enum machine_scope scope);
-/* A flag of all or of active processors. */
+/* Sets a flag of all or of active processors. */
 bool paris_flag_put(struct machine *m, enum machine_flag flag, struct machine_value *value,
                     enum machine_scope scope);
 
-/* Safety mode's checks; without it they say yes (but fields of more than an integer's bits are always
- * checked). False: it has been said. */
+/* The checks of safety mode; without it they return true (but fields longer than an integer
+ * are always checked). False: the error has been reported. */
 bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role);
 bool paris_check_operand(struct paris_operand a, const char *role);
 bool paris_check_overlap(struct paris_operand dest, struct paris_operand source);
-/* dest as an instruction stores into it that has these sources (one: twice the same); *type: its. */
+/* Checks dest for an instruction with these sources (one: the same twice); *type: its type. */
 bool paris_check_dest(struct paris_operand dest, struct paris_operand a, struct paris_operand b,
                       struct machine_type *type);
-/* In lenient mode: says once on the standard error what is let pass, and gives true. */
+/* In lenient mode: prints once on the standard error what is accepted, and returns true. */
 bool paris_let_pass(const char *format, ...) PARIS_PRINTF(1, 2);
-/* Whether a lenient machine goes on past the field's end here; that is said. */
+/* Whether a lenient machine continues past the field's end; prints it once. */
 bool paris_runs_over(CM_field_id_t field, unsigned int bits, const char *role);
-/* The mode is put into effect on a machine that has just been made. */
+/* Sets the mode on a machine that has just been made. */
 void paris_safety_begin(struct machine *m);
 
-/* These say no in either mode. */
+/* These fail in either mode. */
 bool paris_check_axis(unsigned int axis);
 const struct paris_geometry *paris_geometry_of(CM_geometry_id_t id);
 
@@ -256,10 +258,10 @@ static inline unsigned int paris_longest(unsigned int a, unsigned int b)
 struct machine_value *paris_number(struct machine *m, int width, int64_t x);
 struct machine_value *paris_resize(struct machine *m, struct machine_value *v,
                                    unsigned int width, bool is_signed);
-/* 1 where v is not the number that its low len bits are. */
+/* 1 where v differs from its low len bits, extended. */
 struct machine_value *paris_lost(struct machine *m, struct machine_value *v, unsigned int len,
                                  bool is_signed);
-/* |x| of a signed number; the least one is its own. */
+/* |x| of a signed number; that of the least number is itself. */
 struct machine_value *paris_absolute(struct machine *m, struct machine_value *x);
 
 /* The function of the two bits whose truth table this is, from (0,0) in bit 3 to (1,1) in bit
@@ -271,30 +273,32 @@ struct machine_value *paris_boolean(struct machine *m, unsigned int truth,
 
 struct paris_geometry *paris_geometry_find(CM_geometry_id_t id); /* NULL: there is none */
 const struct paris_geometry *paris_geometry_current(void);
-/* An id for g; 0: no memory, and that has been said. */
+/* Returns an id for g; 0: no memory; the error has been reported. */
 CM_geometry_id_t paris_geometry_add(const struct paris_geometry *g);
-/* Fills in the count and the VP ratio of g's dimensions. False: they are wrong, and that has been said. */
+/* Computes the count and the VP ratio of g's dimensions. False: they are invalid; the error
+ * has been reported. */
 bool paris_geometry_complete(struct paris_geometry *g);
-/* The bits that tell so many things apart; 1 at least. */
+/* The number of bits that distinguish that many things; at least 1. */
 unsigned int paris_count_bits(uint64_t count);
 
 bool paris_set_valid(CM_vp_set_id_t set);
 CM_vp_set_id_t paris_set_default(void);
-/* Of a geometry that there is; 0: it cannot be, and that has been said. */
+/* Makes a VP set of an existing geometry; 0: an error, which has been reported. */
 CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry);
-/* Makes a set that there is current. */
+/* Makes an existing set current. */
 bool paris_set_select(CM_vp_set_id_t set);
 
 /* The machine's row-major index and Paris's send address. */
 /* In send order: all axes are. Else the row-major index n is VP n div P of processor n mod P. */
 enum machine_order paris_geometry_order(const struct paris_geometry *g);
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);
-/* UINT64_MAX where there is no such processor. */
+/* UINT64_MAX if there is no such processor. */
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address);
-/* The same; a lenient machine takes it modulo, and says so. */
+/* The same; a lenient machine takes it modulo the number of processors, and prints that
+ * once. */
 uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address);
 unsigned int paris_address_bits(const struct paris_geometry *g);
-void paris_sets_reset(void); /* no geometries, no VP sets but the default one */
+void paris_sets_reset(void); /* no geometries, and only the default VP set */
 void paris_sets_forget(void);
 
 /* ---- the families ---- */
@@ -303,7 +307,7 @@ void paris_binary(const struct paris_instruction *self, struct paris_operand des
                   struct paris_operand a, struct paris_operand b);
 void paris_unary(const struct paris_instruction *self, struct paris_operand dest,
                  struct paris_operand a);
-/* floats.c: what self->op is. */
+/* floats.c: the values of self->op. */
 enum paris_float_op {
     PARIS_SIGNUM,
     PARIS_EXPONENT,
@@ -381,7 +385,8 @@ void paris_flag_logical_flag(const struct paris_instruction *self, enum machine_
                              enum machine_flag other);
 void paris_news(const struct paris_instruction *self, CM_field_id_t dest, CM_field_id_t source,
                 unsigned int axis, unsigned int direction, unsigned int len);
-/* Scans and what goes with them; parts: a float, or 2: complex, both parts alike. */
+/* Scans and related instructions; parts: 1 for a float, 2 for a complex number, both parts
+ * alike. */
 void paris_scan(const struct paris_instruction *self, int parts, struct paris_operand dest,
                 struct paris_operand source, unsigned int axis, unsigned int direction,
                 unsigned int inclusion, unsigned int smode, CM_field_id_t sbit);
@@ -400,7 +405,7 @@ void paris_my_coordinate(const struct paris_instruction *self, CM_field_id_t des
                          unsigned int axis, unsigned int len);
 void paris_processor_write(const struct paris_instruction *self, CM_sendaddr_t send_address,
                            struct paris_operand dest, struct paris_operand value);
-/* self->op is 1 where the result is a long. */
+/* self->op is 1 if the result is a long. */
 unsigned long paris_processor_read_u(const struct paris_instruction *self,
                                      CM_sendaddr_t send_address, struct paris_operand source);
 long paris_processor_read_s(const struct paris_instruction *self, CM_sendaddr_t send_address,
@@ -426,7 +431,7 @@ void paris_power_two(const struct paris_instruction *self, CM_field_id_t dest,
                      unsigned int direction, unsigned int len);
 void paris_cross_move(const struct paris_instruction *self, CM_field_id_t dest,
                       CM_field_id_t source, unsigned int len);
-/* self->op is 1 where the coordinate is a number. */
+/* self->op is 1 if the coordinate is a constant. */
 void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_t geometry,
                            CM_field_id_t dest, unsigned int axis, CM_field_id_t coordinate,
                            unsigned int slen);
@@ -436,10 +441,10 @@ void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_
 void paris_coordinate_extract(const struct paris_instruction *self, CM_geometry_id_t geometry,
                               CM_field_id_t dest, unsigned int axis, CM_field_id_t send_address,
                               unsigned int dlen);
-/* As paris_check_field(), for a field of any VP set. */
+/* As paris_check_field(), for fields of any VP set. */
 bool paris_check_field_anywhere(CM_field_id_t field, unsigned int bits, const char *role);
 
-/* A block of a front-end array, and where it is among the processors. */
+/* A block of a front-end array, and its processors. */
 struct paris_block {
     const int *offset, *start, *end, *axis, *dimensions;
     unsigned int rank, format;

@@ -23,7 +23,7 @@ static long sign_extend(uint64_t bits, unsigned int len)
     return (long)(bits << unused) >> unused;
 }
 
-/* Old programs hold results in 32 bits. */
+/* Programs of 1990 keep results in 32 bits. */
 static bool result_fits(const struct paris_instruction *self, bool fits)
 {
     if (!paris_the.safety || self->op == 1 || fits)
@@ -34,7 +34,7 @@ static bool result_fits(const struct paris_instruction *self, bool fits)
 
 /* ---- one processor ---- */
 
-/* The field's own VP set says where the processor is. */
+/* The processor's place depends on the field's own VP set. */
 static bool processor_index(struct machine *m, CM_sendaddr_t send_address,
                             struct paris_operand field, const char *role,
                             struct machine_type *type, uint64_t *index)
@@ -116,8 +116,7 @@ double paris_processor_read_f(const struct paris_instruction *self, CM_sendaddr_
 
 /* ---- reductions ---- */
 
-/* The sum of integers is not cut off to their length: a sum of 8-bit pixels is one of 64 bits.
- * */
+/* The sum of integers is not truncated to their length: the sum of 8-bit pixels has 64 bits. */
 static bool reduce(const struct paris_instruction *self, struct paris_operand source,
                    struct machine_type *type, struct machine_scalar *out)
 {
@@ -168,7 +167,7 @@ double paris_global_f(const struct paris_instruction *self, struct paris_operand
 
 /* ---- counting bits ---- */
 
-/* How many active processors have a 1 in v. */
+/* The number of active processors with a 1 in v. */
 static uint64_t count_ones(struct machine *m, struct machine_value *v)
 {
     struct machine_scalar out = {0, 0};
@@ -220,7 +219,7 @@ static uint64_t count_bit(const char *name, CM_field_id_t source, uint64_t *amon
     return count;
 }
 
-/* The machine reduces over active processors, so all are active for a moment. */
+/* The machine reduces over active processors, so the context is set temporarily. */
 static uint64_t count_bit_always(const char *name, CM_field_id_t source)
 {
     struct machine *m = paris_begin(name);

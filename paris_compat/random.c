@@ -35,7 +35,7 @@ void CM_u_random(CM_field_id_t dest, unsigned int len, unsigned long limit)
     random_bits("CM_u_random", dest, len, limit);
 }
 
-/* A multiple of 2^-(s + 1) below 1: each of them is a float. */
+/* A multiple of 2^-(s + 1) below 1: each is a float of the format. */
 static void random_float(const char *name, CM_field_id_t dest, unsigned int s, unsigned int e)
 {
     struct machine *m = paris_begin(name);

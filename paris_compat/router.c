@@ -1,5 +1,5 @@
-/* The router: sends, gets, and moves between VP sets. Messages longer than an integer go in pieces,
- * all of which win or lose together. */
+/* The router: sends, gets, and moves between VP sets. Messages longer than an integer are
+ * sent in pieces; collisions have the same winner for all pieces. */
 #include <stdlib.h>
 
 #include "paris_state.h"
@@ -33,8 +33,8 @@ static int vp_set_of(CM_field_id_t field)
     return machine_field_lookup(paris_the.machine, field, &info) ? info.vpset : 0;
 }
 
-/* The bits of the field that are an address of the VP set: the machine looks at as many as there are,
- * so a field that is hardly longer is taken as it is. */
+/* The bits of the field that are an address of the VP set. The machine uses only as many
+ * bits as an address has, so a slightly longer field is used as it is. */
 static struct machine_value *load_address(struct machine *m, CM_field_id_t field, int vp_set)
 {
     struct machine_field_info info;
@@ -99,7 +99,7 @@ static unsigned int piece_bits(const struct pieces *p, unsigned int i)
     return p->bits - at < p->step ? p->bits - at : p->step;
 }
 
-/* All of them are read before any is stored: fields may overlap. */
+/* All pieces are read before one is stored, since fields may overlap. */
 static bool pieces_load(struct machine *m, struct pieces *p, CM_field_id_t source,
                         enum machine_scope scope)
 {
@@ -245,7 +245,7 @@ void paris_power_two(const struct paris_instruction *self, CM_field_id_t dest,
     free(p.values);
 }
 
-/* A send in which everybody's address is his own. */
+/* A send in which every processor sends to its own address. */
 void paris_cross_move(const struct paris_instruction *self, CM_field_id_t dest,
                       CM_field_id_t source, unsigned int len)
 {

@@ -1,4 +1,4 @@
-/* runtime.c - the implicit machine: made when first needed, given back by CM_detach. */
+/* runtime.c - the implicit machine: made when first needed, destroyed by CM_detach. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -31,7 +31,7 @@ static void leave(void)
     paris_explain_write();
 }
 
-/* False: there is none, and paris_error() says why. */
+/* False: no machine; paris_error() has the reason. */
 static bool machine_make(void)
 {
     if (!config_given)
@@ -45,7 +45,7 @@ static bool machine_make(void)
         return false;
     }
     static bool registered;
-    if (!registered) /* a program may leave with kernels still running */
+    if (!registered) /* the program may exit while kernels still run */
         registered = atexit(leave) == 0;
     paris_explain_begin(m);
     paris_the.machine = m;

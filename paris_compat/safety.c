@@ -1,11 +1,12 @@
-/* safety.c - how strict the calls are.
+/* safety.c - the modes of checking calls.
  *
- *     as programs begin       what is wrong is an error
- *     CM_set_safety_mode (1)  every argument is looked at too, before the machine is
- *     CM_set_safety_mode (0)  lenient, as LUTETIA_LENIENT=1: what the real machine let pass is let pass,
- *                             and said once
+ *     at a program's start    errors are reported
+ *     CM_set_safety_mode (1)  every argument is also checked before the machine is called
+ *     CM_set_safety_mode (0)  lenient, as LUTETIA_LENIENT=1: what the real machine accepted is accepted,
+ *                             and reported once
  *
- * In each of them nothing outside the machine's own memory is read or written. */
+ * In every mode, nothing outside the machine's own memory is read or written.
+ */
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -24,7 +25,7 @@ static void mode_set(unsigned int which)
     }
 }
 
-/* LUTETIA_LENIENT is the machine's own setting. */
+/* The machine itself reads LUTETIA_LENIENT. */
 void paris_safety_begin(struct machine *m)
 {
     static bool asked, by_environment;

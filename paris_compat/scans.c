@@ -1,7 +1,9 @@
-/* Scans, spreads, reductions and ranks: rows of the families combine and rank, and what counts.
+/* Scans, spreads, reductions and ranks: rows of the families combine and rank, and instructions
+ * that count.
  *
- * Context. Inactive processors neither take part nor are changed; overflow stays as it is. Bit
- * fields of any length are combined in pieces. */
+ * Context. Inactive processors neither take part nor change; overflow does not change. Bit
+ * fields of any length are combined in pieces.
+ */
 #include "paris_state.h"
 
 /* ---- checks ---- */
@@ -14,7 +16,7 @@ static bool direction_good(unsigned int direction)
     return false;
 }
 
-/* Fills the segments of a scan in. */
+/* Fills in the segments of a scan. */
 static bool segments_load(struct machine *m, unsigned int smode, CM_field_id_t sbit,
                           struct machine_scan *how)
 {
@@ -70,8 +72,8 @@ struct pieces {
     unsigned int left, step;
 };
 
-/* Plain bits are cut up; a complex number is two floats; all else is one piece. False: wrong, and
- * said, or (length 0) nothing to do. */
+/* Plain bits are divided into pieces; a complex number is two floats; others are one piece.
+ * False: an error, which has been reported, or (length 0) nothing to do. */
 static bool pieces_begin(struct pieces *p, int parts, struct paris_operand dest,
                          struct paris_operand source)
 {
@@ -94,7 +96,7 @@ static bool pieces_begin(struct pieces *p, int parts, struct paris_operand dest,
     return p->left > 0;
 }
 
-/* Goes on to the next piece; total is the length of all plain bits. */
+/* Advances to the next piece; total is the length of all plain bits. */
 static bool pieces_next(struct pieces *p, unsigned int total)
 {
     if (--p->left == 0)
@@ -125,7 +127,8 @@ void paris_scan(const struct paris_instruction *self, int parts, struct paris_op
            pieces_next(&p, dest.len));
 }
 
-/* What all on a line along the axis get; NULL: wrong, and said. */
+/* The value for all processors on a line along the axis; NULL: an error, which has been
+ * reported. */
 static struct machine_value *spread(struct machine *m, const struct paris_instruction *self,
                                     struct paris_operand source, unsigned int axis,
                                     unsigned int coordinate)
@@ -179,7 +182,7 @@ void paris_multispread(const struct paris_instruction *self, int parts,
            pieces_next(&p, dest.len));
 }
 
-/* The coordinates on the axes of the mask, of a row-major position among these. */
+/* Splits a row-major position among the mask's axes into coordinates on these. */
 static bool multi_coordinate_split(struct machine *m, unsigned int axis_mask,
                                    unsigned int position, int *coordinates)
 {
@@ -330,7 +333,7 @@ void CM_spread_from_processor_1L(CM_field_id_t dest, CM_sendaddr_t send_address,
            pieces_next(&p, len));
 }
 
-/* The longest is as long as the or of all, complemented where negative. */
+/* The longest is as long as the OR of all, with negative numbers complemented. */
 static unsigned int longest_integer(const char *name, struct paris_operand source)
 {
     struct machine *m = paris_begin(name);

@@ -1,5 +1,5 @@
-/* Timers: what is pending when one starts or stops is finished first, so that each second falls
- * on its side. */
+/* Timers: when one starts or stops, pending work is finished first, so that its time is
+ * counted on the right side. */
 #include <stdio.h>
 #include <time.h>
 

@@ -1,5 +1,5 @@
-/* Integers of several lengths, as several families make them. NULL goes through: it is an error that the
- * machine has noted. */
+/* Integers of several lengths, for several families. NULL arguments give NULL results: the
+ * machine has recorded the error. */
 #include "paris_state.h"
 
 struct machine_value *paris_number(struct machine *m, int width, int64_t x)

@@ -1,4 +1,4 @@
-/* vp_set_calls.c - the calls that make, select and rearrange VP sets. */
+/* vp_set_calls.c - the calls that create, select and rearrange VP sets. */
 #include "paris_state.h"
 
 static bool set_check(CM_vp_set_id_t set)

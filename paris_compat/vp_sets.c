@@ -1,4 +1,4 @@
-/* vp_sets.c - VP sets as data: which there are, the default one, and the one that is current. */
+/* vp_sets.c - VP sets as data: the existing ones, the default one, and the current one. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,8 +79,8 @@ void paris_sets_forget(void)
     CM_current_geometry = 0;
 }
 
-/* The default VP set: one virtual processor for each physical one, on two axes as equal as can
- * be. */
+/* The default VP set: one virtual processor for each physical one, on two axes as equal in
+ * length as possible. */
 void paris_sets_reset(void)
 {
     struct machine *m = paris_the.machine;
