@@ -1,4 +1,4 @@
-/* background.c - kernels compiled by a process, while those that there are run.
+/* background.c - has a separate process compile better kernels while the present ones run.
  *
  *     machine                                       lutetia-compiler, a process (compiler.c)
  *     want, want, begin
@@ -9,13 +9,16 @@
  *     take: load it <------------------------------ done, and the next
  *     take: load that, and use them <-------------- done
  *
- * PoCL makes of a program only LLVM's bitcode when it is built, and compiles that, which takes longer, when a kernel is
- * first started. Meanwhile it holds a lock that all starts need (of the process: queues, contexts and threads of one's own
- * do not help), so that nothing would run. What another process left in PoCL's cache is loaded in some 20 milliseconds.
+ * Building a program in PoCL makes only LLVM's bitcode. The longer part, compiling it, happens
+ * when a kernel is first started, under a lock of the process that every start needs; separate
+ * queues, contexts or threads do not help. A kernel that another process left in PoCL's cache
+ * is loaded in some 20 milliseconds.
  *
- * Nothing here waits, no thread is made, and a program can end at any time. The process is no child of the program, which
- * is not told by signals and may wait for all of its children; it ends when the program does. What it cannot do is left
- * to the machine, which compiles while the program waits, from then on. */
+ * Nothing here blocks, no thread is made, and the program can end at any time. The process
+ * is not a child of the program, because a program may wait for all of its children. It ends
+ * when the program does. If the process fails, the machine compiles from then on, while the
+ * program waits.
+ */
 #include "build/background.h"
 
 #include <errno.h>
@@ -36,15 +39,15 @@
 #include "device/cache.h"
 #include "program.h"
 
-/* A program that ends so soon after it first wanted something compiled is better off without. A process that says nothing
- * for so long is not going to. */
+/* START_AFTER_S: a program that ends sooner after its first request starts no process.
+ * HANGS_S: a process that is silent for so long is given up. */
 static const double START_AFTER_S = 0.2, HANGS_S = 120, LOOK_EVERY_S = 1e-3;
 
 extern char **environ;
 
 struct item {
     char *text, *options, *name, *arguments;
-    char *mark; /* NULL: whether the driver has it is not kept on disk */
+    char *mark; /* NULL: whether the driver has the kernel is not kept on disk */
     const char *parts[DEVICE_PARTS];
     uint32_t dimensions, group;
     uint64_t widest;
@@ -55,20 +58,21 @@ struct item {
 struct background {
     struct item *items;
     int count, capacity;
-    int asked;  /* the first that is not compiled */
+    int asked;  /* the first request that is not compiled */
     bool begun; /* this batch */
     bool lost;  /* for good */
     pid_t owner;
     char path[PATH_MAX]; /* of the compiler */
 
     int socket;     /* -1: there is no process */
-    pid_t child;    /* who starts the process; 0: it has ended */
+    pid_t child;    /* the child that starts the process; 0: it has ended */
     bool ready;     /* the process can be asked */
     bool idled;     /* ... nothing of this batch is done, and it may have ended before */
     bool warming;   /* the next answer is not of this batch */
-    char *requests; /* what is still to be compiled */
+    char *requests; /* requests still to be sent */
     size_t requests_bytes, requests_sent;
-    double wanted_s, looked_s, heard_s; /* when: a process first; at it last; the last answer */
+    double wanted_s, looked_s, heard_s; /* times: of the first request, of the last check, of
+                                         * the last answer */
 };
 
 /* ---- the process ---- */
@@ -85,13 +89,13 @@ static bool compiler_find(char path[PATH_MAX])
                         "host/machine/lutetia-compiler");
 }
 
-/* It starts the process, and ends; the program may have taken note of that itself. */
+/* The child that starts the process exits at once; the program may have reaped it itself. */
 static void child_reap(struct background *b, bool kill_it)
 {
     if (!b->child || b->owner != getpid())
         return;
     pid_t ended = waitpid(b->child, NULL, WNOHANG);
-    if (!ended && kill_it) { /* it is there, and ours */
+    if (!ended && kill_it) { /* the child exists, and is ours */
         kill(b->child, SIGKILL);
         while (waitpid(b->child, NULL, 0) < 0 && errno == EINTR)
             ;
@@ -123,7 +127,7 @@ static pid_t compiler_spawn(const char *path, int end)
     snprintf(owner, sizeof owner, "%d", (int)getpid());
     sigemptyset(&none);
     sigemptyset(&usual);
-    sigaddset(&usual, SIGCHLD); /* it has children of its own: linkers */
+    sigaddset(&usual, SIGCHLD); /* the process has children of its own: linkers */
     sigaddset(&usual, SIGPIPE);
     posix_spawn_file_actions_init(&files);
     posix_spawnattr_init(&how);
@@ -154,7 +158,7 @@ static bool compiler_start(struct background *b)
     return b->child > 0 && b->socket >= 0;
 }
 
-/* As much as it takes now. False: it has ended. */
+/* Sends as much as the socket takes now. False: the process has ended. */
 static bool requests_send(struct background *b)
 {
     while (b->requests_sent < b->requests_bytes) {
@@ -181,7 +185,7 @@ static void item_is_compiled(struct machine *m, struct background *b, double now
     b->idled = false;
 }
 
-/* What it has said. False: it has ended, or says what it should not. */
+/* Reads the answers. False: the process has ended, or its answer is malformed. */
 static bool answers_take(struct machine *m, struct background *b, double now)
 {
     char answers[16];
@@ -203,7 +207,7 @@ static bool answers_take(struct machine *m, struct background *b, double now)
     return n > 0;
 }
 
-/* False: there is none that does what is asked. */
+/* False: there is no process that does its work. */
 static bool compiler_attend(struct machine *m, struct background *b, double now)
 {
     child_reap(b, false);
@@ -213,7 +217,7 @@ static bool compiler_attend(struct machine *m, struct background *b, double now)
         return now - b->wanted_s < START_AFTER_S || compiler_start(b);
     if (answers_take(m, b, now) && (!b->ready || requests_send(b)))
         return now - b->heard_s < HANGS_S;
-    /* One that had nothing to do in a while has ended. */
+    /* a process that was idle for a while ends by itself */
     bool idled = b->idled;
     compiler_end(b);
     return idled && compiler_start(b);
@@ -268,7 +272,7 @@ void background_drop(struct machine *m)
     if (!b)
         return;
     if (b->begun && b->asked < b->count)
-        compiler_end(b); /* it is at what nobody wants */
+        compiler_end(b); /* it is compiling a kernel that is no longer wanted */
     b->idled = b->socket >= 0;
     for (int i = 0; i < b->count; i++)
         item_free(&b->items[i]);
@@ -279,7 +283,7 @@ void background_drop(struct machine *m)
     b->begun = false;
 }
 
-/* What says on disk that the driver has it: in which cache of the driver's, and for how many items. */
+/* The name of a mark, by the driver's cache and the size of a work-group. */
 static char *mark_of(const struct machine *m, const struct background_wish *wish)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
@@ -323,7 +327,7 @@ int background_want(struct machine *m, const struct background_wish *wish)
     return b->count++;
 }
 
-/* With text NULL only how long it is. */
+/* With text NULL, returns only the length. */
 static size_t request_write(char *out, const struct device *d, const struct item *item,
                             const char *text)
 {
@@ -373,7 +377,7 @@ void background_foresee(struct machine *m, const struct background_wish *wish)
     if (!mark || cache_mark_is_there(m->device, mark))
         goto done;
     cache_mark_write(m->device, mark);
-    /* Known to PoCL as little as that is. */
+    /* a kernel that PoCL does not have in its cache */
     snprintf(text, sizeof text, "kernel void k(global int *a) {} /* %016llx */",
              (unsigned long long)cache_hash(CACHE_HASH_BEGIN, mark));
     const struct item item = {

@@ -1,4 +1,4 @@
-/* background.h - kernels that a process compiles while others run: one batch at a time.
+/* background.h - compiles kernels in a separate process while others run: one batch at a time.
  *
  *     if (background_on(m) && !background_busy(m)) {
  *         int number = background_want(m, &wish);    // and others
@@ -9,7 +9,8 @@
  *     case BACKGROUND_LOADED: kernel = background_kernel(m, number); // and background_drop(m)
  *     case BACKGROUND_LOST: ...                                      // background_drop(m)
  *     case BACKGROUND_WAITS: ...
- *     } */
+ *     }
+ */
 #ifndef LUTETIA_MACHINE_BACKGROUND_H
 #define LUTETIA_MACHINE_BACKGROUND_H
 
@@ -27,29 +28,32 @@ struct background_wish {
 };
 
 enum background_state {
-    BACKGROUND_WAITS, /* for the process, or for its turn to be loaded */
+    BACKGROUND_WAITS, /* waiting for the process, or for a kernel's turn to be loaded */
     BACKGROUND_LOADED,
-    BACKGROUND_LOST /* they cannot be had so, and no others from now on */
+    BACKGROUND_LOST /* the process failed, and no kernels will be compiled so from now on */
 };
 
-/* The decision: better kernels are compiled beside the program. Else the program waits for them. */
+/* Decides whether better kernels are compiled beside the program; otherwise the program
+ * waits for them. */
 bool background_on(struct machine *m);
-/* There is a batch that has begun. */
+/* Whether a batch is under way. */
 bool background_busy(const struct machine *m);
-/* The kernel belongs to the next batch: its number there; -1: no memory. */
+/* Adds a kernel to the next batch. Returns its number there; -1: no memory. */
 int background_want(struct machine *m, const struct background_wish *wish);
-/* That kernel is about to be compiled by the machine itself, and better ones will be wanted. If no cache has it, which takes
- * long, the process gets ready meanwhile: PoCL reads its library for most of a second before it compiles anything. */
+/* Called before the machine itself compiles this kernel, for which better ones will be
+ * wanted. If no cache has it, which takes long, the process is started meanwhile: PoCL reads
+ * its library for most of a second before it compiles anything. */
 void background_foresee(struct machine *m, const struct background_wish *wish);
 /* False: no memory. */
 bool background_begin(struct machine *m);
-/* How far the batch is; never waits. Loads at most one kernel, which takes some 20 milliseconds. */
+/* Returns the state of the batch; never waits. Loads at most one kernel, which takes some 20
+ * milliseconds. */
 enum background_state background_take(struct machine *m);
-/* One of a batch that is loaded. */
+/* A kernel of a batch that is loaded. */
 cl_kernel background_kernel(const struct machine *m, int number);
-/* Nothing is wanted any more; none has begun. */
+/* Drops the batch. */
 void background_drop(struct machine *m);
-/* The machine goes. */
+/* Called when the machine is destroyed. */
 void background_finish(struct machine *m);
 
 #endif

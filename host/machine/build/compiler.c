@@ -1,7 +1,10 @@
-/* compiler.c - lutetia-compiler: has PoCL compile kernels, and keep them on disk, for a machine in another process.
+/* compiler.c - lutetia-compiler: has PoCL compile kernels, and keep them on disk, for a machine
+ * in another process.
  *
- * It is started and asked by background.c, which says why. It ends, whatever it is at, when the machine does not want it
- * any more or the machine's process has ended, and when nothing has been asked for in a while. */
+ * background.c starts the process and sends requests; its head explains why. The process
+ * ends at once when the machine closes the socket or the machine's process has ended, and
+ * when it has been idle for a while.
+ */
 #include "build/compiler.h"
 
 #include <CL/cl.h>
@@ -27,7 +30,8 @@ static cl_command_queue queue;
 
 static cl_mem memory;
 
-/* Of the machine, to see it end: a child of a fork of it may keep the socket open. -1: the system has none. */
+/* The machine's process, to notice its end: its forked children may keep the socket open.
+ * -1: not supported. */
 static int process;
 
 static void *leave_with_machine(void *nothing)
@@ -105,7 +109,7 @@ static bool device_open(char *const strings[COMPILER_STRINGS])
     return error == CL_SUCCESS;
 }
 
-/* Such that it computes nothing. */
+/* Sets arguments with which the kernel computes nothing. */
 static cl_int arguments_set(cl_kernel kernel, const char *arguments)
 {
     cl_int error = CL_SUCCESS;
@@ -120,7 +124,7 @@ static cl_int arguments_set(cl_kernel kernel, const char *arguments)
     return error;
 }
 
-/* The driver compiles when it is started. */
+/* Starts the kernel, which makes the driver compile it. */
 static cl_int start(cl_kernel kernel, const struct compiler_request *r)
 {
     const size_t local[3] = {r->group, 1, 1};
@@ -161,14 +165,15 @@ static void answer(char what)
         _exit(EXIT_FAILURE);
 }
 
-/* It is nobody's child, leaves no core behind, and has the processors that the machine leaves: POCL_AFFINITY, which that
- * sets, would tie it to the first. */
+/* Detaches the process: it is nobody's child, leaves no core file, and may run on all
+ * processors. POCL_AFFINITY, which tying threads sets, would tie it to the first one. */
 static void settle(pid_t machine)
 {
     const struct rlimit none = {0, 0};
-    close_range(STDERR_FILENO + 1, ~0U, 0); /* the program's, whose end others may wait for */
+    close_range(STDERR_FILENO + 1, ~0U, 0); /* descriptors of the program, whose end others
+                                             * may wait for */
     process = pidfd_open(machine, 0);
-    if (getppid() != machine) /* it has ended, and that may be another */
+    if (getppid() != machine) /* the machine's process has ended; this may be another one */
         _exit(EXIT_FAILURE);
     pid_t child = fork();
     if (child)
@@ -182,7 +187,8 @@ int main(int argc, char **argv)
 {
     struct compiler_request request;
     pthread_t thread;
-    if (argc != 2 || send(STDIN_FILENO, "", 0, MSG_NOSIGNAL) < 0) { /* it is no socket */
+    if (argc != 2 || send(STDIN_FILENO, "", 0, MSG_NOSIGNAL) < 0) { /* not a socket: started by
+                                                                     * hand */
         fprintf(stderr, "lutetia-compiler: it is run by programs that use Lutetia's machine, "
                         "and is of no use by itself\n");
         return EXIT_FAILURE;
@@ -199,5 +205,5 @@ int main(int argc, char **argv)
         for (int i = 0; i < COMPILER_STRINGS; i++)
             free(strings[i]);
     }
-    _exit(EXIT_SUCCESS); /* not by way of the driver's threads */
+    _exit(EXIT_SUCCESS); /* exits at once, without the driver's exit handlers */
 }

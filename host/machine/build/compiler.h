@@ -1,11 +1,13 @@
-/* compiler.h - what background.c asks of lutetia-compiler (compiler.c), a process that is the machine's.
+/* compiler.h - the protocol between background.c and lutetia-compiler (compiler.c), a process
+ * that belongs to the machine.
  *
  *     machine                              compiler, by its standard input, a socket; its argument: the machine's process
  *        <-------------------------------- COMPILER_READY, once
  *     struct compiler_request, strings -->
  *        <-------------------------------- COMPILER_DONE: the driver has it on disk; COMPILER_FAILED
  *
- * Both are of one build; the first byte says so. */
+ * Both must be of the same build; the first byte is the version.
+ */
 #ifndef LUTETIA_MACHINE_COMPILER_H
 #define LUTETIA_MACHINE_COMPILER_H
 
@@ -31,12 +33,13 @@ enum compiler_string {
 struct compiler_request {
     uint32_t bytes[COMPILER_STRINGS];
     uint32_t dimensions;
-    uint32_t group;  /* work-items of a work-group, along the first of them */
-    uint64_t widest; /* the most work-items in one of them: drivers make other code for few */
+    uint32_t group;  /* work-items of a work-group, along its first dimension */
+    uint64_t widest; /* the most work-items of a start: drivers compile other code for few */
 };
 
-/* With this as its third number, and 0 or 1 as the others, a kernel of ours computes nothing: it is how many columns,
- * or rows, an item does. Times the most items that are asked for it is an int. */
+/* With this as the third number, which is the columns or rows of a work-item, and 0 or 1 as
+ * the others, our kernels compute nothing. Times the most items that are asked for it is an
+ * int. */
 enum { COMPILER_NOTHING = -1024, COMPILER_WIDEST = 1 << 20 };
 
 #endif

@@ -27,7 +27,7 @@ void describe_improved(struct machine *m)
     watch_sums(m)->facts.plans_improved++;
 }
 
-/* What was done last, under whatever context. */
+/* The last operation, ignoring selects by the context. */
 static const char *operation_of(const struct plan_graph *g, int node)
 {
     const struct plan_node *n = &g->nodes[node];
@@ -53,7 +53,7 @@ static enum machine_cut why_of(const struct describing *e, const struct plan_gra
     return MACHINE_CUT_LATER;
 }
 
-/* Neighbours' values that a stage computes, which has another for itself or none. */
+/* The number of neighbours' values that a stage computes itself instead of loading them. */
 static int shifts_computed(const struct plan_graph *g, const int *stores, int stores_count,
                            int stage)
 {
@@ -125,7 +125,7 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
 {
     struct describing *e = &m->plans->describing;
     int set = g->nodes[stores[0]].set;
-    struct kernel_note *n = /* one that is not there yet is like no other */
+    struct kernel_note *n = /* a new kernel has no note yet */
         sums_note(watch_sums(m), kernel, kernel ? NULL : "", set, m->values->sets[set].count);
     bool split = e->parts > 0;
     e->parts -= split;
@@ -166,7 +166,8 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
     f->tile_width = k->tile_width;
     f->tile_height = k->tile_height;
     f->split = split;
-    /* A lane by itself takes the time of a whole vector, and so do many narrow ones. */
+    /* Single lanes take as long as a whole vector; so do narrow lanes, of which there are
+     * more. */
     double lanes = (double)m->device->shape.vector / k->vector;
     f->operations_s =
         1e-9 * m->device->shape.op_ns * k->cost * lanes * (double)m->values->sets[set].count;

@@ -1,4 +1,4 @@
-/* describe.h - what a kernel is, for those who watch. */
+/* describe.h - describes kernels for observers. */
 #ifndef LUTETIA_MACHINE_DESCRIBE_H
 #define LUTETIA_MACHINE_DESCRIBE_H
 
@@ -10,15 +10,16 @@
 typedef void describe_where(const struct machine *m, const struct machine_value *v, char *out,
                             size_t size);
 
-/* What the plan that is made now is for. */
+/* The evaluation for which a plan is being made. */
 struct describing {
     struct machine_value *const *nodes, *const *wanted;
     int wanted_count;
-    int parts; /* of a kernel that was split, still to come */
+    int parts; /* the remaining parts of a split kernel */
     describe_where *where;
 };
 
-/* Plans: the values that the next one is for (kept until the next evaluation's); a kernel of it. */
+/* The values that the next plan is for (kept until the next evaluation); a kernel of that
+ * plan. */
 void describe_nodes(struct machine *m, struct machine_value *const *nodes,
                     struct machine_value *const *wanted, int wanted_count,
                     describe_where *where);
@@ -26,7 +27,7 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
                                     const struct plan_graph *g, const int *stores,
                                     int stores_count, const struct kernel_text *k,
                                     const char *made);
-/* That kernel was not there yet (NULL): now it is; NULL: it will not be. */
+/* The kernel was NULL and has been built; NULL: it will not be. Returns its note. */
 struct kernel_note *describe_built(struct machine *m, struct kernel_note *note,
                                    cl_kernel kernel);
 void describe_split(struct machine *m);

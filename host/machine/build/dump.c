@@ -1,4 +1,4 @@
-/* dump.c - a look inside: graphs and kernels as files (LUTETIA_DUMP). */
+/* dump.c - writes graphs and kernels to files (LUTETIA_DUMP). */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,8 @@
 
 #include "build/plans.h"
 
-/* NULL: it cannot be written. That is said once, and the program goes on without dumps. */
+/* NULL: the file cannot be written. This is reported once, and the program goes on without
+ * dumps. */
 static FILE *dump_open(struct machine *m, int number, const char *suffix)
 {
     char path[600];

@@ -1,9 +1,9 @@
-/* improve.c - better kernels for a plan that has run often: now, or compiled in the background. */
+/* improve.c - makes better kernels for a plan that has run often, now or in the background. */
 #include "build/background.h"
 #include "build/describe.h"
 #include "build/plans.h"
 
-/* It does not take the other's place. */
+/* Gives up the better plan. */
 static void better_give_up(struct machine *m, struct plan *p)
 {
     if (p->better)
@@ -54,7 +54,7 @@ void plan_improve(struct machine *m, struct plan *p, const struct plan_request *
                   enum quality quality)
 {
     struct plan *better = plan_make(m, q, quality, false);
-    p->quality = BOXED; /* not again, unless it says so itself */
+    p->quality = BOXED; /* not again, unless the plan becomes due in another way */
     if (better)
         plan_becomes(m, p, better);
     else

@@ -1,4 +1,5 @@
-/* plan_kernels.c - a plan's kernels: chosen, written, and built or asked for. */
+/* plan_kernels.c - chooses, writes and builds a plan's kernels, or requests them from the
+ * background. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +42,8 @@ void plan_notes_settle(struct machine *m, struct plan *p)
 
 /* ---- kernels ---- */
 
-/* What a device is sure to take: 1024 bytes. Reserved: the fixed arguments and lengths of axes.
+/* A limit that every device supports: 1024 bytes. Reserved: the fixed arguments and lengths
+ * of axes.
  */
 static bool too_many_arguments(const struct kernel_text *k)
 {
@@ -51,7 +53,7 @@ static bool too_many_arguments(const struct kernel_text *k)
     return bytes > 1024;
 }
 
-/* Those are fetched ahead. */
+/* Whether there are so many arrays that they must be prefetched. */
 static bool many_streams(const struct machine *m, const struct vpset *set,
                          const struct kernel_text *k)
 {
@@ -65,8 +67,9 @@ static bool many_streams(const struct machine *m, const struct vpset *set,
                shape->fetch_bytes;
 }
 
-/* Functions like exp take hundreds of operations, each of which is a call where nothing is optimised: a microsecond for each
- * processor, where it is a tenth else. Of them fewer make up for the compiler's time, which is not much more either. */
+/* Functions like exp take hundreds of operations, each a call in unoptimised code: a
+ * microsecond for each processor instead of a tenth. So fewer processors make up for the
+ * time of optimising, which hardly takes longer. */
 static bool much_math(const struct machine *m, const struct kernel_text *k,
                       const struct vpset *set)
 {
@@ -74,7 +77,8 @@ static bool much_math(const struct machine *m, const struct kernel_text *k,
     return k->math && set->count >= m->settings.optimise_after / 4 / MATH_WEIGHT;
 }
 
-/* In the background, for later (its number there; -1: no memory), or now; what it takes is what launch() says. */
+/* Builds the kernel now, or requests it from the background (returns its number there; -1:
+ * no memory). The argument string must match launch(). */
 static int kernel_want(struct machine *m, const struct vpset *set, const struct kernel_text *k,
                        const char *const parts[DEVICE_PARTS], bool later)
 {
@@ -115,7 +119,8 @@ static int kernel_want(struct machine *m, const struct vpset *set, const struct 
     return number;
 }
 
-/* A plan that writes where it reads needs that kernel, too: see copy_borders(). */
+/* Requests the kernel that copies borders, for a plan that writes in place: see
+ * copy_borders(). */
 static bool borders_want(struct machine *m)
 {
     const char *parts[DEVICE_PARTS];
@@ -161,8 +166,8 @@ bool plan_launches_grow(struct plan *p)
     return launches != NULL;
 }
 
-/* Builds the kernel of that text, or asks the background for it. Its plan has room for it. False: it cannot be had; there may be
- * an error. */
+/* Builds the kernel of that text, or requests it from the background. The plan has room for
+ * it. False: impossible; an error may be set. */
 static bool plan_build(struct machine *m, struct plan *p, const struct plan_graph *g,
                        const int *stores, int stores_count, struct kernel_text *k)
 {
@@ -283,7 +288,7 @@ int plan_stores(const struct plan_graph *g, int stage, int set, int *stores)
     return count;
 }
 
-/* In strips, what only neighbours look at is in no array. */
+/* In strips, values that only neighbours read are in no array. */
 void plan_arrays(const struct machine *m, struct plan *p, const struct plan_graph *g,
                  const int *stores, int count)
 {
@@ -298,7 +303,7 @@ void plan_arrays(const struct machine *m, struct plan *p, const struct plan_grap
     }
 }
 
-/* Of a stage that was split, each launch stores a part. */
+/* If a stage was split, each launch stores a part. */
 void plan_last_launches(struct plan *p)
 {
     for (int i = 0; i < p->stored_count; i++)
@@ -402,7 +407,7 @@ struct plan *plan_make(struct machine *m, const struct plan_request *q, enum qua
             background_drop(m);
         return p;
     }
-    if (!p && strips) { /* it cannot be done so */
+    if (!p && strips) { /* strips are impossible */
         machine_error_clear(m);
         if (later)
             background_drop(m);

@@ -1,4 +1,4 @@
-/* plan_run.c - plans run: buffers for what they store, and their kernels' launches. */
+/* plan_run.c - runs plans: gets buffers for the results, and launches the kernels. */
 #include <math.h>
 
 #include "base/errors.h"
@@ -7,8 +7,8 @@
 #include "device/call.h"
 #include "kernels.h"
 
-/* Kernels in the queue. While better ones are being built there are no more than keep the device busy: they would all be of
- * the old ones. */
+/* The most kernels in the queue. While better ones are being built, only as many as keep the
+ * device busy, since all of them would be old kernels. */
 enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
 
 size_t plan_run_columns(const struct machine *m, int vector)
@@ -46,9 +46,9 @@ static cl_int set_constant(cl_kernel kernel, cl_uint at, const struct machine_va
     return clSetKernelArg(kernel, at, 4, &low);
 }
 
-/* How many strips there are and how many rows each has: those that are done soonest. The unit with most strips takes so
- * long as these have rows, besides their own half of the margin's on average; and a tenth of a strip goes by until the last
- * unit is ready. */
+/* Chooses the number of strips and their rows for the shortest time. The time is that of the
+ * unit with most strips: the rows of these strips, with half of the margin on average, and a
+ * tenth of a strip until the last unit begins. */
 static void strips_count(const struct machine *m, const struct launch *l, const struct vpset *s,
                          size_t global[2], size_t *rows)
 {
@@ -69,8 +69,8 @@ static void strips_count(const struct machine *m, const struct launch *l, const 
     global[1] = shared_by(height, *rows);
 }
 
-/* Puts the buffers of what is in no need of them any more where they will be written. Returns which borders it takes,
- * a bit each. */
+/* Uses the buffers that are no longer needed for values written in place. Returns a bit for
+ * each border to copy. */
 static uint32_t take_places(const struct machine *m, const struct plan *p,
                             struct device_buffer **buffers, const bool *dies)
 {
@@ -205,8 +205,9 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
                 : machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to interpret a plan");
 }
 
-/* What the only kernel of a plan may write over, so that caches have one array less to hold. With more kernels one of them
- * could fail when another has written there, and the calls could not be performed after all. NULL: there is none. */
+/* Returns a spare buffer for a plan's only kernel to write over, so that the caches hold one
+ * array less. With several kernels, one could fail after another has overwritten the buffer,
+ * and the calls could no longer be performed one by one. NULL: none. */
 static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
                                        const struct fates *fates)
 {
@@ -220,7 +221,7 @@ static struct device_buffer *spare_get(const struct plan *p, struct rows rows,
     return NULL;
 }
 
-/* For what that launch stores. */
+/* Gets the arrays that the launch stores. */
 static enum machine_status arrays_get(struct machine *m, const struct plan *p, int launch,
                                       struct device_buffer **buffers, const struct fates *fates)
 {
@@ -235,7 +236,8 @@ static enum machine_status arrays_get(struct machine *m, const struct plan *p, i
     return MACHINE_OK;
 }
 
-/* Of what no later launch takes, and nobody keeps: the next one may write there, for it runs later. */
+/* Releases arrays that no later launch reads and nobody keeps. A later launch may write
+ * there, since the queue is in order. */
 static void arrays_let_go(struct machine *m, const struct plan *p, int launch,
                           struct device_buffer **buffers, const bool *kept)
 {

@@ -1,6 +1,8 @@
-/* plans.c - plans kept: found by signature, made when a graph is first seen, and made better when it has been seen often.
+/* plans.c - plans kept: found by signature, made when a graph is first seen, and made better
+ * when it has been seen often.
  *
- * Numbers' values are no part of a signature. */
+ * The values of constants are not part of a signature.
+ */
 #include "build/plans.h"
 
 #include <stdlib.h>
@@ -21,7 +23,8 @@ void plans_finish(struct machine *m)
     blocks_room_free(&m->plans->room);
 }
 
-/* With many arrays, leaving nothing to compute after each of the turns stores more than many turns save. */
+/* With many arrays, many turns do not pay: each turn must leave nothing to compute, which
+ * stores more than they save. */
 int plan_turns(const struct machine *m, const struct plan *p)
 {
     return p->quality == BOXED && p->stored_count <= m->device->shape.arrays_foreseen
@@ -61,7 +64,7 @@ static struct plan *plan_find(const struct machine *m, const struct reach *r, ui
     return p;
 }
 
-/* It is known from now on. False: no memory, and it is no more. */
+/* Adds the plan to the table. False: no memory; the plan has been freed. */
 static bool plan_keep(struct machine *m, struct plan *p, const struct plan_request *q,
                       uint64_t hash)
 {
@@ -83,7 +86,7 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct plan_reque
     return true;
 }
 
-/* A plan that has been rehearsed is wanted now. False: error set. */
+/* Completes a rehearsed plan so that it can run. False: error set. */
 static bool plan_fill(struct machine *m, struct plan *p, const struct plan_request *q)
 {
     if (m->plans->improving == p)
@@ -94,7 +97,7 @@ static bool plan_fill(struct machine *m, struct plan *p, const struct plan_reque
     return made != NULL;
 }
 
-/* Nothing runs: its kernels are seen to. NULL: that cannot be; there may be an error. */
+/* Prepares a plan's kernels without running it. NULL: impossible; an error may be set. */
 static struct plan *plan_rehearse(struct machine *m, struct plan *p,
                                   const struct plan_request *q, uint64_t hash)
 {

@@ -1,4 +1,4 @@
-/* plans.h - what a plan is: for plan_kernels.c, which makes them, and plan_run.c, which runs them. */
+/* plans.h - plans: plan_kernels.c makes them, plan_run.c runs them. */
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
@@ -7,7 +7,8 @@
 #include "interpret/blocks.h"
 #include "watch/sums.h"
 
-/* How well a plan's kernels are made: what runs once on little is not worth a second of compiling. */
+/* The quality of a plan's kernels: small work that runs once is not worth a second of
+ * compiling. */
 enum quality {
     INTERPRETED, /* no kernels: byte code, see interpreted.c */
     QUICK,
@@ -18,8 +19,8 @@ enum quality {
 struct launch {
     cl_kernel kernel; /* NULL: it is compiled in the background, or there is a program */
     struct byte_code *program; /* what is interpreted; NULL: a kernel */
-    int number;                /* ... there */
-    struct kernel_note *note;  /* for those who watch; may be NULL */
+    int number;                /* for observers; may be NULL */
+    struct kernel_note *note;  /* for observers; may be NULL */
     int set, vector;
     size_t strip_bytes; /* 0: not in strips */
     int strip_margin, strip_columns;
@@ -29,7 +30,8 @@ struct launch {
     int arguments_count;
 };
 
-/* What a plan stores. Of launches: the one that stores it, and the last that takes it. */
+/* An array that a plan stores. Of launches: the one that stores it, and the last that reads
+ * it. */
 struct array {
     struct rows rows;
     int first, last;
@@ -41,11 +43,11 @@ struct plan {
     uint64_t hash;
     struct launch *launches;
     int launches_count;
-    int *stored; /* nodes that get a buffer, in the order of the launches */
+    int *stored; /* the nodes that get buffers, in the order of launches */
     struct array *arrays;
     int stored_count;
     uint32_t version;
-    uint64_t worked; /* processors it has run on, all runs together */
+    uint64_t worked; /* processors that it has run on, summed over all runs */
     uint64_t work;   /* ... in one run */
     enum quality quality;
     bool could_be_optimised, could_be_boxed, could_be_strips;
@@ -56,9 +58,10 @@ struct plan {
     bool asked;          /* ... whether its kernels are at hand */
     bool only_at_hand;   /* while it is made: nothing is compiled */
     bool later;          /* its kernels are compiled in the background */
-    struct plan *better; /* that one's are; it takes this one's place */
-    bool empty;          /* there is nothing yet but a better one */
-    bool hopeless;       /* of many turns, that cannot be one kernel */
+    struct plan *better; /* the plan whose kernels are being compiled, and which replaces
+                          * this one */
+    bool empty;          /* without kernels, except those of a better plan */
+    bool hopeless;       /* of many turns that do not fit one kernel */
     struct plan *next;
 };
 
@@ -67,16 +70,17 @@ struct plan {
 /* Columns of a work-item; tiles along a row. */
 size_t plan_run_columns(const struct machine *m, int vector);
 size_t plan_tiles_across(const struct vpset *set, int tile_width);
-/* New values are to be written over old ones, where nobody wants those. */
+/* Whether new values should be written over old ones that are no longer needed. */
 bool plan_in_place_wanted(const struct machine *m, const struct plan *p);
 struct background;
-/* What a plan is wanted for. */
+/* The use for which a plan is requested. */
 enum plan_use {
     PLAN_TO_RUN,
     PLAN_TO_RUN_AT_HAND, /* if its kernels need not be compiled; else there is no plan, nor an error */
-    PLAN_TO_RUN_OFTEN, /* so its kernels are made as well as they can be */
-    PLAN_TO_REHEARSE, /* its kernels are seen to, in the background where there is one; none runs now */
-    PLAN_TO_REHEARSE_TURNS, /* likewise, of many turns of a loop, which must be one kernel */
+    PLAN_TO_RUN_OFTEN, /* it runs often, so the best kernels are made at once */
+    PLAN_TO_REHEARSE,  /* its kernels are prepared, in the background if possible; none runs
+                       * now */
+    PLAN_TO_REHEARSE_TURNS, /* the same for many turns of a loop, which must fit one kernel */
 };
 static inline bool plan_use_runs(enum plan_use use)
 {
@@ -85,21 +89,21 @@ static inline bool plan_use_runs(enum plan_use use)
 
 /* Plans kept, and their kernels. */
 struct plans {
-    struct plan **table; /* by signature; NULL: there has been none */
+    struct plan **table; /* by signature; NULL: empty */
     int table_size;
-    struct background *background; /* background.c; NULL: nothing was wanted so far */
-    struct plan *improving;        /* whose better kernels are being compiled there */
+    struct background *background; /* background.c; NULL: not used yet */
+    struct plan *improving;        /* the plan whose better kernels are being compiled */
     struct describing describing;
     struct blocks_room room; /* of the interpreter */
-    char *dump_dir;          /* NULL: nothing is dumped */
+    char *dump_dir;          /* NULL: no dumps */
     int dump_count;
     uint64_t interpreted; /* programs run, of one stage and VP set each */
     uint64_t built, kernels_in_place, kernels_in_strips, kernels_in_tiles;
     double predicted_s; /* of the plans that ran */
 };
 
-/* The nodes that are reached from the targets, inputs before users; and a number for each and what it is made of: what
- * two evaluations that have the same plan have in common. */
+/* The nodes reached from the targets, inputs before users, and the signature: a number for
+ * each node and its inputs. Evaluations with equal signatures have the same plan. */
 struct reach {
     struct machine_value **nodes; /* inputs before users */
     uint32_t *signature;
@@ -118,36 +122,39 @@ struct plan_request {
     enum plan_use use;
 };
 
-/* The plan for it: a new one, or one seen before, with better kernels where those are due. NULL: error set; or, of one that
- * is not to run, that it cannot be. */
+/* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
+ * set; for a plan that is not to run, it may also be impossible. */
 struct plan *plan_get(struct machine *m, const struct plan_request *q);
 uint32_t plan_version(const struct machine *m, const struct plan *p);
-/* Its kernels are still being compiled in the background. */
+/* Whether its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);
-/* It is as good as it will be, and takes a kernel or more of each VP set for each of so many turns. */
+/* Whether its kernels are final, and as many turns take a kernel or more of each VP set for
+ * each turn. */
 bool plan_saves_nothing(const struct plan *p, int turns);
-/* It is of many turns, and they cannot be one kernel. */
+/* Whether it is of many turns that do not fit one kernel. */
 bool plan_is_hopeless(const struct plan *p);
-/* Between evaluations: a plan whose better kernels are all there gets them. Loads at most one of them. */
+/* Called between evaluations: a plan whose better kernels are all compiled gets them. Loads
+ * at most one of them. */
 void plans_see_to(struct machine *m);
 const int *plan_stored(const struct plan *p, int *count);
 /* How many of it may be cheaper in one kernel; 1: one. */
 int plan_turns(const struct machine *m, const struct plan *p);
 
-/* What is known of buffers before a run that has been foreseen. */
+/* What is known of buffers before a foreseen run. */
 struct fates {
-    /* Of a node: nobody will look at its buffer afterwards, if this is the only reference. What is stored may take its
-     * place. */
+    /* By node: its buffer is not needed afterwards, if this is the only reference. A result
+     * may be stored there. */
     const bool *dies;
-    /* Of a node that is stored: who asked wants it; else it is let go of when it has been used. */
+    /* By stored node: the caller keeps the result; others are released after use. */
     const bool *kept;
-    /* What nobody will look at any more, nor this plan, where there is no other reference: room for what is stored. */
+    /* Buffers that nobody needs any more, nor this plan, if there is no other reference:
+     * room for results. */
     struct device_buffer *const *spare;
     int spare_count;
 };
 
-/* buffers: of each node that is in memory; those stored are put there, and belong to the caller. nodes: those
- * that are numbers. fates: NULL: nothing is known. On failure none is put. */
+/* buffers: by node, of those in memory; stored results are added, and belong to the caller.
+ * nodes: the constants. fates: NULL: nothing is known. On failure no results are added. */
 enum machine_status plan_run(struct machine *m, struct plan *p, struct device_buffer **buffers,
                              struct machine_value *const *nodes, const struct fates *fates);
 void plans_finish(struct machine *m);
@@ -155,22 +162,23 @@ void plan_free(struct plan *p);
 /* Of one whose kernels are compiled in the background, the notes: with those, or without (NULL). */
 void plan_notes_settle(struct machine *m, struct plan *p);
 bool plan_is_one_kernel(const struct plan *p);
-/* later: its kernels are only wanted of the background. Many turns of a loop are one kernel, or no plan. */
+/* later: the kernels are only requested from the background. Many turns of a loop must fit
+ * one kernel, or there is no plan. */
 struct plan *plan_make(struct machine *m, const struct plan_request *q, enum quality quality,
                        bool later);
-/* How well a plan that has run on so many processors is to be made. */
+/* The quality of kernels for a plan that has run on that many processors. */
 enum quality plan_quality_after(const struct machine *m, uint64_t worked);
-/* Better kernels would be worth it by now, and can be seen to. */
+/* Whether better kernels pay by now, and can be made. */
 bool plan_is_due(const struct machine *m, const struct plan *p);
 void plan_becomes(struct machine *m, struct plan *p, struct plan *better);
-/* The same plan with better kernels, now. What cannot be had is done without. */
+/* Makes better kernels for the plan, now. Failures are ignored. */
 void plan_improve(struct machine *m, struct plan *p, const struct plan_request *q,
                   enum quality quality);
 /* One that is interpreted gets kernels: those at hand, or such as are compiled now or in the background. */
 void plan_promote(struct machine *m, struct plan *p, const struct plan_request *q);
-/* What is being compiled in the background is not wanted any more. */
+/* Drops what is being compiled in the background. */
 void improve_give_up(struct machine *m);
-/* Better kernels for it are going to be compiled in the background. False: not so. */
+/* Requests better kernels from the background. False: impossible. */
 bool improve_begin(struct machine *m, struct plan *p, const struct plan_request *q,
                    enum quality quality);
 /* ---- plan_kernels.c, for interpreted.c ---- */
