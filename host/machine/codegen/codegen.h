@@ -1,10 +1,10 @@
-/* codegen.h - the text of a kernel, and what it takes. */
+/* codegen.h - the text of a kernel, and its arguments. */
 #ifndef LUTETIA_MACHINE_CODEGEN_H
 #define LUTETIA_MACHINE_CODEGEN_H
 
 #include "plan/plan.h"
 
-/* Which arrays that a kernel stores may take the place of which that it reads: see strips.h. */
+/* Which stored arrays may be written in place of which loaded ones: see strips.h. */
 enum { BORDERS_MOST = 16 };
 
 struct in_place {
@@ -17,7 +17,7 @@ struct in_place {
     int pairs_count, pairs_capacity;
     int above, below; /* rows of a border */
     int bytes;        /* of an element of each leaf, all together */
-    bool pays;        /* all arrays together are larger than what is near anyway */
+    bool pays;        /* all arrays together are larger than the caches */
 };
 
 enum kernel_argument_kind {
@@ -42,11 +42,11 @@ struct kernel_text {
     int arguments_count;
     int vector;
     bool wide, soft, formats, wraps, math;
-    bool has_boxes;     /* or would have, if asked for */
+    bool has_boxes;     /* has boxes, or would have them if requested */
     int ops, loads;     /* emitted */
     size_t strip_bytes; /* memory that each strip needs; 0: not in strips */
     int strip_margin;   /* rows that each computes besides its own */
-    int strip_columns;  /* of all but the last, which has what is left, too */
+    int strip_columns;  /* columns of each strip but the last, which also takes the rest */
     int group;          /* of a tile: work-items; 0: not in tiles */
     int tile_width, tile_height;
     struct in_place in_place;
@@ -57,7 +57,8 @@ struct kernel_text {
 bool rows_emit(const struct plan_graph *g, const int *stores, int stores_count,
                const struct vpset *set, const struct device_shape *shape,
                struct kernel_text *out);
-/* strips_text.c: one for all stages; nodes of one VP set with two axes. false: it cannot be done so. */
+/* strips_text.c: one kernel for all stages; the nodes are of one VP set with two axes.
+ * False: impossible. */
 bool strips_emit(const struct plan_graph *g, const int *stores, int count,
                  const struct vpset *set, const struct device_shape *shape,
                  struct kernel_text *out);

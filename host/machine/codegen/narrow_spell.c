@@ -8,7 +8,7 @@
 
 /* ---- the text of one operation ---- */
 
-/* An unsigned number is that at most, as far as a few operations before it tell. */
+/* An upper bound of an unsigned number, from the few operations before it. */
 static uint32_t most(const struct plan_graph *g, int node, int operations)
 {
     const struct plan_node *n = &g->nodes[node];
@@ -32,7 +32,7 @@ static uint32_t most(const struct plan_graph *g, int node, int operations)
     }
 }
 
-/* Of unsigned numbers of width bits, none of them is cut. */
+/* Whether the sum of unsigned numbers of that width fits without being cut. */
 static bool sum_fits(const struct plan_graph *g, const struct plan_node *n, int width)
 {
     enum { OPERATIONS = 6 };
@@ -47,9 +47,10 @@ static void cut(char *out, size_t size, const char *from, int width, int lane)
         snprintf(out, size, "((%s) & (VU)(0x%x))", from, (1u << width) - 1);
 }
 
-/* A bit from memory was 0 or 1 there, and negated twice is that again. Of others a bit is cut out: compilers make a
- * negated comparison a load under a mask, of a constant in a page that nothing else may ever have touched; while no
- * lane is set it stays so, and processors take hundreds of cycles for each such load. */
+/* A bit loaded from memory is 0 or 1, and negating it twice restores it. Of other bits the
+ * lowest one is cut out. A negated comparison would not do: compilers turn it into a masked
+ * load of a constant, and if the constant's page has never been touched and no lane is set,
+ * each such load takes hundreds of cycles. */
 static void widened(char *out, size_t size, const struct plan_graph *g, int node, const char *a)
 {
     bool bit = g->nodes[node].type.width == 1;

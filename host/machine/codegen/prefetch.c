@@ -1,7 +1,7 @@
-/* prefetch.c - which rows a pass asks for before it gets there. */
+/* prefetch.c - which rows a pass prefetches. */
 #include "codegen/strips.h"
 
-/* Of the rows of an array that a pass reads, the one that it comes to first. */
+/* Whether this is the first of the rows of an array that a pass reaches. */
 static bool comes_first(const struct strips *s, const struct pass *pass, const struct access *p)
 {
     const struct emitter *e = &pass->e;

@@ -1,13 +1,14 @@
 /* rows.c - the text of one kernel, of rows.
  *
- * The text follows from the graph alone: numbers are arguments, lengths of axes too. The shape is
+ * The text depends only on the graph: constants and lengths of axes are arguments. The shape is
  *
  *     row = get_global_id(1); rows at other offsets; a pointer for each array and row
  *     for (x in this run of columns, VECTOR at a time)   the last vector overlaps the one before it
  *         variables, stores
  *
- * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of this
- * kind); with VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants. */
+ * which PoCL compiles to straight vector code (it does not vectorise scalar work-items of
+ * this kind); with VECTOR 1 and runs of 1 it is the scalar kernel that a GPU wants.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +17,9 @@
 #include "kernels.h"
 #include "plan/lanes.h"
 
-/* Of all columns from `begin` to `end`; the last vector may overlap the one before it. boxes: whole vectors from `from` to
- * `to` are inside all boxes. Such columns are neighbours: they are looked for from both ends, where most boxes end. */
+/* Of all columns from `begin` to `end`; the last vector may overlap the one before it.
+ * boxes: whole vectors from `from` to `to` are inside all boxes. Columns inside are
+ * contiguous: their ends are searched from both ends of the row, where most boxes end. */
 static void emit_loop(const struct emitter *e, struct text *t, bool boxes)
 {
     const char *body = e->body.data ? e->body.data : "",
@@ -107,7 +109,7 @@ static bool rows_kernel(const struct plan_graph *g, const int *stores, int store
         text_put(&e->body, "        STORE(%s, q%d, %s);\n", memory_kind(type), i, v.text);
     }
     bool wraps = set->halo == 0 || e->reach > set->halo;
-    /* Numbers over 64 bits one at a time: sixteen at once compile for seconds. */
+    /* Integers over 64 bits, one lane at a time: sixteen lanes would compile for seconds. */
     bool one =
         wraps || e->wide || e->soft || set->width < shape->vector || set->halo < shape->vector;
     out->vector = one ? 1 : shape->vector * LANE_WIDE / lane;

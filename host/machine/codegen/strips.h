@@ -1,7 +1,8 @@
 /* strips.h - one kernel for several stages: a strip of columns, line by line.
  *
- * What one stage stores for the neighbours of the next need not exist as a whole: each work-item goes down
- * a strip, and each stage handles a row as soon as the rows that it looks at have been made.
+ * An array that one stage stores for the next stage's neighbours need not exist as a whole:
+ * each work-item goes down a strip, and each stage handles a row as soon as the rows that it
+ * reads have been computed.
  *
  *     i = row that the strip has come to, here from the highest down
  *
@@ -13,35 +14,41 @@
  *     above   how many rows above its strip a stage begins, since later ones look at those; below,
  *             left, right: likewise
  *
- * Stages that follow each other are *passes*: each pass is one loop over the columns of a row, VECTOR at a time.
- * What a stage of a pass has just computed others of the pass find in variables. Along the row a stage may be some
- * vectors ahead of those that look further on than it; what they want of earlier vectors stays in variables, too:
+ * Consecutive stages form *passes*: each pass is one loop over the columns of a row, VECTOR at
+ * a time. Values that a stage of a pass has just computed are in variables, for the other
+ * stages of the pass. Along the row a stage may run some vectors ahead of stages that read its
+ * values at larger offsets; the earlier vectors that these need stay in variables, too:
  *
  *     x                x + VECTOR
  *     [ c0_1        ][ v7        ]      v7: computed now, c0_1: v7 of the turn before
  *         [ wanted      ]               lanes of both, put together
  *
- * Rows are taken from the lowest up, or from the highest down, columns from right to left, or from left to right:
- * whichever way round keeps least. Of one stage, what is computed together is a *unit*, which has a delay of its own.
+ * Rows are taken from the lowest up, or from the highest down, columns from right to left, or
+ * from left to right: in the directions that keep least. Values that a stage computes together
+ * are a *unit*, which has a delay of its own.
  *
- * Other rows, and what other passes have made, are kept in *rings* of a few rows as wide as the strip, which stay
- * in the caches. So a value that several look at is computed once, and many steps of a stencil can go through the
- * caches at once; see Hegarty et al., "Darkroom" (SIGGRAPH 2014), for the same among image filters.
+ * Other rows, and the results of other passes, are kept in *rings* of a few rows as wide as the
+ * strip, which stay in the caches. So a value with several readers is computed once, and many
+ * steps of a stencil can go through the caches at once; see Hegarty et al., "Darkroom"
+ * (SIGGRAPH 2014), for the same among image filters.
  *
- * Where strips are as wide as rows, an array may take the memory of one that is read and that nobody wants any more:
- * each of its rows is written after the last time that the strip reads what was there. What strips read of each
- * other's rows, their *borders*, is copied before; see borders.cl.
+ * If strips are as wide as rows, an array may be written in place of one that is read and not
+ * needed afterwards: each row is written after the strip has read the old row for the last
+ * time. Rows that strips read of each other, their *borders*, are copied before; see
+ * borders.cl.
  *
- * What lies beyond a strip is computed twice, by both neighbours, and kept in rings only. The sheet is a torus:
- * rows beyond its ends are rows of it, and columns are in the halos of arrays, which must be wide enough for all
- * stages together. Where a strip is as wide as a row, the rows of its rings are tori, too (s->whole): each
- * gets halos when it has been made, and nothing is computed twice but what stays in variables.
+ * The margin beyond a strip is computed twice, by both neighbours, and kept in rings only. The
+ * sheet is a torus: rows beyond its ends are rows of it, and columns are in the halos of
+ * arrays, which must be wide enough for all stages together. Where a strip is as wide as a row,
+ * the rows of its rings are tori, too (s->whole): each gets halos when it is complete, and only
+ * values in variables are computed twice.
  *
- * Vectors begin where x is a multiple of VECTOR; lanes that are beyond a row's halos hold anything, and nobody looks
- * at them.
+ * Vectors begin where x is a multiple of VECTOR; lanes beyond a row's halos hold arbitrary
+ * values, which are never used.
  *
- * Stages that compute the same again and again are turns of a loop, and each turn is a pass: a function,
- * which all turns with the same text share. */
+ * Stages that compute the same again and again are turns of a loop, and each turn is a pass:
+ * a function, which all turns with the same text share.
+ */
 #ifndef LUTETIA_MACHINE_STRIPS_H
 #define LUTETIA_MACHINE_STRIPS_H
 
@@ -66,8 +73,9 @@ struct output {
     bool asks;  /* the first of those that are stored together */
 };
 
-/* Rings of so many rows: the first row of all of them, one after the other, then the second .. So what a pass looks at
- * in one row of many rings is at one address and a number. */
+/* Rings with the same number of rows: the first rows of all of them, one after the other,
+ * then the second rows, and so on. So a pass addresses one row of many rings by one pointer
+ * and constant offsets. */
 struct rings {
     int rows;
     int at;    /* in the strip's memory, bytes for each column */
@@ -138,16 +146,18 @@ void strips_init(struct strips *s, const struct plan_graph *g, const int *stores
                  const struct vpset *set, const struct device_shape *shape, int vector);
 void strips_finish(struct strips *s);
 
-/* Looks at what stages look at, and decides on passes, rows, columns and rings. False: it cannot be done in strips, or
- * memory is out. */
+/* Finds what stages read, and decides on passes, rows, columns and rings. False: strips are
+ * impossible, or memory is short. */
 bool strips_schedule(struct strips *s);
-/* Once passes have their text: the margin that they need. False: more than there is around arrays. */
+/* Once passes have their text: computes the margin that they need. False: more than the
+ * halos of arrays. */
 bool strips_find_margin(struct strips *s);
-/* As many columns as leave the rings near, but not so few that what strips compute twice counts; all strips about as
- * wide. */
+/* The widest strips whose rings stay near, but not so narrow that the doubly computed
+ * margins cost much; all strips have about the same width. */
 int strips_columns(const struct strips *s);
-/* Those of a ring's row: as wide as a strip, of which the last takes what is left, too, and both margins. They are part
- * of the text: of few numbers, so that sheets of many sizes have the same. */
+/* Columns of a ring's row: the widest strip (the last one also takes the remainder) and both
+ * margins. The number is part of the kernel's text, so it is rounded to few values; sheets
+ * of many sizes then share a kernel. */
 int strips_near_columns(const struct strips *s, int columns);
 
 /* ---- strips_pass.c ---- */
@@ -160,13 +170,14 @@ void strips_pass_make(struct strips *s, int number);
 
 /* ---- prefetch.c ---- */
 
-/* What the next turn of the loop over columns is going to want of the next row. */
+/* Prefetches what the next iteration of the loop over columns needs of the next row. */
 void prefetch_columns(const struct strips *s, struct pass *pass, struct text *t);
-/* What is looked at outside of boxes only: a vector or two of a row, each of which would be waited for. */
+/* Prefetches what is read outside of boxes only: a vector or two of a row, for each of which
+ * the CPU would wait. */
 void prefetch_outside(const struct strips *s, struct pass *pass, struct text *t);
-/* What is looked at beyond the columns that a loop goes over. */
+/* Prefetches what is read beyond the loop's columns. */
 void prefetch_beyond(const struct strips *s, struct pass *pass, struct text *t);
-/* Rows one after the other: which rows there are, and what a turn fetches of them. */
+/* Prefetches rows one after the other: the list of rows, and the pieces for an iteration. */
 void prefetch_rows(const struct strips *s, struct pass *pass, struct text *before,
                    struct text *turn);
 int prefetch_arrays(const struct strips *s, const struct pass *pass);

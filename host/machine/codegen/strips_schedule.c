@@ -86,7 +86,8 @@ static void stage_accesses(struct strips *s, int k)
     s->failed = s->failed || looks->failed;
 }
 
-/* What costs next to nothing to compute twice: it depends on where a processor is, and on nothing else. */
+/* Finds nodes that are almost free to compute twice: they depend only on a processor's
+ * place. */
 static void find_places(const struct strips *s, bool *only_place)
 {
     for (int i = 0; i < s->g->count; i++) {
@@ -110,7 +111,8 @@ static int root_of(const struct marks *m, int store)
     return store;
 }
 
-/* Marks what the node is made of in its stage as that store's. What another wants, too, makes them one unit. */
+/* Marks the nodes of a store in its stage. If another store needs them, too, both become one
+ * unit. */
 static void mark(const struct strips *s, const struct marks *m, int node, int stage, int store)
 {
     const struct plan_node *n = &s->g->nodes[node];
@@ -169,8 +171,9 @@ static void make_units(struct strips *s)
 
 /* ---- which stages are one pass ---- */
 
-/* Where stages are turns of a loop: of how many stages, and which stage the first of those begins with that are all
- * alike. The first and the last turns are not quite, since there is nothing before and after them. */
+/* Where stages are turns of a loop: the stages of a turn, and the stage with which the equal
+ * turns begin. The first and the last turns differ slightly, since nothing precedes or
+ * follows them. */
 struct turns {
     int stages, begin; /* stages: 0: there are none */
 };
@@ -238,7 +241,7 @@ static void find_delays(struct strips *s, bool aligned)
     }
 }
 
-/* How many rows of a ring there are from the one that is made to that which the unit looks at. */
+/* The number of rows of a ring from the one being computed to the one that the unit reads. */
 static int rows_between(const struct strips *s, const struct unit *to, const struct access *p)
 {
     const struct unit *from = &s->units[s->unit[p->node]];
@@ -250,7 +253,8 @@ static bool same_pass(const struct strips *s, const struct unit *a, const struct
     return s->stages[a->stage].pass == s->stages[b->stage].pass;
 }
 
-/* A row that is looked at where another is made, vector for vector, is overwritten by that: see overwritten_loads(). */
+/* A row that is read where another is computed, vector for vector, is overwritten by it: see
+ * overwritten_loads(). */
 static void find_ring_rows(struct strips *s)
 {
     for (int k = 0; k < s->units_count; k++) {
@@ -269,7 +273,8 @@ static void find_ring_rows(struct strips *s)
     }
 }
 
-/* That way; returns what strips keep then: bytes for each column, in rings and in vectors of earlier turns. */
+/* Schedules in that way; returns what strips then keep: bytes for each column, in rings and
+ * in vectors of earlier iterations. */
 static int schedule(struct strips *s, struct way way)
 {
     s->downward = way.downward;
@@ -344,7 +349,8 @@ static int rings_with(struct strips *s, int rows)
     return s->rings_count++;
 }
 
-/* Pass by pass: turns of a loop have theirs in the same order, each at the same distance from those of the turn before. */
+/* Lays rings out pass by pass: turns of a loop have theirs in the same order, at equal
+ * distances from turn to turn. */
 static void lay_out(struct strips *s)
 {
     s->rings_count = s->memory = 0;
@@ -390,8 +396,10 @@ static bool suits(const struct strips *s)
 
 /* ---- what can be written in place ---- */
 
-/* Each row of the leaf must have been read for the last time when that of the output is written; or be read in that row
- * by the output's unit alone, each element where it is stored: a unit stores when it has computed all. */
+/* Whether an output may be written in place of a leaf: each row of the leaf must have been
+ * read for the last time when the output's row is written, or be read in that row only by
+ * the output's unit, each element where it is stored (a unit stores after computing
+ * everything). */
 static bool may_replace(const struct strips *s, int output, int leaf)
 {
     const struct unit *out = &s->units[s->unit[output]];
@@ -474,9 +482,9 @@ static void find_pairs(struct strips *s)
 
 /* ---- which way ---- */
 
-/* What looks at rows above it and columns to the left of it, and is looked at by those below and to the right, keeps
- * the least where rows are taken from the lowest up, and columns from right to left. Among ways that keep as little
- * the one is taken where most can be written in place. */
+/* Chooses the directions. Stages that read rows above and columns to the left keep least if
+ * rows are taken from the lowest up and columns from right to left. Among equally good ways,
+ * the one is chosen in which most can be written in place. */
 static void choose_way(struct strips *s)
 {
     struct way best = {0};
