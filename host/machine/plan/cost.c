@@ -1,4 +1,4 @@
-/* cost.c - what a choice of barriers costs: see plan.c. */
+/* cost.c - the cost of a choice of barriers: see plan.c. */
 #include "plan/cost.h"
 
 #include <math.h>
@@ -134,8 +134,8 @@ int cost_assign(struct search *s)
                 in->stage = needed;
         }
     }
-    /* Now that all stages are known: who is needed by a later kernel is stored. First what
-     * neighbours load; then the rest, unless something else that is stored will do instead. */
+    /* Now all stages are known. Values that later kernels need are stored: first those that
+     * neighbours load; then the others, unless another stored value can replace them. */
     for (int pass = 0; pass < 2; pass++)
         for (int i = g->count - 1; i >= 0; i--) {
             const struct plan_node *n = &g->nodes[i];
@@ -155,7 +155,7 @@ int cost_assign(struct search *s)
     return last;
 }
 
-/* Computing and moving overlap in part. */
+/* The time of computing and moving, which overlap in part. */
 static double time_of(const struct search *s, const struct vpset *set)
 {
     double op_ns = s->shape->op_ns * (s->shape->narrow ? (double)s->lane / LANE_WIDE : 1),

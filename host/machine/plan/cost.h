@@ -1,11 +1,11 @@
-/* cost.h - a search for a plan, and what a choice costs: see plan.c. */
+/* cost.h - the search for a plan, and the cost of a choice: see plan.c. */
 #ifndef LUTETIA_MACHINE_COST_H
 #define LUTETIA_MACHINE_COST_H
 
 #include "plan/plan.h"
 #include "plan/tiles.h"
 
-#define IMPOSSIBLE 1e300 /* cost of a plan that does until there is another */
+#define IMPOSSIBLE 1e300 /* an initial cost, above that of any plan */
 
 enum { LIGHT = 8, EVALUATIONS_MAX = 1200, OFFSETS_MAX = 512 };
 
@@ -33,14 +33,14 @@ struct search {
     struct tiling tiling;
     int *array;     /* of a node that is stored: in the tiling */
     int cost_began; /* loads_stamp then: what has a later one was loaded by some stage already */
-    bool first;     /* the first plan must do, whatever it costs */
+    bool first;     /* the first plan is taken, whatever it costs */
     double operations, bytes, near_bytes; /* near: of rings */
     int lane;                             /* the widest that the kernel needs; bits */
     bool too_much;
     bool decided; /* this is the plan: what its kernels cost is kept */
 };
 
-/* Stages and what is stored, for the barriers as they are. Returns the last stage. */
+/* Assigns stages and stored values, for the present barriers. Returns the last stage. */
 int cost_assign(struct search *s);
 double cost_of(struct search *s);
 void cost_find_light(struct search *s, double *weight);

@@ -1,4 +1,5 @@
-/* plan.c - chooses what exists in memory, and what each neighbour computes again.
+/* plan.c - chooses which values are stored in memory, and which are computed again for
+ * neighbours.
  *
  * Input: the values to evaluate and all they need, down to what is in memory. Between a value
  * and a shift of it there may be a *barrier*: the value is stored by one kernel and its
@@ -13,10 +14,12 @@
  *     for each kernel: N * (max(c, b) + min(c, b) / 4) + launch
  *     c = op_ns * operations, b = byte_ns * bytes
  *
- * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is less where lanes are narrow),
- * and bytes for each array that it reads or writes. The search begins with a barrier at every shift of a
- * computed value, and takes one after the other away if that is cheaper. Measured constants:
- * device/shape.c. All stages may be one kernel of strips, or of tiles, whose time is that of tiles.c. */
+ * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is
+ * less where lanes are narrow), and bytes for each array that it reads or writes. The search
+ * begins with a barrier at every shift of a computed value, and removes one after the other
+ * if that is cheaper. Measured constants: device/shape.c. All stages may be one kernel of
+ * strips, or of tiles, whose time is that of tiles.c.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +40,7 @@ static int by_cost(const void *a, const void *b)
     return x->cost < y->cost ? -1 : x->cost > y->cost ? 1 : x->node - y->node;
 }
 
-/* Twice: tries each barrier that is left, and takes them away in the order of what that seemed
- * to gain. */
+/* Twice, tries each remaining barrier, and removes them in the order of the expected gain. */
 static double descend(struct search *s, double best)
 {
     struct gain *gains = malloc((size_t)s->g->count * sizeof *gains);
@@ -67,7 +69,8 @@ static double descend(struct search *s, double best)
     return best;
 }
 
-/* One VP set of two axes, in rows with halos (or without, for tiles): that; or NULL. */
+/* Returns the VP set, if all nodes are of one set with two axes, in rows with halos (for
+ * tiles without); or NULL. */
 static const struct vpset *could_be_strips(const struct plan_graph *g, const struct vpset *sets,
                                            const struct device_shape *shape)
 {
@@ -90,8 +93,9 @@ static const struct vpset *could_be_strips(const struct plan_graph *g, const str
     return halos == (shape->vector > 1) ? &sets[only] : NULL;
 }
 
-/* How many turns of a loop with this graph can be one kernel of strips: what they look at, all together, must lie
- * in the halos. Strips as wide as short rows have halos of their own. */
+/* The number of turns of a loop with this graph that one kernel of strips can hold: all
+ * together must read no further than the halos. Strips as wide as short rows have halos of
+ * their own. */
 static int turns_most(const struct plan_graph *g, const struct vpset *set,
                       const struct device_shape *shape)
 {
@@ -116,7 +120,7 @@ static int turns_most(const struct plan_graph *g, const struct vpset *set,
     return shape->halo / most;
 }
 
-/* A barrier at each shift of something that must be computed. */
+/* Puts a barrier at each shift of a value that must be computed. */
 static double barriers_everywhere(struct search *s)
 {
     for (int i = 0; i < s->g->count; i++)

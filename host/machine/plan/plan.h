@@ -17,8 +17,8 @@ struct plan_node {
     uint16_t set;
     int32_t detail;
     int32_t in[3];
-    int32_t instead[3]; /* another node that may stand for in[k] here, if it is in memory; else
-                           -1 */
+    int32_t instead[3]; /* another node that may replace in[k] here, if it is in memory; else
+                         * -1 */
     /* decided */
     int stage;
     bool stored;
@@ -28,10 +28,11 @@ struct plan_node {
 struct plan_graph {
     struct plan_node *nodes; /* inputs before users */
     int count;
-    bool boxes;     /* write kernels that tell inside from outside: see codegen/body.c */
+    bool boxes;     /* write kernels that distinguish inside and outside of boxes: see
+                     * codegen/body.c */
     bool strips;    /* decided: all stages in one kernel, see strips.h and tiles.h */
     bool no_strips; /* but not so */
-    int turns_most; /* of a loop, in one kernel; 1: that cannot be, or does not pay */
+    int turns_most; /* turns of a loop in one kernel; 1: more are impossible, or do not pay */
     double cost_ns; /* of one run, by the model */
     struct machine_explained_plan considered;
 };
@@ -39,13 +40,14 @@ struct plan_graph {
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape);
 
-/* What a kernel finds in memory: leaves, and what an earlier stage stored. */
+/* Whether a kernel of that stage finds the node in memory: a leaf, or stored by an earlier
+ * stage. */
 static inline bool plan_loads(const struct plan_node *n, int stage)
 {
     return n->leaf || (n->stored && n->stage < stage);
 }
 
-/* What node n, evaluated in a kernel of that stage, takes as its operand k. */
+/* The node that a kernel of that stage uses as operand k of node n. */
 static inline int plan_input(const struct plan_graph *g, const struct plan_node *n, int k,
                              int stage)
 {

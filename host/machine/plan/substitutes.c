@@ -1,4 +1,5 @@
-/* substitutes.c - values that may stand for others that nobody stores. */
+/* substitutes.c - finds stored values that may replace others, which then need not be
+ * stored. */
 #include "plan/substitutes.h"
 
 #include <stdlib.h>
@@ -6,7 +7,8 @@
 #include "base/errors.h"
 #include "base/node_ops.h"
 
-/* Conditions that hold wherever a value is looked at, none of them an AND; of more than a few, some. */
+/* Conditions that hold wherever a value is read, none of them an AND; at most this many are
+ * kept. */
 enum { CONDITIONS = 8 };
 
 struct conditions {

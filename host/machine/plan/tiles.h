@@ -1,8 +1,10 @@
-/* tiles.h - one kernel for several stages on a device of scalar work-items: tiles of the sheet in local memory.
+/* tiles.h - one kernel for several stages on a device of scalar work-items: tiles of the sheet
+ * in local memory.
  *
- * What one stage stores for the neighbours of the next need not exist as a whole. A work-group makes a tile of
- * width x height processors: all of its work-items go together through one stage after the other, over the tile and
- * what later stages look at around it. A barrier of the group is between two stages.
+ * An array that one stage stores for the next stage's neighbours need not exist as a whole. A
+ * work-group makes a tile of width x height processors: all of its work-items go together
+ * through one stage after the other, over the tile and the margin around it that later stages
+ * read. Between two stages is a work-group barrier.
  *
  *      stage 0                    stage 1                    stage 2
  *      +---------------------+
@@ -16,15 +18,18 @@
  *        | in local memory: a      ^ |  reads a, keeps b     ^   reads a, b
  *        +-------------------------+ +-----------------------+
  *
- * What lies around a tile is computed by its neighbours, too. The sheet is a torus: rows and columns beyond its ends are
- * rows and columns of it, so a tile may be larger than the sheet, and so may what it looks at around it. Arrays have no
- * halos where work-items are scalar: their columns are wrapped. In local memory nothing is.
+ * The margin around a tile is also computed by its neighbours. The sheet is a torus: rows and
+ * columns beyond its ends are rows and columns of it, so a tile and its margin may be larger
+ * than the sheet. Arrays have no halos where work-items are scalar: their columns are wrapped.
+ * Local memory is never wrapped.
  *
- * Arrays in local memory share it by the time that they are needed: each lives from the stage that stores it to the last
- * one that loads it.
+ * Arrays in local memory share it by the time that they are needed: each lives from the stage
+ * that stores it to the last one that loads it.
  *
- * Turns of a loop are stages like others: those with the same text share a function. How large a tile is, and how many
- * turns pay, is by a cost (tiles.c): wider tiles compute less twice, and leave less of the local memory. */
+ * Turns of a loop are stages like others: those with the same text share a function. The
+ * cost model (tiles.c) chooses the size of tiles and the number of turns: larger tiles
+ * compute less twice, but use more local memory.
+ */
 #ifndef LUTETIA_MACHINE_TILES_H
 #define LUTETIA_MACHINE_TILES_H
 
@@ -72,7 +77,8 @@ int tiling_array(struct tiling *t, struct tile_array array);
 void tiling_look(struct tiling *t, struct tile_look look);
 /* Each stage's columns and rows around the tile, when all is known. */
 void tiling_extents(struct tiling *t);
-/* Chooses a tile for that, which takes least time. placed: where each array is, too. False: none has room. */
+/* Chooses the tile with the shortest time. placed: also the place of each array. False: none
+ * fits. */
 bool tiles_choose(struct tiling *t, const struct vpset *set, const struct device_shape *shape,
                   bool placed);
 /* How many turns of a loop, of which one is that, are best evaluated at once: those that take least time each, and less
