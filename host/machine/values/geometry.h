@@ -6,7 +6,7 @@
 
 struct vpset {
     bool used;
-    uint16_t generation; /* of those that had this id */
+    uint16_t generation; /* counts the sets that have had this id */
     int rank;
     int dimensions[MACHINE_AXES_MAX];
     uint64_t count, rows; /* rows: product of all axes but the last */

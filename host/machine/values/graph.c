@@ -34,8 +34,8 @@ void graph_finish(struct machine *m)
     free(m->values->release_stack);
 }
 
-/* Nodes are used again at once. A fuzzing build gives each its own memory, so that ASan sees one that
- * is used after its release. */
+/* Freed nodes are reused at once. A fuzzing build allocates each separately, so that ASan
+ * finds uses after release. */
 #ifdef LUTETIA_FUZZ
 
 static struct machine_value *node_new(struct machine *m)
@@ -152,8 +152,9 @@ static void table_remove(struct machine *m, struct machine_value *v)
     m->values->table_count--;
 }
 
-/* Asked for once more, a value that still waits to be computed is as good as made now, if all in it is. Otherwise what a
- * turn of a loop makes of one that the turn before has left in a temporary would look old. */
+/* A pending value that is requested again counts as made now, if all of its inputs do.
+ * Otherwise values that a turn of a loop makes from temporaries of the turn before would
+ * look old. */
 static void bear(struct machine_value *v, uint32_t epoch)
 {
     v->birth = epoch;
@@ -164,7 +165,7 @@ static void bear(struct machine_value *v, uint32_t epoch)
     }
 }
 
-/* Which NaNs may be in it. */
+/* Derives which NaNs the value may hold. */
 static void derive_nan(const struct machine *m, struct machine_value *v)
 {
     bool keeps = m->device->shape.keeps_nan;
@@ -218,7 +219,8 @@ static void derive(const struct machine *m, struct machine_value *v, uint32_t ep
     derive_nan(m, v);
 }
 
-/* Waits to be computed: slices are views that cost nothing until somebody looks. */
+/* Whether the value waits to be computed; slices are views, which cost nothing until they
+ * are observed. */
 static bool is_pending(const struct machine_value *v)
 {
     return v->op != NODE_CONSTANT && v->op != NODE_SLICE;
@@ -327,7 +329,7 @@ void graph_keep(struct machine *m, struct machine_value *v, bool kept)
         m->values->pending += kept ? UINT64_MAX : 1;
 }
 
-/* It is going to be another node: not one that a state keeps. */
+/* Called before a node changes; fails for nodes that a state keeps. */
 static void let_go(struct machine *m, const struct machine_value *v)
 {
     if (v->kept)
@@ -394,6 +396,6 @@ void graph_materialised(struct machine *m, struct machine_value *v,
     if (is_pending(v))
         m->values->pending--;
     if (node_is_cheap(v) || v->op == NODE_SLICE)
-        return; /* keeps its name: the next one like it is the same node */
+        return; /* stays in the table: an equal node will be the same one */
     graph_forget(m, v);
 }

@@ -1,9 +1,10 @@
 /* integers.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
- * computes them, and numbers among each other are computed here.
+ * computes them; results of constants are computed here.
  *
- * One bit is held otherwise than more are (spell.c), so these operations are done on two where
- * one was given: sign and value are the same there, and the low bit of what comes out is the
- * result. */
+ * A single bit is represented differently from wider numbers (spell.c), so it is extended to
+ * two bits for these operations: value and sign stay the same, and the low bit of the result
+ * is the result.
+ */
 #include "values/integers.h"
 
 #include "base/errors.h"
@@ -74,7 +75,7 @@ static bool product_beyond(number a, number b, int width)
     return __builtin_mul_overflow(a, b, &p) || p > mask_of(width);
 }
 
-/* a to the b, modulo 2^128; whether it is 2^width or more. */
+/* a to the power b, modulo 2^128; and whether it is 2^width or more. */
 static number raised(number a, number b, int width, bool *beyond)
 {
     number r = 1;

@@ -1,4 +1,4 @@
-/* make.h - makes values: numbers, and operations that no rule can do without. */
+/* make.h - makes values: constants, and operations that no rule simplifies. */
 #ifndef LUTETIA_MACHINE_MAKE_H
 #define LUTETIA_MACHINE_MAKE_H
 
@@ -6,7 +6,7 @@
 
 #define MAKE_BIT_TYPE ((struct machine_type){.kind = MACHINE_BITS, .width = 1})
 struct machine_value *make_bad(struct machine *m, const char *what);
-/* What is handed out stays until the next instruction, also where it is a part of an operand. */
+/* Keeps a value until the next instruction, also if it is a part of an operand. */
 struct machine_value *make_handed(struct machine *m, struct machine_value *v);
 struct machine_value *make_number(struct machine *m, struct machine_type type,
                                   struct machine_scalar x);
@@ -18,7 +18,7 @@ struct machine_value *make_reinterpreted(struct machine *m, struct machine_value
                                          struct machine_type type);
 struct machine_value *make_overflow(struct machine *m, enum node_op op, struct machine_value *a,
                                     struct machine_value *b);
-/* A node of the graph, folded by nobody. */
+/* Makes a node of the graph, without folding. */
 struct machine_value *make_operation(struct machine *m, enum machine_op op,
                                      struct machine_type type, struct machine_value *a,
                                      struct machine_value *b);

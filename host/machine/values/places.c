@@ -1,5 +1,5 @@
-/* places.c - values that follow from where a processor is: its neighbours' (shifts), its coordinates and addresses, and
- * what is drawn for it at random. */
+/* places.c - values that depend on a processor's place: its neighbours' values (shifts), its
+ * coordinates and addresses, and its random numbers. */
 #include "values/places.h"
 
 #include "base/errors.h"

@@ -1,23 +1,24 @@
 /* rules.c - the rules that keep the graph small.
  *
- * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never rearranged. No rule looks at the
- * value of a number other than a bit's 0 or 1, and whether a float is 0, or a factor 1 or more (widths of 128 at most, and
- * transcendental functions, fold where all operands are numbers), so that a program with other constants has the same
- * graph and the same kernels.
+ * Rules are exact: they hold for every bit, NaNs included. Float arithmetic is never
+ * rearranged. No rule looks at the value of a number other than a bit's 0 or 1, and whether a
+ * float is 0, or a factor 1 or more (widths of 128 at most, and transcendental functions, fold
+ * where all operands are numbers), so that a program with other constants has the same graph
+ * and the same kernels.
  *
  * The rules that matter: a store under context c is select(c, new, old), and
  *     select(c, new, select(c, x, old))       = select(c, new, old)
  *     select(c & t, new, select(c, x, old))   = select(c, select(t, new, x), old)
- *     x, asked for where c holds only         = x with each select(c, a, b) in it replaced by a
- * so what is overwritten under the same context is gone, and a test that was stored under c and
- * is and-ed into c forgets that it was. */
+ *     x, read only where c holds              = x with each select(c, a, b) in it replaced by a
+ * So values overwritten under the same context disappear, and a test that was stored under c and is and-ed into c loses its select.
+ */
 #include "values/rules.h"
 
 #include "base/parts.h"
 #include "base/types.h"
 #include "values/make.h"
 
-/* a holds only where b holds: b is a, or is and-ed into it. */
+/* Whether a holds only where b holds: b is a, or is and-ed into it. */
 static bool implies(const struct machine_value *a, const struct machine_value *b, int depth)
 {
     if (a == b)
@@ -73,7 +74,7 @@ struct machine_value *rules_not(struct machine *m, struct machine_value *a)
     return make_node(m, MACHINE_NOT, MAKE_BIT_TYPE, 0, a, NULL, NULL);
 }
 
-/* c, knowing that known holds; NULL: nothing is left to ask. */
+/* The rest of c where `known` holds; NULL: always true. */
 static struct machine_value *residual(struct machine *m, struct machine_value *c,
                                       struct machine_value *known, int depth)
 {
@@ -95,7 +96,8 @@ static bool is_float_zero(const struct machine_value *v)
            (v->imm.lo & (v->type.width == 32 ? 0x7fffffffu : INT64_MAX)) == 0;
 }
 
-/* From 1 on: 1, above 0 and up to 1: -1. Else, or infinite, or NaN: 0. */
+/* 1 for factors from 1 on, -1 for factors above 0 and below 1, else (also infinite or NaN)
+ * 0. */
 static int factor_class(const struct machine_value *v)
 {
     uint64_t one = v->type.width == 32 ? 0x3f800000u : 0x3ff0000000000000u,
@@ -148,7 +150,8 @@ struct machine_value *rules_select(struct machine *m, struct machine_value *c,
             a = a->in[1];
         } else if (b->op == NODE_SELECT && implies(b->in[0], c, DEPTH)) {
             m->values->vanished.overwritten++;
-            b = b->in[2]; /* where c does not hold, neither does what implies it */
+            b = b->in[2]; /* where c does not hold, a condition that implies c does not hold
+                           * either */
         } else
             break;
     }
@@ -169,7 +172,7 @@ struct machine_value *rules_select(struct machine *m, struct machine_value *c,
     return make_node(m, NODE_SELECT, a->type, 0, c, a, b);
 }
 
-/* v, for somebody who looks at it only where context holds. */
+/* v, for readers that read it only where context holds. */
 struct machine_value *rules_under(struct machine *m, struct machine_value *v,
                                   struct machine_value *context, int depth)
 {

@@ -1,7 +1,9 @@
-/* soft.c - floats of other formats than single and double: the nodes that bring them into fields and out.
+/* soft.c - floats of other formats than single and double: conversion between values and
+ * fields.
  *
- * Their values are doubles that the format has (see machine_float_type()), so that whatever is
- * exact in double needs no more: comparisons, min, max, negation, whole parts that fit. */
+ * Their values are doubles (see machine_float_type()), so operations that are exact in
+ * double need no rounding: comparisons, min, max, negation, whole parts that fit.
+ */
 #include "values/soft.h"
 
 #include "base/parts.h"

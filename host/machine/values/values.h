@@ -8,23 +8,23 @@
 
 struct machine_value {
     uint8_t op;
-    uint8_t origin; /* the op that it was made as; op becomes NODE_BUFFER once it is computed */
+    uint8_t origin; /* its original op; op becomes NODE_BUFFER once it is computed */
     struct machine_type type;
     uint8_t axis;
     uint8_t generator; /* cost where nothing is read from memory, else GENERATOR_NONE */
-    bool maybe_nan;    /* an operation's NaN in it may not be *the* NaN until it is stored */
-    bool strange_nan;  /* the program's own NaNs may be in it, with any bits */
+    bool maybe_nan;    /* it may hold an operation's NaN that is not *the* NaN until it is
+                        * stored */
+    bool strange_nan;  /* it may hold NaNs of the program, with any bits */
     uint16_t set;      /* VP set; 0: one number for all */
     uint16_t height;   /* longest path to something materialised */
     bool interned;
-    bool kept : 1; /* a state's own: see run/replay.h. Does not count as waiting */
-    bool told : 1; /* those who watch know what became of it */
+    bool kept : 1; /* kept by a state: see run/replay.h. Not counted as pending */
+    bool told : 1; /* observers have been told its fate */
     int32_t detail;
     uint32_t refs;
     uint32_t hash;
     uint32_t mark;  /* of the last walk that came by: values.mark */
-    uint32_t birth; /* the evaluation before which the oldest thing in it still to compute was
-                       made */
+    uint32_t birth; /* the evaluation before which its oldest part still to compute was made */
     uint32_t local; /* index in the evaluation at hand */
     struct machine_value *next; /* in its hash chain, or in the free list */
     struct machine_value *in[3];
@@ -32,7 +32,8 @@ struct machine_value {
     struct device_buffer *buffer;
 };
 
-/* How often each rule found something that need not be computed: rules.c, memory/flags.c, run/evaluate.c. */
+/* How often each rule applied, by which values need not be computed: rules.c,
+ * memory/flags.c, run/evaluate.c. */
 struct vanished {
     uint64_t overwritten, nested, under_context, numbers, known, overflows, expressions;
 };
@@ -51,12 +52,13 @@ struct values {
     struct machine_value **release_stack;
     int release_count, release_capacity;
 
-    int simplify_budget; /* nodes that rules_under() may still look at in this instruction */
+    int simplify_budget; /* the nodes that rules_under() may still visit in this instruction */
     uint32_t epoch;      /* evaluations so far, from 1 on */
     uint32_t mark;       /* of the walk under way */
     struct vanished vanished;
 
-    /* Before what fields and flags hold changes, or a node that is kept: those who keep states of it leave. NULL: none do. */
+    /* Called before the contents of fields and flags change, or a kept node does, so that
+     * states are left. NULL: there are no states. */
     void (*before_change)(struct machine *m);
 
     struct vpset *sets; /* 1 .. sets_count - 1; sets[0] is none */
