@@ -179,6 +179,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
                                        k->formats ? kernel_formats_cl : "",
                                        k->math ? kernel_math_tables_cl : "",
                                        k->math ? kernel_math_cl : "",
+                                       k->math ? kernel_math_others_cl : "",
                                        k->text};
     if (many_streams(m, set, k))
         strcat(k->options, " -DAHEAD=128");

@@ -81,7 +81,7 @@ void device_programs_finish(struct device *d);
 /* Gets the kernel of that name in a program of these parts, from memory, from disk, or by
  * building it. All parts but the last are the same for many programs. Owns: the device.
  * NULL: error set. */
-enum { DEVICE_PARTS = 7 };
+enum { DEVICE_PARTS = 8 };
 cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS],
                         const char *options, const char *name);
 /* The same for a hand-written kernel, whose text is complete. */

@@ -33,6 +33,7 @@ typedef int64_t math_i64;
 #include "math_tables.cl"
 /* and then */
 #include "math.cl"
+#include "math_others.cl"
 #undef ulong
 
 bool math_evaluate(int op, double a, double b, double *out)
