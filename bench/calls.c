@@ -4,6 +4,8 @@
  * Recorded: the processor time of the calling thread, which makes the calls and submits
  * their evaluation. To the end: includes the time until the device is done. Growth: of the
  * process's memory, and of the machine's, over a million calls after a warm-up.
+ * Looks: reads and writes of one processor and reductions of what is in memory, and steps of the
+ * diffusion listing on a sheet so small that no kernel pays.
  */
 #include "calls.h"
 
@@ -27,7 +29,10 @@ enum {
     STEPS_GROWTH = 1000000,
     STEPS_SIDE = 64,
     STEPS_BETWEEN = 100, /* two looks */
-    REPEAT_MIN = 10
+    REPEAT_MIN = 10,
+    LOOKS = 2000,
+    SMALL_SIDE = 32,
+    SMALL_STEPS = 1000
 };
 
 /* ---- the program ---- */
@@ -144,6 +149,83 @@ static bool cost_measure(struct bench_report *r, const struct calls *c, int repe
     return ok;
 }
 
+/* ---- looks ---- */
+
+static void read_one(const struct calls *c, unsigned int i)
+{
+    CM_u_read_from_processor_1L(i * 97 % (SMALL_SIDE * SMALL_SIDE), c->count, 32);
+}
+
+static void write_one(const struct calls *c, unsigned int i)
+{
+    CM_u_write_to_processor_1L(i * 97 % (SMALL_SIDE * SMALL_SIDE), c->count, i, 32);
+}
+
+static void logior(const struct calls *c, unsigned int i)
+{
+    (void)i;
+    CM_global_logior_1L(c->count, 32);
+}
+
+/* The time of each of LOOKS calls. */
+static bool look_measure(struct bench_report *r, const char *name, const char *of_case,
+                         void (*call)(const struct calls *c, unsigned int i),
+                         const struct calls *c, int repeat_count)
+{
+    double *times = calloc((size_t)repeat_count, sizeof *times);
+    if (!times)
+        return bench_fail("no memory for %d times", repeat_count);
+    for (int k = -1; k < repeat_count; k++) {
+        double start = bench_now_s();
+        for (unsigned int i = 0; i < LOOKS; i++)
+            call(c, i);
+        if (k >= 0)
+            times[k] = bench_now_s() - start;
+    }
+    bench_report_add(r, name, of_case, bench_sample_of(times, repeat_count), 1e6 / LOOKS, "us");
+    free(times);
+    return true;
+}
+
+static bool looks_measure(struct bench_report *r, int side, const char *of_case,
+                          int repeat_count)
+{
+    struct calls c;
+    calls_init(&c, side, side);
+    machine_finish(paris_machine());
+    return look_measure(r, "read one processor", of_case, read_one, &c, repeat_count) &&
+           look_measure(r, "write one processor", of_case, write_one, &c, repeat_count) &&
+           look_measure(r, "global logior", of_case, logior, &c, repeat_count);
+}
+
+static void listing_once(const void *listing)
+{
+    listing_step(listing);
+}
+
+static bool small_steps_measure(struct bench_report *r, int repeat_count)
+{
+    struct listing listing = {.width = SMALL_SIDE,
+                              .height = SMALL_SIDE,
+                              .gravity = 1.1,
+                              .molecular_weight = {0.9, 0.7, 0.5}};
+    double *times = calloc((size_t)repeat_count, sizeof *times);
+    bool ok = times || bench_fail("no memory for %d times", repeat_count);
+    if (ok)
+        listing_allocate(&listing);
+    for (int k = -1; k < repeat_count && ok; k++) {
+        double start = bench_now_s();
+        ok = bench_machine_steps(listing_once, &listing, SMALL_STEPS, STEPS_BETWEEN);
+        if (k >= 0)
+            times[k] = bench_now_s() - start;
+    }
+    if (ok)
+        bench_report_add(r, "diffusion step", "1024 processors",
+                         bench_sample_of(times, repeat_count), 1e6 / SMALL_STEPS, "us");
+    free(times);
+    return ok;
+}
+
 struct held {
     struct machine_stats machine;
     size_t resident;
@@ -179,11 +261,6 @@ static void growth_measure(struct bench_report *r, const struct calls *c)
     growth_add(r, "million calls", before);
 }
 
-static void step(const void *listing)
-{
-    listing_step(listing);
-}
-
 /* Memory growth in the diffusion listing on a small sheet: 108 million calls. */
 static bool steps_growth_measure(struct bench_report *r)
 {
@@ -196,10 +273,10 @@ static bool steps_growth_measure(struct bench_report *r)
     if (!paris_reset(&config))
         return bench_fail("%s", paris_error());
     listing_allocate(&listing);
-    if (!bench_machine_steps(step, &listing, STEPS_GROWTH / 20, STEPS_BETWEEN))
+    if (!bench_machine_steps(listing_once, &listing, STEPS_GROWTH / 20, STEPS_BETWEEN))
         return false;
     struct held before = held_now();
-    if (!bench_machine_steps(step, &listing, STEPS_GROWTH, STEPS_BETWEEN))
+    if (!bench_machine_steps(listing_once, &listing, STEPS_GROWTH, STEPS_BETWEEN))
         return false;
     growth_add(r, "million steps", before);
     return true;
@@ -221,6 +298,9 @@ int bench_calls_main(int argc, char **argv)
     bool ok = cost_measure(&report, &c, options.repeat_count);
     if (ok)
         growth_measure(&report, &c);
+    ok = ok && looks_measure(&report, SMALL_SIDE, "1024 processors", options.repeat_count) &&
+         looks_measure(&report, SIDE, "65536 processors", options.repeat_count) &&
+         small_steps_measure(&report, options.repeat_count);
     ok = ok && (!options.thorough || steps_growth_measure(&report));
     return bench_options_finish(&options, &report, "recorded", ok);
 }

@@ -19,6 +19,7 @@ struct settings {
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
     uint64_t strips, in_place, scatter, gather, narrow, keeps_nan;
+    uint64_t near;    /* the front end looks at memory that is its own by itself */
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */
     uint64_t tile;    /* width << 16 | height */
     uint64_t processors;

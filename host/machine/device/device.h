@@ -125,6 +125,11 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
                                 const void *pattern, size_t pattern_bytes, const char *what);
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what);
+/* Bytes of a buffer from `at` on, to and from the front end; wait for what is in the queue. */
+enum machine_status device_read(struct machine *m, const struct device_buffer *b, size_t at,
+                                void *to, size_t bytes, const char *what);
+enum machine_status device_write(struct machine *m, const struct device_buffer *b, size_t at,
+                                 const void *from, size_t bytes, const char *what);
 void device_flush(struct machine *m); /* what is in the queue begins */
 /* Waits until all that is in the queue is done: the front end may look at buffers (device_buffer.host) then. */
 enum machine_status device_settle(struct machine *m);

@@ -1,9 +1,12 @@
 /* queue.c - commands: starting them, waiting for them, and limiting how far the front end
  * runs ahead. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "device/device.h"
 #include "watch/watch.h"
+
+enum { AT_ONCE_BYTES = 128 << 10 };
 
 double device_wait_begin(struct machine *m)
 {
@@ -21,9 +24,26 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
     return device_check(m, error, what);
 }
 
+/* The front end may look at it itself. */
+static bool near(const struct machine *m, const struct device_buffer *b)
+{
+    return b->host && m->settings.near;
+}
+
+/* On the front end's own thread, where that is done before a command has begun. */
+static bool at_once(const struct machine *m, const struct device_buffer *b, size_t bytes)
+{
+    return near(m, b) && !m->device->queued && !m->watch && bytes <= AT_ONCE_BYTES;
+}
+
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
+    if (at_once(m, b, b->bytes)) {
+        for (size_t at = 0; at < b->bytes; at += pattern_bytes)
+            memcpy((char *)b->host + at, pattern, pattern_bytes);
+        return MACHINE_OK;
+    }
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
@@ -38,6 +58,10 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
+    if (near(m, from) && at_once(m, to, bytes)) {
+        memcpy(to->host, from->host, bytes);
+        return MACHINE_OK;
+    }
     m->inside++;
     cl_event *done = m->watch ? watch_command(m, 0) : NULL;
     m->device->queued = true;
@@ -47,6 +71,36 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
     if (done)
         watch_moves(m, error, "copy", 2 * bytes);
     return device_check(m, error, what);
+}
+
+enum machine_status device_read(struct machine *m, const struct device_buffer *b, size_t at,
+                                void *to, size_t bytes, const char *what)
+{
+    if (near(m, b)) {
+        enum machine_status status = device_settle(m);
+        if (!status)
+            memcpy(to, (const char *)b->host + at, bytes);
+        return status;
+    }
+    double start = device_wait_begin(m);
+    cl_int error =
+        clEnqueueReadBuffer(m->device->queue, b->mem, CL_TRUE, at, bytes, to, 0, NULL, NULL);
+    return device_wait_end(m, error, start, what);
+}
+
+enum machine_status device_write(struct machine *m, const struct device_buffer *b, size_t at,
+                                 const void *from, size_t bytes, const char *what)
+{
+    if (near(m, b)) {
+        enum machine_status status = device_settle(m);
+        if (!status)
+            memcpy((char *)b->host + at, from, bytes);
+        return status;
+    }
+    double start = device_wait_begin(m);
+    cl_int error =
+        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, at, bytes, from, 0, NULL, NULL);
+    return device_wait_end(m, error, start, what);
 }
 
 void device_flush(struct machine *m)

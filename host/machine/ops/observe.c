@@ -13,9 +13,12 @@
 #include "kernels.h"
 #include "memory/call_set.h"
 #include "memory/memory.h"
+#include "ops/gather.h"
+#include "ops/near.h"
 #include "run/materialise.h"
 #include "run/notes.h"
 #include "values/graph.h"
+#include "values/make.h"
 
 enum {
     REDUCE_RUN = 4096
@@ -60,6 +63,18 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     v = materialise(m, f->vpset, v);
     if (!v)
         return m->status;
+    if (v->buffer->host && m->settings.near) {
+        if (device_settle(m))
+            return m->status;
+        const unsigned char *rows = v->buffer->host;
+        for (uint64_t row = 0; row < s->rows; row++)
+            memcpy((unsigned char *)out + row * (size_t)s->width * element,
+                   rows + (row * s->pitch + (size_t)s->halo) * element,
+                   (size_t)s->width * element);
+        if (m->watch)
+            watch_bytes(m, s->count * element);
+        return MACHINE_OK;
+    }
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
     size_t region[3] = {(size_t)s->width * element, s->rows, 1};
     double start = device_wait_begin(m);
@@ -123,25 +138,21 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
     *out = (struct machine_scalar){0, 0};
     if (!v)
         return m->status;
-    if (v->op == NODE_CONSTANT && !v->buffer) {
-        *out = v->imm;
+    if (near_read(m, f->vpset, v, index, out))
         return MACHINE_OK;
-    }
     v = materialise(m, f->vpset, v);
     if (!v)
         return m->status;
     size_t element = type_bytes(type);
     unsigned char raw[16] = {0};
-    double start = device_wait_begin(m);
-    cl_int error =
-        clEnqueueReadBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
-                            geometry_place(&m->values->sets[f->vpset], index) * element,
-                            element, raw, 0, NULL, NULL);
+    enum machine_status status =
+        device_read(m, v->buffer, geometry_place(&m->values->sets[f->vpset], index) * element,
+                    raw, element, "reading a processor");
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
     if (m->watch)
         watch_bytes(m, element);
-    return device_wait_end(m, error, start, "reading a processor");
+    return status;
 }
 
 /* Copies the content to a buffer with no other reference. */
@@ -175,40 +186,32 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         return machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no processor %llu",
                             (unsigned long long)index);
     struct machine_value *v = machine_field_value(m, field, type, MACHINE_EVERYWHERE);
+    enum machine_status status;
+    if (v && f->base + offset == field && !beyond_field(m, field, (uint32_t)type.width) &&
+        gather_write(m, f, offset, v, index, value, &status))
+        return status;
     v = v ? materialise(m, f->vpset, v) : NULL;
     if (!v)
         return m->status;
     /* The buffer may be written in place if only this part of the field refers to it: the
      * slot's reference, and those of this call. */
-    uint32_t held = 0;
     bool strange = v->strange_nan || materialise_has_strange_nan(type, &value.lo, 1);
-    for (int i = 0; i < m->values->borrowed_count; i++)
-        held += m->values->borrowed[i] == v;
-    if (v->op != NODE_BUFFER || v->refs > held + 1 || !field_holds(f, offset, v))
+    if (v->op != NODE_BUFFER || v->refs > gather_borrowed(m, v) + 1 ||
+        !field_holds(f, offset, v))
         v = own_copy(m, f->vpset, v);
     if (!v)
         return m->status;
     v->strange_nan = strange;
-    size_t element = type_bytes(type);
+    size_t element = type_bytes(type), places[3];
     unsigned char raw[16];
     materialise_put(raw, scalar_cut(value, type.width), element);
-    size_t at = geometry_place(s, index), column = index % (uint64_t)s->width,
-           width = (size_t)s->width;
-    size_t places[3] = {at, 0, 0};
-    int count = 1;
-    if (column < (size_t)s->halo)
-        places[count++] = at + width;
-    if (column >= width - (size_t)s->halo)
-        places[count++] = at - width;
-    double start = device_wait_begin(m);
-    cl_int error = CL_SUCCESS;
-    for (int i = 0; i < count && !error; i++)
-        error = clEnqueueWriteBuffer(m->device->queue, v->buffer->mem, CL_TRUE,
-                                     places[i] * element, element, raw, 0, NULL, NULL);
+    int count = gather_places(s, index, places);
+    for (int i = 0; i < count; i++)
+        if (device_write(m, v->buffer, places[i] * element, raw, element,
+                         "writing a processor"))
+            return m->status;
     if (m->watch)
         watch_bytes(m, element);
-    if (device_wait_end(m, error, start, "writing a processor"))
-        return m->status;
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
 }
 
@@ -307,6 +310,57 @@ static struct machine_scalar combine(int op, struct machine_type type, struct ma
     return type.width == 32 ? combine_float(op, a, b) : combine_double(op, a, b);
 }
 
+/* Runs' numbers joined, each with its neighbour, until one is left. */
+static struct machine_scalar join_runs(int op, struct machine_type type,
+                                       struct machine_scalar *sums, size_t count)
+{
+    while (count > 1) {
+        for (size_t i = 0; i < count / 2; i++)
+            sums[i] = combine(op, type, sums[2 * i], sums[2 * i + 1]);
+        if (count % 2)
+            sums[count / 2] = sums[count - 1];
+        count = (count + 1) / 2;
+    }
+    return sums[0];
+}
+
+/* On the front end: of numbers in memory that are few, or were only made longer since, in processors that a context in memory
+ * says. False: it is not so. */
+static bool reduce_near(struct machine *m, const struct vpset *s, const struct machine_value *v,
+                        const struct machine_value *context, const struct reduction_info *info,
+                        struct machine_scalar identity, struct machine_scalar *out)
+{
+    struct near_sum w = {.op = info->op,
+                         .is_float = v->type.kind == MACHINE_FLOAT,
+                         .flip = info->is_signed ? scalar_sign(v->type.width).lo : 0,
+                         .identity = identity};
+    const struct machine_value *in = v;
+    bool all = !context || (value_is_number(context) && context->imm.lo);
+    if (!m->settings.near || s->count > NEAR_MOST || v->type.width > 64)
+        return false;
+    if (!v->buffer && !w.is_float && (v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND) &&
+        v->in[0]->type.width < v->type.width) {
+        w.extends = v->op == NODE_SIGN_EXTEND;
+        in = v->in[0];
+    }
+    if (!in->buffer || (in->type.kind == MACHINE_FLOAT) != w.is_float ||
+        (!all && !context->buffer))
+        return false;
+    w.plain = in == v || (info->op == ADD && !w.extends);
+    w.width = in->type.width;
+    w.element = type_bytes(in->type);
+    w.numbers = in->buffer;
+    w.context = all ? NULL : context->buffer;
+    size_t count = ((size_t)s->width + REDUCE_RUN - 1) / REDUCE_RUN * s->rows;
+    struct machine_scalar few[64], *sums = count <= 64 ? few : malloc(count * sizeof *sums);
+    bool good = sums && near_sums(m, s, &w, REDUCE_RUN, sums);
+    if (good)
+        *out = join_runs(info->op, v->type, sums, count);
+    if (sums != few)
+        free(sums);
+    return good;
+}
+
 static enum machine_status reduce_buffer(struct machine *m, const struct vpset *s,
                                          struct machine_value *v, int op,
                                          struct machine_scalar identity,
@@ -356,18 +410,51 @@ static enum machine_status reduce_buffer(struct machine *m, const struct vpset *
         if (wide)
             memcpy(&sums[i].hi, raw + i * element + 8, 8);
     }
-    while (count > 1 && !status) {
-        for (size_t i = 0; i < count / 2; i++)
-            sums[i] = combine(op, v->type, sums[2 * i], sums[2 * i + 1]);
-        if (count % 2)
-            sums[count / 2] = sums[count - 1];
-        count = (count + 1) / 2;
-    }
-    *out = sums[0];
+    if (!status)
+        *out = join_runs(op, v->type, sums, count);
     device_buffer_unref(m, b);
     free(raw);
     free(sums);
     return status;
+}
+
+/* Selected under the context by an evaluation, and then on the device unless that is slower. */
+static enum machine_status
+reduce_far(struct machine *m, const struct vpset *s, struct machine_value *value,
+           struct machine_value *context, const struct reduction_info *info,
+           struct machine_scalar identity, struct machine_scalar *out)
+{
+    struct machine_type type = value->type;
+    if (info->is_signed) /* in another order: the sign bit turned over */
+        value = machine_binary(m, MACHINE_XOR, value,
+                               machine_constant(m, type, scalar_sign(type.width)));
+    struct machine_value *none = machine_constant(m, type, identity);
+    value = value && none ? machine_select(m, context, value, none) : NULL;
+    value = value ? materialise(m, m->values->set_current, value) : NULL;
+    struct reduction_info unsigned_order = {info->op, info->is_float, false};
+    if (!value)
+        return m->status;
+    return reduce_near(m, s, value, NULL, &unsigned_order, identity, out)
+               ? MACHINE_OK
+               : reduce_buffer(m, s, value, info->op, identity, out);
+}
+
+static enum machine_status reduce_end(const struct reduction_info *info,
+                                      struct machine_type type, struct machine_scalar *out)
+{
+    struct machine_scalar sign = scalar_sign(type.width);
+    if (info->is_signed) {
+        out->lo ^= sign.lo;
+        out->hi ^= sign.hi;
+    }
+    *out = scalar_cut(*out, type.width);
+    if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
+        out->lo = NAN_32;
+    if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
+        out->lo = NAN_64;
+    if (type.s)
+        out->lo = type_rounded(out->lo, type);
+    return MACHINE_OK;
 }
 
 enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
@@ -385,25 +472,9 @@ enum machine_status machine_reduce(struct machine *m, enum machine_reduction op,
     const struct reduction_info *info = &reductions[op];
     struct machine_type type = value->type;
     struct machine_scalar identity = identity_of(info, type);
-    struct machine_scalar sign = scalar_sign(type.width);
-    if (info->is_signed) /* signed order is unsigned order with the sign bit inverted */
-        value = machine_binary(m, MACHINE_XOR, value, machine_constant(m, type, sign));
-    struct machine_value *none = machine_constant(m, type, identity);
     struct machine_value *context = flags_of(m, s)->of[MACHINE_CONTEXT].value;
-    value = value && none ? machine_select(m, context, value, none) : NULL;
-    value = value ? materialise(m, m->values->set_current, value) : NULL;
-    if (!value || reduce_buffer(m, s, value, info->op, identity, out))
+    if (!reduce_near(m, s, value, context, info, identity, out) &&
+        reduce_far(m, s, value, context, info, identity, out))
         return m->status;
-    if (info->is_signed) {
-        out->lo ^= sign.lo;
-        out->hi ^= sign.hi;
-    }
-    *out = scalar_cut(*out, type.width);
-    if (info->is_float && type.width == 32 && isnan(as_float(out->lo)))
-        out->lo = NAN_32;
-    if (info->is_float && type.width == 64 && isnan(as_double(out->lo)))
-        out->lo = NAN_64;
-    if (type.s)
-        out->lo = type_rounded(out->lo, type);
-    return MACHINE_OK;
+    return reduce_end(info, type, out);
 }

@@ -44,13 +44,11 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
         memcpy(to - halo, to + width - halo, halo);
         memcpy(to + width, to, halo);
     }
-    double start = device_wait_begin(m);
-    cl_int error =
-        clEnqueueWriteBuffer(m->device->queue, b->mem, CL_TRUE, 0, bytes, image, 0, NULL, NULL);
+    enum machine_status status = device_write(m, b, 0, image, bytes, "writing a field");
     if (m->watch)
         watch_bytes(m, bytes);
     free(image);
-    if (device_wait_end(m, error, start, "writing a field")) {
+    if (status) {
         device_buffer_unref(m, b);
         return NULL;
     }

@@ -1,0 +1,230 @@
+/* near.c - see near.h. */
+#include "ops/near.h"
+
+#include <string.h>
+
+#include "base/parts.h"
+#include "base/scalar.h"
+#include "base/types.h"
+#include "values/make.h"
+
+enum { DEEPEST = 12, LANES = 16 };
+
+/* ---- one processor ---- */
+
+static struct machine_scalar cut(unsigned __int128 x, int width)
+{
+    return scalar_cut(scalar_narrow(x), width);
+}
+
+static bool in_memory(const struct vpset *s, const struct machine_value *v, uint64_t index,
+                      struct machine_scalar *out)
+{
+    size_t element = type_bytes(v->type);
+    const unsigned char *at = v->buffer->host;
+    if (!at)
+        return false;
+    at += geometry_place(s, index) * element;
+    *out = (struct machine_scalar){0, 0};
+    memcpy(&out->lo, at, element < 8 ? element : 8);
+    if (element > 8)
+        memcpy(&out->hi, at + 8, 8);
+    return true;
+}
+
+static uint64_t coordinate(const struct vpset *s, int axis, uint64_t index)
+{
+    for (int i = s->rank - 1; i > axis; i--)
+        index /= (uint64_t)s->dimensions[i];
+    return index % (uint64_t)s->dimensions[axis];
+}
+
+static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t index,
+                  int depth, struct machine_scalar *out)
+{
+    struct machine_scalar a, b;
+    if (v->buffer)
+        return in_memory(s, v, index, out);
+    if (v->op == NODE_CONSTANT) {
+        *out = v->imm;
+        return true;
+    }
+    if (v->op == NODE_INDEX || v->op == NODE_COORDINATE) {
+        *out = cut(v->op == NODE_INDEX ? index : coordinate(s, v->axis, index), v->type.width);
+        return true;
+    }
+    if (depth == 0 || (v->op != NODE_SELECT && v->op != NODE_REINTERPRET &&
+                       (v->op < NODE_ZERO_EXTEND || v->op > NODE_CONCAT)))
+        return false;
+    if (!moved(s, v->in[0], index, depth - 1, &a))
+        return false;
+    int width = v->in[0]->type.width;
+    unsigned __int128 x = scalar_wide(a);
+    switch (v->op) {
+    case NODE_SELECT:
+        return moved(s, v->in[a.lo & 1 ? 1 : 2], index, depth - 1, out);
+    case NODE_SIGN_EXTEND:
+        if (x >> (width - 1) & 1)
+            x |= ~(unsigned __int128)0 << (width - 1);
+        break;
+    case NODE_EXTRACT:
+        x >>= v->detail;
+        break;
+    case NODE_CONCAT:
+        if (!moved(s, v->in[1], index, depth - 1, &b))
+            return false;
+        x |= scalar_wide(b) << width;
+        break;
+    default: /* the same bits, or more of them that are 0 */
+        break;
+    }
+    *out = cut(x, v->type.width);
+    return true;
+}
+
+bool near_read(struct machine *m, int set, const struct machine_value *v, uint64_t index,
+               struct machine_scalar *out)
+{
+    return m->settings.near && m->device->is_pocl && !device_settle(m) &&
+           moved(&m->values->sets[set], v, index, DEEPEST, out);
+}
+
+/* ---- reductions of integers: in any order ---- */
+
+#define JOIN_AND(a, x) ((a) & (x))
+#define JOIN_OR(a, x) ((a) | (x))
+#define JOIN_XOR(a, x) ((a) ^ (x))
+#define JOIN_ADD(a, x) ((a) + (x))
+#define JOIN_LEAST(a, x) ((x) < (a) ? (x) : (a))
+#define JOIN_GREATEST(a, x) ((x) > (a) ? (x) : (a))
+
+/* Numbers as they are, in lanes of their own length. */
+#define INTEGERS_PLAIN(type, wide, join)                                                       \
+    {                                                                                          \
+        const type *p = (const type *)numbers, from = (type)flip;                              \
+        const wide least = (wide)none;                                                         \
+        wide plain = least;                                                                    \
+        if (!context)                                                                          \
+            for (size_t i = 0; i < count; i++) {                                               \
+                const wide x = (wide)(p[i] ^ from);                                            \
+                plain = (wide)join(plain, x);                                                  \
+            }                                                                                  \
+        else                                                                                   \
+            for (size_t i = 0; i < count; i++) {                                               \
+                const wide x = context[i] ? (wide)(p[i] ^ from) : least;                       \
+                plain = (wide)join(plain, x);                                                  \
+            }                                                                                  \
+        return plain;                                                                          \
+    }
+
+/* Numbers made longer, with their sign or without. */
+#define INTEGERS_LONGER(type, join)                                                            \
+    {                                                                                          \
+        const type *p = (const type *)numbers;                                                 \
+        uint64_t sum = none;                                                                   \
+        for (size_t i = 0; i < count; i++) {                                                   \
+            const uint64_t x = ((p[i] ^ sign) - sign) ^ flip,                                  \
+                           y = !context || context[i] ? x : none;                              \
+            sum = join(sum, y);                                                                \
+        }                                                                                      \
+        return sum;                                                                            \
+    }
+
+#define INTEGERS(type, wide, join)                                                             \
+    if (w->plain)                                                                              \
+        INTEGERS_PLAIN(type, wide, join)                                                       \
+    else                                                                                       \
+        INTEGERS_LONGER(type, join)
+
+#define INTEGERS_BY(name, wide1, wide2, wide4, join)                                           \
+    static uint64_t name(const struct near_sum *w, const void *numbers,                        \
+                         const unsigned char *context, size_t count)                           \
+    {                                                                                          \
+        const uint64_t none = w->identity.lo, flip = w->flip,                                  \
+                       sign = w->extends ? UINT64_C(1) << (w->width - 1) : 0;                  \
+        switch (w->element) {                                                                  \
+        case 1:                                                                                \
+            INTEGERS(uint8_t, wide1, join)                                                     \
+        case 2:                                                                                \
+            INTEGERS(uint16_t, wide2, join)                                                    \
+        case 4:                                                                                \
+            INTEGERS(uint32_t, wide4, join)                                                    \
+        default:                                                                               \
+            INTEGERS(uint64_t, uint64_t, join)                                                 \
+        }                                                                                      \
+    }
+
+INTEGERS_BY(run_and, uint8_t, uint16_t, uint32_t, JOIN_AND)
+INTEGERS_BY(run_or, uint8_t, uint16_t, uint32_t, JOIN_OR)
+INTEGERS_BY(run_xor, uint8_t, uint16_t, uint32_t, JOIN_XOR)
+INTEGERS_BY(run_add, uint64_t, uint64_t, uint64_t, JOIN_ADD)
+INTEGERS_BY(run_least, uint8_t, uint16_t, uint32_t, JOIN_LEAST)
+INTEGERS_BY(run_greatest, uint8_t, uint16_t, uint32_t, JOIN_GREATEST)
+
+/* ---- of floats: sixteen lanes by column, then halves of them ---- */
+
+#define FLOATS_LOOP(type, join)                                                                \
+    {                                                                                          \
+        for (; i + LANES <= count; i += LANES)                                                 \
+            for (int lane = 0; lane < LANES; lane++) {                                         \
+                const type x =                                                                 \
+                    context && !context[i + (size_t)lane] ? none : p[i + (size_t)lane];        \
+                sums[lane] = join(sums[lane], x);                                              \
+            }                                                                                  \
+        for (int lane = 0; i < count; i++, lane++) {                                           \
+            const type x = context && !context[i] ? none : p[i];                               \
+            sums[lane] = join(sums[lane], x);                                                  \
+        }                                                                                      \
+        for (int apart = LANES / 2; apart; apart /= 2)                                         \
+            for (int lane = 0; lane < apart; lane++)                                           \
+                sums[lane] = join(sums[lane], sums[lane + apart]);                             \
+    }
+
+#define FLOATS(name, type)                                                                     \
+    static uint64_t name(const struct near_sum *w, const void *numbers,                        \
+                         const unsigned char *context, size_t count)                           \
+    {                                                                                          \
+        const type *p = numbers;                                                               \
+        type none, sums[LANES];                                                                \
+        size_t i = 0;                                                                          \
+        uint64_t bits = 0;                                                                     \
+        memcpy(&none, &w->identity.lo, sizeof none);                                           \
+        for (int lane = 0; lane < LANES; lane++)                                               \
+            sums[lane] = none;                                                                 \
+        if (w->op == 3)                                                                        \
+            FLOATS_LOOP(type, JOIN_ADD)                                                        \
+        else if (w->op == 4)                                                                   \
+            FLOATS_LOOP(type, JOIN_LEAST)                                                      \
+        else                                                                                   \
+            FLOATS_LOOP(type, JOIN_GREATEST)                                                   \
+        memcpy(&bits, &sums[0], sizeof none);                                                  \
+        return bits;                                                                           \
+    }
+
+FLOATS(run_floats, float)
+FLOATS(run_doubles, double)
+
+bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
+               size_t run, struct machine_scalar *sums)
+{
+    static uint64_t (*const integers[])(const struct near_sum *, const void *,
+                                        const unsigned char *, size_t) = {
+        run_and, run_or, run_xor, run_add, run_least, run_greatest};
+    const unsigned char *numbers = what->numbers->host,
+                        *context = what->context ? what->context->host : NULL;
+    if (!m->device->is_pocl || !numbers || (what->context && !context) || what->element > 8 ||
+        device_settle(m))
+        return false;
+    for (uint64_t row = 0; row < s->rows; row++)
+        for (size_t x = 0, width = (size_t)s->width; x < width; x += run) {
+            size_t at = (size_t)row * s->pitch + (size_t)s->halo + x,
+                   count = width - x < run ? width - x : run;
+            const unsigned char *c = context ? context + at : NULL;
+            const void *p = numbers + at * what->element;
+            uint64_t bits = !what->is_float      ? integers[what->op](what, p, c, count)
+                            : what->element == 4 ? run_floats(what, p, c, count)
+                                                 : run_doubles(what, p, c, count);
+            *sums++ = (struct machine_scalar){bits, 0};
+        }
+    return true;
+}

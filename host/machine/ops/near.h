@@ -1,0 +1,36 @@
+/* near.h - what the front end does by itself where the device's memory is its own: one processor's number, a reduction.
+ *
+ * A launch and a wait cost 10 to 40 us whatever the work. Below NEAR_MOST processors the front end has read all numbers
+ * before a kernel has begun. */
+#ifndef LUTETIA_MACHINE_NEAR_H
+#define LUTETIA_MACHINE_NEAR_H
+
+#include "device/device.h"
+#include "values/values.h"
+
+enum { NEAR_MOST = 1 << 18 };
+
+/* The value of one processor, if it is in memory, or was only moved since (parts, selections, coordinates); nothing is
+ * evaluated. False: it is not so, and nothing has been done. */
+bool near_read(struct machine *m, int set, const struct machine_value *v, uint64_t index,
+               struct machine_scalar *out);
+
+/* What is reduced: 0 and, 1 or, 2 exclusive or, 3 add, 4 least, 5 greatest, of numbers that are in memory. */
+struct near_sum {
+    int op;
+    bool is_float;
+    int width;     /* of integers: what is read of an element */
+    bool plain;    /* ... they are as long as the result, or added without a sign */
+    bool extends;  /* ... it has a sign */
+    uint64_t flip; /* ... exclusive or, after that */
+    struct machine_scalar identity;
+    const struct device_buffer *numbers;
+    size_t element;                      /* bytes, up to 8 */
+    const struct device_buffer *context; /* bytes; NULL: all are active */
+};
+/* One number for each run of so many columns of each row, rows one after the other, in the order of kernels/reduce.cl. False:
+ * the memory is the device's, and nothing has been done. */
+bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
+               size_t run, struct machine_scalar *sums);
+
+#endif
