@@ -23,22 +23,43 @@
 #define LAYOUT(s) uint s##_width, uint s##_pitch, uint s##_halo
 #define ORDER uint count, uint ratio, uint plog2, uint send
 
-inline size_t place(uint n, uint width, uint pitch, uint halo)
+/* Divides by a number that stays the same: with k = 31 + the least s for which it is at most 2^s, n / by is
+ * n * (2^k / by + 1) >> k for all n below 2^31. A division takes ten times as long. */
+struct divisor {
+    ulong factor;
+    uint shift, by;
+};
+inline struct divisor divisor_of(uint by)
+{
+    const uint shift = 31 + (by > 1 ? 32 - clz(by - 1) : 0);
+    const struct divisor d = {(1UL << shift) / by + 1, shift, by};
+    return d;
+}
+inline uint over(uint n, struct divisor d)
+{
+    return (uint)(n * d.factor >> d.shift);
+}
+
+inline size_t place(uint n, struct divisor width, uint pitch, uint halo)
 {
 #if FLAT
     return (size_t)n + halo;
 #endif
-    return n < width ? n + halo : (size_t)(n / width) * pitch + halo + n % width;
+    const uint row = over(n, width);
+    return (size_t)row * pitch + halo + (n - row * width.by);
 }
-#define PLACE(s, n) place(n, s##_width, s##_pitch, s##_halo)
+#define DIVIDES_PLACE(s) const struct divisor s##_row = divisor_of(s##_width)
+#define PLACE(s, n) place(n, s##_row, s##_pitch, s##_halo)
 
-inline uint index_of(uint a, ORDER)
+#define DIVIDES_ADDRESS const struct divisor share_of = divisor_of(ratio)
+#define INDEX_OF(a) index_of(a, count, share_of, plog2, send)
+inline uint index_of(uint a, uint count, struct divisor ratio, uint plog2, uint send)
 {
-    if (!FLAT && !send && ratio > 1) {
-        const uint processor = a / ratio;
-        if (processor >> plog2)
+    if (!FLAT && !send && ratio.by > 1) {
+        const uint processor = over(a, ratio);
+        if (a >> 31 || processor >> plog2)
             return NOBODY;
-        a = (a % ratio) << plog2 | processor;
+        a = (a - processor * ratio.by) << plog2 | processor;
     }
     return a < count ? a : NOBODY;
 }
@@ -58,12 +79,13 @@ __kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second
                     volatile __global uint *owner)
 {
     COLUMNS(s);
+    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++) {
         const uint i = row * s_width + x + 1;
         if (!all && !context[first + x])
             continue;
         const uint d =
-            index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+            INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
         if (d >= NOBODY)
             continue;
         if (!second)
@@ -78,10 +100,11 @@ __kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
                     __global uint *to)
 {
     COLUMNS(s);
+    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++)
         to[row * s_width + x] =
             all || context[first + x]
-                ? index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send)
+                ? INDEX_OF(ADDRESS_OF(address[first + x]) & mask)
                 : NONE;
 }
 
@@ -95,13 +118,15 @@ __kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint al
                       const __global ELEMENT *restrict from, __global ELEMENT *restrict out,
                       __global uint *restrict owner)
 {
+    DIVIDES_PLACE(d);
+    DIVIDES_ADDRESS;
     const uint low = get_global_id(0) * share;
     const size_t lost = (size_t)trash + get_global_id(0) * 64;
     for (uint row = 0; row < rows; row++) {
         const size_t first = (size_t)row * s_pitch + s_halo;
         for (uint x = 0; x < s_width; x++) {
             const uint d =
-                index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+                INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
             const int mine = (d - low < share) & (d < NOBODY) & (all || context[first + x]);
             out[mine ? PLACE(d, d) : lost] = from[first + x];
             if (notifies && mine)
@@ -115,9 +140,11 @@ __kernel void fetch(LAYOUT(s), uint run, uint mask, ORDER, LAYOUT(f),
                     __global ELEMENT *restrict out)
 {
     COLUMNS(s);
+    DIVIDES_PLACE(f);
+    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++) {
         const uint d =
-            index_of(ADDRESS_OF(address[first + x]) & mask, count, ratio, plog2, send);
+            INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
         const ELEMENT v = d < NOBODY ? from[PLACE(f, d)] : (ELEMENT)(0);
         out[first + x] = v;
     }
@@ -152,6 +179,7 @@ __kernel void deliver(LAYOUT(d), uint run, LAYOUT(s), const __global uint *owner
                       __global ELEMENT *out)
 {
     COLUMNS(d);
+    DIVIDES_PLACE(s);
     for (uint x = begin; x < end; x++) {
         const uint o = owner[row * d_width + x];
         const ELEMENT v = o ? from[PLACE(s, o - 1)] : old[first + x];
@@ -231,16 +259,20 @@ __kernel void combine(LAYOUT(d), LAYOUT(s), uint op, uint senders, uint share, u
 {
     const uint low = get_global_id(0) * share, lost = get_global_id(0) * 64;
     const ulong2 sign = (ulong2)(sign_low, sign_high), mask = (ulong2)(mask_low, mask_high);
-    for (uint i = 0; i < senders; i++) {
-        const uint d = to[i];
-        const int mine = d - low < share && d < NOBODY;
-        if (!trash && !mine)
-            continue;
-        const size_t at = mine ? PLACE(d, d) : (size_t)trash + lost;
-        out[at] = join(op, out[at], from[PLACE(s, i)], sign, mask);
-        if (notifies && mine)
-            owner[d] = 1;
-    }
+    DIVIDES_PLACE(d);
+    for (uint begin = 0, row = 0; begin < senders; begin += s_width, row++)
+        for (uint x = 0; x < s_width; x++) {
+            const uint d = to[begin + x];
+            const int mine = (d - low < share) & (d < NOBODY);
+            if (!trash && !mine)
+                continue;
+            /* No branch, which could not be predicted. Places of no use take turns, or each access would wait for the one before. */
+            const size_t keep = -(size_t)mine,
+                         at = (PLACE(d, d) & keep) | (((size_t)trash + lost + x % 32) & ~keep);
+            out[at] = join(op, out[at], from[(size_t)row * s_pitch + s_halo + x], sign, mask);
+            if (notifies && mine)
+                owner[d] = 1;
+        }
 }
 #endif
 #endif
