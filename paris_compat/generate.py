@@ -154,6 +154,24 @@ def integer_tests(sections):
                       "static const struct integer_row integer_rows[] = {", *rows_out, "};", ""])
 
 
+NOT_HERE = """
+## What is not here
+
+The machine had these instructions, too. They are not provided, because no source that was found shows the order of their arguments
+with certainty; a program that calls one does not link.
+
+| instruction | what does the same |
+|---|---|
+| NEWS with integer or float combiners | `CM_get_from_news_1L` into a field of the stack, and the operation |
+| intern-identical-geometry | `CM_intern_geometry`, `CM_intern_detailed_geometry` |
+| add with carry, subtract with borrow | fields of up to 128 bits; or `CM_u_add_3_1L`, `CM_store_overflow`, and adding that bit |
+| compare | two comparisons, each stored with `CM_store_test` |
+| available-memory | nothing: memory ends where the device's does, and an allocation that fails says so |
+| send-to-queue32 | `CM_enumerate_1L` and `CM_aset32_2L` |
+| aref32 and aset32 in other forms than those above | `CM_aref_2L`, `CM_aset_2L` |
+"""
+
+
 def reference(sections):
     out = ["# Paris, instruction by instruction", "",
            "Generated from `paris_compat/instructions.tab`. Context: an instruction changes dest, test and overflow "
@@ -170,7 +188,7 @@ def reference(sections):
             out += ["", f"### {name}", "", f"{cells[5]}.{note}", ""]
             out += [f"- `{prototype(f)}`" for f in functions if "_const_" not in f.name]
         out.append("")
-    return "\n".join(out)
+    return "\n".join(out) + NOT_HERE
 
 
 def main():

@@ -133,6 +133,8 @@ enum machine_status device_write(struct machine *m, const struct device_buffer *
 void device_flush(struct machine *m); /* what is in the queue begins */
 /* Waits until all that is in the queue is done: the front end may look at buffers (device_buffer.host) then. */
 enum machine_status device_settle(struct machine *m);
+/* The same, for a look of that name, which those who watch hear of. */
+enum machine_status device_settle_for(struct machine *m, const char *what);
 
 /* Called after kernels were started. Waits if the front end is `ahead` kernels ahead of the
  * device, because each waiting kernel takes memory. */

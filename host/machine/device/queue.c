@@ -76,8 +76,10 @@ enum machine_status device_copy(struct machine *m, const struct device_buffer *f
 enum machine_status device_read(struct machine *m, const struct device_buffer *b, size_t at,
                                 void *to, size_t bytes, const char *what)
 {
+    if (m->watch)
+        watch_bytes(m, bytes);
     if (near(m, b)) {
-        enum machine_status status = device_settle(m);
+        enum machine_status status = device_settle_for(m, what);
         if (!status)
             memcpy(to, (const char *)b->host + at, bytes);
         return status;
@@ -91,8 +93,10 @@ enum machine_status device_read(struct machine *m, const struct device_buffer *b
 enum machine_status device_write(struct machine *m, const struct device_buffer *b, size_t at,
                                  const void *from, size_t bytes, const char *what)
 {
+    if (m->watch)
+        watch_bytes(m, bytes);
     if (near(m, b)) {
-        enum machine_status status = device_settle(m);
+        enum machine_status status = device_settle_for(m, what);
         if (!status)
             memcpy((char *)b->host + at, from, bytes);
         return status;
@@ -110,13 +114,20 @@ void device_flush(struct machine *m)
     m->inside--;
 }
 
+enum machine_status device_settle_for(struct machine *m, const char *what)
+{
+    struct device *d = m->device;
+    if (!d->queued && !m->watch)
+        return MACHINE_OK;
+    double start = device_wait_begin(m);
+    cl_int error = d->queued ? clFinish(d->queue) : CL_SUCCESS;
+    d->queued = false;
+    return device_wait_end(m, error, start, what);
+}
+
 enum machine_status device_settle(struct machine *m)
 {
-    if (!m->device->queued)
-        return MACHINE_OK;
-    m->device->queued = false;
-    double start = device_wait_begin(m);
-    return device_wait_end(m, clFinish(m->device->queue), start, "waiting for the device");
+    return m->device->queued ? device_settle_for(m, "waiting for the device") : MACHINE_OK;
 }
 
 /* A fence is put behind so many kernels, and the one before it waited for. */

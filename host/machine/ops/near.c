@@ -85,7 +85,7 @@ static bool moved(const struct vpset *s, const struct machine_value *v, uint64_t
 bool near_read(struct machine *m, int set, const struct machine_value *v, uint64_t index,
                struct machine_scalar *out)
 {
-    return m->settings.near && m->device->is_pocl && !device_settle(m) &&
+    return m->settings.near && m->device->is_pocl && !m->watch && !device_settle(m) &&
            moved(&m->values->sets[set], v, index, DEEPEST, out);
 }
 
@@ -213,7 +213,7 @@ bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *
     const unsigned char *numbers = what->numbers->host,
                         *context = what->context ? what->context->host : NULL;
     if (!m->device->is_pocl || !numbers || (what->context && !context) || what->element > 8 ||
-        device_settle(m))
+        device_settle_for(m, "reducing"))
         return false;
     for (uint64_t row = 0; row < s->rows; row++)
         for (size_t x = 0, width = (size_t)s->width; x < width; x += run) {

@@ -64,15 +64,15 @@ enum machine_status machine_field_download(struct machine *m, uint32_t field,
     if (!v)
         return m->status;
     if (v->buffer->host && m->settings.near) {
-        if (device_settle(m))
+        if (m->watch)
+            watch_bytes(m, s->count * element);
+        if (device_settle_for(m, "reading a field"))
             return m->status;
         const unsigned char *rows = v->buffer->host;
         for (uint64_t row = 0; row < s->rows; row++)
             memcpy((unsigned char *)out + row * (size_t)s->width * element,
                    rows + (row * s->pitch + (size_t)s->halo) * element,
                    (size_t)s->width * element);
-        if (m->watch)
-            watch_bytes(m, s->count * element);
         return MACHINE_OK;
     }
     size_t from[3] = {(size_t)s->halo * element, 0, 0}, to[3] = {0, 0, 0};
@@ -150,8 +150,6 @@ enum machine_status machine_field_read(struct machine *m, uint32_t field,
                     raw, element, "reading a processor");
     memcpy(&out->lo, raw, 8);
     memcpy(&out->hi, raw + 8, 8);
-    if (m->watch)
-        watch_bytes(m, element);
     return status;
 }
 
@@ -210,8 +208,6 @@ enum machine_status machine_field_write(struct machine *m, uint32_t field,
         if (device_write(m, v->buffer, places[i] * element, raw, element,
                          "writing a processor"))
             return m->status;
-    if (m->watch)
-        watch_bytes(m, element);
     return machine_field_store(m, field, v, MACHINE_EVERYWHERE);
 }
 

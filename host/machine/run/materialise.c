@@ -9,7 +9,6 @@
 #include "base/types.h"
 #include "run/run.h"
 #include "values/graph.h"
-#include "watch/watch.h"
 
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count)
 {
@@ -45,8 +44,6 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
         memcpy(to + width, to, halo);
     }
     enum machine_status status = device_write(m, b, 0, image, bytes, "writing a field");
-    if (m->watch)
-        watch_bytes(m, bytes);
     free(image);
     if (status) {
         device_buffer_unref(m, b);
