@@ -73,7 +73,7 @@ struct paper_stock {
         [2]; /* length of fibers along x and along y, along which the paper is uniform, 1..64 */
 };
 
-/* "cold press", "hot press", "rough", "blotting", "glass"; by name or by number from 0; NULL: none. */
+/* "cold press", "hot press", "rough", "blotting", "glass", "laid", "xuan"; by name or by number from 0; NULL: none. */
 const struct paper_stock *paper_stock_find(const char *name);
 const struct paper_stock *paper_stock_number(int number);
 
@@ -222,6 +222,8 @@ struct paper_sheet_view {
     enum paper_layer layer;
     int pigment;
     double low, high;
+    double
+        light; /* on the paper's relief, from the upper left, in colours: 0 (even light) to 4; water that stands hides it */
 };
 
 /* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top.

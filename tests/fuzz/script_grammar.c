@@ -72,7 +72,7 @@ static const struct {
     {"paper", "mask", "LnnP", ""},
     {"paper", "at", "if", ""},
     {"paper", "total", "W", ""},
-    {"paper", "frame", "sO", "show:S layer:L pigment:P low:n high:n bits:i"},
+    {"paper", "frame", "sO", "show:S layer:L pigment:P low:n high:n bits:i light:n"},
     {"paper", "undo", "i", ""},
     {"paper", "redo", "i", ""},
     {"paper", "to", "i", ""},

@@ -1,6 +1,8 @@
 /* brush.c - a sheet's brushes: making, dipping, counting. The stroke is in model/stroke.c, what passes between bristles and
  * fibers in model/exchange.c. */
 #include "model/brush_internal.h"
+#include "model/clouds.h"
+#include "model/felt.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +31,39 @@ struct paper_brush paper_brush_default(void)
 
 /* ---- life ---- */
 
+/* Sizes of the clouds, in fibers, and how far they go. */
+#define CLOUD_FINEST 4.0
+#define CLOUD_COARSEST 128.0
+#define CLOUD_STEP 0.9
+#define CLOUD_STRENGTH 0.275
+
+static bool clouds_lay(const struct paper_sheet *p, struct sheet_brushes *b)
+{
+    int width = p->page.grid.width, height = p->page.grid.height;
+    b->clouds_columns = width / BRUSH_CLOUD + 2;
+    b->clouds_rows = height / BRUSH_CLOUD + 2;
+    b->clouds = calloc((size_t)b->clouds_columns * (size_t)b->clouds_rows, sizeof *b->clouds);
+    double scale = felt_scale(&p->config) / BRUSH_CLOUD;
+    const struct clouds of = {CLOUD_FINEST * scale, CLOUD_COARSEST * scale, CLOUD_STEP,
+                              clouds_word(p->config.seed, 77)};
+    return b->clouds && clouds_make(b->clouds, b->clouds_columns, b->clouds_rows, false, &of);
+}
+
+double sheet_brush_cloud(const struct sheet_brushes *b, double x, double y)
+{
+    if (!b->clouds)
+        return 1;
+    double u = x / BRUSH_CLOUD, v = y / BRUSH_CLOUD;
+    int column = (int)floor(u), row = (int)floor(v);
+    const float *at = b->clouds + (size_t)row * (size_t)b->clouds_columns + (size_t)column;
+    const float *below = at + b->clouds_columns;
+    u -= column;
+    v -= row;
+    double cloud = (1 - v) * ((1 - u) * (double)at[0] + u * (double)at[1]) +
+                   v * ((1 - u) * (double)below[0] + u * (double)below[1]);
+    return fmin(2, fmax(0.15, 1 + CLOUD_STRENGTH * cloud));
+}
+
 /* The VP set and what all brushes share. */
 static enum paper_status brushes_make(struct paper_sheet *p)
 {
@@ -41,6 +76,12 @@ static enum paper_status brushes_make(struct paper_sheet *p)
         free(b);
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
     }
+    if (sheet_flows(p) && !clouds_lay(p, b)) {
+        free(b->clouds);
+        free(b->touched);
+        free(b);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
+    }
     int dimensions[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     b->geometry = CM_create_geometry(dimensions, 2);
     b->vp_set = CM_allocate_vp_set(b->geometry);
@@ -48,8 +89,8 @@ static enum paper_status brushes_make(struct paper_sheet *p)
     CM_set_context();
     b->address = CM_allocate_heap_field(32);
     b->count = CM_allocate_heap_field(32);
-    CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers,
-                                     &b->places,  &b->gotten, &b->sent};
+    CM_field_id_t *const floats[] = {&b->contact, &b->force,  &b->sharers, &b->places,
+                                     &b->takes,   &b->gotten, &b->sent};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = CM_allocate_heap_field(KIT_FLOAT_BITS);
     for (int i = 0; i < BRUSH_TEMPORARIES; i++)
@@ -68,6 +109,7 @@ void sheet_brushes_destroy(struct paper_sheet *p)
         return;
     CM_deallocate_vp_set(b->vp_set);
     CM_deallocate_geometry(b->geometry);
+    free(b->clouds);
     free(b->touched);
     free(b);
     p->brushes = NULL;

@@ -18,7 +18,8 @@
 enum {
     BRUSH_ROWS = 16,
     BRUSH_PLACES = BRUSH_ROWS * PAPER_BRISTLES_MAX,
-    BRUSH_TEMPORARIES = 10
+    BRUSH_TEMPORARIES = 10,
+    BRUSH_CLOUD = 2
 };
 
 /* Where a bristle is in the tuft at rest, and what it is like. */
@@ -35,6 +36,7 @@ struct sheet_contacts {
     float force[BRUSH_PLACES];   /* 0..1 */
     float sharers[BRUSH_PLACES]; /* places on the same fiber, 1.. */
     float places[BRUSH_PLACES];  /* of the same bristle, 1.. */
+    float takes[BRUSH_PLACES];   /* factor on what the bristle would leave there, about 1 */
 };
 
 struct sheet_brush {
@@ -50,12 +52,15 @@ struct sheet_brush {
 struct sheet_brushes {
     CM_geometry_id_t geometry;
     CM_vp_set_id_t vp_set;
-    CM_field_id_t address, contact, force, sharers, places, gotten, sent, count;
+    CM_field_id_t address, contact, force, sharers, places, takes, gotten, sent, count;
     CM_field_id_t t[BRUSH_TEMPORARIES];
     CM_field_id_t give[1 + PAPER_PIGMENTS_MAX]; /* what each place gives, less what it takes */
     struct sheet_contacts contacts;
     uint16_t
         *touched; /* of each fiber, by how many places in this exchange; 0 between exchanges */
+    float *
+        clouds; /* how willingly the paper takes paint, BRUSH_CLOUD fibers apart; NULL: alike everywhere */
+    int clouds_columns, clouds_rows;
     struct sheet_brush brush[PAPER_BRUSHES_MAX];
 };
 
@@ -65,6 +70,9 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
                           const struct sheet_brush *brush);
 /* Where the bristles are, and what they are like, from the brush's description. */
 void sheet_brush_bristles_make(struct sheet_brush *brush);
+
+/* How much of its level a bristle leaves at x, y, about 1: no sheet is sized, and no hand presses, alike everywhere. */
+double sheet_brush_cloud(const struct sheet_brushes *b, double x, double y);
 
 /* Numbers by chance, 0..1, from whatever distinguishes them. */
 static inline double sheet_chance(uint64_t seed, uint64_t a, uint64_t b)

@@ -3,7 +3,7 @@
  * A place is a bristle on a fiber. It looks at the fiber's height, resist, water s and pigments by CM_get, and at its own
  * water w. With
  *
- *     level   = load * gives * f (2 - f), f = w / full         what the bristle would leave on a fiber
+ *     level   = load * gives * takes * f (2 - f), f = w / full what the bristle would leave on a fiber
  *     touch   = 1 where height >= 1 - reach; reach grows with force and f: a dry brush skips the hollows
  *     part    = contact * touch / sharers
  *     given   = part * (max (level - s, 0) + mixing * min (level, s))
@@ -45,7 +45,8 @@ static void contacts_write(struct sheet_brushes *b)
     } rows[] = {{b->contact, b->contacts.contact},
                 {b->force, b->contacts.force},
                 {b->sharers, b->contacts.sharers},
-                {b->places, b->contacts.places}};
+                {b->places, b->contacts.places},
+                {b->takes, b->contacts.takes}};
     int offset[2] = {0, 0}, start[2] = {0, 0}, axes[2] = {0, 1};
     int size[2] = {BRUSH_ROWS, PAPER_BRISTLES_MAX};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -55,9 +56,10 @@ static void contacts_write(struct sheet_brushes *b)
                                 2, size, CM_32_bit);
 }
 
-/* fullness = w / full, and level from it. */
+/* fullness = w / full, and level from it; other is free. */
 static void level_make(struct sheet_brushes *b, const struct sheet_brush *brush,
-                       CM_field_id_t level, CM_field_id_t fullness, double unit)
+                       CM_field_id_t level, CM_field_id_t fullness, CM_field_id_t other,
+                       double unit)
 {
     CM_f_multiply_constant_3_1L(fullness, brush->held[0], 1 / brush->full, D);
     CM_f_min_constant_2_1L(fullness, 1.0, D);
@@ -65,7 +67,8 @@ static void level_make(struct sheet_brushes *b, const struct sheet_brush *brush,
     CM_f_multiply_2_1L(level, fullness, D);
     CM_f_multiply_2_1L(level, brush->gives, D);
     CM_f_multiply_constant_2_1L(level, brush->brush.load * unit, D);
-    (void)b;
+    CM_f_move_2L(other, b->takes, D, KIT_F);
+    CM_f_multiply_2_1L(level, other, D);
 }
 
 /* part = contact * touch / sharers; other is free. */
@@ -132,7 +135,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     CM_set_vp_set(b->vp_set);
     CM_set_context();
     contacts_write(b);
-    level_make(b, brush, level, fullness, p->unit);
+    level_make(b, brush, level, fullness, other, p->unit);
     part_make(p, b, part, fullness, other);
     get(b, water, surface ? p->surface_water : p->page.water);
     CM_f_min_3_1L(both, level, water, D);

@@ -110,8 +110,8 @@ void sheet_planes_written(struct paper_sheet *p);
 
 /* ---- the paper (stock.c) ---- */
 
-/* Absorbency, capacity, height and colour from the seed. */
-void sheet_stock_make(struct paper_sheet *p);
+/* Absorbency, capacity, height and colour from the seed. Errors: NO_MEMORY. */
+enum paper_status sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
 

@@ -62,7 +62,8 @@ static enum paper_status fresh_make(struct paper_sheet *p)
     enum paper_status status = PAPER_OK;
     if (sheet_flows(p) && sheet_has(p, PAPER_PART_SURFACE))
         status = sheet_sizing_make(p);
-    sheet_stock_make(p);
+    if (status == PAPER_OK)
+        status = sheet_stock_make(p);
     return status == PAPER_OK ? sheet_amounts_clear(p) : status;
 }
 

@@ -1,40 +1,20 @@
 /* stock.c - what a dry sheet is like: heights, absorbency, capacity and colour from the seed.
  *
- * Two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
+ * From model 2 on sheets are felted: model/felt.c. Model 1 has two noises, both a torus's.  Hills: random numbers smoothed along both axes with their neighbours at 1, 1, 2, 2, 4, ..., sums of
  * boxes and so nearly round bells, in three octaves, the coarsest as wide as the paper's grain:
  *
  *     hills = (coarse + fine / 2 + finest / 4), mean 0, deviation about 1;  height = 1/2 + roughness * hills
  *
  * Fibers: as thesis/fiber.c makes them, laid along x and along y, each as long as the stock says. Absorbency comes from fibers and
  * a little from hills, so paper bleeds as it looks; capacity from height. */
+#include "model/felt.h"
 #include "model/model.h"
 
 #include <math.h>
-#include <strings.h>
+#include <string.h>
 
-static const struct paper_stock stocks[] = {
-    {"cold press", {.975, .965, .94}, .25, .10, .5, {1, 1}, {.3, .75}, .16, 6, {8, 8}},
-    {"hot press", {.98, .975, .96}, .12, .09, .35, {1, 1}, {.35, .6}, .05, 2, {6, 6}},
-    {"rough", {.96, .945, .91}, .35, .10, .6, {1, 1}, {.25, .9}, .26, 11, {12, 12}},
-    {"blotting", {.95, .93, .90}, .2, .24, .3, {1, 1}, {.8, 1}, .08, 3, {4, 4}},
-    {"glass", {.97, .98, .98}, 0, .002, 0, {1, 1}, {.02, .02}, 0, 1, {1, 1}},
-};
-
-enum { STOCKS_COUNT = sizeof stocks / sizeof *stocks, RANDOM_BITS = 16 };
+enum { RANDOM_BITS = 16 };
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
-
-const struct paper_stock *paper_stock_number(int number)
-{
-    return number >= 0 && number < STOCKS_COUNT ? &stocks[number] : NULL;
-}
-
-const struct paper_stock *paper_stock_find(const char *name)
-{
-    for (int i = 0; i < STOCKS_COUNT; i++)
-        if (strcasecmp(stocks[i].name, name) == 0)
-            return &stocks[i];
-    return NULL;
-}
 
 /* Deviation 1, mean 0, another at each call. */
 static void white(CM_field_id_t d, CM_field_id_t bits)
@@ -172,10 +152,11 @@ void sheet_faces_make(struct paper_sheet *p)
     sheet_film_faces_make(p);
 }
 
-void sheet_stock_make(struct paper_sheet *p)
+/* Model 1: two noises, of hills and of woven fibers. */
+static void woven_make(struct paper_sheet *p, CM_field_id_t shade)
 {
     const struct paper_stock *stock = &p->config.stock;
-    CM_field_id_t hills = p->t[0], fibers = p->t[1], shade = p->t[2];
+    CM_field_id_t hills = p->t[0], fibers = p->t[1];
     CM_initialize_random_generator((unsigned)(p->config.seed ^ p->config.seed >> 32));
     hills_make(p, hills);
     fibers_make(p, fibers);
@@ -194,6 +175,60 @@ void sheet_stock_make(struct paper_sheet *p)
     kit_f_times(shade, fibers, -0.03 * stock->color_variation);
     kit_f_times(p->t[3], hills, 0.08 * stock->color_variation * sqrt(stock->roughness));
     kit_f_add(shade, shade, p->t[3]);
+}
+
+/* d = line[0] + line[1] * values, within low..high. */
+static void felt_write(struct paper_sheet *p, CM_field_id_t d, float *values,
+                       const double line[2], double low, double high)
+{
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
+    float base = (float)line[0], part = (float)line[1], least = (float)low, most = (float)high;
+    for (size_t i = 0; i < count; i++) {
+        float value = base + part * values[i];
+        values[i] = value > least ? value < most ? value : most : least;
+    }
+    kit_grid_f_write(&p->page.grid, d, values);
+}
+
+/* From model 2 on all comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
+ * size went in, slower. */
+static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
+{
+    const struct paper_stock *stock = &p->config.stock;
+    struct felt felt;
+    enum paper_status status = felt_make(&p->config, &felt);
+    if (status != PAPER_OK)
+        return status;
+    size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
+    for (size_t i = 0; i < count; i++) /* how fast it drinks */
+        felt.sizing[i] = 0.7f * felt.mass[i] - 0.7f * felt.sizing[i];
+    double mean = (stock->capacity[0] + stock->capacity[1]) / 2,
+           span = (stock->capacity[1] - stock->capacity[0]) / 2;
+    const double height[2] = {0.5, stock->roughness},
+                 drinks[2] = {stock->absorbency,
+                              stock->absorbency * stock->absorbency_variation},
+                 holds[2] = {mean, 0.4 * span}, looks[2] = {0, -0.04 * stock->color_variation};
+    felt_write(p, p->height, felt.relief, height, 0, 1);
+    felt_write(p, p->page.absorbency, felt.sizing, drinks, 0.15 * stock->absorbency,
+               PAPER_ABSORBENCY_MAX);
+    memcpy(felt.relief, felt.mass, count * sizeof *felt.mass);
+    felt_write(p, p->capacity, felt.relief, holds, 0.01, 1);
+    felt_write(p, shade, felt.mass, looks, -1, 1);
+    felt_free(&felt);
+    return PAPER_OK;
+}
+
+enum paper_status sheet_stock_make(struct paper_sheet *p)
+{
+    CM_field_id_t shade = p->t[2];
+    if (p->config.model == 1) {
+        woven_make(p, shade);
+    } else {
+        enum paper_status status = felted_make(p, shade);
+        if (status != PAPER_OK)
+            return status;
+    }
     color_make(p, shade);
     sheet_faces_make(p);
+    return PAPER_OK;
 }

@@ -7,7 +7,8 @@
  *
  * While a step of the paper lasts the tuft goes some way; each bristle touches the fibers along it at even distances, at most
  * BRUSH_ROWS in one exchange. A place lasts as long as the bristle's thickness takes to pass; contact = 1 - exp (-flow * that).
- * Places are moved by chance within the bristle's thickness, by numbers that depend on the bristle and the place alone. */
+ * In the first model places are moved by chance within the bristle's thickness; from the second on they lie evenly in a line as
+ * wide. Both follow from the bristle and the number of the place alone. */
 #include "model/brush_internal.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@
 
 #define PLACE_SPACING 0.7 /* fibers, along a bristle's way */
 #define FORCE_FULL 0.3
+#define LINE_LEAST 1.5    /* fibers; a line that is thinner has gaps */
 #define WAITING_PACE 60.0 /* pieces of a second where the paper waits */
 #define CONTACT_STEPS                                                                          \
     65536.0 /* a contact is a whole number of these: the last bits of exp() vary */
@@ -60,6 +62,32 @@ static int wrapped(double at, int length, bool torus)
     return place >= 0 && place < length ? (int)place : -1;
 }
 
+/* By chance within the bristle's thickness, at each place anew. */
+static void place_scatter(const struct sheet_brush *own, int number, uint64_t moment,
+                          double *side, double *ahead)
+{
+    double angle =
+        2 * 3.141592653589793 * sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment);
+    double away = own->brush.thickness / 2 *
+                  sqrt(sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment + 1));
+    *side = away * cos(angle) * (own->brush.mirrored ? -1 : 1);
+    *ahead = away * sin(angle);
+}
+
+/* A line as wide as the bristle, without gaps: the golden section's multiples, from a place of the bristle's own, lie evenly in it
+ * however many of them there are. */
+static void place_beside(const struct sheet_brush *own, int number, uint64_t moment,
+                         double *side, double *ahead)
+{
+    double from = sheet_chance(own->brush.seed + 7, (uint64_t)number, 0),
+           along = sheet_chance(own->brush.seed + 7, (uint64_t)number, 1);
+    double place = fmod(from + 0.6180339887498949 * (double)moment, 1),
+           forward = fmod(along + 0.7548776662466927 * (double)moment, 1);
+    double width = fmax(LINE_LEAST, own->brush.thickness);
+    *side = width * (place - 0.5) * (own->brush.mirrored ? -1 : 1);
+    *ahead = PLACE_SPACING * (forward - 0.5);
+}
+
 /* One place of bristle `number`; false: it does not touch. */
 static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
                        const struct tuft *tuft, int number, uint64_t moment, int fiber[2],
@@ -72,11 +100,11 @@ static bool place_make(struct paper_sheet *p, const struct sheet_brush *own,
     if (!(pressed > 0))
         return false;
     *force = fmin(1, pressed / FORCE_FULL);
-    double angle =
-        2 * 3.141592653589793 * sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment);
-    double away = own->brush.thickness / 2 *
-                  sqrt(sheet_chance(own->brush.seed + 7, (uint64_t)number, 2 * moment + 1));
-    double side = away * cos(angle) * (own->brush.mirrored ? -1 : 1), ahead = away * sin(angle);
+    double side, ahead;
+    if (sheet_flows(p))
+        place_beside(own, number, moment, &side, &ahead);
+    else
+        place_scatter(own, number, moment, &side, &ahead);
     double a = hypot(tuft->across[0], tuft->across[1]),
            b = hypot(tuft->along[0], tuft->along[1]);
     double x =
@@ -130,6 +158,7 @@ static bool contacts_make(struct going *g, double from, double length, int rows,
             fibers[place] = fiber[1] * p->page.grid.width + fiber[0];
             c->contact[place] = contact;
             c->force[place] = (float)(rint(force * CONTACT_STEPS) / CONTACT_STEPS);
+            c->takes[place] = (float)sheet_brush_cloud(p->brushes, fiber[0], fiber[1]);
             touched[fibers[place]]++;
             touching++;
         }

@@ -124,6 +124,43 @@ static void level_beside(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t l
     CM_set_context();
 }
 
+/* Depth of water, units, that hides what is below; how far light of strength 1 takes a slope of 1. */
+#define RELIEF_HIDDEN 0.3
+#define RELIEF_GAIN 0.32
+/* The light stands the lower the smoother the sheet: so that relief is seen on each. Roughness. */
+#define RELIEF_USUAL 0.16
+#define SMOOTHEST 0.04
+
+static double light_fits(double roughness)
+{
+    double smoother = RELIEF_USUAL / fmax(SMOOTHEST, roughness);
+    return smoother > 1 ? sqrt(smoother) : smoother;
+}
+
+/* Light on the paper: what rises away from the upper left is lighter, what falls away darker. Uses t[0..2]. */
+static void relief_light(struct paper_sheet *p, const CM_field_id_t color[3], double strength)
+{
+    CM_field_id_t slope = p->t[0], dry = p->t[1], other = p->t[2];
+    kit_f_set(slope, 0.0);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        level_beside(p, other, p->height, axis, true);
+        kit_f_add(slope, slope, other);
+        level_beside(p, other, p->height, axis, false);
+        kit_f_sub(slope, slope, other);
+    }
+    kit_f_times(slope, slope, strength * RELIEF_GAIN * light_fits(p->config.stock.roughness));
+    if (sheet_has(p, PAPER_PART_SURFACE)) {
+        kit_f_times(dry, p->surface_water, -1 / (RELIEF_HIDDEN * p->unit));
+        kit_f_plus(dry, dry, 1.0);
+        kit_f_least(dry, dry, 0.0);
+        kit_f_mul(slope, slope, dry);
+    }
+    kit_f_plus(slope, slope, 1.0);
+    kit_f_least(slope, slope, 0.2);
+    for (int i = 0; i < 3; i++)
+        kit_f_mul(color[i], color[i], slope);
+}
+
 /* Light on the water's surface: where it falls away to the upper left it shines, on the other side it is darker; wet
  * paper is a little darker too. Uses t[0..2]. */
 static void shine(struct paper_sheet *p, const CM_field_id_t color[3])
@@ -197,6 +234,8 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
                               "black and white must be two numbers (got %g and %g)", view->low,
                               view->high);
     }
+    if (!paper_within(view->light, 0, 4))
+        return paper_fail(PAPER_BAD_ARGUMENT, "light must be 0..4 (got %g)", view->light);
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     uint16_t *one = calloc(count, sizeof *one), *table = malloc(SHADES * sizeof *table);
     if (!one || !table) {
@@ -213,6 +252,8 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
     CM_field_id_t color[3] = {p->t[8], p->t[9], p->t[10]};
     if (colored) {
         sheet_color_make(p, color);
+        if (view->light > 0)
+            relief_light(p, color, view->light);
         if (view->show == PAPER_SHOW_WET && sheet_has(p, PAPER_PART_SURFACE))
             shine(p, color);
         if (p->varnished)

@@ -1,0 +1,377 @@
+/* felt.c - a sheet as a mould makes it: fibers that settle out of water, pressed between felts, and sized.
+ *
+ *     clouds     pulp flocks together: noise of sizes 256, 128, ... 8
+ *     fibers     thrown on by chance, more where a cloud is: each goes 0.7 on, turns by its bend, and leaves mass where it
+ *                passes. Bends wander, so fibers curl; lengths go from a fifth to three times the usual one; no direction is
+ *                dearer than another, but by stock.fiber_length: a sheet from a machine has a grain
+ *     tooth      the felts' marks, as large as stock.grain_px
+ *     laid       on a mould of wires, which are ridges in the sheet: lines close together, and chains across them far apart, both
+ *                wavering, and fainter in some clouds than in others
+ *     sizing     glue goes into some places more than into others: noise of sizes 256 to 16
+ *
+ * All lengths are in the stock's own scale: at another resolution of the same sheet the same fibers are drawn finer. */
+#include "model/felt.h"
+
+#include "base/base.h"
+#include "model/clouds.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What each kind of paper is made of: lengths in fibers of the model, at the stock's own grain and fiber_length. */
+struct recipe {
+    const char *stock;
+    double length;                /* of a usual fiber */
+    double cover;                 /* fibers that lie on one another */
+    double curl;                  /* how fast bends wander */
+    double tooth, fibers, clouds; /* parts of the relief */
+    double laid, laid_step,
+        chain_step; /* the lines' part, and how far apart they are; 0: wove */
+};
+
+/* cold press: a mould-made watercolour paper of cotton, 300 g/m2, with the marks of woollen felts. hot press: the same, pressed between
+ * hot rollers. rough: handmade, dried without pressing. blotting: cotton linters, unsized and loose. glass: no fibers. laid: Ingres
+ * paper, with its wires' lines. xuan: the bark of the wingceltis and rice straw, long fine fibers, unsized, on a screen of bamboo. */
+static const struct recipe recipes[] = {
+    {"cold press", 60, 2.6, .006, .75, .55, .20, 0, 0, 0},
+    {"hot press", 60, 2.6, .006, .40, .85, .30, 0, 0, 0},
+    {"rough", 70, 2.6, .006, .66, .62, .15, 0, 0, 0},
+    {"blotting", 30, 3.4, .014, .30, .85, .40, 0, 0, 0},
+    {"glass", 0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {"laid", 60, 2.6, .006, .35, .70, .30, .40, 5, 96},
+    {"xuan", 110, 2.0, .004, .20, .95, .35, .15, 6, 120},
+};
+
+enum { SEED_CLOUDS = 1, SEED_FIBERS, SEED_TOOTH, SEED_SIZING, SEED_WAVER, SEED_FAINT };
+#define STRIDE 0.7
+#define BEND_KEPT 0.985
+#define BEND_FIRST 0.03
+
+static const struct recipe *recipe_of(const struct paper_stock *stock)
+{
+    for (size_t i = 0; i < sizeof recipes / sizeof *recipes; i++)
+        if (strncmp(recipes[i].stock, stock->name, sizeof stock->name) == 0)
+            return &recipes[i];
+    return &recipes[0];
+}
+
+struct making {
+    const struct paper_sheet_config *config;
+    const struct recipe *recipe;
+    int width, height;
+    double scale;   /* fibers of this sheet for one of the stock as it is known */
+    double lean[2]; /* x, y: how much of a fiber's direction counts; the longer is 1 */
+    uint64_t seed;
+};
+
+static size_t count_of(const struct making *m)
+{
+    return (size_t)m->width * (size_t)m->height;
+}
+
+/* Mean 0 and the deviation given; a flat one stays. */
+static void level_out(float *values, size_t count, double deviation)
+{
+    double sum = 0, squares = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += (double)values[i];
+    double mean = sum / (double)count;
+    for (size_t i = 0; i < count; i++)
+        squares += ((double)values[i] - mean) * ((double)values[i] - mean);
+    double had = sqrt(squares / (double)count);
+    float times = (float)(had > 1e-9 ? deviation / had : 0), less = (float)mean;
+    for (size_t i = 0; i < count; i++)
+        values[i] = (values[i] - less) * times;
+}
+
+static void add(float *to, const float *from, size_t count, double part)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] += (float)part * from[i];
+}
+
+static bool cloud_make(const struct making *m, float *out, double finest, double coarsest,
+                       double step, uint64_t which)
+{
+    const struct clouds of = {finest, coarsest, step, clouds_word(m->seed, which)};
+    return clouds_make(out, m->width, m->height, m->config->torus, &of);
+}
+
+/* ---- fibers ---- */
+
+/* Random numbers in a row. */
+struct chances {
+    uint64_t seed, number;
+};
+
+static double chance(struct chances *c)
+{
+    return clouds_chance(c->seed, c->number++);
+}
+
+/* About a bell of deviation 1. */
+static double bell(struct chances *c)
+{
+    uint64_t word = clouds_word(c->seed, c->number++);
+    int64_t sum = 0;
+    for (int i = 0; i < 4; i++)
+        sum += (int64_t)(word >> 16 * i & 0xffff);
+    return ((double)sum * 0x1p-16 - 2) * 1.7320508075688772;
+}
+
+static int around(int at, int length)
+{
+    int place = at % length;
+    return place < 0 ? place + length : place;
+}
+
+/* Leaves `part` around x, y on the four nearest. */
+static void mass_leave(const struct making *m, float *mass, double x, double y, double part)
+{
+    double left = floor(x - 0.5), top = floor(y - 0.5), u = x - 0.5 - left, v = y - 0.5 - top;
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            int column = (int)left + i, row = (int)top + j;
+            if (m->config->torus) {
+                column = around(column, m->width);
+                row = around(row, m->height);
+            } else if (column < 0 || row < 0 || column >= m->width || row >= m->height) {
+                continue;
+            }
+            mass[(size_t)row * (size_t)m->width + (size_t)column] +=
+                (float)(part * (i ? u : 1 - u) * (j ? v : 1 - v));
+        }
+}
+
+static void unit_make(double direction[2])
+{
+    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1]);
+    direction[0] /= length;
+    direction[1] /= length;
+}
+
+/* A direction by chance, all alike but for the sheet's grain. */
+static void direction_make(const struct making *m, struct chances *c, double direction[2])
+{
+    double squared = 0;
+    do {
+        for (int axis = 0; axis < 2; axis++)
+            direction[axis] = 2 * chance(c) - 1;
+        squared = direction[0] * direction[0] + direction[1] * direction[1];
+    } while (squared > 1 || squared < 1e-4);
+    for (int axis = 0; axis < 2; axis++)
+        direction[axis] *= m->lean[axis];
+    unit_make(direction);
+}
+
+/* One fiber from x, y, in fibers of the stock's own scale. At finer scales it is as wide as it is there: it is drawn in strands. */
+static void fiber_draw(const struct making *m, float *mass, struct chances *c, double x,
+                       double y)
+{
+    double direction[2], bend = BEND_FIRST * bell(c), u = chance(c);
+    direction_make(m, c, direction);
+    double length = m->recipe->length * (0.2 + 2.8 * u * u);
+    int strands = m->scale > 1 ? (int)ceil(m->scale) : 1;
+    int pieces = strands;
+    double part = STRIDE * m->scale * m->scale / (strands * pieces);
+    for (double gone = 0; gone < length; gone += STRIDE) {
+        for (int i = 0; i < strands * pieces; i++) {
+            double aside = ((i % strands + 0.5) / strands - 0.5),
+                   ahead = (i / strands + 0.5) / pieces * STRIDE;
+            mass_leave(m, mass, (x + ahead * direction[0] - aside * direction[1]) * m->scale,
+                       (y + ahead * direction[1] + aside * direction[0]) * m->scale, part);
+        }
+        x += STRIDE * direction[0];
+        y += STRIDE * direction[1];
+        double before[2] = {direction[0], direction[1]};
+        direction[0] -= STRIDE * bend * before[1];
+        direction[1] += STRIDE * bend * before[0];
+        unit_make(direction);
+        bend = (bend + m->recipe->curl * bell(c)) * BEND_KEPT;
+    }
+}
+
+/* Those that begin in one square of the stock's scale are the same at every scale. Fibers from beyond the edge reach in. */
+static void fibers_make(const struct making *m, float *mass, const float *clouds)
+{
+    enum { SQUARE = 16 };
+    double mean = m->recipe->length * (0.2 + 2.8 / 3);
+    double each = SQUARE * SQUARE * m->recipe->cover / mean; /* fibers in a square */
+    int reach = m->config->torus ? 0 : (int)ceil(m->recipe->length / SQUARE);
+    int columns = (int)ceil(m->width / (m->scale * SQUARE)),
+        rows = (int)ceil(m->height / (m->scale * SQUARE));
+    memset(mass, 0, count_of(m) * sizeof *mass);
+    for (int row = -reach; row < rows + reach; row++)
+        for (int column = -reach; column < columns + reach; column++) {
+            struct chances c = {
+                clouds_word(clouds_word(m->seed, SEED_FIBERS),
+                            (uint64_t)(row + 4096) << 32 | (uint64_t)(column + 4096)),
+                0};
+            int x = (int)((column + 0.5) * SQUARE * m->scale),
+                y = (int)((row + 0.5) * SQUARE * m->scale);
+            x = x < 0 ? 0 : x < m->width ? x : m->width - 1;
+            y = y < 0 ? 0 : y < m->height ? y : m->height - 1;
+            double cloud = (double)clouds[(size_t)y * (size_t)m->width + (size_t)x];
+            double wanted = each * fmax(0.3, fmin(1.7, 1 + 0.25 * cloud));
+            int count = (int)floor(wanted + chance(&c));
+            for (int i = 0; i < count; i++) {
+                struct chances own = {clouds_word(c.seed, (uint64_t)i + 7), 0};
+                double from_x = (column + chance(&own)) * SQUARE,
+                       from_y = (row + chance(&own)) * SQUARE;
+                fiber_draw(m, mass, &own, from_x, from_y);
+            }
+        }
+}
+
+/* ---- lines of the mould ---- */
+
+/* 1 at whole numbers, -1 in the middle between two, round in both: two parabolas. */
+static double wave(double at)
+{
+    double t = at - floor(at), u = fabs(t - 0.5); /* u: 1/2 on a line, 0 between two */
+    return u < 0.25 ? 16 * u * u - 1 : 1 - 16 * (0.5 - u) * (0.5 - u);
+}
+
+/* The wires' ridges: wires along x, chains along y. `waver` and `faint` are noises. */
+static void laid_add(const struct making *m, float *relief, const float *waver,
+                     const float *faint)
+{
+    const struct recipe *of = m->recipe;
+    for (int y = 0; y < m->height; y++)
+        for (int x = 0; x < m->width; x++) {
+            size_t at = (size_t)y * (size_t)m->width + (size_t)x;
+            double off = 0.35 * (double)waver[at],
+                   strength = 1 + 0.35 * fmax(-2, fmin(2, (double)faint[at]));
+            double line = wave(((y + 0.5) / m->scale + off) / of->laid_step);
+            double from = (x + 0.5) / m->scale + 1.2 * off,
+                   chain = from - of->chain_step * floor(from / of->chain_step) -
+                           of->chain_step / 2;
+            double ridge = fmax(0, 1 - chain * chain / 9);
+            relief[at] += (float)(of->laid * strength * (line + 1.2 * ridge));
+        }
+}
+
+/* ---- the felts' marks ---- */
+
+enum { MARKS = 3 }; /* in a square as wide as a mark's radius, up or down */
+
+/* One round mark of that radius, highest in its middle. */
+static void mark_press(const struct making *m, float *relief, double x, double y, double radius,
+                       double height)
+{
+    int left = (int)ceil(x - radius - 0.5), right = (int)floor(x + radius - 0.5);
+    int top = (int)ceil(y - radius - 0.5), bottom = (int)floor(y + radius - 0.5);
+    for (int row = top; row <= bottom; row++)
+        for (int column = left; column <= right; column++) {
+            double dx = (column + 0.5 - x) / radius, dy = (row + 0.5 - y) / radius,
+                   inside = 1 - dx * dx - dy * dy;
+            bool there = row >= 0 && column >= 0 && row < m->height && column < m->width;
+            if (inside <= 0 || !(there || m->config->torus))
+                continue;
+            relief[(size_t)around(row, m->height) * (size_t)m->width +
+                   (size_t)around(column, m->width)] += (float)(height * inside * inside);
+        }
+}
+
+/* Round marks of about that radius everywhere: no direction is before another. */
+static void marks_add(const struct making *m, float *relief, double radius, double height,
+                      uint64_t which)
+{
+    int columns = (int)ceil(m->width / radius), rows = (int)ceil(m->height / radius);
+    int beyond = m->config->torus ? 0 : 2;
+    for (int row = -beyond; row < rows + beyond; row++)
+        for (int column = -beyond; column < columns + beyond; column++) {
+            struct chances c = {
+                clouds_word(clouds_word(m->seed, which),
+                            (uint64_t)(row + 65536) << 32 | (uint64_t)(column + 65536)),
+                0};
+            for (int i = 0; i < MARKS; i++) {
+                double x = (column + chance(&c)) * radius, y = (row + chance(&c)) * radius,
+                       size = radius * (0.7 + 0.8 * chance(&c));
+                mark_press(m, relief, x, y, size, height * (2 * chance(&c) - 1));
+            }
+        }
+}
+
+/* ---- the sheet ---- */
+
+static bool parts_make(const struct making *m, struct felt *felt, float *clouds, float *spare)
+{
+    const struct recipe *of = m->recipe;
+    const struct paper_stock *stock = &m->config->stock;
+    size_t count = count_of(m);
+    double scale = m->scale, grain = fmax(1, stock->grain_px);
+    if (of->length == 0)
+        return true; /* nothing in it */
+    bool made = cloud_make(m, clouds, 8 * scale, 256 * scale, 0.75, SEED_CLOUDS);
+    if (made)
+        fibers_make(m, felt->mass, clouds);
+    level_out(felt->mass, count, 1);
+    marks_add(m, felt->relief, 1.2 * grain, 1, SEED_TOOTH);
+    marks_add(m, felt->relief, fmax(1, 0.6 * grain), 0.5, SEED_TOOTH + 100);
+    level_out(felt->relief, count, 1);
+    for (size_t i = 0; i < count; i++)
+        felt->relief[i] *= (float)of->tooth;
+    add(felt->relief, felt->mass, count, of->fibers);
+    add(felt->relief, clouds, count, of->clouds);
+    add(felt->mass, clouds, count, 0.7);
+    made = made && cloud_make(m, felt->sizing, 16 * scale, 256 * scale, 0.8, SEED_SIZING);
+    if (made && of->laid > 0) {
+        made = cloud_make(m, clouds, 32 * scale, 128 * scale, 0.7, SEED_WAVER) &&
+               cloud_make(m, spare, 32 * scale, 256 * scale, 0.8, SEED_FAINT);
+        if (made)
+            laid_add(m, felt->relief, clouds, spare);
+    }
+    level_out(felt->mass, count, 1);
+    level_out(felt->relief, count, 1);
+    return made;
+}
+
+double felt_scale(const struct paper_sheet_config *config)
+{
+    const struct paper_stock *usual = paper_stock_find(config->stock.name);
+    const int *length = config->stock.fiber_length;
+    if (!usual)
+        usual = paper_stock_number(0);
+    return (double)(length[0] > length[1] ? length[0] : length[1]) /
+           (usual->fiber_length[0] > usual->fiber_length[1] ? usual->fiber_length[0]
+                                                            : usual->fiber_length[1]);
+}
+
+enum paper_status felt_make(const struct paper_sheet_config *config, struct felt *out)
+{
+    const int *length = config->stock.fiber_length;
+    struct making m = {.config = config,
+                       .recipe = recipe_of(&config->stock),
+                       .width = config->width,
+                       .height = config->height,
+                       .lean = {1, 1},
+                       .seed = config->seed};
+    int longer = length[0] > length[1] ? length[0] : length[1];
+    for (int axis = 0; axis < 2; axis++)
+        m.lean[axis] = (double)length[axis] / longer;
+    m.scale = felt_scale(config);
+    size_t count = count_of(&m);
+    *out = (struct felt){calloc(count, sizeof(float)), calloc(count, sizeof(float)),
+                         calloc(count, sizeof(float))};
+    float *clouds = calloc(count, sizeof *clouds),
+          *spare = m.recipe->laid > 0 ? calloc(count, sizeof *spare) : NULL;
+    bool made = out->relief && out->mass && out->sizing && clouds &&
+                (spare || !(m.recipe->laid > 0)) && parts_make(&m, out, clouds, spare);
+    free(clouds);
+    free(spare);
+    if (made)
+        return PAPER_OK;
+    felt_free(out);
+    return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", config->width,
+                      config->height);
+}
+
+void felt_free(struct felt *felt)
+{
+    free(felt->relief);
+    free(felt->mass);
+    free(felt->sizing);
+    *felt = (struct felt){0};
+}

@@ -1,0 +1,21 @@
+/* felt.h - paper as it is made: what a sheet of model 2 is like, fiber by fiber, on the front end. */
+#ifndef LUTETIA_PAPER_FELT_H
+#define LUTETIA_PAPER_FELT_H
+
+#include "sheet.h"
+
+/* height * width numbers each, rows from the top; mean about 0, deviation about 1 where the stock has such a thing, else 0. */
+struct felt {
+    float *relief; /* up: the tooth, fibers and clouds that stand out */
+    float *mass;   /* how much fiber lies there */
+    float *sizing; /* how much of the size has gone in there */
+};
+
+/* From the stock and the seed, by sums, products, quotients and square roots alone: the same bits everywhere.
+ * Errors: NO_MEMORY; nothing is then allocated. Owns: the caller gives it to felt_free(). */
+enum paper_status felt_make(const struct paper_sheet_config *config, struct felt *out);
+/* Fibers of this sheet to one of its stock as it is known: 2 where the sheet is drawn anew twice as fine. */
+double felt_scale(const struct paper_sheet_config *config);
+void felt_free(struct felt *felt); /* may be of zeros */
+
+#endif
