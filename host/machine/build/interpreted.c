@@ -27,13 +27,19 @@ static double compile_time(const struct plan *p)
     return s;
 }
 
+/* Byte code has a step for it; of gets it has none. */
+static bool is_known(const struct machine_value *v)
+{
+    return v->op == NODE_SHIFT || !node_ops[v->op].inputs || op_has(v->op, OP_ALONE);
+}
+
 static bool could_be(const struct machine *m, const struct plan_request *q)
 {
     if (!m->settings.interpret || !m->device->is_pocl || !plan_use_runs(q->use))
         return false;
     for (int i = 0; i < q->reach->count; i++) {
         const struct machine_value *v = q->reach->nodes[i];
-        if (v->buffer ? !v->buffer->host : v->op == NODE_GATHER) /* byte code has no gets */
+        if (v->buffer ? !v->buffer->host : !is_known(v))
             return false;
     }
     return m->settings.interpret > 1 ||
