@@ -344,6 +344,7 @@ int bench_interpreter_main(int argc, char **argv)
         .name = "interpreter", .repeat_least = 3, .repeat_count = 11};
     if (argc == 4 && !strcmp(argv[1], COLD))
         return cold_run(argv[2], argv[3]);
+    setenv("LUTETIA_INTERPRET", "1", 0); /* as anybody's */
     int status = bench_machine_start(&report, &options, false, argc, argv);
     if (status >= 0)
         return status;

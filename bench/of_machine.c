@@ -16,6 +16,7 @@ int bench_machine_start(struct bench_report *r, struct bench_options *o, bool se
     if (settled)
         setenv("LUTETIA_BOX_AFTER", "0", 0);
     setenv("LUTETIA_BACKGROUND", "0", 0); /* after the warm-up no kernel is compiled */
+    setenv("LUTETIA_INTERPRET", "0", 0);  /* nor is it waited for until it is worth it */
     snprintf(device, sizeof device, "%s", machine_device_name(paris_machine()));
     bench_report_init(r, o->name, bench_threads_count(), device);
     return -1;

@@ -269,9 +269,11 @@ int bench_start_main(int argc, char **argv)
     if (argc == 3 && !strcmp(argv[1], STEPS_INTO))
         return steps_run(argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
     struct place place = {0};
-    char *background = variable_kept("LUTETIA_BACKGROUND");
+    char *background = variable_kept("LUTETIA_BACKGROUND"),
+         *interpret = variable_kept("LUTETIA_INTERPRET");
     int status = bench_machine_start(&report, &options, false, argc, argv);
     variable_put("LUTETIA_BACKGROUND", background); /* the runs use the usual settings */
+    variable_put("LUTETIA_INTERPRET", interpret);
     if (status >= 0)
         return status;
     bool ok = place_make(&place) && all_measure(&report, &place, options.repeat_count) &&

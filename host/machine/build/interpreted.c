@@ -80,6 +80,8 @@ static bool programs_make(struct machine *m, struct plan *p, struct plan_graph *
 {
     int last = 0;
     byte_code_stages(g);
+    if (m->plans->dump_dir)
+        dump_graph(m, m->plans->dump_count++, g);
     for (int i = 0; i < g->count; i++)
         if (g->nodes[i].stored && g->nodes[i].stage > last)
             last = g->nodes[i].stage;
