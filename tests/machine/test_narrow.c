@@ -1,4 +1,4 @@
-/* test_narrow.c - kernels of short integers alone have lanes of 8 or 16 bits (narrow.c): the same numbers as in plain C,
+/* test_narrow.c - kernels of short integers alone have lanes of 8 or 16 bits (plan/lanes.c): the same numbers as in plain C,
  * whatever the width of vectors, in rows and in strips, and at the ends of rows that are no whole vectors. */
 #include "support.h"
 
