@@ -501,6 +501,10 @@ static void band_step(const struct paper_openmp *o, struct band *b, int y0, int 
 void paper_openmp_steps(struct paper_openmp *o, int steps_count)
 {
     int bands = bench_threads_count(), height = o->config.height;
+    if (o->config.model > 1) {
+        paper_openmp_flow_steps(o, steps_count);
+        return;
+    }
     bands = bands < height / 3 ? bands : height / 3;
 #pragma omp parallel num_threads(bands)
     {

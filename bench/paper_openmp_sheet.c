@@ -25,6 +25,10 @@ static int field_of(enum paper_peer_layer layer, int pigment)
         return F_WATER;
     case PAPER_PEER_DRIED:
         return F_DRIED;
+    case PAPER_PEER_SIZING:
+        return F_SIZING;
+    case PAPER_PEER_CURRENT:
+        return F_CURRENT;
     case PAPER_PEER_SURFACE:
     case PAPER_PEER_INFUSED:
     case PAPER_PEER_FIXED:
@@ -36,7 +40,7 @@ static int field_of(enum paper_peer_layer layer, int pigment)
 /* False, bench_error(): the air has surface tension. */
 static bool air_set(struct paper_openmp *o, const struct paper_air *air)
 {
-    if (air->tension > 0)
+    if (air->tension > 0 && o->config.model < 2)
         return bench_fail("the paper's peer knows no surface tension (got %g)", air->tension);
     o->config.air = *air;
     return true;
@@ -72,16 +76,35 @@ struct paper_openmp *paper_openmp_create(const struct paper_peer_config *config)
         free(o);
         return NULL;
     }
+    o->wet_now = F_WET;
+    o->wet_next = F_WET_OTHER;
+    o->around_now = F_AROUND;
+    o->around_next = F_AROUND_OTHER;
+    o->terms_stride = (size_t)(T_UP + o->flowing) * o->pitch;
+    bytes = o->terms_stride * (size_t)config->height * sizeof(float);
+    if (config->model > 1)
+        o->terms =
+            aligned_alloc(PAGE_BYTES, (bytes + PAGE_BYTES - 1) / PAGE_BYTES * PAGE_BYTES);
+    if (config->model > 1 && !o->terms) {
+        bench_fail("no memory for a sheet of %dx%d", config->width, config->height);
+        paper_openmp_destroy(o);
+        return NULL;
+    }
 #pragma omp parallel for schedule(static)
-    for (int y = 0; y < config->height; y++)
+    for (int y = 0; y < config->height; y++) {
         memset(o->memory + (size_t)y * o->stride, 0, o->stride * sizeof(float));
+        if (o->terms)
+            memset(o->terms + (size_t)y * o->terms_stride, 0, o->terms_stride * sizeof(float));
+    }
     return o;
 }
 
 void paper_openmp_destroy(struct paper_openmp *o)
 {
-    if (o)
+    if (o) {
         free(o->memory);
+        free(o->terms);
+    }
     free(o);
 }
 
@@ -138,4 +161,6 @@ void paper_openmp_start(struct paper_openmp *o)
     }
     for (int y = 0; y < height; y++)
         margins_fill(field_row(o, F_FACE_X, y), width, 1);
+    if (o->config.model > 1)
+        paper_openmp_flow_start(o);
 }

@@ -20,10 +20,12 @@ static const struct {
     {PAPER_LAYER_SURFACE_PIGMENT, PAPER_PEER_SURFACE, true, true},
     {PAPER_LAYER_INFUSED_PIGMENT, PAPER_PEER_INFUSED, true, true},
     {PAPER_LAYER_FIXED_PIGMENT, PAPER_PEER_FIXED, true, true},
-    {PAPER_LAYER_DRIED_WATER, PAPER_PEER_DRIED, false, true}, /* read only: the last */
+    {PAPER_LAYER_DRIED_WATER, PAPER_PEER_DRIED, false, true}, /* read only: the last of these */
+    {PAPER_LAYER_SIZING, PAPER_PEER_SIZING, false, false},    /* where water flows */
+    {PAPER_LAYER_CURRENT, PAPER_PEER_CURRENT, false, false},
 };
 
-enum { LAYERS_COUNT = sizeof layers / sizeof *layers, BLOT = 48 };
+enum { ALL_LAYERS = sizeof layers / sizeof *layers, LAYERS_COUNT = ALL_LAYERS - 2, BLOT = 48 };
 
 static bool paper_said(enum paper_status status)
 {
@@ -67,19 +69,22 @@ static bool sheet_create(struct paper_scene *s, const struct paper_sheet_config 
     return paper_said(paper_sheet_create(config, &s->sheet));
 }
 
-bool paper_scene_init(struct paper_scene *s, int width, int height, int pigments_count,
-                      bool torus, const struct paper_air *air)
+bool paper_scene_init(struct paper_scene *s, int model, int width, int height,
+                      int pigments_count, bool torus, const struct paper_air *air)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     struct paper_peer_config peer = {.width = width,
                                      .height = height,
                                      .torus = torus,
+                                     .model = model,
                                      .pigments_count = pigments_count,
                                      .air = air ? *air : paper_air_default()};
     *s = (struct paper_scene){.sheet = NULL};
     config.width = width;
     config.height = height;
     config.torus = torus;
+    config.model = model;
+    peer.absorbency = config.stock.absorbency;
     config.pigments_count = pigments_count;
     for (int i = 0; i < pigments_count; i++)
         peer.pigments[i] = config.pigments[i] = *paper_pigment_number(i);
@@ -90,8 +95,10 @@ bool paper_scene_init(struct paper_scene *s, int width, int height, int pigments
     float *values = values_get(s);
     size_t count = (size_t)width * (size_t)height;
     bool ok = values && paper_said(paper_sheet_air(s->sheet, &peer.air));
-    for (int i = 0; i < LAYERS_COUNT - 1; i++)
+    for (int i = 0; i < (model > 1 ? ALL_LAYERS : LAYERS_COUNT - 1); i++)
         for (int k = 0; ok && k < (layers[i].each ? pigments_count : 1); k++) {
+            if (i == LAYERS_COUNT - 1) /* the dried water */
+                continue;
             if (layers[i].amount) {
                 wash(values, width, height, (unsigned)(i * PAPER_PIGMENTS_MAX + k));
                 ok = paper_said(paper_sheet_layer_write(s->sheet, layers[i].layer, k, values));

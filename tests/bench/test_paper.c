@@ -43,15 +43,16 @@ static void steps_agree_with_openmp(void **state)
 {
     (void)state;
     struct paper_air air = air_that_pulls();
-    for (int torus = 0; torus < 2; torus++) {
-        struct paper_scene s;
-        check(paper_scene_init(&s, WIDTH, HEIGHT, PIGMENTS, torus, &air));
-        run(&s, 21);
-        paper_openmp_steps(s.peer, 10);
-        paper_openmp_steps(s.peer, 11);
-        check(paper_scene_agrees(&s, torus ? "torus" : "sheet"));
-        paper_scene_finish(&s);
-    }
+    for (int model = 1; model <= 2; model++)
+        for (int torus = 0; torus < 2; torus++) {
+            struct paper_scene s;
+            check(paper_scene_init(&s, model, WIDTH, HEIGHT, PIGMENTS, torus, &air));
+            run(&s, 21);
+            paper_openmp_steps(s.peer, 10);
+            paper_openmp_steps(s.peer, 11);
+            check(paper_scene_agrees(&s, torus ? "torus" : "sheet"));
+            paper_scene_finish(&s);
+        }
 }
 
 static void thesis_agrees_with_openmp(void **state)

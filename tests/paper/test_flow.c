@@ -26,18 +26,24 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-static struct paper_sheet *sheet_new(uint64_t seed)
+static struct paper_sheet *sheet_of(uint64_t seed, const char *stock)
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
     config.model = 2;
     config.seed = seed;
+    config.stock = *paper_stock_find(stock);
     config.pigments_count = 2;
     config.pigments[0] = *paper_pigment_find("french ultramarine");
     config.pigments[1] = *paper_pigment_find("quinacridone rose");
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;
+}
+
+static struct paper_sheet *sheet_new(uint64_t seed)
+{
+    return sheet_of(seed, "cold press");
 }
 
 static void steps(struct paper_sheet *sheet, int count)
@@ -229,6 +235,48 @@ static void shapes_that_touch_run_into_each_other(void **state)
     paper_sheet_destroy(sheet);
 }
 
+/* ---- ink on absorbent paper ---- */
+
+/* How long the line is along which amounts are `at`, to the circle around as large an area. */
+static double front_ratio(const float *amounts, float at)
+{
+    static const int corners[5] = {0, 1, SIDE + 1, SIDE, 0};
+    static const double x_of[5] = {0, 1, 1, 0, 0}, y_of[5] = {0, 0, 1, 1, 0};
+    double length = 0, area = 0;
+    for (int i = 0; i < FIBERS - SIDE - 1; i++) {
+        double x[4], y[4];
+        int count = 0;
+        area += amounts[i] > at;
+        for (int side = 0; side < 4; side++) {
+            float a = amounts[i + corners[side]] - at, b = amounts[i + corners[side + 1]] - at;
+            if ((a > 0) == (b > 0))
+                continue;
+            double t = (double)(a / (a - b));
+            x[count] = x_of[side] + t * (x_of[side + 1] - x_of[side]);
+            y[count++] = y_of[side] + t * (y_of[side + 1] - y_of[side]);
+        }
+        for (int j = 0; j + 1 < count; j += 2)
+            length += hypot(x[j] - x[j + 1], y[j] - y[j + 1]);
+    }
+    return length / sqrt(2 * TURN * area);
+}
+
+static void ink_runs_along_fibers(void **state)
+{
+    (void)state;
+    struct paper_sheet *sheet = sheet_of(1, "blotting");
+    struct paper_air air = paper_air_default();
+    air.humidity = 0.0001;
+    check(paper_sheet_air(sheet, &air));
+    disc_put(sheet, 14, (double[]){3, 1, 0});
+    steps(sheet, 1500);
+    pigment_read(sheet, 0, first);
+    double ratio = front_ratio(first, 0.04f);
+    print_message("ink: its front is %.2f times as long as a smooth one\n", ratio);
+    assert_true(ratio >= 3);
+    paper_sheet_destroy(sheet);
+}
+
 /* ---- drips ---- */
 
 static double variation(const double *values, int count)
@@ -397,6 +445,7 @@ int main(void)
         cmocka_unit_test(backrun_has_lobes),
         cmocka_unit_test(drop_in_water_is_no_disc),
         cmocka_unit_test(shapes_that_touch_run_into_each_other),
+        cmocka_unit_test(ink_runs_along_fibers),
         cmocka_unit_test(drips_differ),
         cmocka_unit_test(edges_are_as_wide_as_asked),
         cmocka_unit_test(gray_edges_stay),

@@ -23,8 +23,8 @@
 #define GATE_STEEPNESS 8.0
 #define INFUSED_SHARE 0.125
 #define CAPACITY_SHARE 0.25
-#define CARRIED 3.0   /* of carry */
-#define SPREADING 0.2 /* of 1 - carry */
+#define CARRIED 3.0    /* of carry */
+#define SPREADING 0.05 /* of 1 - carry */
 
 /* What each fiber brings to its faces: what it can still take, how full a neighbour must be to enter, 1 / water. */
 struct pores {

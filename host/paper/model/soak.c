@@ -27,9 +27,13 @@
 #define SUCTION 10.0 /* of the stock's absorbency: well absorbing paper sucks the more */
 #define SUCTION_LOCAL 0.25
 #define SETTLING 4.0
+#define HOLLOWS                                                                                \
+    0.6 /* of granulation: what is lifted and settles again many times gathers there by itself */
 #define LIFTING 0.4
 #define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
-#define HELD_UP 0.75     /* by a unit of depth, of what settles */
+/* Less than 1 - 1 / this of a fiber wet lifts nothing: the edge would be washed out. */
+#define LIFTED_WET 4.0
+#define HELD_UP 0.75 /* by a unit of depth, of what settles */
 #define SEEPED_SETTLING 0.1
 #define FIBERS_DRYING 0.25 /* of what dries on the surface */
 #define DRIED_LEAST 4.0    /* grains */
@@ -90,7 +94,7 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
     const struct paper_pigment *pigment = &p->config.pigments[i];
     const double pace = p->air.settling * SETTLING * pigment->density,
                  lift = p->air.settling * LIFTING / pigment->staining,
-                 hollows = pigment->granulation;
+                 hollows = pigment->granulation * HOLLOWS;
     rate_make(p, up, lift * hollows, lift * (1 - hollows), thin);
     kit_f_mul(part, up, infused);
     sheet_whole_of(part, infused);
@@ -124,9 +128,9 @@ static void settle_under(struct paper_sheet *p)
     kit_f_most(slow, slow, 1.0);
     kit_f_times(thin, slow, 1 / LIFTED_FROM);
     kit_f_most(thin, thin, 1.0);
-    kit_f_mul(dry, p->wet_part,
-              p->wet_part); /* little where only a part is wet: an edge would be washed out */
-    kit_f_mul(dry, dry, dry);
+    kit_f_times(dry, p->wet_part, LIFTED_WET); /* none where only a part is wet */
+    kit_f_plus(dry, dry, 1 - LIFTED_WET);
+    kit_f_least(dry, dry, 0.0);
     kit_f_mul(thin, thin, dry);
     kit_f_times(slow, slow, -HELD_UP);
     kit_f_plus(slow, slow, 1.0);
@@ -145,7 +149,7 @@ static void settle_within(struct paper_sheet *p)
         const struct paper_pigment *pigment = &p->config.pigments[i];
         const double pace = p->air.settling * SETTLING * SEEPED_SETTLING * pigment->density,
                      lift = p->air.settling * LIFTING * SEEPED_SETTLING / pigment->staining,
-                     hollows = pigment->granulation;
+                     hollows = pigment->granulation * HOLLOWS;
         rate_make(p, up, lift * hollows, lift * (1 - hollows), damp);
         kit_f_mul(up, up, p->fixed[i]);
         sheet_whole_of(up, p->fixed[i]);
