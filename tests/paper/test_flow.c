@@ -268,8 +268,8 @@ static void ink_runs_along_fibers(void **state)
     struct paper_air air = paper_air_default();
     air.humidity = 0.0001;
     check(paper_sheet_air(sheet, &air));
-    disc_put(sheet, 14, (double[]){3, 1, 0});
-    steps(sheet, 1500);
+    disc_put(sheet, 10, (double[]){4, 1.5, 0});
+    steps(sheet, 2400);
     pigment_read(sheet, 0, first);
     double ratio = front_ratio(first, 0.04f);
     print_message("ink: its front is %.2f times as long as a smooth one\n", ratio);
