@@ -35,7 +35,7 @@ bool paris_check_field(CM_field_id_t field, unsigned int bits, const char *role)
 {
     /* Long fields are stored in pieces: the first must not be stored if the last cannot be. */
     struct machine_field_info info;
-    if (paris_runs_over(field, bits, role))
+    if (paris_the.lenient && paris_runs_over(field, bits, role))
         return true;
     if (!paris_the.safety && bits <= PARIS_INTEGER_MAX) {
         int set = paris_the.lenient ? 0 : machine_field_vpset(paris_the.machine, field);

@@ -181,6 +181,7 @@ int machine_field_vpset(const struct machine *m, uint32_t id)
         i = fields_above(m, id) - 1;
     if (i < 0)
         return 0;
+    m->memory->last_found = i; /* what looks next looks there */
     const struct field *f = m->memory->fields[i];
     return id - f->base < (m->settings.lenient ? f->room : f->bits) ? f->vpset : 0;
 }
