@@ -124,7 +124,7 @@ COPIES (copy_floats, _f_, INTEGER, SINGLE)
 static vector new_vector (n, bits)
     int n, bits;
 {
-    return n ? CM_allocate_heap_field (each (n) * bits) : CM_allocate_heap_field (0);
+    return n ? CM_allocate_heap_field (each (n) * bits) : CM_allocate_heap_field (CM_safety_mode () ? 1 : 0); /* strict: no field is empty */
 }
 
 static void transfer (v, array, n, bits, writes)
