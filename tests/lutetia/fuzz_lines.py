@@ -132,7 +132,7 @@ class Lines:
                 assert not BAD.search(words), repr(words)
                 assert child.returncode != 2 or "usage:" in words or words.count("\n") == 1, words
             after = self.look(at)
-            asked = "\n".join(line) + "\na-1\na-2\na-3\nout.png\na.out\nleds.png"  # folders of sweeps; what a verb is to write if nothing is said
+            asked = "\n".join(line) + "\na-1\na-2\na-3\nout.png\npage.png\na.out\nleds.png"  # folders of sweeps; what a verb is to write if nothing is said
             for path in after.keys() | before.keys():
                 if after.get(path) == before.get(path):
                     continue
