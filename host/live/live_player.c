@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MESSAGES_OF_A_TURN = 2000 }; /* more wait for the next picture: nobody can hold it up */
 
@@ -73,6 +74,17 @@ static const char *map_get(void *context, const char *name, double *value)
     return NULL;
 }
 
+/* It is at work within one function of Lua's, which nothing can interrupt: the window would stand still for good. */
+static void map_overdue(void *context)
+{
+    static const char said[] =
+        "lutetia: the map did not come to an end with a message; ended\n";
+    (void)context;
+    ssize_t written = write(STDERR_FILENO, said, sizeof said - 1);
+    (void)written;
+    _exit(EXIT_FAILURE);
+}
+
 static enum stage_status map_open(struct live_player *p)
 {
     struct script_map_def def = {.path = p->def.script,
@@ -82,6 +94,7 @@ static enum stage_status map_open(struct live_player *p)
                                  .along = map_along,
                                  .get = map_get,
                                  .tell = map_tell,
+                                 .overdue = map_overdue,
                                  .context = p};
     return script_map_open(&def, &p->map) == SCRIPT_OK
                ? STAGE_OK

@@ -168,6 +168,21 @@ static void what_cannot_be_is_said(void **unused)
     }
 }
 
+/* A pattern that tries for years, which no hook interrupts. */
+static void maps_that_hang_are_ended(void **unused)
+{
+    (void)unused;
+    const char *song = song_written(),
+               *map = map_written("function message(m) string.find(string.rep('a', 40), "
+                                  "string.rep('a?', 40) .. string.rep('a', 40)) end");
+    struct child child = {.arguments = {lutetia, "keys", song, "--map", map, "--still",
+                                        scratch_path("hangs.png"), "--at", "1"}};
+    child_run(&child);
+    assert_int_equal(child.status, 1);
+    assert_string_equal(child.errors,
+                        "lutetia: the map did not come to an end with a message; ended\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +190,7 @@ int main(void)
         cmocka_unit_test(letters_do_what_a_song_says),
         cmocka_unit_test(chords_tighten_words),
         cmocka_unit_test(what_cannot_be_is_said),
+        cmocka_unit_test(maps_that_hang_are_ended),
     };
     lutetia = getenv("LUTETIA");
     maps = getenv("MAPS");
