@@ -203,7 +203,7 @@ static void songs_become_letters(void **unused)
     keys(MIDI(song, "--map", "/nowhere/map", "-o", poster), 1, "/nowhere/map");
     keys(MIDI("/nowhere/song.mid"), 1, "/nowhere/song.mid");
     keys(MIDI(song, "--size", "9,3"), 2, "least and the most");
-    keys(MIDI(NULL), 2, "one Standard MIDI File");
+    keys(MIDI("-o", poster), 2, "of a song");
 }
 
 static void wrong_lines_are_refused(void **unused)
