@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <streams.h>
 #include <string.h>
 #include <visible_text.h>
 
@@ -34,7 +35,7 @@ static const struct {
 
 enum { BENCHES_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
-int main(int argc, char **argv)
+static int bench(int argc, char **argv)
 {
     if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
         FILE *out = argc < 2 ? stderr : stdout;
@@ -52,4 +53,14 @@ int main(int argc, char **argv)
             "lutetia bench: there is no benchmark '%.60s'; `lutetia bench --help` lists them\n",
             name);
     return EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    streams_fill();
+    int status = bench(argc, argv);
+    if (streams_end() || status != EXIT_SUCCESS)
+        return status;
+    fputs("lutetia bench: cannot write to the standard output\n", stderr);
+    return EXIT_FAILURE;
 }

@@ -309,9 +309,9 @@ inline VU column(int x, int W)
     ((double16)(__builtin_ia32_gathersiv8df((double8)(0), ADDRESS(p), AS_S(j).lo, -1, 8),      \
                 __builtin_ia32_gathersiv8df((double8)(0), ADDRESS(p), AS_S(j).hi, -1, 8)))
 #define AT_u64(type, p, j)                                                                     \
-    as_ulong16((long16)(                                                                       \
-        __builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).lo, -1, 8),                \
-        __builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).hi, -1, 8)))
+    as_ulong16(                                                                                \
+        (long16)(__builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).lo, -1, 8),       \
+                 __builtin_ia32_gathersiv8di((long8)(0), ADDRESS(p), AS_S(j).hi, -1, 8)))
 #define AT_f32(type, p, j)                                                                     \
     __builtin_ia32_gathersiv16sf((float16)(0), ADDRESS(p), AS_S(j), -1, 4)
 #define AT_u32(type, p, j)                                                                     \

@@ -84,8 +84,7 @@ __kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second
         const uint i = row * s_width + x + 1;
         if (!all && !context[first + x])
             continue;
-        const uint d =
-            INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
+        const uint d = INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
         if (d >= NOBODY)
             continue;
         if (!second)
@@ -103,9 +102,7 @@ __kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
     DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++)
         to[row * s_width + x] =
-            all || context[first + x]
-                ? INDEX_OF(ADDRESS_OF(address[first + x]) & mask)
-                : NONE;
+            all || context[first + x] ? INDEX_OF(ADDRESS_OF(address[first + x]) & mask) : NONE;
 }
 
 #ifdef ELEMENT
@@ -125,8 +122,7 @@ __kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint al
     for (uint row = 0; row < rows; row++) {
         const size_t first = (size_t)row * s_pitch + s_halo;
         for (uint x = 0; x < s_width; x++) {
-            const uint d =
-                INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
+            const uint d = INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
             const int mine = (d - low < share) & (d < NOBODY) & (all || context[first + x]);
             out[mine ? PLACE(d, d) : lost] = from[first + x];
             if (notifies && mine)
@@ -143,8 +139,7 @@ __kernel void fetch(LAYOUT(s), uint run, uint mask, ORDER, LAYOUT(f),
     DIVIDES_PLACE(f);
     DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++) {
-        const uint d =
-            INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
+        const uint d = INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
         const ELEMENT v = d < NOBODY ? from[PLACE(f, d)] : (ELEMENT)(0);
         out[first + x] = v;
     }
