@@ -96,7 +96,7 @@ typedef double f64;
     TWO(mul, T, 1u * a[i] * b[i])                                                              \
     TWO(umin, T, a[i] < b[i] ? a[i] : b[i])                                                    \
     TWO(umax, T, a[i] > b[i] ? a[i] : b[i])                                                    \
-    TWO(udiv, T, b[i] ? a[i] / b[i] : 0u)                                                      \
+    TWO(udiv, T, b[i] ? (T)(a[i] / b[i]) : (T)0)                                               \
     TWO(urem, T, b[i] ? a[i] % b[i] : a[i])                                                    \
     SIGNED_PICK(smin, T, S, x < y)                                                             \
     SIGNED_PICK(smax, T, S, x > y)                                                             \
