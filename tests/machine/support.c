@@ -230,7 +230,8 @@ void support_later(struct machine *m, struct machine_value *value, support_expec
     assert_ok(machine_field_store(m, field, value, MACHINE_EVERYWHERE), m);
     later[later_count].field = field;
     later[later_count].expected = expected;
-    memcpy(later[later_count].data, data, data_bytes);
+    if (data_bytes)
+        memcpy(later[later_count].data, data, data_bytes);
     snprintf(later[later_count++].what, sizeof later[0].what, "%s", what);
 }
 
