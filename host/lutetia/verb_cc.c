@@ -6,9 +6,10 @@
  * the compiler.
  *
  * A program is linked into a part file, which is renamed when it is complete, because
- * linkers overwrite an existing file. The compiler's output is the part file's descriptor,
- * /proc/self/fd/N. If the compiler would derive other files' names from its output's
- * (dependencies, profiles, ...), or does not link, it runs without a part file.
+ * linkers overwrite an existing file. The linker's output is the part file's descriptor,
+ * /proc/self/fd/N: the linker obeys its last -o. The compiler still knows the program's name,
+ * from which it derives the names of other files (dependencies, profiles, ...). If the
+ * compiler does not link, or its arguments are in a file, it runs without a part file.
  */
 #include "lutetia.h"
 
@@ -109,29 +110,6 @@ static int output_find(const struct compiler_line *line)
     return found;
 }
 
-/* Whether the compiler would derive other files' names from its output's. */
-static bool makes_more(int argc, char **argv)
-{
-    static const char *const starts[] = {"-M",
-                                         "-save-temps",
-                                         "--save-temps",
-                                         "--coverage",
-                                         "-fprofile",
-                                         "-flto",
-                                         "-ftest-coverage",
-                                         "-gsplit",
-                                         "-dump",
-                                         "-Wp,",
-                                         "@",
-                                         "-###",
-                                         "-fdump",
-                                         "-ftime-trace"};
-    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if (any_starts_with(argc, argv, starts[i]))
-            return true;
-    return false;
-}
-
 _Noreturn static void compiler_become(const struct compiler_line *line)
 {
     execvp(line->arguments[0], line->arguments);
@@ -192,48 +170,84 @@ static bool program_whole(int program)
     return true;
 }
 
+/* clang removes the program's name when the linker fails. So a copy of the program that is
+ * there is kept meanwhile, in a part file too. Returns false if the copy cannot be made. */
+static bool former_keep(struct output_file *former, const char *name)
+{
+    char buffer[1 << 16];
+    struct stat status;
+    *former = (struct output_file){0};
+    FILE *program = fopen(name, "rb");
+    if (!program)
+        return true; /* nothing is there, or nothing that this user can read */
+    bool kept = output_file_open(former, name);
+    for (size_t n; kept && (n = fread(buffer, 1, sizeof buffer, program)) > 0;)
+        kept = fwrite(buffer, 1, n, former->stream) == n;
+    kept = kept && !ferror(program) && fflush(former->stream) == 0 &&
+           fstat(fileno(program), &status) == 0 &&
+           fchmod(fileno(former->stream), status.st_mode & 0777) == 0;
+    fclose(program);
+    if (!kept)
+        output_file_abandon(former);
+    return kept;
+}
+
+/* The program's name after a failure: what had the name before has it again. */
+static void former_return(struct output_file *former, const char *name)
+{
+    if (former->stream && access(name, F_OK) != 0)
+        output_file_commit(former);
+    else
+        output_file_abandon(former);
+}
+
+/* Runs the line with the linker's output in the descriptor. Returns the exit status. */
+static int program_make(struct compiler_line *line, int program, const char *name)
+{
+    char output[60];
+    if (program < 0)
+        return fail("cc", "%s: cannot write: %s", name, strerror(errno));
+    snprintf(output, sizeof output, "-Wl,-o,/proc/self/fd/%d", program);
+    line_add(line, output);
+    int status = compiler_run(line);
+    if (status == EXIT_SUCCESS && !program_whole(program))
+        return fail("cc", "%s: %s has not written it whole; see that there is room on the disk",
+                    name, line->arguments[0]);
+    return status;
+}
+
 static int program_link(struct compiler_line *line)
 {
-    static char flag[] = "-o";
-    char descriptor[40];
     int at = output_find(line);
     const char *name = at < 0                   ? "a.out"
                        : line->arguments[at][2] ? line->arguments[at] + 2
                                                 : line->arguments[at + 1];
-    struct output_file out;
+    struct output_file out, former;
     if (!output_file_open(&out, name))
         return fail("cc", "%s: cannot write: %s", name, out.why);
-    int program = dup(fileno(out.stream)); /* a descriptor that the compiler inherits */
-    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", program);
-    if (at >= 0 && line->arguments[at][2]) { /* for -oNAME, its place is used for the flag */
-        line->arguments[at] = flag;
-        memmove(&line->arguments[at + 2], &line->arguments[at + 1],
-                (size_t)(line->count - at - 1) * sizeof *line->arguments);
-        line->count++;
-    } else if (at < 0) {
-        at = line->count;
-        line_add(line, flag);
-        line->count++;
+    if (!former_keep(&former, name)) {
+        output_file_abandon(&out);
+        return fail("cc", "%s: cannot keep the program that is there: %s", name,
+                    former.why ? former.why : "it cannot be copied; see that there is room");
     }
-    line->arguments[at + 1] = descriptor;
+    int program = dup(fileno(out.stream)); /* a descriptor that the compiler inherits */
     fflush(NULL);
-    int status = program < 0 ? fail("cc", "%s: cannot write: %s", name, strerror(errno))
-                             : compiler_run(line);
+    int status = program_make(line, program, name);
     mode_t mask = umask(0);
     umask(mask);
-    if (status == EXIT_SUCCESS && !program_whole(program))
-        status =
-            fail("cc", "%s: %s has not written it whole; see that there is room on the disk",
-                 name, line->arguments[0]);
     if (program >= 0)
         close(program);
-    if (status != EXIT_SUCCESS) {
-        output_file_abandon(&out);
-        return status;
+    if (status == EXIT_SUCCESS) {
+        fchmod(fileno(out.stream), 0777 & ~mask);
+        if (output_file_commit(&out)) {
+            output_file_abandon(&former);
+            return EXIT_SUCCESS;
+        }
+        status = fail("cc", "%s: cannot write: %s", name, out.why);
     }
-    fchmod(fileno(out.stream), 0777 & ~mask);
-    return output_file_commit(&out) ? EXIT_SUCCESS
-                                    : fail("cc", "%s: cannot write: %s", name, out.why);
+    output_file_abandon(&out);
+    former_return(&former, name);
+    return status;
 }
 
 int verb_cc(int argc, char **argv)
@@ -273,11 +287,12 @@ int verb_cc(int argc, char **argv)
     line_add(&line, include_flag);
     for (int i = 1; i < argc; i++)
         line_add(&line, argv[i]);
-    bool links = !any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") &&
-                 !any_is(argc, argv, "-E") && !any_is(argc, argv, "-fsyntax-only") &&
-                 !any_is(argc, argv, "-v") && !any_starts_with(argc, argv, "--version") &&
-                 !any_starts_with(argc, argv, "-print") &&
-                 !any_starts_with(argc, argv, "-dump");
+    bool links =
+        !any_is(argc, argv, "-c") && !any_is(argc, argv, "-S") && !any_is(argc, argv, "-E") &&
+        !any_is(argc, argv, "-fsyntax-only") && !any_is(argc, argv, "-M") &&
+        !any_is(argc, argv, "-MM") && !any_is(argc, argv, "-###") &&
+        !any_is(argc, argv, "-v") && !any_starts_with(argc, argv, "--version") &&
+        !any_starts_with(argc, argv, "-print") && !any_starts_with(argc, argv, "-dump");
     if (links) {
         line_add(&line, library_flag);
         line_add(&line, runtime_flag);
@@ -285,7 +300,7 @@ int verb_cc(int argc, char **argv)
         line_add(&line, math);
     }
     fflush(NULL);
-    if (!links || makes_more(argc, argv))
+    if (!links || any_starts_with(argc, argv, "@"))
         compiler_become(&line);
     int status = program_link(&line);
     free(include_flag);

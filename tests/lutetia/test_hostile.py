@@ -6,6 +6,7 @@ what is written. Whatever it is: one clear line, a status that says so, in time,
 import os
 import pathlib
 import re
+import shutil
 import stat
 import subprocess
 import sys
@@ -96,6 +97,31 @@ class Hostile(unittest.TestCase):
         self.assertEqual((self.at / "all.h5").read_bytes(), before)
 
     # ---- what is read ----
+
+    def test_programs_appear_whole_whatever_else_the_compiler_writes(self):
+        """(security.md 11) What is derived from the program's name is there as without us; a program that was there stays after a failure."""
+        self.script("good.c", "#include <stdio.h>\n#include <cm/paris.h>\nint main() { puts(\"good\"); return 0; }\n")
+        self.script("bad.c", "int nothing_has_this(); int main() { return nothing_has_this(); }\n")
+        more = {"-MD": "*.d", "-save-temps": "*.s", "--coverage": "*.gcno", "-flto": "good.c"}
+        for compiler in filter(shutil.which, ("gcc", "clang")):
+            for option, derived in more.items():
+                if compiler == "clang" and option == "-flto":
+                    continue  # it needs a plugin of the linker
+                with self.subTest(compiler=compiler, option=option):
+                    self.script("former", "#!/bin/sh\necho former\n")
+                    (self.at / "former").chmod(0o750)
+                    before = self.at.joinpath("former").read_bytes()
+                    self.assertNotEqual(self.run_it("cc", option, "bad.c", "-o", "former", CC=compiler).returncode, 0)
+                    self.assertEqual(self.at.joinpath("former").read_bytes(), before)
+                    self.assertEqual((self.at / "former").stat().st_mode & 0o777, 0o750)
+                    done = self.run_it("cc", option, "good.c", "-oprog", CC=compiler)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual(subprocess.run(["./prog"], cwd=self.at, capture_output=True, timeout=SECONDS).stdout, b"good\n")
+                    self.assertTrue(list(self.at.glob(derived)), derived)
+                    self.assertFalse(list(self.at.glob(".*.part")))
+                    for made in self.at.glob("*.[dsiog]*"):
+                        made.unlink()
+                    (self.at / "prog").unlink()
 
     def test_pipes_hold_nobody(self):
         os.mkfifo(self.at / "pipe.png")

@@ -55,7 +55,7 @@ def tasks_of():
              lambda v: [*sheet, "-o", "filmed", "--video", "film.y4m", "--frames", "frames", "version=%d" % v]),
         Task("type", ["type.png"], lambda v: ["type", "Kills %d" % v, "-o", "type.png", "--size", "200"]),
         Task("paint", ["paint.png"], lambda v: ["paint", "k", "--paper", "64x64", "--steps", "8", "--seed", str(v), "-o", "paint.png"]),
-        Task("compile", ["prog"], lambda v: ["cc", "prog.c", "-DVERSION=%d" % v, "-o", "prog"]),
+        Task("compile", ["prog"], lambda v: ["cc", "-MD", "prog.c", "-DVERSION=%d" % v, "-o", "prog"]),
     ]
 
 
