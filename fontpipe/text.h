@@ -106,6 +106,8 @@ enum font_status font_placed_map(const struct font_layout *layout, int i,
 /* A map or an ink of the layout's own: its number; 0: no memory. */
 int font_layout_map_add(struct font_layout *layout, const struct font_map *map);
 int font_layout_ink_add(struct font_layout *layout, const struct font_ink *ink);
+/* Counts a character that no font has, and keeps it among the first. A character that is kept already is not counted again. */
+void font_layout_missing_add(struct font_layout *layout, uint32_t character);
 
 /* Errors: BAD_ARGUMENT (a size that is not 0.1..FONT_SIDE_MAX, features that cannot be read, a width below 0), TOO_LARGE past a million
  * characters, NO_MEMORY; *out is then empty. options: NULL for the usual. */

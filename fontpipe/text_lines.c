@@ -39,7 +39,7 @@ struct paragraph {
     int count, runs_count, base;
 };
 
-static void missing_add(struct font_layout *out, uint32_t c)
+void font_layout_missing_add(struct font_layout *out, uint32_t c)
 {
     for (int i = 0; i < out->missing_count && i < FONT_MISSING_MAX; i++)
         if (out->missing[i] == c)
@@ -65,7 +65,7 @@ static void faces_choose(struct font_shaper *s, struct paragraph *p, bool fallba
                    : fallback ? font_shaper_face_for(s, l->character)
                               : -1;
         if (face < 0)
-            missing_add(out, l->character);
+            font_layout_missing_add(out, l->character);
         else if (face > 0)
             out->fallback_count++;
         l->face = face < 0 ? 0 : face;

@@ -91,6 +91,8 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
             .size_px = (float)style->look.size_px,
             .ink = ink_of(o, run->style),
             .map = map_of(o, frame->vertical, run->upright, g->scale)};
+        if (g->glyph == 0 && g->letter >= 0)
+            font_layout_missing_add(out, p->letters[g->letter].character);
         slot_point(o->template, slot, slot->u0 + (double)g->u, base - (double)g->v, &to->x_px,
                    &to->y_px);
     }

@@ -53,6 +53,19 @@ enum type_out type_out_of(const char *path)
                                                       : TYPE_OUT_NONE;
 }
 
+void type_missing_tell(const char *verb, const char *font, const struct font_layout *layout)
+{
+    if (!layout->missing_count)
+        return;
+    char which[10 * FONT_MISSING_MAX + 1] = "";
+    size_t used = 0;
+    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
+        used += (size_t)snprintf(which + used, sizeof which - used, " U+%04X",
+                                 (unsigned)layout->missing[i]);
+    tell(verb, "no font has a glyph for%s%s; %s's sign for that is set instead", which,
+         layout->missing_count > FONT_MISSING_MAX ? " and more" : "", font);
+}
+
 int type_drawing_write(const char *verb, const char *path, const struct font_drawing *drawing,
                        const struct font_layout *layout, const struct font_map *map,
                        double x_px, double y_px)

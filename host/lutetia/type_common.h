@@ -22,6 +22,8 @@ enum type_out type_out_of(const char *path);
 int type_drawing_write(const char *verb, const char *path, const struct font_drawing *drawing,
                        const struct font_layout *layout, const struct font_map *map,
                        double x_px, double y_px);
+/* Says which characters no font has, if there are any. */
+void type_missing_tell(const char *verb, const char *font, const struct font_layout *layout);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
 /* Opens a font and sets axes, "wght=700,wdth=80". */

@@ -21,6 +21,7 @@ struct set {
     int page_px[2], columns, page;
     struct option_list around, inside;
     bool all, hyphenate, vertical, statistics;
+    struct font_layout lacking; /* only its missing characters: of all pages that were drawn */
     struct page_setup setup;
     struct page_shape shapes[PAGE_SHAPES_MAX];
     double corners[PAGE_SHAPES_MAX][2 * ROUND_CORNERS];
@@ -163,13 +164,21 @@ static int shapes_make(struct set *s)
 }
 
 /* As SVG or PDF, with what the page says. */
-static int page_write(const struct set *s, struct page_text *text, int page, const char *path)
+static void lacking_add(struct set *s, const struct font_layout *layout)
+{
+    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
+        font_layout_missing_add(&s->lacking, layout->missing[i]);
+    s->lacking.missing_count += layout->missing_count > FONT_MISSING_MAX; /* more than named */
+}
+
+static int page_write(struct set *s, struct page_text *text, int page, const char *path)
 {
     struct font_layout layout;
     char *said;
     size_t bytes;
     if (page_layout_text(text, page, &layout, &said, &bytes) != FONT_OK)
         return fail_font("set");
+    lacking_add(s, &layout);
     const struct font_drawing drawing = {.width_px = s->page_px[0],
                                          .height_px = s->page_px[1],
                                          .ink = {s->ink[0], s->ink[1], s->ink[2]},
@@ -181,7 +190,7 @@ static int page_write(const struct set *s, struct page_text *text, int page, con
     return status;
 }
 
-static int page_draw(const struct set *s, struct page_text *text, int page, const char *path)
+static int page_draw(struct set *s, struct page_text *text, int page, const char *path)
 {
     struct font_painter_def def = font_painter_def_default();
     struct font_painter *painter = NULL;
@@ -196,6 +205,7 @@ static int page_draw(const struct set *s, struct page_text *text, int page, cons
     if (page_layout(text, page, &layout) != FONT_OK ||
         font_painter_create(&def, &painter) != FONT_OK)
         status = fail_font("set");
+    lacking_add(s, &layout);
     if (status == EXIT_SUCCESS)
         status = type_image_create("set", s->page_px[0], s->page_px[1], &image);
     struct font_picture picture = type_picture(&image);
@@ -221,7 +231,7 @@ static char *numbered(const char *path, int number)
     return name;
 }
 
-static int pages_draw(const struct set *s, struct page_text *text)
+static int pages_draw(struct set *s, struct page_text *text)
 {
     int count, status = EXIT_SUCCESS;
     if (s->all || s->statistics) {
@@ -311,6 +321,8 @@ int verb_set(int argc, char **argv)
         status = fail_font("set");
     if (status == EXIT_SUCCESS)
         status = pages_draw(&s, pages);
+    if (status == EXIT_SUCCESS)
+        type_missing_tell("set", s.font, &s.lacking);
     page_text_destroy(pages);
     free(text);
     return status;

@@ -165,15 +165,7 @@ static void type_report(const struct type *t, const struct font_layout *layout)
     if (layout->damaged_count)
         tell("type", "the text is not UTF-8 in %d places; U+FFFD stands there",
              layout->damaged_count);
-    if (!layout->missing_count)
-        return;
-    char which[10 * FONT_MISSING_MAX + 1] = "";
-    size_t used = 0;
-    for (int i = 0; i < layout->missing_count && i < FONT_MISSING_MAX; i++)
-        used += (size_t)snprintf(which + used, sizeof which - used, " U+%04X",
-                                 (unsigned)layout->missing[i]);
-    tell("type", "no font has a glyph for%s%s; %s's sign for that is set instead", which,
-         layout->missing_count > FONT_MISSING_MAX ? " and more" : "", t->font);
+    type_missing_tell("type", t->font, layout);
 }
 
 static int type_draw(const struct type *t, struct font_painter *painter,

@@ -226,6 +226,14 @@ static void wrong_lines_are_said(void **state)
     run(&damaged, 0, "not UTF-8 in 2 places");
     struct child missing = {.arguments = {"", "type", "\xf3\xb0\x80\x80", "-o", path}};
     run(&missing, 0, "no font has a glyph for U+F0000");
+    const char *text = scratch_path("said.txt");
+    FILE *page = fopen(text, "w");
+    assert_non_null(page);
+    fputs("A word, \xf3\xb0\x80\x80\n\nand \xf3\xb0\x80\x81 \xf3\xb0\x80\x80.\n", page);
+    fclose(page);
+    struct child pages = {.arguments = {"", "set", text, "-o", path}};
+    run(&pages, 0, "no font has a glyph for U+F0000 U+F0001; ");
+    unlink(text);
     unlink(path);
 }
 
