@@ -7,8 +7,24 @@
 #include "base/scalar.h"
 #include "base/types.h"
 #include "values/make.h"
+#include "watch/watch.h"
 
 enum { DEEPEST = 12, LANES = 16 };
+
+bool near_begin(struct machine *m, const struct device_buffer *b, uint64_t count, double *start)
+{
+    if (!m->settings.near || !m->device->is_pocl || !b || !b->host || count > NEAR_ALONE ||
+        device_settle(m))
+        return false;
+    *start = watch_clock(m);
+    return true;
+}
+
+void near_end(struct machine *m, const char *what, double start)
+{
+    if (m->watch)
+        watch_near(m, what, start);
+}
 
 /* ---- one processor ---- */
 

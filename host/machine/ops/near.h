@@ -8,7 +8,13 @@
 #include "device/device.h"
 #include "values/values.h"
 
-enum { NEAR_MOST = 1 << 18 };
+enum { NEAR_MOST = 1 << 18, NEAR_ALONE = 1 << 16 };
+
+/* Whether the front end does it by itself, for so many processors: they are up to NEAR_ALONE, it can look at arrays such as this one, and the device has done all that is in its
+ * queue. near_end() tells those who watch what it was. */
+bool near_begin(struct machine *m, const struct device_buffer *b, uint64_t count,
+                double *start);
+void near_end(struct machine *m, const char *what, double start);
 
 /* The value of one processor, if it is in memory, or was only moved since (parts, selections, coordinates); nothing is
  * evaluated. False: it is not so, and nothing has been done. */

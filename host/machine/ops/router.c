@@ -19,6 +19,9 @@
 #include "kernels.h"
 #include "memory/call_set.h"
 #include "memory/memory.h"
+#include "ops/gets.h"
+#include "ops/near.h"
+#include "ops/near_router.h"
 #include "run/materialise.h"
 #include "run/run.h"
 #include "values/graph.h"
@@ -277,18 +280,49 @@ static struct machine_value *arrivals(struct machine *m, const struct message *g
     return graph_buffer_node(m, MACHINE_BIT, g->to_set, b);
 }
 
-static struct machine_value *transmit(struct machine *m, const struct message *g,
-                                      enum machine_combiner combiner, bool notifies,
-                                      struct machine_value **notification)
+static struct near_route route_of(const struct machine *m, const struct message *g)
+{
+    return (struct near_route){.from = g->from,
+                               .to = g->to,
+                               .address = g->address->buffer,
+                               .context = g->all ? NULL : g->context->buffer,
+                               .address_bytes = type_bytes(g->address->type),
+                               .mask = g->mask,
+                               .processors_log2 = m->values->processors_log2};
+}
+
+/* On the front end's own thread. */
+static enum machine_status transmit_near(struct machine *m, const struct message *g,
+                                         enum machine_combiner combiner,
+                                         struct device_buffer *out, size_t bytes, double start,
+                                         struct machine_value **notification)
+{
+    const struct near_route r = route_of(m, g);
+    struct device_buffer *arrived = notification ? fresh(m, g->to, MACHINE_BIT) : NULL;
+    if (notification && !arrived)
+        return m->status;
+    memcpy(out->host, g->old->buffer->host, bytes);
+    if (arrived)
+        memset(arrived->host, 0, arrived->bytes);
+    near_send(&r, (int)combiner, g->source->type, g->source->buffer, out, arrived);
+    if (arrived)
+        *notification = graph_buffer_node(m, MACHINE_BIT, g->to_set, arrived);
+    near_end(m, "sending", start);
+    return MACHINE_OK;
+}
+
+/* By kernels. out has room for what is thrown away. */
+static enum machine_status transmit_far(struct machine *m, const struct message *g,
+                                        enum machine_combiner combiner,
+                                        struct device_buffer *out, size_t bytes,
+                                        struct machine_value **notification)
 {
     struct machine_type type = g->source->type;
-    bool combines = combiner != MACHINE_COMBINE_OVERWRITE, in_order = combines || scatters(m);
-    struct rows rows = geometry_rows(g->to, type);
-    size_t bytes = rows.bytes;
-    rows.bytes += in_order ? shares(m, g->to) * 64 * type_bytes(type) : 0; /* thrown away */
-    struct device_buffer *out = device_rows_get(m, rows), *owner = NULL, *to = NULL;
-    enum machine_status status = out ? MACHINE_OK : m->status;
-    if (!status && in_order) {
+    struct device_buffer *owner = NULL, *to = NULL;
+    bool notifies = notification, combines = combiner != MACHINE_COMBINE_OVERWRITE,
+         in_order = combines || scatters(m);
+    enum machine_status status = MACHINE_OK;
+    if (in_order) {
         owner = device_buffer_get(m, notifies ? g->to->count * sizeof(cl_uint) : 4);
         status = owner ? device_copy(m, g->old->buffer, out, bytes, "sending") : m->status;
         if (!status && notifies)
@@ -311,14 +345,33 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
         device_buffer_unref(m, to);
     if (owner)
         device_buffer_unref(m, owner);
-    if (!status) {
-        struct machine_value *v = graph_buffer_node(m, type, g->to_set, out);
-        v->strange_nan = g->source->strange_nan || (g->old && g->old->strange_nan);
-        return v;
-    }
-    if (out)
+    return status;
+}
+
+/* notification NULL: nobody wants it. */
+static struct machine_value *transmit(struct machine *m, const struct message *g,
+                                      enum machine_combiner combiner,
+                                      struct machine_value **notification)
+{
+    struct machine_type type = g->source->type;
+    struct rows rows = geometry_rows(g->to, type);
+    size_t bytes = rows.bytes;
+    double start;
+    rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
+    struct device_buffer *out = device_rows_get(m, rows);
+    if (!out)
+        return NULL;
+    enum machine_status status =
+        near_begin(m, out, g->from->count + g->to->count, &start)
+            ? transmit_near(m, g, combiner, out, bytes, start, notification)
+            : transmit_far(m, g, combiner, out, bytes, notification);
+    if (status) {
         device_buffer_unref(m, out);
-    return NULL;
+        return NULL;
+    }
+    struct machine_value *v = graph_buffer_node(m, type, g->to_set, out);
+    v->strange_nan = g->source->strange_nan || (g->old && g->old->strange_nan);
+    return v;
 }
 
 static bool address_good(struct machine *m, const struct machine_value *address)
@@ -383,7 +436,7 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
         return m->status;
     if (message_make(m, &g, send_address, source, m->values->set_current, old, to.vpset, true,
                      combiner != MACHINE_COMBINE_OVERWRITE))
-        out = transmit(m, &g, combiner, notify != 0, &notification);
+        out = transmit(m, &g, combiner, notify ? &notification : NULL);
     if (!out)
         return m->status;
     enum machine_status status = machine_field_store(m, dest, out, MACHINE_EVERYWHERE);
@@ -392,13 +445,28 @@ enum machine_status machine_send(struct machine *m, uint32_t dest,
     return status;
 }
 
+static struct machine_value *fetched(struct machine *m, const struct message *g,
+                                     struct device_buffer *out)
+{
+    struct machine_value *v = graph_buffer_node(m, g->source->type, g->from_set, out);
+    v->strange_nan = g->source->strange_nan;
+    return v;
+}
+
 static struct machine_value *fetch(struct machine *m, const struct message *g)
 {
     char options[128];
     struct machine_type type = g->source->type;
     struct device_buffer *out = fresh(m, g->from, type);
+    double start;
     if (!out)
         return NULL;
+    if (near_begin(m, out, g->from->count, &start)) {
+        const struct near_route r = route_of(m, g);
+        near_get(&r, type_bytes(type), g->source->buffer, out);
+        near_end(m, "getting", start);
+        return fetched(m, g, out);
+    }
     address_options(options, sizeof options, g, g->source);
     struct kernel_call c = call_begin(m, kernel_router_cl, options, "fetch");
     call_layout(&c, g->from);
@@ -413,121 +481,7 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
         device_buffer_unref(m, out);
         return NULL;
     }
-    struct machine_value *v = graph_buffer_node(m, type, g->from_set, out);
-    v->strange_nan = g->source->strange_nan;
-    return v;
-}
-
-/* ---- gets as operations: computed in the kernel of what needs them, for each lane ---- */
-
-enum { INDEX_BITS = 32 };
-#define INDEX_NOBODY 0xf0000000u /* more than any place, and a halo more is no less */
-
-static struct machine_value *index_number(struct machine *m, uint64_t x)
-{
-    return make_number(m, MACHINE_UINT(INDEX_BITS), (struct machine_scalar){x, 0});
-}
-
-/* ratio * quotient + rest == x, and rest < ratio. */
-static bool index_divide(struct machine *m, struct machine_value *x, uint64_t by,
-                         struct machine_value **quotient, struct machine_value **rest)
-{
-    const struct machine_type type = MACHINE_UINT(INDEX_BITS);
-    int log2 = 0;
-    while (UINT64_C(1) << log2 < by)
-        log2++;
-    if (UINT64_C(1) << log2 == by && log2 < INDEX_BITS) {
-        *rest = log2 ? machine_resize(m, machine_extract(m, x, 0, log2), INDEX_BITS, false)
-                     : index_number(m, 0);
-        *quotient = machine_resize(m, machine_extract(m, x, log2, INDEX_BITS - log2),
-                                   INDEX_BITS, false);
-        return *rest && *quotient;
-    }
-    struct machine_value *number = index_number(m, by);
-    *quotient = make_operation(m, MACHINE_UDIV, type, x, number);
-    struct machine_value *whole =
-        *quotient ? make_operation(m, MACHINE_MUL, type, *quotient, number) : NULL;
-    *rest = whole ? make_operation(m, MACHINE_SUB, type, x, whole) : NULL;
-    return *rest != NULL;
-}
-
-/* x, or an index that nobody has where the condition does not hold. */
-static struct machine_value *index_where(struct machine *m, struct machine_value *condition,
-                                         struct machine_value *x)
-{
-    return condition && x ? machine_select(m, condition, x, index_number(m, INDEX_NOBODY))
-                          : NULL;
-}
-
-static struct machine_value *index_below(struct machine *m, struct machine_value *x,
-                                         uint64_t most)
-{
-    return make_operation(m, MACHINE_ULT, MACHINE_BIT, x, index_number(m, most));
-}
-
-/* times x + y */
-static struct machine_value *index_sum(struct machine *m, struct machine_value *x,
-                                       uint64_t times, struct machine_value *y)
-{
-    const struct machine_type type = MACHINE_UINT(INDEX_BITS);
-    x = times == 1 ? x : make_operation(m, MACHINE_MUL, type, x, index_number(m, times));
-    return x && y ? make_operation(m, MACHINE_ADD, type, x, y) : NULL;
-}
-
-/* What index_of() of kernels/router.cl makes of an address: the processor's row-major index. */
-static struct machine_value *index_of_address(struct machine *m, int set,
-                                              struct machine_value *address)
-{
-    const struct vpset *s = &m->values->sets[set];
-    int bits = machine_address_bits(m, set), width = address->type.width;
-    struct machine_value *x = machine_extract(m, address, 0, bits < width ? bits : width),
-                         *high, *low;
-    x = machine_resize(m, x, INDEX_BITS, false);
-    if (!x || s->order == MACHINE_SEND_ORDER || s->ratio == 1)
-        return x;
-    int processors_log2 = m->values->processors_log2;
-    if (!index_divide(m, x, s->ratio, &high, &low))
-        return NULL;
-    struct machine_value *there = index_below(m, high, UINT64_C(1) << processors_log2);
-    return index_where(m, there, index_sum(m, low, UINT64_C(1) << processors_log2, high));
-}
-
-/* Where the array of a set has that processor's element. The set's halo is in it, so that the set may be another one, or
- * none, when the value is computed. */
-static struct machine_value *place_of_index(struct machine *m, const struct vpset *s,
-                                            struct machine_value *x)
-{
-    struct machine_value *row, *column, *halo = index_number(m, (uint64_t)s->halo);
-    if (!x || s->rows == 1)
-        return x ? index_sum(m, x, 1, halo) : NULL;
-    if (!index_divide(m, x, (uint64_t)s->width, &row, &column))
-        return NULL;
-    column = index_sum(m, column, 1, halo);
-    return index_where(m, index_below(m, x, s->count), index_sum(m, row, s->pitch, column));
-}
-
-static struct machine_value *gather(struct machine *m, struct machine_value *address,
-                                    struct machine_value *source, int set)
-{
-    const struct vpset *from = &m->values->sets[set];
-    struct machine_value *place = place_of_index(m, from, index_of_address(m, set, address));
-    uint64_t places =
-        (uint64_t)from->halo + (from->rows == 1 ? from->count : from->rows * from->pitch);
-    if (!place)
-        return NULL;
-    struct machine_value key = {.op = NODE_GATHER,
-                                .type = source->type,
-                                .set = (uint16_t)m->values->set_current,
-                                .in = {place, source, index_number(m, places)}};
-    return graph_node(m, &key);
-}
-
-/* Where each instruction is executed by itself, kernels that fetch are at hand. */
-static bool gathers(const struct machine *m, const struct machine_value *source, int set)
-{
-    const struct vpset *from = &m->values->sets[set];
-    return !m->settings.eager && m->settings.gather && source->type.width <= 64 &&
-           from->rows * from->pitch <= INT32_MAX;
+    return fetched(m, g, out);
 }
 
 struct machine_value *machine_get(struct machine *m, struct machine_value *send_address,
@@ -543,11 +497,11 @@ struct machine_value *machine_get(struct machine *m, struct machine_value *send_
     struct machine_value *v = machine_field_value(m, source, type, MACHINE_EVERYWHERE);
     if (!v)
         return NULL;
-    if (gathers(m, v, from.vpset)) {
+    if (gets_can(m, v, from.vpset)) {
         while (v->op == NODE_REINTERPRET && !v->buffer) /* the same bits are in memory */
             v = v->in[0];
         v = materialise(m, from.vpset, v);
-        v = v ? gather(m, send_address, v, from.vpset) : NULL;
+        v = v ? gets_node(m, send_address, v, from.vpset) : NULL;
         return machine_reinterpret(m, v, type);
     }
     struct message g = {0};
@@ -565,8 +519,16 @@ enum machine_status machine_addresses_check(struct machine *m,
     if (!send_address || !vpset_get(m, vpset) || !address_good(m, send_address))
         return m->status;
     struct message g = {0};
-    bool made = message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false);
-    struct device_buffer *b = made ? addresses_pass(m, &g, "route") : NULL;
+    double begin;
+    if (!message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false))
+        return m->status;
+    if (near_begin(m, g.address->buffer, g.from->count, &begin)) {
+        const struct near_route r = route_of(m, &g);
+        *wrong = near_wrong(&r);
+        near_end(m, "checking addresses", begin);
+        return MACHINE_OK;
+    }
+    struct device_buffer *b = addresses_pass(m, &g, "route");
     size_t count = (size_t)m->values->sets[m->values->set_current].count;
     cl_uint *to = b ? malloc(count * sizeof *to) : NULL;
     enum machine_status status = b ? MACHINE_OK : m->status;

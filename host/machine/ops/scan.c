@@ -18,21 +18,14 @@
 #include "base/types.h"
 #include "kernels.h"
 #include "memory/memory.h"
+#include "ops/near.h"
+#include "ops/near_lines.h"
 #include "run/materialise.h"
 #include "values/graph.h"
 
 enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
 
-/* As in kernels/scan.cl. */
-enum { COPY, ADD, MULTIPLY, MIN, OR, XOR };
-
 enum { JOINS, FINISHES, FILLS };
-
-struct element {
-    const char *name, *mask;
-    int kind;
-    size_t bytes;
-};
 
 enum { UINT32, UINT64, UINT128, FLOAT32, FLOAT64 };
 
@@ -109,17 +102,6 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
     return run < RUN_LEAST ? RUN_LEAST : run;
 }
 
-struct line_scan {
-    const struct element *element;
-    int op;
-    bool exclusive;
-    bool starts, backward; /* segments begin in active processors only; after a 1, not at it */
-    struct machine_scalar identity, flip, cut;
-    const struct device_buffer *in, *context, *bits; /* NULL: no context, all processors are
-                                                      * active; no segments */
-    struct device_buffer *out, *sums;                /* sums NULL: not needed */
-};
-
 static enum machine_status scan_runs(struct machine *m, const struct lines *l,
                                      const struct line_scan *j, int run, int runs,
                                      struct device_buffer *totals, struct device_buffer *firsts)
@@ -144,11 +126,6 @@ static enum machine_status scan_runs(struct machine *m, const struct lines *l,
     call_buffer(&c, totals ? firsts : j->out);
     return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
-
-/* Where the stage FILLS takes elements from. */
-struct origin {
-    cl_ulong base, inner, outer;
-};
 
 /* Runs a stage: JOINS, FINISHES or FILLS. The last takes what is in sums. */
 static enum machine_status scan_stage(struct machine *m, const struct lines *l,
@@ -184,6 +161,12 @@ static enum machine_status scan_lines(struct machine *m, const struct lines *l,
 {
     const struct element *e = j->element;
     int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
+    double start;
+    if (near_begin(m, j->out, lines_count(l) * (size_t)l->length, &start)) {
+        near_lines_scan(l, j, run);
+        near_end(m, "scanning", start);
+        return MACHINE_OK;
+    }
     bool joins = runs > 1 || j->sums;
     size_t count = (size_t)runs * lines_count(l);
     const struct origin none = {0, 0, 0};
@@ -217,7 +200,7 @@ enum machine_status lines_sum_up(struct machine *m, struct device_buffer *b, siz
                       .width = (cl_int)length,
                       .along = 1};
     struct line_scan j = {.element = &elements[UINT32],
-                          .op = ADD,
+                          .op = LINES_ADD,
                           .exclusive = true,
                           .cut = {UINT32_MAX, 0},
                           .in = b,
@@ -234,6 +217,12 @@ static enum machine_status fill_lines(struct machine *m, const struct lines *l,
     const struct element *same = &elements[e->bytes == 4   ? UINT32
                                            : e->bytes == 8 ? UINT64
                                                            : UINT128];
+    double start;
+    if (near_begin(m, out, lines_count(l) * (size_t)l->length, &start)) {
+        near_lines_fill(l, e->bytes, from, origin, out);
+        near_end(m, "scanning", start);
+        return MACHINE_OK;
+    }
     struct line_scan j = {.element = same, .out = out, .sums = from};
     int run = m->device->is_cpu ? 1 << 16 : RUN_GPU, runs = (l->length - 1) / run + 1;
     return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
@@ -312,8 +301,8 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
     if (c == MACHINE_SCAN_FADD || c == MACHINE_SCAN_FMUL) {
         bool single = f->width == 32;
         f->element = &elements[single ? FLOAT32 : FLOAT64];
-        f->op = c == MACHINE_SCAN_FADD ? ADD : MULTIPLY;
-        if (f->op == MULTIPLY)
+        f->op = c == MACHINE_SCAN_FADD ? LINES_ADD : LINES_MULTIPLY;
+        if (f->op == LINES_MULTIPLY)
             f->identity.lo = single ? 0x3f800000u : 0x3ff0000000000000u;
         return v ? in_memory(v) : NULL;
     }
@@ -325,30 +314,30 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
     case MACHINE_SCAN_FMAX:
         /* the identity is +infinity in one order and -infinity in the reverse: the same key */
         f->ordered_floats = true;
-        f->op = MIN;
+        f->op = LINES_MIN;
         f->identity.lo = f->width == 32 ? 0xff800000u : 0xfff0000000000000u;
         if (c == MACHINE_SCAN_FMAX)
             f->flip = all;
         v = float_order(m, v, (f->identity.lo ^ f->flip.lo) & all.lo);
         break;
     case MACHINE_SCAN_AND:
-        f->op = OR;
+        f->op = LINES_OR;
         f->flip = all;
         break;
     case MACHINE_SCAN_OR:
-        f->op = OR;
+        f->op = LINES_OR;
         break;
     case MACHINE_SCAN_XOR:
-        f->op = XOR;
+        f->op = LINES_XOR;
         break;
     case MACHINE_SCAN_ADD:
-        f->op = ADD;
+        f->op = LINES_ADD;
         break;
     case MACHINE_SCAN_UMIN:
     case MACHINE_SCAN_UMAX:
     case MACHINE_SCAN_SMIN:
     case MACHINE_SCAN_SMAX:
-        f->op = MIN;
+        f->op = LINES_MIN;
         f->identity = all;
         if (c == MACHINE_SCAN_UMAX || c == MACHINE_SCAN_SMAX)
             f->flip = all;
@@ -361,7 +350,7 @@ static struct machine_value *formed(struct machine *m, enum machine_scan_op c,
     case MACHINE_SCAN_FADD:
     case MACHINE_SCAN_FMUL:
         v = v ? machine_reinterpret(m, v, MACHINE_UINT(v->type.width)) : NULL;
-        f->op = COPY;
+        f->op = LINES_COPY;
         break;
     }
     v = v ? in_memory(v) : NULL;
@@ -375,7 +364,7 @@ static struct machine_value *shown(struct machine *m, const struct form *f, int 
     struct machine_type plain = f->width == 32 ? MACHINE_F32 : MACHINE_F64;
     if (f->element->kind == 1)
         return machine_to_float(m, graph_buffer_node(m, plain, set, b), f->type, false);
-    if (f->op == COPY && f->type.kind == MACHINE_FLOAT)
+    if (f->op == LINES_COPY && f->type.kind == MACHINE_FLOAT)
         return machine_to_float(m, graph_buffer_node(m, plain, set, b), f->type, false);
     struct machine_type stored = MACHINE_UINT(f->width > 16 ? f->width : 32);
     struct machine_value *v =

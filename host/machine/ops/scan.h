@@ -14,6 +14,32 @@ struct lines {
     cl_int length, columns, width, halo, along;
 };
 
+/* As in kernels/scan.cl. */
+enum lines_op { LINES_COPY, LINES_ADD, LINES_MULTIPLY, LINES_MIN, LINES_OR, LINES_XOR };
+
+/* What lines consist of: kind 0 integers of up to 64 bits, 1 floats, 2 pairs of 64 bits. */
+struct element {
+    const char *name, *mask;
+    int kind;
+    size_t bytes;
+};
+
+struct line_scan {
+    const struct element *element;
+    int op; /* enum lines_op */
+    bool exclusive;
+    bool starts, backward; /* segments begin in active processors only; after a 1, not at it */
+    struct machine_scalar identity, flip, cut;
+    const struct device_buffer *in, *context, *bits; /* NULL: no context, all processors are
+                                                      * active; no segments */
+    struct device_buffer *out, *sums;                /* sums NULL: not needed */
+};
+
+/* Where lines that are filled take their element from. */
+struct origin {
+    cl_ulong base, inner, outer;
+};
+
 struct lines lines_of(const struct vpset *s, int axis, bool downward);
 
 static inline size_t lines_count(const struct lines *l)

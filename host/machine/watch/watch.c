@@ -114,6 +114,11 @@ void watch_interpreted(struct machine *m, struct kernel_note *note, double start
     note->facts.time_s += clock_s() - start;
 }
 
+void watch_near(struct machine *m, const char *what, double start)
+{
+    watch_interpreted(m, sums_note(m->watch->explain, NULL, what, 0, 0), start);
+}
+
 /* It is no time of the front end's. */
 void watch_background(struct machine *m, double start, double end, const char *options)
 {

@@ -101,6 +101,8 @@ void watch_background(struct machine *m, double start, double end, const char *o
 void watch_launch(struct machine *m, struct kernel_note *note);
 /* One that the front end performed itself, from start to now. */
 void watch_interpreted(struct machine *m, struct kernel_note *note, double start);
+/* ... that no plan has made: a scan, a send. */
+void watch_near(struct machine *m, const char *what, double start);
 void watch_arrays(struct machine *m, size_t bytes);
 cl_event *watch_command(struct machine *m, double start); /* 0: now */
 

@@ -1,0 +1,14 @@
+/* gets.h - gets as operations of the graph: what they fetch is computed in the kernel of whatever needs it, for each lane. */
+#ifndef LUTETIA_MACHINE_GETS_H
+#define LUTETIA_MACHINE_GETS_H
+
+#include "values/values.h"
+
+/* Whether a get of that value of a set is an operation. Where each instruction is executed by itself it is not: kernels that fetch
+ * are at hand. */
+bool gets_can(const struct machine *m, const struct machine_value *source, int set);
+/* What the processors of the current set get of those of a set, source in memory. NULL: error set. */
+struct machine_value *gets_node(struct machine *m, struct machine_value *address,
+                                struct machine_value *source, int set);
+
+#endif

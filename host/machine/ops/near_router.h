@@ -1,0 +1,27 @@
+/* near_router.h - sends and gets on the front end's own thread: what kernels/router.cl does, the same bits. */
+#ifndef LUTETIA_MACHINE_NEAR_ROUTER_H
+#define LUTETIA_MACHINE_NEAR_ROUTER_H
+
+#include "values/values.h"
+
+/* Where messages go, or come from: senders, their addresses, and the processors that these are. The arrays are the front end's,
+ * and the device is not at them. */
+struct near_route {
+    const struct vpset *from, *to;
+    const struct device_buffer *address, *context; /* context NULL: all send */
+    size_t address_bytes;                          /* of an element */
+    uint32_t mask;                                 /* the bits of an address that count */
+    int processors_log2;
+};
+
+/* out holds the old dest. arrived: bits, all 0; NULL: nobody wants to know. combiner: MACHINE_COMBINE_. */
+void near_send(const struct near_route *r, int combiner, struct machine_type type,
+               const struct device_buffer *source, struct device_buffer *out,
+               struct device_buffer *arrived);
+/* Of elements of so many bytes; 0 from a processor that does not exist. */
+void near_get(const struct near_route *r, size_t bytes, const struct device_buffer *source,
+              struct device_buffer *out);
+/* How many send to a processor that does not exist. */
+uint64_t near_wrong(const struct near_route *r);
+
+#endif
