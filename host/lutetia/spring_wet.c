@@ -15,6 +15,10 @@
 
 enum { STEPS_A_SECOND = 120 };
 
+/* How much of what a fiber still takes a print gives it. So letters that hang still do not
+ * give more and more: all their prints together give 1 / part of one. */
+static const double part = 0.3;
+
 struct spring_wet {
     struct spring_wet_def def;
     struct paper_sheet *sheet;
@@ -22,6 +26,8 @@ struct spring_wet {
     struct stage_draw_list letters;
     struct display_image covered; /* the letters in black on white */
     uint8_t *gray;                /* how far they cover */
+    uint8_t *print;               /* how far a print covers what still takes ink */
+    float *given;                 /* of what a fiber takes from prints, 0..1 */
     uint16_t *view;
     long frames, printed; /* prints so far */
     uint8_t cover_of[256];
@@ -30,7 +36,7 @@ struct spring_wet {
 struct spring_wet_def spring_wet_def_default(void)
 {
     return (struct spring_wet_def){
-        .pigment = "french ultramarine", .every_s = 0.1, .water = 0.3, .ink = 0.15};
+        .pigment = "french ultramarine", .every_s = 0.1, .water = 0.3, .ink = 0.25};
 }
 
 static int pigment_unknown(const char *name)
@@ -69,13 +75,16 @@ int spring_wet_create(const struct spring_wet_def *def, struct spring_wet **out)
         return fail("spring", "no memory for paper");
     w->def = *def;
     w->gray = malloc(count);
+    w->print = malloc(count);
+    w->given = calloc(count, sizeof *w->given);
     w->view = malloc(3 * count * sizeof *w->view);
     w->covered =
         (struct display_image){.width_px = def->width, .height_px = def->height, .channels = 3};
     /* light is mixed in the picture, so that what is left of it is what is not covered */
     for (int i = 0; i < 256; i++)
         w->cover_of[i] = (uint8_t)lround(255 * (1 - font_light(i / 255.0, 0)));
-    if (!w->gray || !w->view || display_image_create(&w->covered) != DISPLAY_OK)
+    if (!w->gray || !w->print || !w->given || !w->view ||
+        display_image_create(&w->covered) != DISPLAY_OK)
         return fail("spring", "no memory for paper");
     if (stage_exact_create("box", &w->exact) != STAGE_OK)
         return fail("spring", "%s", stage_error());
@@ -91,6 +100,8 @@ void spring_wet_destroy(struct spring_wet *w)
     stage_draw_finish(&w->letters);
     display_image_destroy(&w->covered);
     free(w->gray);
+    free(w->print);
+    free(w->given);
     free(w->view);
     free(w);
 }
@@ -108,15 +119,26 @@ static enum stage_status cover_draw(struct spring_wet *w, const struct stage_dra
     return status;
 }
 
-static enum paper_status sheet_go_on(struct spring_wet *w)
+static enum paper_status letters_print(struct spring_wet *w)
 {
     const struct paper_screen screen = {
-        .width_px = w->def.width, .height_px = w->def.height, .gray = w->gray};
+        .width_px = w->def.width, .height_px = w->def.height, .gray = w->print};
     const double amount[2] = {w->def.water, w->def.ink};
+    const size_t count = (size_t)w->def.width * (size_t)w->def.height;
+    for (size_t i = 0; i < count; i++) {
+        const double takes = w->gray[i] * (1 - (double)w->given[i]);
+        w->print[i] = (uint8_t)lround(takes);
+        w->given[i] += (float)(part * takes / 255);
+    }
+    return paper_sheet_put(w->sheet, &screen, 0, 0, amount);
+}
+
+static enum paper_status sheet_go_on(struct spring_wet *w)
+{
     enum paper_status status = PAPER_OK;
     if ((double)w->frames >= (double)w->printed * w->def.every_s * w->def.fps) {
         w->printed++;
-        status = paper_sheet_put(w->sheet, &screen, 0, 0, amount);
+        status = letters_print(w);
     }
     const long before = w->frames * STEPS_A_SECOND / w->def.fps;
     w->frames++;

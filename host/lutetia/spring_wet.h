@@ -13,8 +13,8 @@ struct spring_wet_def {
     const char *pigment; /* of the tracks, by its name; "french ultramarine" */
     double every_s;      /* from print to print; 0.1 */
     double water;        /* that a print brings; 0.3 */
-    double ink;          /* and pigment; 0.15 */
-    int width, height;   /* of the pictures */
+    double ink; /* and pigment; 0.25. A place that is printed again takes less each time */
+    int width, height; /* of the pictures */
     int fps;
 };
 struct spring_wet_def spring_wet_def_default(void);

@@ -66,6 +66,19 @@ void type_missing_tell(const char *verb, const char *font, const struct font_lay
          layout->missing_count > FONT_MISSING_MAX ? " and more" : "", font);
 }
 
+void type_text_check(const char *verb, const char *font, struct font_face *face,
+                     const char *text)
+{
+    struct font_shaper *shaper;
+    struct font_layout layout = {0};
+    if (font_shaper_create(face, &shaper) != FONT_OK)
+        return; /* whoever draws the text says why */
+    if (font_shaper_layout(shaper, text, strlen(text), 16, NULL, &layout) == FONT_OK)
+        type_missing_tell(verb, font, &layout);
+    font_layout_finish(&layout);
+    font_shaper_destroy(shaper);
+}
+
 int type_drawing_write(const char *verb, const char *path, const struct font_drawing *drawing,
                        const struct font_layout *layout, const struct font_map *map,
                        double x_px, double y_px)

@@ -24,6 +24,9 @@ int type_drawing_write(const char *verb, const char *path, const struct font_dra
                        double x_px, double y_px);
 /* Says which characters no font has, if there are any. */
 void type_missing_tell(const char *verb, const char *font, const struct font_layout *layout);
+/* The same of a text that is not laid out here. */
+void type_text_check(const char *verb, const char *font, struct font_face *face,
+                     const char *text);
 int type_image_write(const char *verb, const char *path, const struct display_image *image);
 
 /* Opens a font and sets axes, "wght=700,wdth=80". */

@@ -159,6 +159,16 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
 
 /* ---- what is played ---- */
 
+/* Says which of the keys' letters no font has. */
+static void letters_check(const struct keys_work *w)
+{
+    char all[MIDI_NOTES * KEYS_LETTER_BYTES] = "";
+    size_t used = 0;
+    for (int key = 0; key < MIDI_NOTES; key++)
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s", w->letters.of[key]);
+    type_text_check("keys", w->font, w->face, all);
+}
+
 static int song_take(struct keys_work *w, const char *path)
 {
     char why[300];
@@ -176,6 +186,7 @@ static int song_take(struct keys_work *w, const char *path)
     int status = type_face_open("keys", w->font, 0, w->axes, &w->face);
     if (status != EXIT_SUCCESS)
         return status;
+    letters_check(w);
     if (w->size_px[1] <= 0 && keys_type_fit(w->face, &w->score, &w->letters, w->picture[0],
                                             w->picture[1], &w->size_px[1]) != FONT_OK)
         return fail_font("keys");

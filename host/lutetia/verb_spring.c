@@ -5,6 +5,7 @@
 #include "spring_scene.h"
 #include "spring_sound.h"
 #include "spring_wet.h"
+#include "type_common.h"
 
 #include <stage_film.h>
 #include <stage_window.h>
@@ -361,6 +362,8 @@ int verb_spring(int argc, char **argv)
         return fail_usage("spring", "%s", stage_error());
     if (made != STAGE_OK)
         return fail_stage();
+    if (scene.face && s.scene.text)
+        type_text_check("spring", s.scene.font, scene.face, s.scene.text);
     status = spring_run(&s, scene.stage);
     live_end(&s.live);
     spring_wet_destroy(s.wet);

@@ -243,6 +243,7 @@ static int face_take(struct voice_work *w)
         return fail_usage("voice",
                           "%s has no axis of weight to play; choose a variable font with wght",
                           w->font);
+    type_text_check("voice", w->font, w->face, w->text);
     return EXIT_SUCCESS;
 }
 

@@ -196,6 +196,39 @@ static void letters_leave_wet_tracks(void **state)
     one_line(&wrong, "--wet goes with --still");
 }
 
+/* A word without weight stays: its prints, all in the same place, saturate the paper. */
+static void still_letters_do_not_flood(void **state)
+{
+    (void)state;
+    static const char *const seconds[] = {"1", "3"};
+    const char *path = scratch_path("still.png");
+    long blue[2] = {0, 0};
+    for (int i = 0; i < 2; i++) {
+        RUN(0, "wet", "--wet", "--still", path, "--at", "0,1", "--seconds", seconds[i], "--fps",
+            "10", "--size", "128x128", "--view", "-0.5,-0.3,2.7,2.9", "--set", "gravity=0");
+        struct display_image image = picture(path);
+        for (int k = 0; k < 3 * 128 * 128; k += 3)
+            blue[i] += image.pixels[k + 2] > image.pixels[k] + 12
+                           ? image.pixels[k + 2] - image.pixels[k]
+                           : 0;
+        display_image_destroy(&image);
+    }
+    assert_true(blue[0] > 5000);
+    assert_true(blue[1] < 2 * blue[0]); /* what is there spreads */
+}
+
+static void lacking_glyphs_are_named(void **state)
+{
+    (void)state;
+    struct child child = {.arguments = {lutetia, "spring", "a\xf3\xb0\x80\x80", "--still",
+                                        scratch_path("lacking.png"), "--seconds", "0.1",
+                                        "--size", "64x64"},
+                          .variables = {"DISPLAY=", "WAYLAND_DISPLAY="}};
+    child_run(&child);
+    assert_int_equal(child.status, 0);
+    one_line(&child, "no font has a glyph for U+F0000");
+}
+
 /* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
 static void films_stills_and_strips_are_of_one_run(void **state)
 {
@@ -365,6 +398,8 @@ int main(void)
         cmocka_unit_test(sessions_are_replayed),
         cmocka_unit_test(controls_are_listed),
         cmocka_unit_test(letters_leave_wet_tracks),
+        cmocka_unit_test(still_letters_do_not_flood),
+        cmocka_unit_test(lacking_glyphs_are_named),
         cmocka_unit_test(what_is_wrong_is_said_in_a_line),
         cmocka_unit_test(without_egl_osmesa_draws),
         cmocka_unit_test(films_are_interrupted),
