@@ -8,6 +8,7 @@
 #include "build/plans.h"
 #include "explain/copies.h"
 #include "memory/memory.h"
+#include "run/evaluate.h"
 #include "run/replay.h"
 #include "values/graph.h"
 
@@ -85,7 +86,7 @@ enum machine_status machine_create(const struct machine_config *config, struct m
     m->values->sets_count = 1;
     m->memory->next_base = 64;
     m->values->epoch = 1;
-    run_init(m);
+    evaluate_init(m);
     if (!record_init(m))
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for an empty machine");
     m->values->random_seed = 1;

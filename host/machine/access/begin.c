@@ -9,6 +9,7 @@
  * instruction.
  */
 #include "access/settle.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "run/replay.h"
 #include "values/graph.h"
@@ -28,7 +29,7 @@ void machine_begin(struct machine *m)
     if (in_call(m))
         return;
     settle(m);
-    run_flush_due(m);
+    evaluate_due(m);
     history_looked(m);
 }
 

@@ -2,6 +2,7 @@
 #include "access/settle.h"
 #include "base/arrays.h"
 #include "memory/memory.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "run/replay.h"
 #include "watch/watch.h"
@@ -20,7 +21,7 @@ static bool foreseen(struct machine *m, struct machine_call *call)
         return true;
     settle(m);
     if (m->run->flush_due)
-        run_flush_due(m);
+        evaluate_due(m);
     if (!run_mode_catches_up(m->run->mode) && notes_take(m, call))
         return true;
     history_call(m, call);

@@ -4,6 +4,7 @@
 #include "alias/alias.h"
 #include "base/errors.h"
 #include "base/types.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "values/graph.h"
 #include "values/rules.h"
@@ -149,5 +150,5 @@ enum machine_status machine_field_store(struct machine *m, uint32_t field,
             return m->status;
     }
     field_replace(m, f, offset, value);
-    return run_after_store(m, value);
+    return evaluate_after_store(m, value);
 }

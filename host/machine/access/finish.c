@@ -1,20 +1,21 @@
 /* finish.c - computes everything that is pending. */
 #include "access/settle.h"
 #include "device/device.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "run/replay.h"
 
 enum machine_status machine_settle(struct machine *m, struct machine_value **values, int count)
 {
-    return run_evaluate(m, values, count, false);
+    return evaluate_values(m, values, count, false);
 }
 
 enum machine_status machine_flush(struct machine *m)
 {
     settle(m);
-    run_flush_due(m);
+    evaluate_due(m);
     history_looked(m);
-    return run_evaluate(m, NULL, 0, false);
+    return evaluate_values(m, NULL, 0, false);
 }
 
 enum machine_status machine_finish(struct machine *m)

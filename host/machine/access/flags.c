@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "base/types.h"
 #include "memory/memory.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "values/graph.h"
 #include "values/rules.h"
@@ -60,7 +61,7 @@ enum machine_status machine_flag_store(struct machine *m, enum machine_flag flag
     if (!value)
         return m->status;
     slot_set(m, slot, value);
-    return run_after_store(m, value);
+    return evaluate_after_store(m, value);
 }
 
 static int overflow_op(enum machine_op op, bool is_signed)

@@ -5,6 +5,7 @@
 #include "access/settle.h"
 #include "alias/alias.h"
 #include "base/errors.h"
+#include "run/evaluate.h"
 #include "run/notes.h"
 #include "run/slices.h"
 
@@ -125,7 +126,8 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
     if (!fresh)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");
     int done = 0;
-    bool good = run_evaluate(m, NULL, 0, true) == MACHINE_OK && slices_forget_set(m, vpset) &&
+    bool good = evaluate_values(m, NULL, 0, true) == MACHINE_OK &&
+                slices_forget_set(m, vpset) &&
                 slots_lay_out(m, flags_of(m, s)->of, 3, vpset, &to, fresh, &done);
     for (int i = 0; i < m->memory->fields_count && good; i++)
         if (m->memory->fields[i]->vpset == vpset)

@@ -8,9 +8,9 @@
 #include "base/scalar.h"
 #include "kernels.h"
 #include "memory/call_set.h"
+#include "run/evaluate.h"
 #include "run/materialise.h"
 #include "run/roll.h"
-#include "run/run.h"
 #include "run/slices.h"
 #include "values/graph.h"
 
@@ -36,7 +36,7 @@ static bool words_evaluate(struct machine *m, struct word *y, uint32_t count, in
     for (uint32_t i = 0; i < count; i++)
         if (!node_is_leaf(y[i].value) && (i == 0 || y[i].value != y[i - 1].value))
             wanted[wanted_count++] = y[i].value;
-    bool good = !wanted_count || run_evaluate(m, wanted, wanted_count, false) == MACHINE_OK;
+    bool good = !wanted_count || evaluate_values(m, wanted, wanted_count, false) == MACHINE_OK;
     free(wanted);
     struct machine_value *known = NULL, *filled = NULL; /* equal numbers come in long rows:
                                                          * reuse the last buffer */
@@ -278,7 +278,7 @@ bool reshape_coarse_from_fine(struct machine *m, const struct factor *f)
         if (!node_is_leaf(f->fine->slots[n].value) && !same_set)
             wanted[wanted_count++] = f->fine->slots[n].value;
     if (wanted_count)
-        good = run_evaluate(m, wanted, wanted_count, false) == MACHINE_OK;
+        good = evaluate_values(m, wanted, wanted_count, false) == MACHINE_OK;
     for (uint32_t i = 0; good && i < f->k; i++)
         for (uint32_t n = 0; n < count; n++) {
             const struct slot *s = &f->fine->slots[n];

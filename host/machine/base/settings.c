@@ -52,7 +52,7 @@ static const struct setting {
 #define SETTING(variable, name) SETTING_READ(variable, name, settings_number)
     {SETTING(EAGER, eager), 0, 0, 1, 0, "0 or 1"},
     {SETTING(REPLAY, replay), 1, 0, 1, 0, "0 or 1"},
-    {SETTING(FLUSH_AFTER, flush_after), PENDING_MANY, 1, 1 << 30, 0, "a number from 1 to 2^30"},
+    {SETTING(FLUSH_AFTER, flush_after), SETTING_FREE, 1, 1 << 30, 0, "a number from 1 to 2^30"},
     {SETTING(OPTIMISE_AFTER, optimise_after), 4 << 20, 0, UINT64_MAX - 1, 0, "a number"},
     {SETTING(BOX_AFTER, box_after), 32 << 20, 0, UINT64_MAX - 1, 0, "a number"},
     {SETTING(INTERPRET, interpret), 1, 0, 2, 0, "0, 1 or 2"},

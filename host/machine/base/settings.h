@@ -4,14 +4,12 @@
 
 #include "machine.h"
 
-#define SETTING_FREE UINT64_MAX /* the device decides */
-
-enum { PENDING_MANY = 384 }; /* so many pending values make an evaluation due */
+#define SETTING_FREE UINT64_MAX /* not set: the device decides, or the code that uses it */
 
 /* Set by environment variables: settings.c. */
 struct settings {
     uint64_t eager, replay;
-    uint64_t flush_after; /* pending values that make an evaluation due */
+    uint64_t flush_after; /* pending values that make an evaluation due: run/evaluate.h */
     /* The number of processors that a plan runs on before its kernels are optimised, and
      * before they get boxes. */
     uint64_t optimise_after, box_after;

@@ -287,7 +287,7 @@ void background_drop(struct machine *m)
 static char *mark_of(const struct machine *m, const struct background_wish *wish)
 {
     const char *folder = getenv("POCL_CACHE_DIR");
-    char *key = device_kernel_key(m->device, wish->parts, wish->options, wish->name);
+    char *key = cache_key(m->device, wish->parts, wish->options, wish->name);
     size_t size = key ? strlen(key) + strlen(folder ? folder : "") + 40 : 0;
     char *mark = key ? malloc(size) : NULL;
     if (mark)

@@ -1,6 +1,6 @@
 /* improve.c - makes better kernels for a plan that has run often, now or in the background. */
 #include "build/background.h"
-#include "build/describe.h"
+#include "build/explained.h"
 #include "build/plans.h"
 
 /* Gives up the better plan. */
@@ -41,7 +41,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     p->version = old.version + 1;
     p->next = old.next;
     if (m->watch && !old.empty)
-        describe_improved(m);
+        explained_improved(m);
     better->launches = old.launches;
     better->launches_count = old.launches_count;
     better->stored = old.stored;

@@ -63,7 +63,7 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
                                .ops = program->ops,
                                .cost = program->cost};
     struct kernel_note *note =
-        m->watch ? describe_kernel(m, NULL, g, stores, count, &said, "interpreted") : NULL;
+        m->watch ? explained_kernel(m, NULL, g, stores, count, &said, "interpreted") : NULL;
     p->launches[p->launches_count++] =
         (struct launch){.number = -1,
                         .note = note,

@@ -8,7 +8,7 @@
 
 #include "base/errors.h"
 #include "build/background.h"
-#include "build/describe.h"
+#include "build/explained.h"
 #include "build/plans.h"
 #include "kernels.h"
 
@@ -36,7 +36,7 @@ void plan_notes_settle(struct machine *m, struct plan *p)
 {
     for (int i = 0; m->watch && i < p->launches_count; i++) {
         struct launch *l = &p->launches[i];
-        l->note = describe_built(m, l->note, l->kernel);
+        l->note = explained_built(m, l->note, l->kernel);
     }
 }
 
@@ -203,7 +203,7 @@ static bool plan_build(struct machine *m, struct plan *p, const struct plan_grap
         return false;
     const char *made = quick ? "quick" : g->boxes && k->has_boxes ? "boxed" : "optimised";
     struct kernel_note *note =
-        m->watch ? describe_kernel(m, kernel, g, stores, stores_count, k, made) : NULL;
+        m->watch ? explained_kernel(m, kernel, g, stores, stores_count, k, made) : NULL;
     p->launches[p->launches_count++] = (struct launch){.kernel = kernel,
                                                        .number = number,
                                                        .note = note,
@@ -240,7 +240,7 @@ static bool plan_kernel(struct machine *m, struct plan *p, const struct plan_gra
         int half = stores_count / 2;
         kernel_text_finish(&k);
         if (m->watch)
-            describe_split(m);
+            explained_split(m);
         return plan_kernel(m, p, g, stores, half) &&
                plan_kernel(m, p, g, stores + half, stores_count - half);
     }

@@ -2,7 +2,7 @@
 #ifndef LUTETIA_MACHINE_PLANS_H
 #define LUTETIA_MACHINE_PLANS_H
 
-#include "build/describe.h"
+#include "build/explained.h"
 #include "codegen/codegen.h"
 #include "interpret/blocks.h"
 #include "watch/sums.h"

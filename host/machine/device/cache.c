@@ -64,6 +64,20 @@ FILE *cache_file_read(const char *path)
     return f;
 }
 
+char *cache_key(const struct device *d, const char *const parts[DEVICE_PARTS],
+                const char *options, const char *name)
+{
+    size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
+    char *key = malloc(size);
+    uint64_t library = CACHE_HASH_BEGIN;
+    for (int i = 0; i < DEVICE_PARTS - 1; i++)
+        library = cache_hash(library, parts[i]);
+    if (key)
+        snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
+                 (unsigned long long)library, parts[DEVICE_PARTS - 1]);
+    return key;
+}
+
 static bool path_of(char *out, size_t size, const struct device *d, const char *key,
                     const char *suffix)
 {

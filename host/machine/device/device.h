@@ -87,10 +87,6 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
 /* The same for a hand-written kernel, whose text is complete. */
 cl_kernel device_library_kernel(struct machine *m, const char *text, const char *options,
                                 const char *name);
-/* The key of a kernel: its whole text and its build options. The caller frees it; NULL: no
- * memory. */
-char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
-                        const char *options, const char *name);
 /* The build options of a program, and its text for PoCL. Clang takes longer to read PoCL's
  * header of all OpenCL functions than the machine's text. So an include guard skips the
  * header, and functions.cl declares the functions in use. The caller frees the text; NULL:

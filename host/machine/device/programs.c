@@ -158,20 +158,6 @@ built:
     return program;
 }
 
-char *device_kernel_key(const struct device *d, const char *const parts[DEVICE_PARTS],
-                        const char *options, const char *name)
-{
-    size_t size = strlen(options) + strlen(name) + strlen(parts[DEVICE_PARTS - 1]) + 64;
-    char *key = malloc(size);
-    uint64_t library = CACHE_HASH_BEGIN;
-    for (int i = 0; i < DEVICE_PARTS - 1; i++)
-        library = cache_hash(library, parts[i]);
-    if (key)
-        snprintf(key, size, "%s %s\n%s %llx\n%s", options, d->options, name,
-                 (unsigned long long)library, parts[DEVICE_PARTS - 1]);
-    return key;
-}
-
 static struct program_entry *program_bucket(struct device *d, const char *key)
 {
     return &d->programs[cache_hash(CACHE_HASH_BEGIN, key) % PROGRAMS_SIZE];
@@ -196,7 +182,7 @@ bool device_takes_group(const struct device *d, cl_kernel kernel, int items)
 bool device_kernel_at_hand(struct machine *m, const char *const parts[DEVICE_PARTS],
                            const char *options, const char *name)
 {
-    char *key = device_kernel_key(m->device, parts, options, name);
+    char *key = cache_key(m->device, parts, options, name);
     bool found = key && (program_find(m->device, key) ||
                          (m->device->keeps_programs && cache_program_is_there(m->device, key)));
     free(key);
@@ -207,7 +193,7 @@ cl_kernel device_kernel(struct machine *m, const char *const parts[DEVICE_PARTS]
                         const char *options, const char *name)
 {
     struct device *d = m->device;
-    char *key = device_kernel_key(d, parts, options, name);
+    char *key = cache_key(d, parts, options, name);
     if (!key) {
         machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for a kernel's text");
         return NULL;

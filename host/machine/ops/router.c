@@ -22,8 +22,8 @@
 #include "ops/gets.h"
 #include "ops/near.h"
 #include "ops/near_router.h"
+#include "run/evaluate.h"
 #include "run/materialise.h"
-#include "run/run.h"
 #include "values/graph.h"
 #include "values/make.h"
 
@@ -61,7 +61,7 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
     for (int i = 0; i < 4; i++)
         if (all[i] && !node_is_leaf(all[i]))
             wanted[count++] = all[i];
-    if (count && run_evaluate(m, wanted, count, false))
+    if (count && evaluate_values(m, wanted, count, false))
         return false;
     g->all = !g->context || (g->context->op == NODE_CONSTANT && g->context->imm.lo);
     g->address = materialise(m, g->from_set, address);

@@ -1,72 +1,149 @@
-/* evaluate.c - runs an evaluation, and records it between its halves and after them. */
+/* evaluate.c - decides when values are evaluated.
+ *
+ * While nothing is observed the graph grows. Past PENDING_MANY values it is evaluated, and
+ * from then on whenever the trace of stores matches that of the first time: once in each
+ * turn of a loop, always at the same point.
+ */
 #include "run/evaluate.h"
 
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/errors.h"
 #include "memory/memory.h"
 #include "run/replay.h"
+#include "run/roll.h"
+#include "values/graph.h"
 #include "watch/watch.h"
 
-/* For evaluations that leave nothing to compute: computes recorded overflows, too. */
-static void resolve_overflows(struct machine *m)
+#define TRACE_FACTOR                                                                           \
+    0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is run.trace_power   \
+                                          */
+
+/* ---- evaluation ---- */
+
+static bool is_held(const struct machine *m, const struct machine_value *v)
 {
-    struct replay *p = m->run->replay;
-    p->depth++; /* these belong to the calls before */
     for (int i = 1; i < m->values->sets_count; i++)
-        if (m->values->sets[i].used)
-            flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
-    p->depth--;
+        for (int flag = 0; m->values->sets[i].used && flag < 3; flag++)
+            if (m->memory->flags[i].of[flag].value == v)
+                return true;
+    for (int i = 0; i < m->memory->fields_count; i++)
+        for (int k = 0; k < m->memory->fields[i]->slots_count; k++)
+            if (m->memory->fields[i]->slots[k].value == v)
+                return true;
+    return false;
 }
 
-static enum plan_use use_of(enum run_mode mode)
+/* Evaluates after rolling up loops over slices. */
+static enum machine_status evaluate_rolled(struct machine *m, const struct wish *wish,
+                                           enum run_why why)
 {
-    return mode == RUN_REHEARSING         ? PLAN_TO_REHEARSE
-           : mode == RUN_REHEARSING_TURNS ? PLAN_TO_REHEARSE_TURNS
-           : run_mode_builds(mode)        ? PLAN_TO_RUN_OFTEN
-                                          : PLAN_TO_RUN;
+    bool partial;
+    double start = watch_clock(m);
+    if (!roll_waiting(m, why, &partial))
+        return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
+    if (m->watch && m->run->sliced)
+        watch_span(m, WATCH_ROLL, start, NULL);
+    return evaluation_run(m, wish, why);
 }
 
-static enum watch_why watch_why_of(const struct machine *m, const struct wish *w,
-                                   enum run_why why)
+static enum machine_status evaluate_now(struct machine *m, struct machine_value **wanted,
+                                        int count, bool all, enum run_why why)
 {
-    return w->count            ? WATCH_LOOKED_AT
-           : why == RUN_DUE    ? WATCH_MUCH_WAITED
-           : m->settings.eager ? WATCH_AT_ONCE
-                               : WATCH_ASKED_TO;
-}
-
-static enum machine_status perform(struct machine *m, struct evaluation *e,
-                                   const struct wish *w, enum run_why why)
-{
-    record_evaluates(m, e->plan, e->reach.nodes, e->reach.count, e->buffers, why == RUN_DUE);
-    enum machine_status status = evaluation_perform(m, e);
-    if (status)
-        record_failed(m);
-    else
-        record_evaluated(m, e->buffers, w->values, w->count, why == RUN_DUE);
-    if (m->watch)
-        watch_evaluated(m, e->start, watch_why_of(m, w, why), e->targets.count);
-    m->run->flushes++;
-    return status;
-}
-
-enum machine_status evaluate(struct machine *m, const struct wish *wish, enum run_why why)
-{
-    struct wish w = *wish;
-    struct evaluation e;
-    if (m->run->replay && m->run->replay->thorough) {
-        w.what = WISH_ALL;
-        resolve_overflows(m);
+    enum wish_what what = all ? WISH_ALL : WISH_LIVE;
+    bool held = true;
+    for (int i = 0; i < count; i++) {
+        graph_borrow(m, wanted[i]); /* a value that contains it may release it */
+        held = held && (node_is_leaf(wanted[i]) || is_held(m, wanted[i]));
     }
-    enum plan_use use = use_of(m->run->mode);
-    enum machine_status status = evaluation_prepare(m, &e, &w, use);
-    if (w.what != WISH_VALUES)
-        m->run->stores_evaluated = m->run->stores;
-    m->run->flush_hash = 0; /* the observer now decides when to evaluate */
-    if (!plan_use_runs(use))
-        m->run->rehearsed = e.plan;
-    else if (!status && e.plan)
-        status = perform(m, &e, &w, why);
-    if (status && w.what != WISH_VALUES)
-        m->run->stores_evaluated = m->run->stores - 1; /* not yet */
-    evaluation_finish(m, &e);
+    /* Values that only the observer holds, such as a count, are evaluated apart. Then the
+     * calls before lead from state to state, and are foreseen. */
+    if (!held && record_follows(m)) {
+        const struct wish others = {.what = what};
+        enum machine_status status = evaluate_rolled(m, &others, why);
+        if (status)
+            return status;
+    }
+    const struct wish wish = {wanted, count, what};
+    return evaluate_rolled(m, &wish, why);
+}
+
+enum machine_status evaluate_values(struct machine *m, struct machine_value **wanted, int count,
+                                    bool all)
+{
+    return evaluate_now(m, wanted, count, all, RUN_LOOKED);
+}
+
+/* ---- when ---- */
+
+void evaluate_init(struct machine *m)
+{
+    if (m->settings.flush_after == SETTING_FREE)
+        m->settings.flush_after = PENDING_MANY;
+    m->run->trace_power = 1;
+    for (int i = 0; i < TRACE_LENGTH; i++)
+        m->run->trace_power *= TRACE_FACTOR;
+}
+
+enum machine_status evaluate_after_store(struct machine *m, const struct machine_value *v)
+{
+    m->run->stores++;
+    if (m->settings.eager)
+        return evaluate_values(m, NULL, 0, true);
+    if (run_mode_holds(m->run->mode) && v->height < HEIGHT_MOST)
+        return MACHINE_OK;
+    if (m->run->flush_status) {
+        enum machine_status status = m->run->flush_status;
+        m->run->flush_status = MACHINE_OK;
+        return status;
+    }
+    /* A hash of the last TRACE_LENGTH stores. It includes the operations, but not the
+     * destinations, nor whether operands have been computed. The operand of a shift is left
+     * out, because a shift of a shift is simplified to one shift. */
+    uint64_t what = ((uint64_t)v->origin << 16 | (uint64_t)v->type.width << 8 | v->axis) + 1;
+    const struct machine_value *in = v->in[1] ? v->in[1] : v->in[0];
+    what = (what * 128 + (in && v->op != NODE_SHIFT ? in->origin : 0)) * 0x9e3779b97f4a7c15u;
+    uint64_t *oldest = &m->run->trace[m->run->trace_count++ % TRACE_LENGTH];
+    m->run->trace_hash =
+        m->run->trace_hash * TRACE_FACTOR + what - *oldest * m->run->trace_power;
+    *oldest = what;
+    if (history_in_loop(m) && v->height < HEIGHT_MOST && m->values->pending < PENDING_MOST)
+        return MACHINE_OK;
+    bool again = m->run->flush_hash && m->run->trace_hash == m->run->flush_hash &&
+                 m->values->pending >= m->settings.flush_after / 8;
+    bool many = m->values->pending >=
+                (m->run->flush_hash ? 5 * m->settings.flush_after : m->settings.flush_after);
+    if (!again && !many && v->height < HEIGHT_MOST)
+        return MACHINE_OK;
+    if (m->run->sliced &&
+        v->height < HEIGHT_MOST) { /* loops over slices first; those under way may be about
+                                    * to end */
+        bool partial;
+        if (m->values->pending < m->run->roll_after)
+            return MACHINE_OK;
+        if (!roll_waiting(m, RUN_LOOKED, &partial))
+            return m->status;
+        m->run->roll_after = 0;
+        if (partial && m->values->pending < PENDING_LOOP)
+            m->run->roll_after = 2 * m->values->pending + PENDING_MANY;
+        if (m->run->roll_after || m->values->pending < m->settings.flush_after / 8)
+            return MACHINE_OK;
+    }
+    m->run->flush_place = m->run->trace_hash;
+    m->run->flush_due = true;
+    if (m->run->sliced || v->height >= HEIGHT_MOST || m->values->pending >= PENDING_MOST)
+        evaluate_due(m);
+    enum machine_status status = m->run->flush_status;
+    m->run->flush_status = MACHINE_OK;
     return status;
+}
+
+void evaluate_due(struct machine *m)
+{
+    if (!m->run->flush_due)
+        return;
+    m->run->flush_due = false;
+    m->run->flush_status = evaluate_now(m, NULL, 0, false, RUN_DUE);
+    m->run->flush_hash = m->run->flush_place;
 }

@@ -1,15 +1,22 @@
-/* evaluate.h - see evaluate.c. */
+/* evaluate.h - decides when values are evaluated: see evaluate.c. */
 #ifndef LUTETIA_MACHINE_EVALUATE_H
 #define LUTETIA_MACHINE_EVALUATE_H
 
-#include "machine.h"
-#include "run/evaluation.h"
+#include "run/run.h"
 
-/* Why there is an evaluation. */
-enum run_why {
-    RUN_LOOKED, /* requested, or needed by an observation */
-    RUN_DUE     /* due by itself: many values were pending */
+/* When an evaluation becomes due. */
+enum {
+    PENDING_MANY = 384,  /* pending values; LUTETIA_FLUSH_AFTER sets another number */
+    PENDING_MOST = 4096, /* pending values: also in a loop whose turns are being collected */
+    PENDING_LOOP = 16384 /* pending values: also while a loop over slices is not at its end */
 };
-enum machine_status evaluate(struct machine *m, const struct wish *wish, enum run_why why);
+
+/* Evaluates the values (possibly none) and other targets; all: everything that is live. */
+enum machine_status evaluate_values(struct machine *m, struct machine_value **targets,
+                                    int count, bool all);
+enum machine_status evaluate_after_store(struct machine *m, const struct machine_value *v);
+/* Performs, between instructions, the evaluation that a store made due. */
+void evaluate_due(struct machine *m);
+void evaluate_init(struct machine *m);
 
 #endif

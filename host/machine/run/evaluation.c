@@ -1,4 +1,5 @@
-/* evaluation.c - an evaluation's two halves: see evaluation.h.
+/* evaluation.c - an evaluation, in two halves. The first finds the targets, the nodes that they reach, and a plan. The
+ * second runs the plan's kernels. record.c records the evaluation between the halves and after them.
  *
  * An evaluation has targets: the values asked for, and the content of every live field and flag
  * that is not
@@ -16,15 +17,24 @@
 
 #include <stdlib.h>
 
-#include <stdlib.h>
-
 #include "base/arrays.h"
 #include "base/errors.h"
-#include "build/describe.h"
+#include "build/explained.h"
 #include "memory/memory.h"
 #include "run/replay.h"
 #include "run/slices.h"
 #include "values/graph.h"
+#include "watch/watch.h"
+
+struct evaluation {
+    struct targets targets;
+    struct reach reach;
+    struct plan *plan; /* NULL: nothing to run */
+    struct device_buffer *
+        *buffers; /* by node, of those in memory; after the second half also of those stored */
+    double start;
+    bool stored; /* the second half is done: the stored buffers are referenced */
+};
 
 /* ---- the nodes that are reached ---- */
 
@@ -145,8 +155,9 @@ static bool find_reach(struct machine *m, struct reach *r, const struct targets 
 
 /* ---- the two halves ---- */
 
-enum machine_status evaluation_prepare(struct machine *m, struct evaluation *e,
-                                       const struct wish *wish, enum plan_use use)
+/* Changes nothing. release() is called in any case. */
+static enum machine_status first_half(struct machine *m, struct evaluation *e,
+                                      const struct wish *wish, enum plan_use use)
 {
     *e = (struct evaluation){.start = watch_clock(m)};
     double from = e->start;
@@ -159,7 +170,7 @@ enum machine_status evaluation_prepare(struct machine *m, struct evaluation *e,
     good = good && find_reach(m, &e->reach, &e->targets);
     if (m->watch) {
         watch_span(m, WATCH_SIGNATURE, from, "\"nodes\":%d", e->reach.count);
-        describe_nodes(m, e->reach.nodes, wish->values, wish->count, memory_where);
+        explained_nodes(m, e->reach.nodes, wish->values, wish->count, memory_where);
     }
     if (!good)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory to evaluate");
@@ -193,7 +204,7 @@ static void tell_computed(struct machine *m, const struct evaluation *e)
     watch_computed(m, computed, stored);
 }
 
-enum machine_status evaluation_perform(struct machine *m, struct evaluation *e)
+static enum machine_status second_half(struct machine *m, struct evaluation *e)
 {
     int count;
     struct machine_value *const *nodes = e->reach.nodes;
@@ -218,7 +229,7 @@ enum machine_status evaluation_perform(struct machine *m, struct evaluation *e)
     return MACHINE_OK;
 }
 
-void evaluation_finish(struct machine *m, struct evaluation *e)
+static void release(struct machine *m, struct evaluation *e)
 {
     int count = 0;
     const int *stored = e->stored ? plan_stored(e->plan, &count) : NULL;
@@ -228,4 +239,72 @@ void evaluation_finish(struct machine *m, struct evaluation *e)
     free(e->targets.values);
     free(e->reach.nodes);
     free(e->reach.signature);
+}
+
+/* ---- both halves, recorded between them and after them ---- */
+
+/* For evaluations that leave nothing to compute: computes recorded overflows, too. */
+static void resolve_overflows(struct machine *m)
+{
+    struct replay *p = m->run->replay;
+    p->depth++; /* these belong to the calls before */
+    for (int i = 1; i < m->values->sets_count; i++)
+        if (m->values->sets[i].used)
+            flag_resolved(m, &m->values->sets[i], MACHINE_OVERFLOW);
+    p->depth--;
+}
+
+static enum plan_use use_of(enum run_mode mode)
+{
+    return mode == RUN_REHEARSING         ? PLAN_TO_REHEARSE
+           : mode == RUN_REHEARSING_TURNS ? PLAN_TO_REHEARSE_TURNS
+           : run_mode_builds(mode)        ? PLAN_TO_RUN_OFTEN
+                                          : PLAN_TO_RUN;
+}
+
+static enum watch_why watch_why_of(const struct machine *m, const struct wish *w,
+                                   enum run_why why)
+{
+    return w->count            ? WATCH_LOOKED_AT
+           : why == RUN_DUE    ? WATCH_MUCH_WAITED
+           : m->settings.eager ? WATCH_AT_ONCE
+                               : WATCH_ASKED_TO;
+}
+
+static enum machine_status perform(struct machine *m, struct evaluation *e,
+                                   const struct wish *w, enum run_why why)
+{
+    record_evaluates(m, e->plan, e->reach.nodes, e->reach.count, e->buffers, why == RUN_DUE);
+    enum machine_status status = second_half(m, e);
+    if (status)
+        record_failed(m);
+    else
+        record_evaluated(m, e->buffers, w->values, w->count, why == RUN_DUE);
+    if (m->watch)
+        watch_evaluated(m, e->start, watch_why_of(m, w, why), e->targets.count);
+    m->run->flushes++;
+    return status;
+}
+
+enum machine_status evaluation_run(struct machine *m, const struct wish *wish, enum run_why why)
+{
+    struct wish w = *wish;
+    struct evaluation e;
+    if (m->run->replay && m->run->replay->thorough) {
+        w.what = WISH_ALL;
+        resolve_overflows(m);
+    }
+    enum plan_use use = use_of(m->run->mode);
+    enum machine_status status = first_half(m, &e, &w, use);
+    if (w.what != WISH_VALUES)
+        m->run->stores_evaluated = m->run->stores;
+    m->run->flush_hash = 0; /* the observer now decides when to evaluate */
+    if (!plan_use_runs(use))
+        m->run->rehearsed = e.plan;
+    else if (!status && e.plan)
+        status = perform(m, &e, &w, why);
+    if (status && w.what != WISH_VALUES)
+        m->run->stores_evaluated = m->run->stores - 1; /* not yet */
+    release(m, &e);
+    return status;
 }

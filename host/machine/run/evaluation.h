@@ -1,11 +1,7 @@
-/* evaluation.h - an evaluation in two halves, so that the caller can act between them.
+/* evaluation.h - an evaluation: what is wanted becomes kernels that run.
  *
  *     const struct wish wish = {.values = &v, .count = 1, .what = WISH_LIVE};
- *     struct evaluation e;
- *     status = evaluation_prepare(m, &e, &wish, PLAN_TO_RUN);   // targets, the nodes reached, a plan
- *     if (!status && e.plan)
- *         status = evaluation_perform(m, &e);                   // kernels run, values have buffers
- *     evaluation_finish(m, &e);
+ *     status = evaluation_run(m, &wish, RUN_LOOKED);
  */
 #ifndef LUTETIA_MACHINE_EVALUATION_H
 #define LUTETIA_MACHINE_EVALUATION_H
@@ -25,21 +21,13 @@ struct wish {
     } what;
 };
 
-struct evaluation {
-    struct targets targets;
-    struct reach reach;
-    struct plan *plan; /* NULL: nothing to run */
-    struct device_buffer *
-        *buffers; /* by node, of those in memory; after the second half also of those stored */
-    double start;
-    bool stored; /* the second half is done: the stored buffers are referenced */
+/* Why there is an evaluation. */
+enum run_why {
+    RUN_LOOKED, /* requested, or needed by an observation */
+    RUN_DUE     /* due by itself: many values were pending */
 };
 
-/* The first half changes nothing. Returns an error, or MACHINE_OK; call evaluation_finish()
- * in either case. */
-enum machine_status evaluation_prepare(struct machine *m, struct evaluation *e,
-                                       const struct wish *wish, enum plan_use use);
-enum machine_status evaluation_perform(struct machine *m, struct evaluation *e);
-void evaluation_finish(struct machine *m, struct evaluation *e);
+enum machine_status evaluation_run(struct machine *m, const struct wish *wish,
+                                   enum run_why why);
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "base/scalar.h"
 #include "base/types.h"
-#include "run/run.h"
+#include "run/evaluate.h"
 #include "values/graph.h"
 
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count)
@@ -79,7 +79,7 @@ struct machine_value *materialise(struct machine *m, int set, struct machine_val
         number->strange_nan = v->strange_nan;
         return number;
     }
-    if (!v->buffer && run_evaluate(m, &v, 1, false))
+    if (!v->buffer && evaluate_values(m, &v, 1, false))
         return NULL;
     return v;
 }
@@ -91,6 +91,6 @@ bool materialise_all(struct machine *m, int set, struct machine_value **values, 
             return false;
     for (int i = 0; i < count; i++)
         if (!values[i]->buffer)
-            return run_evaluate(m, values, count, false) == MACHINE_OK;
+            return evaluate_values(m, values, count, false) == MACHINE_OK;
     return true;
 }

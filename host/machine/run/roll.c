@@ -67,7 +67,7 @@ static bool unroll(struct machine *m, struct machine_value *whole,
     if (node_is_leaf(whole) || node_is_cheap(whole) || whole == y[0])
         return true;
     const struct wish wish = {&whole, 1, WISH_VALUES};
-    enum machine_status status = evaluate(m, &wish, why);
+    enum machine_status status = evaluation_run(m, &wish, why);
     for (uint32_t i = 0; i < k && !status; i++) {
         struct machine_value key = {.op = NODE_SLICE,
                                     .type = y[i]->type,

@@ -4,7 +4,7 @@
 #define LUTETIA_MACHINE_ROLL_H
 
 #include "machine.h"
-#include "run/evaluate.h"
+#include "run/evaluation.h"
 
 /* The value of the finer set whose k slices these are, computed; NULL: none can be had
  * without a kernel. False: error set. */

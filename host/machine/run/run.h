@@ -1,11 +1,12 @@
-/* run.h - decides when values are evaluated: see run.c. */
+/* run.h - the state of this folder, and what calls and evaluations are performed for. */
 #ifndef LUTETIA_MACHINE_RUN_H
 #define LUTETIA_MACHINE_RUN_H
 
 #include "values/values.h"
 
 struct replay;
-enum { PENDING_MOST = 4096, PENDING_LOOP = 16384, HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
+/* The heights of expressions: up to the first a temporary is not computed; at the second an evaluation is due. */
+enum { HEIGHT_DEFERRED = 96, HEIGHT_MOST = 1500 };
 enum { TRACE_LENGTH = 128 };
 
 /* What calls and evaluations are performed for.
@@ -67,13 +68,5 @@ struct run {
     enum machine_status flush_status; /* of a failed evaluation: returned by the next store */
     uint64_t stores, stores_evaluated, flushes, calls_foreseen;
 };
-
-/* Evaluates the values (possibly none) and other targets; all: everything that is live. */
-enum machine_status run_evaluate(struct machine *m, struct machine_value **targets, int count,
-                                 bool all);
-enum machine_status run_after_store(struct machine *m, const struct machine_value *v);
-/* Performs, between instructions, the evaluation that a store made due. */
-void run_flush_due(struct machine *m);
-void run_init(struct machine *m);
 
 #endif

@@ -5,6 +5,7 @@
  * evaluations are thorough (they leave nothing to compute) while such loops run.
  */
 #include "build/background.h"
+#include "run/evaluate.h"
 #include "run/replay.h"
 #include "values/graph.h"
 
@@ -132,7 +133,7 @@ static bool rehearse(struct machine *m, enum run_mode what)
     if (back) {
         m->run->mode = what;
         m->run->rehearsed = NULL;
-        run_evaluate(m, NULL, 0, false);
+        evaluate_values(m, NULL, 0, false);
         m->run->mode = RUN_FREE;
         machine_error_clear(m); /* the error is reported when it matters */
         graph_give_back(m);
@@ -161,7 +162,7 @@ static bool rehearse_or_perform(struct machine *m, enum run_mode what, struct pl
         *plan = m->run->rehearsed;
     } else {
         m->run->flush_due = true;
-        run_flush_due(m);
+        evaluate_due(m);
         turns_in_vain(m);
     }
     return back;
@@ -216,7 +217,7 @@ void turns_build(struct machine *m)
     perform_calls(m, RUN_BUILDING_CALLS);
     m->run->mode = RUN_BUILDING;
     m->run->flush_due = true;
-    run_flush_due(m);
+    evaluate_due(m);
     m->run->mode = RUN_FREE;
     bool back = p->active == active && p->states[active].edges_count > at;
     if (back && p->states[active].edges[at].turns.plan)

@@ -181,7 +181,7 @@ void checkpoint_saved_free(struct sheet_history *h);
 enum paper_status planes_load(struct paper_sheet *p, paper_plane_source source, void *context);
 void checkpoints_free(struct sheet_history *h);
 
-/* ---- what is in no plane, as bytes (history/extras.c) ---- */
+/* ---- what is in no plane, as bytes (history/saved_extras.c) ---- */
 
 /* Encodes brushes with their contents, and whether there is salt or varnish. */
 enum paper_status sheet_extras_encode(struct paper_sheet *p, struct event_bytes *b);

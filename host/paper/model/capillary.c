@@ -97,7 +97,7 @@ static void creep_make(struct paper_sheet *p, const struct sheet_terms *terms,
     kit_f_next(other, p->page.water, axis);
     kit_f_times(other, other, -INFUSED_SHARE);
     kit_f_max(flow, flow, other);
-    kit_f_whole(flow);
+    sheet_flow_round(flow);
 }
 
 /* Parts of pigments that go with it. Uses t[10..14]. */

@@ -17,7 +17,24 @@ void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
     kit_f_most(room, room, 1.0);
 }
 
-/* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
+/* ---- rounding: all flows are rounded here ---- */
+
+void sheet_flow_round(CM_field_id_t flow)
+{
+    kit_f_whole(flow);
+}
+
+void sheet_flow_sum(CM_field_id_t flow, CM_field_id_t out, CM_field_id_t lower,
+                    CM_field_id_t in, CM_field_id_t upper, CM_field_id_t part)
+{
+    kit_f_mul(part, upper, in);
+    kit_f_mul(flow, lower, out);
+    kit_f_add(flow, flow, part);
+    kit_f_plus(flow, flow, KIT_WHOLE);
+}
+
+/* ---- through the faces of an axis ---- */
+
 void sheet_flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,
                      CM_field_id_t down, CM_field_id_t q, unsigned axis)
 {
@@ -26,7 +43,7 @@ void sheet_flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up
     kit_f_mul(other, other, down);
     kit_f_mul(flow, q, up);
     kit_f_sub(flow, flow, other);
-    kit_f_whole(flow);
+    sheet_flow_round(flow);
 }
 
 /* What flows up through each face of q is `flow`. Uses t[14]. */
@@ -48,17 +65,6 @@ void sheet_faces_below(struct sheet_faces *faces)
     }
 }
 
-/* d = out * lower + in * upper, rounded to whole grains, and KIT_WHOLE more. Uses t[15]. */
-static void grains_flow(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
-                        CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
-{
-    CM_field_id_t part = p->t[15];
-    kit_f_mul(part, upper, in);
-    kit_f_mul(d, lower, out);
-    kit_f_add(d, d, part);
-    kit_f_plus(d, d, KIT_WHOLE);
-}
-
 /* As step.c: what comes in from below is computed again from both sides' amounts. */
 void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct sheet_faces *faces,
                         const double weight[2])
@@ -72,11 +78,11 @@ void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct she
         kit_f_times(out, faces->out_below[axis], w);
         kit_f_times(in, faces->in_below[axis], w);
         kit_f_previous(other, free, axis);
-        grains_flow(p, flow, out, other, in, free);
+        sheet_flow_sum(flow, out, other, in, free, p->t[15]);
         kit_f_times(out, faces->out[axis], w);
         kit_f_times(in, faces->in[axis], w);
         kit_f_next(other, free, axis);
-        grains_flow(p, other, out, free, in, other);
+        sheet_flow_sum(other, out, free, in, other, p->t[15]);
         kit_f_sub(sum[axis], flow, other);
     }
     kit_f_add(sum[0], sum[0], sum[1]);

@@ -97,7 +97,7 @@ enum paper_status sheet_layer_read(struct paper_sheet *p, enum paper_layer layer
                                    float *values);
 enum paper_status sheet_total(struct paper_sheet *p, int substance, double *total);
 
-/* ---- its planes (planes.c): all that changes in it, to the bit ---- */
+/* ---- its planes (saved_planes.c): all that changes in it, to the bit ---- */
 
 /* As the fields hold it. */
 enum paper_status sheet_plane_fetch(struct paper_sheet *p, int number, void *words);
@@ -181,6 +181,12 @@ void sheet_film_step(struct paper_sheet *p);
 
 /* room = 1 to 0 as a fiber fills up; see model/step.c. */
 void sheet_room_make(struct paper_sheet *p, CM_field_id_t room);
+/* flow becomes whole grains. */
+void sheet_flow_round(CM_field_id_t flow);
+/* flow = out * lower + in * upper in whole grains, and KIT_WHOLE more: the difference of two such sums is exact. part: a
+ * temporary. */
+void sheet_flow_sum(CM_field_id_t flow, CM_field_id_t out, CM_field_id_t lower,
+                    CM_field_id_t in, CM_field_id_t upper, CM_field_id_t part);
 /* flow = whole grains of up * q(x) - down * q(x+1). Uses t[14]. */
 void sheet_flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,
                      CM_field_id_t down, CM_field_id_t q, unsigned axis);

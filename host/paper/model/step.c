@@ -244,17 +244,6 @@ static void faces_weigh(const struct paper_sheet *p, struct faces *d, const stru
     kit_f_times(d->in_below, faces->in_below, weight);
 }
 
-/* d = out * lower + in * upper, rounded to whole grains, and KIT_WHOLE more. Uses t[14]. */
-static void grains_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t out,
-                        CM_field_id_t lower, CM_field_id_t in, CM_field_id_t upper)
-{
-    CM_field_id_t part = p->t[14];
-    kit_f_mul(part, upper, in);
-    kit_f_mul(d, lower, out);
-    kit_f_add(d, d, part);
-    kit_f_plus(d, d, KIT_WHOLE);
-}
-
 /* q gets what flows through its four faces. What comes in from below is computed again from both sides' amounts: the
  * machine would have to store a flow for the neighbour, and that takes longer. The difference of two flows is exact while
  * both have KIT_WHOLE in them. Uses t[12..15]. */
@@ -264,9 +253,9 @@ static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces
     for (unsigned axis = 0; axis < 2; axis++) {
         const struct faces *f = &faces[axis];
         kit_f_previous(other, q, axis);
-        grains_make(p, flow, f->out_below, other, f->in_below, q);
+        sheet_flow_sum(flow, f->out_below, other, f->in_below, q, p->t[14]);
         kit_f_next(other, q, axis);
-        grains_make(p, other, f->out, q, f->in, other);
+        sheet_flow_sum(other, f->out, q, f->in, other, p->t[14]);
         kit_f_sub(sum[axis], flow, other);
     }
     kit_f_add(q, q, sum[0]);
@@ -436,7 +425,7 @@ static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
         kit_f_max(flow[axis], flow[axis], moved);
         kit_f_times(moved, other, -INFUSED_SHARE);
         kit_f_max(flow[axis], flow[axis], moved);
-        kit_f_whole(flow[axis]);
+        sheet_flow_round(flow[axis]);
 
         /* pigments: along their gradient, then with the water */
         kit_f_min(moved, water, other);

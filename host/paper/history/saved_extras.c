@@ -1,4 +1,4 @@
-/* extras.c - the part of a sheet that is in no plane, as bytes: brushes, salt and varnish
+/* saved_extras.c - the part of a sheet that is in no plane, as bytes: brushes, salt and varnish
  * flags.
  *
  * For each brush: its description, and the content of its bristles.

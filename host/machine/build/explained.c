@@ -1,5 +1,5 @@
-/* describe.c - see describe.h. */
-#include "build/describe.h"
+/* explained.c - see explained.h. */
+#include "build/explained.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,20 +9,20 @@
 #include "base/types.h"
 #include "build/plans.h"
 
-void describe_nodes(struct machine *m, struct machine_value *const *nodes,
-                    struct machine_value *const *wanted, int wanted_count,
-                    describe_where *where)
+void explained_nodes(struct machine *m, struct machine_value *const *nodes,
+                     struct machine_value *const *wanted, int wanted_count,
+                     explained_where *where)
 {
     m->plans->describing = (struct describing){
         .nodes = nodes, .wanted = wanted, .wanted_count = wanted_count, .where = where};
 }
 
-void describe_split(struct machine *m)
+void explained_split(struct machine *m)
 {
     m->plans->describing.parts += m->plans->describing.parts ? 1 : 2;
 }
 
-void describe_improved(struct machine *m)
+void explained_improved(struct machine *m)
 {
     watch_sums(m)->facts.plans_improved++;
 }
@@ -118,10 +118,10 @@ static void take_arguments(struct machine_explained_kernel *f, const struct plan
     }
 }
 
-struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
-                                    const struct plan_graph *g, const int *stores,
-                                    int stores_count, const struct kernel_text *k,
-                                    const char *made)
+struct kernel_note *explained_kernel(struct machine *m, cl_kernel kernel,
+                                     const struct plan_graph *g, const int *stores,
+                                     int stores_count, const struct kernel_text *k,
+                                     const char *made)
 {
     struct describing *e = &m->plans->describing;
     int set = g->nodes[stores[0]].set;
@@ -178,8 +178,8 @@ struct kernel_note *describe_kernel(struct machine *m, cl_kernel kernel,
     return n;
 }
 
-struct kernel_note *describe_built(struct machine *m, struct kernel_note *note,
-                                   cl_kernel kernel)
+struct kernel_note *explained_built(struct machine *m, struct kernel_note *note,
+                                    cl_kernel kernel)
 {
     struct kernel_note *known = NULL;
     if (!note)

@@ -1,4 +1,5 @@
-/* explain.c - machine_explain(): the facts, from the sums of watch/sums.c.
+/* totals.c - machine_explain(): the facts of a whole run, from the sums of watch/sums.c. The
+ * facts of a kernel are build/explained.c's.
  *
  * The fate of each value is counted once: it was computed, in the first evaluation that reached
  * it, or released before any evaluation did. Foreseen calls make no values; the kernels that

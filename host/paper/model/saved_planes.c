@@ -1,4 +1,4 @@
-/* planes.c - all that changes in a sheet, in and out, to the bit. */
+/* saved_planes.c - the fields of a sheet that a saved state and a checkpoint hold, to the bit: a row each. */
 #include "history.h" /* what a plane is */
 #include "model/model.h"
 
