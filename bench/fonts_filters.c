@@ -5,6 +5,7 @@
  * as takes about a millisecond.
  */
 #include "fonts_filters.h"
+#include "fonts_first.h"
 #include "fonts_peers.h"
 
 #include <edges.h>
@@ -285,6 +286,8 @@ bool fonts_filters_run(const char *font, const char *filter, bool quick,
     bool ok = filters_open(c, filter);
     for (int s = 0; ok && s < (quick ? 1 : SIZES); s++)
         ok = size_run(c, font, s, report);
+    for (int i = 0; ok && i < (font ? 1 : FACES); i++)
+        ok = fonts_first_run(font ? font : faces[i], report);
     if (ok)
         bench_report_print(report, "freetype", stdout);
     if (c->face)

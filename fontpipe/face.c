@@ -20,7 +20,13 @@
 
 #include <fontconfig/fcfreetype.h> /* after both */
 
-enum { FILE_BYTES_MAX = 1 << 29, AXES_MAX = 64 };
+enum { FILE_BYTES_MAX = 1 << 29, AXES_MAX = 64, SETTINGS_KEPT = 64 };
+
+/* How the axes were set before: with the version that it had. */
+struct setting {
+    FT_Fixed values[AXES_MAX];
+    uint64_t version;
+};
 
 struct font_face {
     FT_Library library;
@@ -32,6 +38,8 @@ struct font_face {
     size_t bytes_count;
     char *path;
     uint64_t version;
+    struct setting *settings; /* the last SETTINGS_KEPT, around; NULL until one is set */
+    int settings_count, settings_next;
 };
 
 static _Atomic uint64_t versions;
@@ -274,6 +282,7 @@ void font_face_close(struct font_face *face)
         FT_Done_Face(face->ft);
     if (face->library)
         FT_Done_FreeType(face->library);
+    free(face->settings);
     free(face->bytes);
     free(face->path);
     free(face);
@@ -403,6 +412,10 @@ enum font_status font_face_outline_raw(struct font_face *face, uint32_t glyph,
         return font_fail(FONT_NO_GLYPH, "%s: glyph %u has no outline", face->path,
                          (unsigned)glyph);
     struct take take = {out, FONT_OK};
+    if (!array_reserve(&out->segments, &out->segments_capacity,
+                       slot->outline.n_points + slot->outline.n_contours,
+                       sizeof *out->segments))
+        return font_fail(FONT_NO_MEMORY, "no memory for an outline");
     FT_Error error = FT_Outline_Decompose(&slot->outline, &funcs, &take);
     if (take.status == FONT_OK && error)
         take.status = face_fail(face, "a glyph's outline is damaged", error);
@@ -486,6 +499,38 @@ enum font_status font_face_axis(const struct font_face *face, int axis, struct f
     return FONT_OK;
 }
 
+/* The version of the axes as they are set: that which such a setting had before, so that what is kept of it is found again. */
+static void version_find(struct font_face *face)
+{
+    for (int i = 0; face->settings && i < face->settings_count; i++)
+        if (memcmp(face->settings[i].values, face->values, sizeof face->values) == 0) {
+            face->version = face->settings[i].version;
+            return;
+        }
+    face->version = ++versions;
+    if (!face->settings)
+        return; /* no memory: it will only not be found again */
+    struct setting *s = &face->settings[face->settings_next];
+    memcpy(s->values, face->values, sizeof s->values);
+    s->version = face->version;
+    face->settings_next = (face->settings_next + 1) % SETTINGS_KEPT;
+    if (face->settings_count < SETTINGS_KEPT)
+        face->settings_count++;
+}
+
+/* The setting that a face is opened with. */
+static void version_keep_first(struct font_face *face)
+{
+    if (face->settings)
+        return;
+    face->settings = calloc(SETTINGS_KEPT, sizeof *face->settings);
+    if (face->settings) {
+        memcpy(face->settings[0].values, face->values, sizeof face->values);
+        face->settings[0].version = face->version;
+        face->settings_count = face->settings_next = 1;
+    }
+}
+
 enum font_status font_face_axis_set(struct font_face *face, const char *tag, double value)
 {
     struct font_axis axis;
@@ -497,6 +542,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         return font_fail(FONT_BAD_ARGUMENT, "%s has no axis '%.20s'", face->path, tag);
     if (!isfinite(value))
         return font_fail(FONT_BAD_ARGUMENT, "axis %s cannot be %g", tag, value);
+    version_keep_first(face);
     FT_Fixed before = face->values[i];
     double within = fmax(axis.least, fmin(axis.most, value));
     face->values[i] = (FT_Fixed)lrint(fmax(-32768, fmin(32767, within)) * 65536);
@@ -506,7 +552,7 @@ enum font_status font_face_axis_set(struct font_face *face, const char *tag, dou
         face->values[i] = before;
         return face_fail(face, "its axes cannot be set", error);
     }
-    face->version = ++versions;
+    version_find(face);
     return FONT_OK;
 }
 

@@ -82,7 +82,7 @@ enum font_status font_face_axes_set(struct font_face *face, const char *axes);
 
 /* The font's file in memory, for shaping. Owned by the face. */
 const void *font_face_bytes(const struct font_face *face, size_t *count);
-/* Differs between any two settings of axes of any two faces open. */
+/* Differs between any two settings of axes of any two faces open; of one of the face's last 64 settings it is what it was then. */
 uint64_t font_face_version(const struct font_face *face);
 
 #endif

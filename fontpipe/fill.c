@@ -133,11 +133,6 @@ static enum font_status crossings_find(struct fill_work *w, const struct font_ou
     return FONT_OK;
 }
 
-static bool filled(int winding, enum font_fill rule)
-{
-    return rule == FONT_EVEN_ODD ? (winding & 1) != 0 : winding != 0;
-}
-
 static enum font_status portion_add(struct fill_work *w, const struct fill_piece *p, double low,
                                     double high, bool entering)
 {
@@ -217,9 +212,9 @@ static enum font_status strip_bound(struct fill_work *w, int active_count, doubl
     enum font_status status = FONT_OK;
     for (int i = 0; i < active_count && status == FONT_OK; i++) {
         const struct fill_piece *p = &w->pieces[w->active[i]];
-        bool before = filled(winding, rule), after;
+        bool before = fill_filled(winding, rule), after;
         winding += p->direction;
-        after = filled(winding, rule);
+        after = fill_filled(winding, rule);
         if (before == after)
             continue;
         w->bounds[bounds_count++] = (struct fill_bound){p, after};
@@ -333,13 +328,63 @@ static void levels_unique(struct fill_work *w)
     w->levels_count = kept;
 }
 
-/* By the winding numbers met: more than none and one, or none and minus one. */
-static bool covered_twice(int least, int most)
+/* The winding numbers met, and where there is more than one cover the boundary, by strips. */
+static enum font_status strips_find(struct fill_work *w, const struct font_outline *o,
+                                    enum font_fill rule, int *least, int *most)
 {
-    return least < 0 ? most > 0 || least < -1 : most > 1;
+    enum font_status status = FONT_OK;
+    *least = *most = 0;
+    /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline is not seen, here or in
+     * pictures. What is to be rebuilt is cut finely. */
+    static const double fineness[] = {12000, 32768};
+    for (int pass = 0; pass < 2 && status == FONT_OK; pass++) {
+        if (pass == 1 && !fill_twice(*least, *most))
+            break;
+        w->pieces_count = w->levels_count = w->crossings = *least = *most = 0;
+        status = pieces_make(w, o, fineness[pass]);
+        if (status != FONT_OK || !w->pieces_count)
+            break;
+        qsort(w->pieces, (size_t)w->pieces_count, sizeof *w->pieces, fill_pieces_compare);
+        /* What is rebuilt is cut where its curves cross; the cuts' own pieces may cross again. */
+        for (int n = 0; pass == 1 && n < FILL_CUTS_TIMES && status == FONT_OK; n++) {
+            w->cuts_count = 0;
+            status = crossings_find(w, o);
+            if (status != FONT_OK || !w->cuts_count)
+                break;
+            status = fill_pieces_cut(w);
+        }
+        w->crossings = 0;
+        if (status == FONT_OK)
+            status = crossings_find(w, NULL);
+        if (status != FONT_OK)
+            break;
+        levels_unique(w);
+        status = strips_pass(w, rule, false, least, most);
+    }
+    if (status == FONT_OK && fill_twice(*least, *most))
+        status = strips_pass(w, rule, true, NULL, NULL);
+    return status;
 }
 
-enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule)
+static void work_finish(struct fill_work *w)
+{
+    free(w->pieces);
+    free(w->levels);
+    free(w->portions);
+    free(w->flat);
+    free(w->ends);
+    free(w->active);
+    free(w->middles);
+    free(w->bounds);
+    free(w->cuts);
+    free(w->arcs);
+    free(w->boxes);
+    free(w->joints);
+    free(w->meets);
+    free(w->links);
+}
+
+static enum font_status prepare(struct font_outline *o, enum font_fill rule, bool quickly)
 {
     if (o->prepared)
         return FONT_OK;
@@ -347,37 +392,13 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
     struct fill_work w = {0};
     struct font_outline out = {0};
     int least = 0, most = 0;
-    /* Looked at roughly first: what is then covered twice by less than a 12000th of the outline is not seen, here or in
-     * pictures. What is to be rebuilt is cut finely. */
-    static const double fineness[] = {12000, 32768};
-    for (int pass = 0; pass < 2 && status == FONT_OK; pass++) {
-        if (pass == 1 && !covered_twice(least, most))
-            break;
-        w.pieces_count = w.levels_count = w.crossings = least = most = 0;
-        status = pieces_make(&w, o, fineness[pass]);
-        if (status != FONT_OK || !w.pieces_count)
-            break;
-        qsort(w.pieces, (size_t)w.pieces_count, sizeof *w.pieces, fill_pieces_compare);
-        /* What is rebuilt is cut where its curves cross; the cuts' own pieces may cross again. */
-        for (int n = 0; pass == 1 && n < FILL_CUTS_TIMES && status == FONT_OK; n++) {
-            w.cuts_count = 0;
-            status = crossings_find(&w, o);
-            if (status != FONT_OK || !w.cuts_count)
-                break;
-            status = fill_pieces_cut(&w);
-        }
-        w.crossings = 0;
-        if (status == FONT_OK)
-            status = crossings_find(&w, NULL);
-        if (status != FONT_OK)
-            break;
-        levels_unique(&w);
-        status = strips_pass(&w, rule, false, &least, &most);
+    if (status == FONT_OK && !(quickly && (fill_quick(&w, o, rule, false, &least, &most) ||
+                                           fill_quick(&w, o, rule, true, &least, &most)))) {
+        w.portions_count = 0;
+        status = strips_find(&w, o, rule, &least, &most);
     }
-    if (status == FONT_OK && covered_twice(least, most)) {
-        status = strips_pass(&w, rule, true, NULL, NULL);
-        if (status == FONT_OK)
-            status = result_make(&w, o, &out);
+    if (status == FONT_OK && fill_twice(least, most)) {
+        status = result_make(&w, o, &out);
         if (status == FONT_OK) {
             free(o->segments);
             o->segments = out.segments;
@@ -398,14 +419,16 @@ enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rul
         o->prepared = status == FONT_OK;
     }
     free(out.segments);
-    free(w.pieces);
-    free(w.levels);
-    free(w.portions);
-    free(w.flat);
-    free(w.ends);
-    free(w.active);
-    free(w.middles);
-    free(w.bounds);
-    free(w.cuts);
+    work_finish(&w);
     return status;
+}
+
+enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule)
+{
+    return prepare(o, rule, true);
+}
+
+enum font_status font_outline_prepare_by_strips(struct font_outline *o, enum font_fill rule)
+{
+    return prepare(o, rule, false);
 }

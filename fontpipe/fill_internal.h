@@ -1,4 +1,4 @@
-/* fill_internal.h - what fill.c and fill_cut.c share. */
+/* fill_internal.h - what fill.c and fill_cut.c, fill_quick.c and fill_arcs.c share. */
 #ifndef LUTETIA_FONT_FILL_INTERNAL_H
 #define LUTETIA_FONT_FILL_INTERNAL_H
 
@@ -45,6 +45,33 @@ struct fill_bound {
     bool entering;
 };
 
+/* A part of a segment along which neither coordinate turns around. */
+struct fill_arc {
+    struct font_point p[4];
+    double t0, t1; /* of the segment */
+    int degree, segment, contour;
+    int next;    /* of its contour */
+    bool joined; /* which begins where this one ends */
+};
+
+/* Where two arcs cross. balance: what is kept that ends there, less what begins. */
+struct fill_joint {
+    struct font_point at;
+    int balance;
+};
+
+struct fill_meet {
+    int arc, joint;
+    double t;
+};
+
+/* An arc from one crossing to the next. */
+struct fill_link {
+    int arc, from, to; /* joints; -1: the arc's end */
+    int runs;          /* 1 it is kept, -1 turned around, 0 it is inside */
+    double t0, t1;
+};
+
 struct fill_work {
     struct fill_piece *pieces;
     double *levels;
@@ -55,6 +82,13 @@ struct fill_work {
     double *middles; /* of the active ones */
     struct fill_bound *bounds;
     struct fill_cut *cuts;
+    struct fill_arc *arcs;
+    struct font_box *boxes; /* of the arcs */
+    struct fill_joint *joints;
+    struct fill_meet *meets;
+    struct fill_link *links;
+    int arcs_count, arcs_capacity, boxes_capacity, joints_capacity, meets_count, meets_capacity;
+    int links_count, links_capacity, looks;
     int cuts_count, cuts_capacity;
     int pieces_count, pieces_capacity, levels_count, levels_capacity;
     int portions_count, portions_capacity, flat_count, flat_capacity;
@@ -89,7 +123,34 @@ static inline double fill_piece_t(const struct fill_piece *p, double y)
     return fill_piece_between(p, y, p->t0, p->t1);
 }
 
+static inline bool fill_filled(int winding, enum font_fill rule)
+{
+    return rule == FONT_EVEN_ODD ? (winding & 1) != 0 : winding != 0;
+}
+
+/* By the winding numbers met: more than none and one, or none and minus one. */
+static inline bool fill_twice(int least, int most)
+{
+    return least < 0 ? most > 0 || least < -1 : most > 1;
+}
+
+static inline struct font_point fill_minus(struct font_point a, struct font_point b)
+{
+    return (struct font_point){a.x - b.x, a.y - b.y};
+}
+
 enum font_status fill_no_memory(void);
+/* The outline as arcs, its points moved by at most `shake`. False: a curve comes back to its beginning, there are too many, or there is
+ * no memory. */
+bool fill_arcs_make(struct fill_work *w, const struct font_outline *o, double shake);
+/* Notes where arcs cross, in joints and meets. False: it is not seen of all of them. */
+bool fill_arcs_cross(struct fill_work *w);
+struct font_point fill_arc_at(const struct fill_arc *a, double t, struct font_point *speed);
+/* Finds the winding numbers from the curves, and where some of them are covered twice the boundary, as portions. False: it cannot
+ * be seen so (contours touch, or there is no memory), and nothing in w is of use. shaken_first: where they touch they are moved
+ * apart by what no picture shows. */
+bool fill_quick(struct fill_work *w, const struct font_outline *o, enum font_fill rule,
+                bool shaken_first, int *least, int *most);
 /* For qsort: by y0. */
 int fill_pieces_compare(const void *a, const void *b);
 

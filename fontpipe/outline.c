@@ -204,10 +204,10 @@ struct font_box font_outline_box(const struct font_outline *o)
     for (int i = 0; i < o->segments_count; i++)
         for (int k = 0; k <= o->segments[i].degree; k++) {
             p = o->segments[i].p[k];
-            box.x0 = fmin(box.x0, p.x);
-            box.y0 = fmin(box.y0, p.y);
-            box.x1 = fmax(box.x1, p.x);
-            box.y1 = fmax(box.y1, p.y);
+            box.x0 = p.x < box.x0 ? p.x : box.x0;
+            box.y0 = p.y < box.y0 ? p.y : box.y0;
+            box.x1 = p.x > box.x1 ? p.x : box.x1;
+            box.y1 = p.y > box.y1 ? p.y : box.y1;
         }
     return box;
 }

@@ -81,6 +81,8 @@ enum font_status font_outline_close(struct font_outline *o);
 
 /* See above. Errors: TOO_LARGE for outlines that cross too often, NO_MEMORY; the outline is as it was. */
 enum font_status font_outline_prepare(struct font_outline *o, enum font_fill rule);
+/* The same by strips alone (fill.c), whatever the outline: slower, what font_outline_prepare() is tested against. */
+enum font_status font_outline_prepare_by_strips(struct font_outline *o, enum font_fill rule);
 
 /* Moves the outline outwards by half of the amounts on each side: what stem darkening asks for, and fake bold.
  * Units: the font's. Before it is prepared. */

@@ -116,20 +116,14 @@ static bool has_tables(hb_face_t *face)
     return has;
 }
 
-/* Makes the HarfBuzz font, again if the face's axes were set since. */
-void font_shaped_refresh(struct font_shaped_face *f)
+static void shaped_make(struct font_shaped_face *f, const struct font_face_info *info)
 {
-    if (f->hb && f->version == font_face_version(f->face))
-        return;
-    hb_font_destroy(f->hb);
     size_t count;
     const void *bytes = font_face_bytes(f->face, &count);
-    struct font_face_info info;
-    font_face_describe(f->face, &info);
     hb_blob_t *blob =
         hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
-    hb_face_t *face = hb_face_create(blob, (unsigned)info.index);
-    hb_face_set_upem(face, (unsigned)info.units_per_em);
+    hb_face_t *face = hb_face_create(blob, (unsigned)info->index);
+    hb_face_set_upem(face, (unsigned)info->units_per_em);
     f->hb = hb_font_create(face);
     if (has_tables(face)) {
         hb_ot_font_set_funcs(f->hb);
@@ -138,7 +132,21 @@ void font_shaped_refresh(struct font_shaped_face *f)
         hb_font_set_funcs(f->hb, funcs, f->face, NULL);
         hb_font_funcs_destroy(funcs);
     }
-    hb_font_set_scale(f->hb, (int)info.units_per_em, (int)info.units_per_em);
+    hb_font_set_scale(f->hb, (int)info->units_per_em, (int)info->units_per_em);
+    hb_face_destroy(face);
+    hb_blob_destroy(blob);
+    f->units_per_em = info->units_per_em;
+}
+
+/* Makes the HarfBuzz font; if the face's axes were set since, sets its own: what HarfBuzz keeps of the tables stays. */
+void font_shaped_refresh(struct font_shaped_face *f)
+{
+    if (f->hb && f->version == font_face_version(f->face))
+        return;
+    struct font_face_info info;
+    font_face_describe(f->face, &info);
+    if (!f->hb)
+        shaped_make(f, &info);
     hb_variation_t variations[64];
     int n = 0;
     struct font_axis axis;
@@ -149,9 +157,6 @@ void font_shaped_refresh(struct font_shaped_face *f)
     }
     if (n)
         hb_font_set_variations(f->hb, variations, (unsigned)n);
-    hb_face_destroy(face);
-    hb_blob_destroy(blob);
-    f->units_per_em = info.units_per_em;
     f->version = font_face_version(f->face);
 }
 
