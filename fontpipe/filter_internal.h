@@ -141,11 +141,11 @@ extern const float font_even_weight[3];
 #define FONT_PATCH_TOLERANCE 2e-4
 
 /* Patches are for FONT_PATCH_PHASES places of a node between two pixels each way, and the end; a patch is four rows of four
- * values between as many zeros. */
+ * values. */
 enum {
     FONT_PATCH_PHASES = 16,
     FONT_PATCH_TAPS = 3,
-    FONT_PATCH_ROW = 12,
+    FONT_PATCH_ROW = 4,
     FONT_PATCH_FLOATS = (FONT_PATCH_TAPS + 1) * FONT_PATCH_ROW
 };
 

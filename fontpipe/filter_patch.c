@@ -6,6 +6,7 @@
 #include "internal.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { SIDE = FONT_PATCH_PHASES + 1 };
 
@@ -23,10 +24,12 @@ static double knot(const struct font_filter *f, double u, double v)
 
 enum font_status font_patches_make(struct font_filter *f)
 {
-    f->patches = calloc((size_t)SIDE * SIDE * FONT_PATCH_FLOATS, sizeof *f->patches);
+    const size_t bytes = (size_t)SIDE * SIDE * FONT_PATCH_FLOATS * sizeof *f->patches;
+    f->patches = aligned_alloc(64, bytes);
     if (!f->patches)
         return font_fail(FONT_NO_MEMORY, "no memory for a filter");
-    f->info.bytes += (size_t)SIDE * SIDE * FONT_PATCH_FLOATS * sizeof *f->patches;
+    memset(f->patches, 0, bytes);
+    f->info.bytes += bytes;
     float *patch = f->patches;
     for (int py = 0; py < SIDE; py++)
         for (int px = 0; px < SIDE; px++, patch += FONT_PATCH_FLOATS)
@@ -35,7 +38,7 @@ enum font_status font_patches_make(struct font_filter *f)
                 for (int r = 0; r <= f->taps; r++) {
                     double v = r + 1 - (double)py / FONT_PATCH_PHASES - f->radius;
                     double here = knot(f, u, v);
-                    patch[r * FONT_PATCH_ROW + 4 + c] = (float)(here - above);
+                    patch[r * FONT_PATCH_ROW + c] = (float)(here - above);
                     above = here;
                 }
             }

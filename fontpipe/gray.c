@@ -174,14 +174,12 @@ static enum font_status draw(struct font_gray *gray, const struct font_edges *e,
     int pitch = gray->pitch, height = gray->height_px;
     job.width = gray->width_px;
     job.pitch = pitch;
-    /* Odd blocks end up to 8 floats past the width; with more taps a block of 16 does. */
-    if (e->arcs_count) {
-        job.stride = f->way == FONT_BY_AREAS ? pitch : pitch + 16;
-    } else if (f->taps <= 5) {
-        job.odd = pitch == 16 ? FONT_NARROW_ODD : pitch + 16;
-        job.stride = pitch == 16 ? FONT_NARROW_STRIDE : 2 * pitch + 48;
+    /* Blocks end up to 8 floats past the width; with more taps, of 16, up to 16. */
+    if (!e->arcs_count && f->taps <= 5 && f->way != FONT_BY_PATCHES && pitch == 16) {
+        job.odd = FONT_NARROW_ODD;
+        job.stride = FONT_NARROW_STRIDE;
     } else {
-        job.stride = pitch + 16;
+        job.stride = e->arcs_count && f->way == FONT_BY_AREAS ? pitch : pitch + 16;
     }
     int rows = FONT_SUMS_FLOATS / job.stride - 2 * FONT_MARGIN_ROWS;
     rows = rows < 32 ? 32 : rows;

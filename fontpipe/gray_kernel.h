@@ -14,14 +14,17 @@
  *
  * At the end one pass down the columns adds the rows up.
  *
- * Two nodes beside each other add to overlapping columns. A processor hands what was just stored to the next load without
- * waiting only if the load is of the same bytes; so sums are touched in whole blocks alone. Up to five taps, wherever
- * they begin, lie in one of the blocks of 8 columns that begin at multiples of 4:
+ * Nodes that follow each other mostly add to the same block of 8 columns, which begins at a multiple of 4, of the same rows:
+ * they are added up in registers, and then once to the sums.
  *
- *     even   |0       |8       |16      |         a row of sums is two rows of blocks,
- *     odd    |   4    |   12   |   20   |         each block aligned, added up at the end
+ * In a small picture they seldom are, and what one node stores the next loads at once, of columns that overlap. A processor
+ * hands what was just stored to the next load without waiting only if the load is of the same bytes; so there sums
+ * are touched in whole blocks alone. Up to five taps, wherever they begin, lie in one of the blocks of 8
+ * columns that begin at multiples of 4, and of a picture of up to 16 columns a row of sums is two rows of such blocks,
+ * each aligned, added up at the end:
  *
- * (Of a picture of up to 16 columns a row of sums is two cache lines: the odd blocks follow the even ones at once.)
+ *     even   |0       |8       |
+ *     odd    |   4    |   12   |
  *
  * The tables are padded, so that a block's values are one load whatever column the taps begin at. More taps take 16
  * columns from a multiple of 8, as two blocks of the even row. */
@@ -100,7 +103,7 @@ struct batch {
 };
 
 INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const float *ys,
-                       int first, int count, int stride, int taps)
+                       int first, int count, int stride, int taps, bool single)
 {
     int odd = job->odd;
     for (int k = 0; k < count; k += LANES) { /* the arrays are longer than the count */
@@ -112,7 +115,8 @@ INLINE void batch_fill(struct batch *b, const struct font_gray_job *job, const f
         ints qx = __builtin_convertvector(px, ints), qy = __builtin_convertvector(py, ints);
         ints row = iy - job->row;
         ints within = SHORT(taps) ? ix & 3 : ix & 7, block = ix - within;
-        if (SHORT(taps)) /* odd blocks have a row of their own, 4 columns to the right */
+        if (SHORT(taps) &&
+            !single) /* odd blocks have a row of their own, 4 columns to the right */
             block += (block >> 2 & 1) * (odd + 4);
         *(ints_loose *)(b->column + k) = qx * (2 * FONT_X_ROW) + 16 - within;
         *(ints_loose *)(b->rows + k) = qy * (2 * FONT_Y_ROW);
@@ -157,7 +161,45 @@ INLINE void node_add(const struct font_gray_job *job, const struct batch *b, int
               taps + 1);
 }
 
-/* Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
+/* Wider pictures. Of nodes that follow each other many are of the same block of the same rows: their sums stay in registers. */
+INLINE void runs_add(const struct font_gray_job *job, int term, int stride, int taps,
+                     bool banded)
+{
+    enum { ROWS_MAX = 6 };
+    const float *xs = font_filter_x(job->filter, term), *ys = font_filter_y(job->filter, term);
+    const int parts = 8 / HALF_LANES;
+    struct batch b;
+    for (int first = 0; first < job->nodes_count; first += BATCH) {
+        int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
+        batch_fill(&b, job, ys, first, count, stride, taps, true);
+        for (int k = 0; k < count;) {
+            half_vector run[ROWS_MAX][HALF_PARTS];
+            int at = b.sums[k];
+            if (banded && !row_in_band(job, b.row[k])) {
+                k++;
+                continue;
+            }
+            for (int r = 0; r <= taps; r++)
+                for (int p = 0; p < parts; p++)
+                    run[r][p] = (half_vector){0};
+            do {
+                const float *x = xs + b.column[k], *weights = b.weights + k * WEIGHTS(taps);
+                float t = b.column_t[k];
+                for (int p = 0; p < parts; p++) {
+                    half_vector column = half_load(x + p * HALF_LANES) +
+                                         half_load(x + FONT_X_ROW + p * HALF_LANES) * t;
+                    for (int r = 0; r <= taps; r++)
+                        run[r][p] += column * weights[r];
+                }
+            } while (++k < count && b.sums[k] == at);
+            for (int r = 0; r <= taps; r++)
+                for (int p = 0; p < parts; p++)
+                    *(half_loose *)(job->sums + at + r * stride + p * HALF_LANES) += run[r][p];
+        }
+    }
+}
+
+/* Pictures of 16 columns, and more taps. Neighbours on an edge add to the same rows and each waits for what the one before has stored; so a batch is gone
  * through from three places in turns. */
 INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int taps,
                       bool banded)
@@ -168,7 +210,7 @@ INLINE void nodes_add(const struct font_gray_job *job, int term, int stride, int
     for (int first = 0; first < job->nodes_count; first += BATCH) {
         int count = job->nodes_count - first < BATCH ? job->nodes_count - first : BATCH;
         int third = count / 3;
-        batch_fill(&b, job, ys, first, count, stride, taps);
+        batch_fill(&b, job, ys, first, count, stride, taps, false);
         for (int k = 0; k < third; k++) {
             node_add(job, &b, k, xs, sums, stride, taps, banded);
             node_add(job, &b, k + third, xs, sums, stride, taps, banded);
@@ -281,30 +323,40 @@ INLINE void rows_clear(const struct font_gray_job *job, int stride)
         *(vector *)(from + k) = (vector){0};
 }
 
+/* So many vectors of columns. */
+INLINE void strip_add_up(const struct font_gray_job *job, int column, int vectors, int stride,
+                         int odd, bool exact)
+{
+    vector sum[4 * PARTS];
+    const float *sums = job->sums + (long)FONT_MARGIN_ROWS * stride + column;
+    uint8_t *out = job->out + column;
+    float *values = exact ? job->exact + column : NULL;
+    for (int p = 0; p < vectors; p++)
+        sum[p] = load(job->carry + column + p * LANES);
+    for (int r = 0; r < job->rows; r++, sums += stride, out += job->pitch) {
+        for (int p = 0; p < vectors; p++)
+            sum[p] += load(sums + p * LANES);
+        for (int p = 0; odd && p < vectors; p++)
+            sum[p] += odd_load(sums + odd + 4 + p * LANES,
+                               stride == FONT_NARROW_STRIDE && p * LANES < 4);
+        for (int p = 0; p < vectors; p += PARTS)
+            pixels_store(out + p * LANES, sum + p);
+        for (int p = 0; exact && p < vectors; p++)
+            *(vector_loose *)(values + (long)r * job->pitch + p * LANES) = sum[p];
+    }
+    for (int p = 0; p < vectors; p++)
+        *(vector_loose *)(job->carry + column + p * LANES) = sum[p];
+}
+
+/* Four times as many columns at once where there are registers for it. */
 INLINE void rows_add_up(const struct font_gray_job *job, int stride, int odd, bool exact)
 {
-    int rows = job->rows, width = job->width;
-    long pitch = job->pitch;
-    for (int column = 0; column < width; column += ROW) {
-        vector sum[PARTS];
-        const float *sums = job->sums + (long)FONT_MARGIN_ROWS * stride + column;
-        uint8_t *out = job->out + column;
-        float *values = exact ? job->exact + column : NULL;
-        for (int p = 0; p < PARTS; p++)
-            sum[p] = load(job->carry + column + p * LANES);
-        for (int r = 0; r < rows; r++, sums += stride, out += pitch) {
-            for (int p = 0; p < PARTS; p++)
-                sum[p] += load(sums + p * LANES);
-            for (int p = 0; odd && p < PARTS; p++)
-                sum[p] += odd_load(sums + odd + 4 + p * LANES,
-                                   stride == FONT_NARROW_STRIDE && p * LANES < 4);
-            pixels_store(out, sum);
-            for (int p = 0; exact && p < PARTS; p++)
-                *(vector_loose *)(values + r * pitch + p * LANES) = sum[p];
-        }
-        for (int p = 0; p < PARTS; p++)
-            *(vector_loose *)(job->carry + column + p * LANES) = sum[p];
-    }
+    const int wide = LANES >= 8 ? 4 * ROW : ROW;
+    int column = 0;
+    for (; wide > ROW && column + wide <= job->pitch; column += wide)
+        strip_add_up(job, column, wide / LANES, stride, odd, exact);
+    for (; column < job->width; column += ROW)
+        strip_add_up(job, column, PARTS, stride, odd, exact);
 }
 
 #include "gray_lanes.h"
@@ -322,7 +374,9 @@ INLINE void edges_add(const struct font_gray_job *job, int stride, int taps, boo
     if (patches)
         patches_add(job, stride, banded);
     for (int term = 0; term < job->filter->terms_count; term++) {
-        if (!patches)
+        if (!patches && SHORT(taps) && !job->odd)
+            runs_add(job, term, stride, taps, banded);
+        else if (!patches)
             nodes_add(job, term, stride, taps, banded);
         lines_add(job, term, stride, taps);
     }
@@ -375,8 +429,6 @@ void KERNEL(const struct font_gray_job *job)
         rows_add_up(job, job->stride, job->odd, true);
     else if (job->stride == FONT_NARROW_STRIDE && job->odd)
         rows_add_up(job, FONT_NARROW_STRIDE, FONT_NARROW_ODD, false);
-    else if (job->odd)
-        rows_add_up(job, job->stride, job->odd, false);
     else
         rows_add_up(job, job->stride, 0, false);
 }
