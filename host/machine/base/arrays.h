@@ -17,4 +17,7 @@ void *array_zeroed(size_t count, size_t element);
 /* A hash of the words, the same on every machine. */
 uint64_t words_hash(const uint32_t *words, size_t count);
 
+/* So many elements, each these 1, 2, 4, 8 or 16 bytes. */
+void array_fill(void *to, const void *element, size_t bytes, size_t count);
+
 #endif

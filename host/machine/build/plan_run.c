@@ -192,10 +192,12 @@ static enum machine_status interpret(struct machine *m, struct plan *p, const st
     enum machine_status status = device_settle(m);
     if (status)
         return status;
+    const struct vpset *set = &m->values->sets[l->set];
+    int parts = device_parts(m, l->program->lane_s * (double)set->count);
     double start = clock_s();
     m->inside++;
     bool good =
-        blocks_run(&m->plans->room, l->program, &m->values->sets[l->set], buffers, nodes);
+        blocks_run(&m->plans->room, m->device->crew, parts, l->program, set, buffers, nodes);
     m->inside--;
     p->spent_s += clock_s() - start;
     m->plans->interpreted++;

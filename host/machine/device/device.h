@@ -4,6 +4,7 @@
 
 #include <CL/cl.h>
 
+#include "base/crew.h"
 #include "base/settings.h"
 #include "device/shape.h"
 
@@ -46,8 +47,10 @@ struct device {
     cl_kernel *unstarted; /* built, but never started */
     int unstarted_count, unstarted_capacity;
     const char *options;
-    bool is_pocl;           /* on a CPU */
-    bool queued;            /* commands that nobody has waited for may be in the queue */
+    bool is_pocl; /* on a CPU */
+    struct crew
+        *crew;   /* as many threads as units, for what the front end does; NULL: it is alone */
+    bool queued; /* commands that nobody has waited for may be in the queue */
     bool keeps_programs;    /* on disk */
     cl_event fence;         /* see device_pace(); NULL: none */
     uint64_t fence_kernels; /* run before it */
@@ -131,6 +134,12 @@ void device_flush(struct machine *m); /* what is in the queue begins */
 enum machine_status device_settle(struct machine *m);
 /* The same, for a look of that name, which those who watch hear of. */
 enum machine_status device_settle_for(struct machine *m, const char *what);
+
+/* In how many parts the crew does what takes one thread so long. LUTETIA_NEAR=2: in several, however short. */
+int device_parts(const struct machine *m, double seconds);
+
+/* Copies arrays of the front end's, by the crew where they are long. */
+void device_move(struct machine *m, void *to, const void *from, size_t bytes);
 
 /* Called after kernels were started. Waits if the front end is `ahead` kernels ahead of the
  * device, because each waiting kernel takes memory. */

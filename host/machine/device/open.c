@@ -93,6 +93,7 @@ static enum machine_status ask(struct machine *m)
      * binary. */
     d->keeps_programs = m->settings.keep == SETTING_FREE ? !d->is_pocl : m->settings.keep;
     d->units = units ? (int)units : 1;
+    d->crew = d->is_pocl ? crew_create(d->units) : NULL;
     d->memory_bytes = d->is_cpu ? memory / 2 : memory; /* on a CPU the front end uses the
                                                         * same memory */
     d->memory_max_alloc_bytes = max_alloc;
@@ -152,6 +153,7 @@ void device_close(struct machine *m)
         clFinish(d->queue);
     if (d->fence)
         clReleaseEvent(d->fence);
+    crew_destroy(d->crew);
     device_pool_empty(d);
     free(d->pool);
     device_programs_finish(d);

@@ -3,10 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "device/device.h"
 #include "watch/watch.h"
 
-enum { AT_ONCE_BYTES = 128 << 10 };
+enum { PARTS_FORCED = 7 };
 
 double device_wait_begin(struct machine *m)
 {
@@ -24,24 +25,72 @@ enum machine_status device_wait_end(struct machine *m, cl_int error, double star
     return device_check(m, error, what);
 }
 
+int device_parts(const struct machine *m, double seconds)
+{
+    if (m->settings.near > 1)
+        return PARTS_FORCED;
+    return m->settings.near ? crew_parts(m->device->crew, seconds) : 1;
+}
+
+/* Bytes copied, or all filled with a pattern. */
+struct moving {
+    char *to;
+    const char *from;
+    size_t bytes, pattern_bytes; /* 0: copied */
+    int parts;
+};
+enum { MOVED_TOGETHER = 4096 };
+
+static void part_move(void *of, int part, int worker)
+{
+    const struct moving *g = of;
+    size_t pieces = (g->bytes + MOVED_TOGETHER - 1) / MOVED_TOGETHER,
+           first = pieces * (size_t)part / (size_t)g->parts * MOVED_TOGETHER,
+           end = pieces * (size_t)(part + 1) / (size_t)g->parts * MOVED_TOGETHER;
+    end = end < g->bytes ? end : g->bytes;
+    (void)worker;
+    if (g->pattern_bytes)
+        array_fill(g->to + first, g->from, g->pattern_bytes, (end - first) / g->pattern_bytes);
+    else
+        memcpy(g->to + first, g->from + first, end - first);
+}
+
+/* Seconds for a byte. */
+static const double move_s = 0.06e-9;
+
+static void move(const struct machine *m, char *to, const void *from, size_t bytes,
+                 size_t pattern_bytes)
+{
+    struct moving g = {.to = to,
+                       .from = from,
+                       .bytes = bytes,
+                       .pattern_bytes = pattern_bytes,
+                       .parts = device_parts(m, move_s * (double)bytes)};
+    crew_run(m->device->crew, g.parts, part_move, &g);
+}
+
+void device_move(struct machine *m, void *to, const void *from, size_t bytes)
+{
+    move(m, to, from, bytes, 0);
+}
+
 /* The front end may look at it itself. */
 static bool near(const struct machine *m, const struct device_buffer *b)
 {
     return b->host && m->settings.near;
 }
 
-/* On the front end's own thread, where that is done before a command has begun. */
-static bool at_once(const struct machine *m, const struct device_buffer *b, size_t bytes)
+/* Where no command is on its way. */
+static bool at_once(const struct machine *m, const struct device_buffer *b)
 {
-    return near(m, b) && !m->device->queued && !m->watch && bytes <= AT_ONCE_BYTES;
+    return near(m, b) && !m->device->queued && !m->watch;
 }
 
 enum machine_status device_fill(struct machine *m, const struct device_buffer *b,
                                 const void *pattern, size_t pattern_bytes, const char *what)
 {
-    if (at_once(m, b, b->bytes)) {
-        for (size_t at = 0; at < b->bytes; at += pattern_bytes)
-            memcpy((char *)b->host + at, pattern, pattern_bytes);
+    if (at_once(m, b)) {
+        move(m, b->host, pattern, b->bytes, pattern_bytes);
         return MACHINE_OK;
     }
     m->inside++;
@@ -58,8 +107,8 @@ enum machine_status device_fill(struct machine *m, const struct device_buffer *b
 enum machine_status device_copy(struct machine *m, const struct device_buffer *from,
                                 const struct device_buffer *to, size_t bytes, const char *what)
 {
-    if (near(m, from) && at_once(m, to, bytes)) {
-        memcpy(to->host, from->host, bytes);
+    if (near(m, from) && at_once(m, to)) {
+        move(m, to->host, from->host, bytes, 0);
         return MACHINE_OK;
     }
     m->inside++;

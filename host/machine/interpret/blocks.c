@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "values/values.h"
 
 enum { LINE = 64 };
@@ -25,26 +26,28 @@ struct run {
     const struct byte_code *p;
     const struct vpset *set;
     struct device_buffer *const *buffers;
-    struct blocks_room *room;
+    struct blocks_registers *room; /* of this thread */
 };
 
 void blocks_room_free(struct blocks_room *room)
 {
-    free(room->registers);
-    free(room->at);
-    *room = (struct blocks_room){.registers = NULL};
+    for (int i = 0; i < CREW_MOST; i++) {
+        free(room->of[i].memory);
+        free(room->of[i].at);
+    }
+    *room = (struct blocks_room){0};
 }
 
-static bool room_ready(struct blocks_room *room, const struct byte_code *p)
+static bool room_ready(struct blocks_registers *room, const struct byte_code *p)
 {
-    if (room->registers_bytes < p->registers_bytes) {
+    if (room->bytes < p->registers_bytes) {
         size_t bytes = (p->registers_bytes + 4095) / 4096 * 4096;
-        free(room->registers);
-        room->registers = aligned_alloc(LINE, bytes);
-        room->registers_bytes = room->registers ? bytes : 0;
-        if (!room->registers)
+        free(room->memory);
+        room->memory = aligned_alloc(LINE, bytes);
+        room->bytes = room->memory ? bytes : 0;
+        if (!room->memory)
             return false;
-        memset(room->registers, 0, bytes);
+        memset(room->memory, 0, bytes);
     }
     if (room->at_count < p->places_count) {
         void **at = realloc(room->at, (size_t)p->places_count * sizeof *at);
@@ -58,15 +61,8 @@ static bool room_ready(struct blocks_room *room, const struct byte_code *p)
 
 static void fill(void *to, struct machine_scalar x, int bytes, int lanes)
 {
-    unsigned char raw[16];
-    memcpy(raw, &x.lo, 8);
-    memcpy(raw + 8, &x.hi, 8);
-    if (bytes == 1) {
-        memset(to, raw[0], (size_t)lanes);
-        return;
-    }
-    for (int i = 0; i < lanes; i++)
-        memcpy((unsigned char *)to + i * bytes, raw, (size_t)bytes);
+    const uint64_t raw[2] = {x.lo, x.hi};
+    array_fill(to, raw, (size_t)bytes, (size_t)lanes);
 }
 
 /* Places that are the same for all blocks. */
@@ -74,7 +70,7 @@ static void places_begin(const struct run *r, struct machine_value *const *nodes
 {
     for (int i = 0; i < r->p->places_count; i++) {
         const struct place *place = &r->p->places[i];
-        void *at = (char *)r->room->registers + place->offset;
+        void *at = (char *)r->room->memory + place->offset;
         if (place->kind == PLACE_ARRAY || place->kind == PLACE_MOVED)
             continue;
         if (place->kind == PLACE_NUMBER)
@@ -134,7 +130,7 @@ static void *moved(const struct run *r, const struct place *place, const struct 
     const struct vpset *s = r->set;
     int dx = place->further[s->rank - 1], reach = s->halo;
     uint64_t first = row_moved(s, b->row, place->further);
-    char *together = (char *)r->room->registers + place->offset;
+    char *together = (char *)r->room->memory + place->offset;
     if (dx > s->width / 2)
         dx -= s->width;
     if (dx < -(s->width / 2))
@@ -241,43 +237,71 @@ static void halos_make(const struct run *r, uint64_t row, uint64_t rows)
     }
 }
 
-static void long_rows(const struct run *r)
+/* One run, shared out. A piece is a block's columns of a row, or a block of short rows. */
+struct share {
+    struct run run;
+    struct blocks_room *room;
+    struct machine_value *const *nodes;
+    uint64_t pieces, along; /* along: of a row; 0: rows are short */
+    int parts, lanes;
+    bool begun[CREW_MOST];
+};
+
+static void long_row_run(const struct run *r, uint64_t row, int x)
+{
+    int lanes = r->set->width - x < BLOCK_LANES ? r->set->width - x : BLOCK_LANES;
+    block_run(r, &(struct block){.row = row, .x = x, .lanes = lanes});
+}
+
+static void short_rows_run(const struct run *r, uint64_t piece)
 {
     const struct vpset *s = r->set;
-    for (uint64_t row = 0; row < s->rows; row++) {
-        for (int x = 0; x < s->width; x += BLOCK_LANES) {
-            int lanes = s->width - x < BLOCK_LANES ? s->width - x : BLOCK_LANES;
-            block_run(r, &(struct block){.row = row, .x = x, .lanes = lanes});
+    uint64_t at_once = BLOCK_LANES / s->pitch, row = piece * at_once,
+             rows = s->rows - row < at_once ? s->rows - row : at_once;
+    block_run(r,
+              &(struct block){.row = row, .rows = (int)rows, .lanes = (int)(rows * s->pitch)});
+    if (r->p->moves)
+        halos_make(r, row, rows);
+}
+
+static void part_run(void *of, int part, int worker)
+{
+    struct share *s = of;
+    struct run r = s->run;
+    uint64_t first = s->pieces * (uint64_t)part / (uint64_t)s->parts,
+             end = s->pieces * (uint64_t)(part + 1) / (uint64_t)s->parts;
+    r.room = &s->room->of[worker];
+    if (!s->begun[worker])
+        places_begin(&r, s->nodes, s->lanes);
+    s->begun[worker] = true;
+    for (uint64_t i = first; i < end; i++)
+        if (!s->along) {
+            short_rows_run(&r, i);
+        } else {
+            long_row_run(&r, i / s->along, (int)(i % s->along) * BLOCK_LANES);
+            if (s->parts == 1 && i % s->along == s->along - 1)
+                halos_make(&r, i / s->along, 1);
         }
-        halos_make(r, row, 1);
-    }
 }
 
-static void short_rows(const struct run *r)
-{
-    const struct vpset *s = r->set;
-    uint64_t at_once = BLOCK_LANES / s->pitch;
-    for (uint64_t row = 0; row < s->rows; row += at_once) {
-        uint64_t rows = s->rows - row < at_once ? s->rows - row : at_once;
-        block_run(
-            r, &(struct block){.row = row, .rows = (int)rows, .lanes = (int)(rows * s->pitch)});
-        if (r->p->moves)
-            halos_make(r, row, rows);
-    }
-}
-
-bool blocks_run(struct blocks_room *room, const struct byte_code *p, const struct vpset *set,
+bool blocks_run(struct blocks_room *room, struct crew *crew, int parts,
+                const struct byte_code *p, const struct vpset *set,
                 struct device_buffer *const *buffers, struct machine_value *const *nodes)
 {
-    const struct run r = {.p = p, .set = set, .buffers = buffers, .room = room};
+    struct share s = {
+        .run = {.p = p, .set = set, .buffers = buffers}, .room = room, .nodes = nodes};
     bool are_short = set->pitch <= BLOCK_LANES;
-    uint64_t most = are_short ? set->pitch * set->rows : (uint64_t)set->width;
-    if (!room_ready(room, p))
-        return false;
-    places_begin(&r, nodes, most < BLOCK_LANES ? (int)most : BLOCK_LANES);
-    if (are_short)
-        short_rows(&r);
-    else
-        long_rows(&r);
+    uint64_t most = are_short ? set->pitch * set->rows : (uint64_t)set->width,
+             at_once = are_short ? BLOCK_LANES / set->pitch : 1;
+    s.along = are_short ? 0 : ((uint64_t)set->width + BLOCK_LANES - 1) / BLOCK_LANES;
+    s.pieces = are_short ? (set->rows + at_once - 1) / at_once : set->rows * s.along;
+    s.lanes = most < BLOCK_LANES ? (int)most : BLOCK_LANES;
+    s.parts = (uint64_t)parts < s.pieces ? parts : (int)s.pieces;
+    for (int i = 0; i < crew_size(crew) && (i == 0 || s.parts > 1); i++)
+        if (!room_ready(&room->of[i], p))
+            return false;
+    crew_run(crew, s.parts, part_run, &s);
+    if (s.parts > 1 && s.along)
+        halos_make(&s.run, 0, set->rows);
     return true;
 }

@@ -11,10 +11,11 @@
 
 enum { DEEPEST = 12, LANES = 16 };
 
-bool near_begin(struct machine *m, const struct device_buffer *b, uint64_t count, double *start)
+typedef unsigned __int128 u128;
+
+bool near_begin(struct machine *m, const struct device_buffer *b, double *start)
 {
-    if (!m->settings.near || !m->device->is_pocl || !b || !b->host || count > NEAR_ALONE ||
-        device_settle(m))
+    if (!m->settings.near || !m->device->is_pocl || !b || !b->host || device_settle(m))
         return false;
     *start = watch_clock(m);
     return true;
@@ -156,7 +157,7 @@ bool near_read(struct machine *m, int set, const struct machine_value *v, uint64
     static uint64_t name(const struct near_sum *w, const void *numbers,                        \
                          const unsigned char *context, size_t count)                           \
     {                                                                                          \
-        const uint64_t none = w->identity.lo, flip = w->flip,                                  \
+        const uint64_t none = w->identity.lo, flip = w->flip.lo,                               \
                        sign = w->extends ? UINT64_C(1) << (w->width - 1) : 0;                  \
         switch (w->element) {                                                                  \
         case 1:                                                                                \
@@ -220,27 +221,92 @@ INTEGERS_BY(run_greatest, uint8_t, uint16_t, uint32_t, JOIN_GREATEST)
 FLOATS(run_floats, float)
 FLOATS(run_doubles, double)
 
-bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
-               size_t run, struct machine_scalar *sums)
+/* ---- of pairs of 64 bits ---- */
+
+static u128 joined_wide(int op, u128 a, u128 x)
+{
+    switch (op) {
+    case 0:
+        return JOIN_AND(a, x);
+    case 1:
+        return JOIN_OR(a, x);
+    case 2:
+        return JOIN_XOR(a, x);
+    case 3:
+        return JOIN_ADD(a, x);
+    case 4:
+        return JOIN_LEAST(a, x);
+    default:
+        return JOIN_GREATEST(a, x);
+    }
+}
+
+static u128 run_wide(const struct near_sum *w, const u128 *p, const unsigned char *context,
+                     size_t count)
+{
+    const u128 none = scalar_wide(w->identity), flip = scalar_wide(w->flip);
+    u128 sum = none;
+    for (size_t i = 0; i < count; i++)
+        sum = joined_wide(w->op, sum, !context || context[i] ? p[i] ^ flip : none);
+    return sum;
+}
+
+/* ---- all runs ---- */
+
+struct summing {
+    const struct vpset *set;
+    const struct near_sum *what;
+    size_t run, runs; /* columns of one; of a row */
+    struct machine_scalar *sums;
+    int parts;
+};
+
+static struct machine_scalar run_sum(const struct summing *g, size_t i)
 {
     static uint64_t (*const integers[])(const struct near_sum *, const void *,
                                         const unsigned char *, size_t) = {
         run_and, run_or, run_xor, run_add, run_least, run_greatest};
-    const unsigned char *numbers = what->numbers->host,
-                        *context = what->context ? what->context->host : NULL;
-    if (!m->device->is_pocl || !numbers || (what->context && !context) || what->element > 8 ||
-        device_settle_for(m, "reducing"))
+    const struct near_sum *what = g->what;
+    const struct vpset *s = g->set;
+    size_t x = i % g->runs * g->run, width = (size_t)s->width,
+           at = i / g->runs * s->pitch + (size_t)s->halo + x,
+           count = width - x < g->run ? width - x : g->run;
+    const unsigned char *c =
+        what->context ? (const unsigned char *)what->context->host + at : NULL;
+    const void *p = (const char *)what->numbers->host + at * what->element;
+    if (what->element == 16)
+        return scalar_narrow(run_wide(what, p, c, count));
+    uint64_t bits = !what->is_float      ? integers[what->op](what, p, c, count)
+                    : what->element == 4 ? run_floats(what, p, c, count)
+                                         : run_doubles(what, p, c, count);
+    return (struct machine_scalar){bits, 0};
+}
+
+static void part_sum(void *of, int part, int worker)
+{
+    const struct summing *g = of;
+    size_t all = g->runs * (size_t)g->set->rows, first = all * (size_t)part / (size_t)g->parts,
+           end = all * (size_t)(part + 1) / (size_t)g->parts;
+    (void)worker;
+    for (size_t i = first; i < end; i++)
+        g->sums[i] = run_sum(g, i);
+}
+
+/* Seconds for a number. */
+static const double sum_s = 0.1e-9;
+
+bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
+               size_t run, struct machine_scalar *sums)
+{
+    if (!m->device->is_pocl || !what->numbers->host ||
+        (what->context && !what->context->host) || device_settle_for(m, "reducing"))
         return false;
-    for (uint64_t row = 0; row < s->rows; row++)
-        for (size_t x = 0, width = (size_t)s->width; x < width; x += run) {
-            size_t at = (size_t)row * s->pitch + (size_t)s->halo + x,
-                   count = width - x < run ? width - x : run;
-            const unsigned char *c = context ? context + at : NULL;
-            const void *p = numbers + at * what->element;
-            uint64_t bits = !what->is_float      ? integers[what->op](what, p, c, count)
-                            : what->element == 4 ? run_floats(what, p, c, count)
-                                                 : run_doubles(what, p, c, count);
-            *sums++ = (struct machine_scalar){bits, 0};
-        }
+    struct summing g = {.set = s,
+                        .what = what,
+                        .run = run,
+                        .runs = ((size_t)s->width + run - 1) / run,
+                        .sums = sums,
+                        .parts = device_parts(m, sum_s * (double)s->count)};
+    crew_run(m->device->crew, g.parts, part_sum, &g);
     return true;
 }

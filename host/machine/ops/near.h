@@ -1,19 +1,15 @@
 /* near.h - what the front end does by itself where the device's memory is its own: one processor's number, a reduction.
  *
- * A launch and a wait cost 10 to 40 us whatever the work. Below NEAR_MOST processors the front end has read all numbers
- * before a kernel has begun. */
+ * A launch and a wait cost 10 to 40 us whatever the work. Large sets are shared out among the device's crew. */
 #ifndef LUTETIA_MACHINE_NEAR_H
 #define LUTETIA_MACHINE_NEAR_H
 
 #include "device/device.h"
 #include "values/values.h"
 
-enum { NEAR_MOST = 1 << 18, NEAR_ALONE = 1 << 16 };
-
-/* Whether the front end does it by itself, for so many processors: they are up to NEAR_ALONE, it can look at arrays such as this one, and the device has done all that is in its
+/* Whether the front end does it by itself: it can look at arrays such as this one, and the device has done all that is in its
  * queue. near_end() tells those who watch what it was. */
-bool near_begin(struct machine *m, const struct device_buffer *b, uint64_t count,
-                double *start);
+bool near_begin(struct machine *m, const struct device_buffer *b, double *start);
 void near_end(struct machine *m, const char *what, double start);
 
 /* The value of one processor, if it is in memory, or was only moved since (parts, selections, coordinates); nothing is
@@ -25,13 +21,13 @@ bool near_read(struct machine *m, int set, const struct machine_value *v, uint64
 struct near_sum {
     int op;
     bool is_float;
-    int width;     /* of integers: what is read of an element */
-    bool plain;    /* ... they are as long as the result, or added without a sign */
-    bool extends;  /* ... it has a sign */
-    uint64_t flip; /* ... exclusive or, after that */
+    int width;    /* of integers: what is read of an element */
+    bool plain;   /* ... they are as long as the result, or added without a sign */
+    bool extends; /* ... it has a sign */
+    struct machine_scalar flip; /* ... exclusive or, after that */
     struct machine_scalar identity;
     const struct device_buffer *numbers;
-    size_t element;                      /* bytes, up to 8 */
+    size_t element;                      /* bytes */
     const struct device_buffer *context; /* bytes; NULL: all are active */
 };
 /* One number for each run of so many columns of each row, rows one after the other, in the order of kernels/reduce.cl. False:

@@ -5,10 +5,12 @@
 #include "ops/scan.h"
 
 /* run: how many elements of a line floats are combined of, before these are joined. The arrays are the front end's, and the
- * device is not at them. Where there are sums, `out` is not written. */
-void near_lines_scan(const struct lines *l, const struct line_scan *j, int run);
+ * device is not at them. Where there are sums, `out` is not written. In so many parts, shared out among the crew. */
+void near_lines_scan(struct crew *crew, int parts, const struct lines *l,
+                     const struct line_scan *j, int run);
 /* Fills each line with one element of so many bytes. */
-void near_lines_fill(const struct lines *l, size_t bytes, const struct device_buffer *from,
-                     struct origin origin, struct device_buffer *out);
+void near_lines_fill(struct crew *crew, int parts, const struct lines *l, size_t bytes,
+                     const struct device_buffer *from, struct origin origin,
+                     struct device_buffer *out);
 
 #endif

@@ -1,7 +1,8 @@
 /* near_router.c - see near_router.h.
  *
  * A block of senders at a time: their addresses become places in the array of the other set, without those who do not send; then
- * the messages go, in the order of the senders. So no loop has a branch that could not be predicted.
+ * the messages go, in the order of the senders. So no loop has a branch that could not be predicted. Of a send each part has some of
+ * the destinations, and passes all senders; of a get, some of the blocks.
  *
  *     addresses      5  1  -  7        (-: not active)
  *     hops           place 5, lane 0 | place 1, lane 1 | place 7, lane 3 */
@@ -17,12 +18,17 @@ enum { BLOCK = 512 };
 
 typedef unsigned __int128 u128;
 
+/* The destinations of a part: their indices. */
+struct range {
+    uint64_t first, end;
+};
+
 struct hops {
     size_t count;
-    size_t place[BLOCK];  /* in the other set's array */
-    uint16_t lane[BLOCK]; /* in the block */
-    uint64_t wrong;       /* active, and to a processor that does not exist */
-    bool whole;           /* lane[i] is i */
+    uint32_t place[BLOCK]; /* in the other set's array */
+    uint16_t lane[BLOCK];  /* in the block */
+    uint64_t wrong;        /* active, and to a processor that does not exist */
+    bool whole;            /* lane[i] is i */
 };
 
 /* Divides by a number that stays the same, up to 2^31: see kernels/router.cl. */
@@ -89,18 +95,18 @@ static void addresses_resolve(const struct near_route *r, uint32_t *a, int n)
 }
 
 /* The active ones whose processor exists, one after the other. */
-static void hops_pick(const struct near_route *r, size_t at, int n, const uint32_t *index,
-                      struct hops *h)
+static void hops_pick(const struct near_route *r, const struct range *to, size_t at, int n,
+                      const uint32_t *index, struct hops *h)
 {
     const unsigned char *context = r->context ? r->context->host : NULL;
-    const uint64_t count = r->to->count;
+    const uint32_t first = (uint32_t)to->first, count = (uint32_t)(to->end - to->first);
     size_t picked = 0, active = 0;
     for (int i = 0; i < n; i++) {
         const bool on = !context || context[at + (size_t)i];
         h->place[picked] = index[i];
         h->lane[picked] = (uint16_t)i;
         active += on;
-        picked += on & (index[i] < count);
+        picked += on & (index[i] - first < count);
     }
     h->count = picked;
     h->wrong = active - picked;
@@ -109,7 +115,7 @@ static void hops_pick(const struct near_route *r, size_t at, int n, const uint32
 
 static void places_find(const struct vpset *s, struct hops *h)
 {
-    const size_t halo = (size_t)s->halo, pitch = s->pitch, width = (size_t)s->width;
+    const uint32_t halo = (uint32_t)s->halo, further = (uint32_t)(s->pitch - (size_t)s->width);
     if (s->rows == 1) {
         for (size_t i = 0; i < h->count; i++)
             h->place[i] += halo;
@@ -117,18 +123,18 @@ static void places_find(const struct vpset *s, struct hops *h)
     }
     const struct divisor d = divisor_of((uint64_t)s->width);
     for (size_t i = 0; i < h->count; i++) {
-        const size_t row = over((uint32_t)h->place[i], d);
-        h->place[i] += halo + row * (pitch - width);
+        h->place[i] += halo + over(h->place[i], d) * further;
     }
 }
 
 /* Of n senders from that element on. */
-static void hops_find(const struct near_route *r, size_t at, int n, struct hops *h)
+static void hops_find(const struct near_route *r, const struct range *to, size_t at, int n,
+                      struct hops *h)
 {
     uint32_t index[BLOCK];
     addresses_read(r, at, n, index);
     addresses_resolve(r, index, n);
-    hops_pick(r, at, n, index, h);
+    hops_pick(r, to, at, n, index, h);
     places_find(r->to, h);
 }
 
@@ -284,24 +290,99 @@ static void floats_join(const struct hops *h, int combiner, struct machine_type 
         FLOATS_JOIN(double)
 }
 
+#define MOVE_ALL(T)                                                                            \
+    {                                                                                          \
+        const T *in = (const T *)from + at;                                                    \
+        T *to = (T *)out + r->to->halo;                                                        \
+        for (int i = 0; i < n; i++)                                                            \
+            to[index[i]] = in[i];                                                              \
+    }
+
+/* All of a block's messages to a set of one row. False: somebody does not send, or to nobody; nothing has been done. */
+static bool messages_move_all(const struct near_route *r, const struct block *b, size_t bytes,
+                              const void *from, void *out)
+{
+    uint32_t index[BLOCK], greatest = 0;
+    const int n = b->n;
+    const size_t at = b->at;
+    if (r->context || r->to->rows > 1)
+        return false;
+    addresses_read(r, at, n, index);
+    addresses_resolve(r, index, n);
+    for (int i = 0; i < n; i++)
+        greatest = index[i] > greatest ? index[i] : greatest;
+    if (greatest >= r->to->count)
+        return false;
+    switch (bytes) {
+    case 1:
+        MOVE_ALL(uint8_t)
+        break;
+    case 2:
+        MOVE_ALL(uint16_t)
+        break;
+    case 4:
+        MOVE_ALL(uint32_t)
+        break;
+    case 8:
+        MOVE_ALL(uint64_t)
+        break;
+    default:
+        MOVE_ALL(u128)
+    }
+    return true;
+}
+
+/* One part of a send, of a get, or of a count. */
+struct routing {
+    const struct near_route *r;
+    int combiner;
+    struct machine_type type;
+    size_t bytes;
+    const void *source;
+    void *out;
+    unsigned char *arrived;
+    uint64_t wrong[CREW_MOST]; /* for each thread */
+};
+
+static void part_send(void *of, int part, int worker)
+{
+    const struct routing *g = of;
+    const struct near_route *r = g->r;
+    const uint64_t count = r->to->count, parts = (uint64_t)r->parts;
+    const struct range to = {count * (uint64_t)part / parts,
+                             count * (uint64_t)(part + 1) / parts};
+    struct hops h;
+    (void)worker;
+    for (struct block b = {0}; block_next(r, &b);) {
+        bool moves = g->combiner == MACHINE_COMBINE_OVERWRITE;
+        if (moves && !g->arrived && parts == 1 &&
+            messages_move_all(r, &b, g->bytes, g->source, g->out))
+            continue;
+        hops_find(r, &to, b.at, b.n, &h);
+        if (moves)
+            messages_move(&h, g->bytes, g->source, b.at, g->out);
+        else if (g->type.kind == MACHINE_FLOAT)
+            floats_join(&h, g->combiner, g->type, g->source, b.at, g->out);
+        else
+            integers_join(&h, g->combiner, g->type, g->source, b.at, g->out);
+        for (size_t i = 0; g->arrived && i < h.count; i++)
+            g->arrived[h.place[i]] = 1;
+    }
+}
+
 void near_send(const struct near_route *r, int combiner, struct machine_type type,
                const struct device_buffer *source, struct device_buffer *out,
                struct device_buffer *arrived)
 {
-    size_t bytes = type_bytes(type);
-    struct hops h;
-    for (struct block b = {0}; block_next(r, &b);) {
-        hops_find(r, b.at, b.n, &h);
-        if (combiner == MACHINE_COMBINE_OVERWRITE)
-            messages_move(&h, bytes, source->host, b.at, out->host);
-        else if (type.kind == MACHINE_FLOAT)
-            floats_join(&h, combiner, type, source->host, b.at, out->host);
-        else
-            integers_join(&h, combiner, type, source->host, b.at, out->host);
-        for (size_t i = 0; arrived && i < h.count; i++)
-            ((unsigned char *)arrived->host)[h.place[i]] = 1;
-    }
-    rows_repeat(r->to, bytes, out);
+    struct routing g = {.r = r,
+                        .combiner = combiner,
+                        .type = type,
+                        .bytes = type_bytes(type),
+                        .source = source->host,
+                        .out = out->host,
+                        .arrived = arrived ? arrived->host : NULL};
+    crew_run(r->crew, r->parts, part_send, &g);
+    rows_repeat(r->to, g.bytes, out);
     if (arrived)
         rows_repeat(r->to, 1, arrived);
 }
@@ -336,26 +417,55 @@ static void messages_fetch(const struct hops *h, size_t bytes, const void *from,
     }
 }
 
+/* The blocks of a part: every parts-th, from that one on. */
+static bool block_of_part(const struct near_route *r, struct block *b, int part)
+{
+    int before = b->n ? r->parts : part + 1;
+    while (before--)
+        if (!block_next(r, b))
+            return false;
+    return true;
+}
+
+static void part_get(void *of, int part, int worker)
+{
+    const struct routing *g = of;
+    const struct range all = {0, g->r->to->count};
+    struct hops h;
+    (void)worker;
+    for (struct block b = {0}; block_of_part(g->r, &b, part);) {
+        hops_find(g->r, &all, b.at, b.n, &h);
+        if (!h.whole)
+            memset((char *)g->out + b.at * g->bytes, 0, (size_t)b.n * g->bytes);
+        messages_fetch(&h, g->bytes, g->source, b.at, g->out);
+    }
+}
+
 void near_get(const struct near_route *r, size_t bytes, const struct device_buffer *source,
               struct device_buffer *out)
 {
-    struct hops h;
-    for (struct block b = {0}; block_next(r, &b);) {
-        hops_find(r, b.at, b.n, &h);
-        if (!h.whole)
-            memset((char *)out->host + b.at * bytes, 0, (size_t)b.n * bytes);
-        messages_fetch(&h, bytes, source->host, b.at, out->host);
-    }
+    struct routing g = {.r = r, .bytes = bytes, .source = source->host, .out = out->host};
+    crew_run(r->crew, r->parts, part_get, &g);
     rows_repeat(r->from, bytes, out);
+}
+
+static void part_count(void *of, int part, int worker)
+{
+    struct routing *g = of;
+    const struct range all = {0, g->r->to->count};
+    struct hops h;
+    for (struct block b = {0}; block_of_part(g->r, &b, part);) {
+        hops_find(g->r, &all, b.at, b.n, &h);
+        g->wrong[worker] += h.wrong;
+    }
 }
 
 uint64_t near_wrong(const struct near_route *r)
 {
+    struct routing g = {.r = r};
     uint64_t wrong = 0;
-    struct hops h;
-    for (struct block b = {0}; block_next(r, &b);) {
-        hops_find(r, b.at, b.n, &h);
-        wrong += h.wrong;
-    }
+    crew_run(r->crew, r->parts, part_count, &g);
+    for (int i = 0; i < CREW_MOST; i++)
+        wrong += g.wrong[i];
     return wrong;
 }

@@ -2,6 +2,7 @@
 #ifndef LUTETIA_MACHINE_NEAR_ROUTER_H
 #define LUTETIA_MACHINE_NEAR_ROUTER_H
 
+#include "base/crew.h"
 #include "values/values.h"
 
 /* Where messages go, or come from: senders, their addresses, and the processors that these are. The arrays are the front end's,
@@ -12,6 +13,8 @@ struct near_route {
     size_t address_bytes;                          /* of an element */
     uint32_t mask;                                 /* the bits of an address that count */
     int processors_log2;
+    struct crew *crew; /* which does it in so many parts */
+    int parts;
 };
 
 /* out holds the old dest. arrived: bits, all 0; NULL: nobody wants to know. combiner: MACHINE_COMBINE_. */

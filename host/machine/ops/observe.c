@@ -328,13 +328,15 @@ static bool reduce_near(struct machine *m, const struct vpset *s, const struct m
 {
     struct near_sum w = {.op = info->op,
                          .is_float = v->type.kind == MACHINE_FLOAT,
-                         .flip = info->is_signed ? scalar_sign(v->type.width).lo : 0,
+                         .flip = info->is_signed ? scalar_sign(v->type.width)
+                                                 : (struct machine_scalar){0, 0},
                          .identity = identity};
     const struct machine_value *in = v;
     bool all = !context || (value_is_number(context) && context->imm.lo);
-    if (!m->settings.near || s->count > NEAR_MOST || v->type.width > 64)
+    if (!m->settings.near)
         return false;
-    if (!v->buffer && !w.is_float && (v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND) &&
+    if (!v->buffer && !w.is_float && v->type.width <= 64 &&
+        (v->op == NODE_ZERO_EXTEND || v->op == NODE_SIGN_EXTEND) &&
         v->in[0]->type.width < v->type.width) {
         w.extends = v->op == NODE_SIGN_EXTEND;
         in = v->in[0];

@@ -280,15 +280,30 @@ static struct machine_value *arrivals(struct machine *m, const struct message *g
     return graph_buffer_node(m, MACHINE_BIT, g->to_set, b);
 }
 
-static struct near_route route_of(const struct machine *m, const struct message *g)
+/* Seconds for each sender on the front end's thread, without waits for memory. */
+static const double hop_s = 1.2e-9;
+
+/* shares: each part passes all senders. */
+static struct near_route route_of(const struct machine *m, const struct message *g, bool shares)
 {
+    int parts = device_parts(m, hop_s * (double)g->from->count),
+        size = crew_size(m->device->crew);
     return (struct near_route){.from = g->from,
                                .to = g->to,
                                .address = g->address->buffer,
                                .context = g->all ? NULL : g->context->buffer,
                                .address_bytes = type_bytes(g->address->type),
                                .mask = g->mask,
-                               .processors_log2 = m->values->processors_log2};
+                               .processors_log2 = m->values->processors_log2,
+                               .crew = m->device->crew,
+                               .parts = shares && parts > size ? size : parts};
+}
+
+/* Whether the front end does it by itself. Places in arrays of the set are numbers of 32 bits then. */
+static bool route_near(struct machine *m, const struct vpset *to, const struct device_buffer *b,
+                       double *start)
+{
+    return (uint64_t)to->rows * to->pitch < UINT32_MAX && near_begin(m, b, start);
 }
 
 /* On the front end's own thread. */
@@ -297,11 +312,11 @@ static enum machine_status transmit_near(struct machine *m, const struct message
                                          struct device_buffer *out, size_t bytes, double start,
                                          struct machine_value **notification)
 {
-    const struct near_route r = route_of(m, g);
+    const struct near_route r = route_of(m, g, true);
     struct device_buffer *arrived = notification ? fresh(m, g->to, MACHINE_BIT) : NULL;
     if (notification && !arrived)
         return m->status;
-    memcpy(out->host, g->old->buffer->host, bytes);
+    device_move(m, out->host, g->old->buffer->host, bytes);
     if (arrived)
         memset(arrived->host, 0, arrived->bytes);
     near_send(&r, (int)combiner, g->source->type, g->source->buffer, out, arrived);
@@ -362,7 +377,7 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
     if (!out)
         return NULL;
     enum machine_status status =
-        near_begin(m, out, g->from->count + g->to->count, &start)
+        route_near(m, g->to, out, &start)
             ? transmit_near(m, g, combiner, out, bytes, start, notification)
             : transmit_far(m, g, combiner, out, bytes, notification);
     if (status) {
@@ -461,8 +476,8 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
     double start;
     if (!out)
         return NULL;
-    if (near_begin(m, out, g->from->count, &start)) {
-        const struct near_route r = route_of(m, g);
+    if (route_near(m, g->to, out, &start)) {
+        const struct near_route r = route_of(m, g, false);
         near_get(&r, type_bytes(type), g->source->buffer, out);
         near_end(m, "getting", start);
         return fetched(m, g, out);
@@ -522,8 +537,8 @@ enum machine_status machine_addresses_check(struct machine *m,
     double begin;
     if (!message_make(m, &g, send_address, NULL, 0, NULL, vpset, true, false))
         return m->status;
-    if (near_begin(m, g.address->buffer, g.from->count, &begin)) {
-        const struct near_route r = route_of(m, &g);
+    if (route_near(m, g.to, g.address->buffer, &begin)) {
+        const struct near_route r = route_of(m, &g, false);
         *wrong = near_wrong(&r);
         near_end(m, "checking addresses", begin);
         return MACHINE_OK;

@@ -156,14 +156,23 @@ static enum machine_status scan_stage(struct machine *m, const struct lines *l,
     return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
 
+/* Seconds for each element that the front end scans or fills. */
+static const double scan_element_s = 0.6e-9, fill_element_s = 0.2e-9;
+
+static double elements_of(const struct lines *l)
+{
+    return (double)lines_count(l) * (double)l->length;
+}
+
 static enum machine_status scan_lines(struct machine *m, const struct lines *l,
                                       const struct line_scan *j)
 {
     const struct element *e = j->element;
     int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
     double start;
-    if (near_begin(m, j->out, lines_count(l) * (size_t)l->length, &start)) {
-        near_lines_scan(l, j, run);
+    if (near_begin(m, j->out, &start)) {
+        int parts = device_parts(m, scan_element_s * elements_of(l));
+        near_lines_scan(m->device->crew, parts, l, j, run);
         near_end(m, "scanning", start);
         return MACHINE_OK;
     }
@@ -218,8 +227,9 @@ static enum machine_status fill_lines(struct machine *m, const struct lines *l,
                                            : e->bytes == 8 ? UINT64
                                                            : UINT128];
     double start;
-    if (near_begin(m, out, lines_count(l) * (size_t)l->length, &start)) {
-        near_lines_fill(l, e->bytes, from, origin, out);
+    if (near_begin(m, out, &start)) {
+        int parts = device_parts(m, fill_element_s * elements_of(l));
+        near_lines_fill(m->device->crew, parts, l, e->bytes, from, origin, out);
         near_end(m, "scanning", start);
         return MACHINE_OK;
     }

@@ -1,0 +1,30 @@
+/* crew.h - threads that share out one piece of work with the caller.
+ *
+ *     struct crew *crew = crew_create (2);                 the caller and one thread more
+ *     crew_run (crew, 8, add_part, &sum);                  add_part (&sum, 0, worker) to add_part (&sum, 7, worker), in any order
+ *     crew_destroy (crew);
+ *
+ * Who is free takes the next part, so a thread that the system does not run costs nothing but its share. A thread looks for work
+ * for some microseconds and then sleeps. No thread takes a signal. In a child after fork() there are no threads, and the caller does
+ * all parts. */
+#ifndef LUTETIA_MACHINE_CREW_H
+#define LUTETIA_MACHINE_CREW_H
+
+enum { CREW_MOST = 16 };
+
+struct crew;
+
+/* worker: 0 is the caller, below CREW_MOST. */
+typedef void crew_part(void *context, int part, int worker);
+
+/* For so many threads, the caller among them; none begins before there is work. NULL: no memory, or only one. */
+struct crew *crew_create(int threads);
+/* How many parts to make of work that takes one thread so long; 1: none. */
+int crew_parts(const struct crew *crew, double seconds);
+/* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. */
+void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
+/* How many may be at work. */
+int crew_size(const struct crew *crew);
+void crew_destroy(struct crew *crew);
+
+#endif

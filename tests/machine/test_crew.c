@@ -1,0 +1,158 @@
+/* Threads that share out one piece of work: each part is done once, by whoever is free; in a child after fork() the caller does
+ * all; without threads, too. */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/crew.h"
+
+enum { PARTS_MOST = 100, JOBS = 3000, THREADS = 4 };
+
+struct job {
+    int parts, of_a_part;
+    atomic_int done[PARTS_MOST];
+    atomic_int strangers; /* workers that there cannot be */
+    uint64_t sums[CREW_MOST];
+};
+
+static void part(void *of, int number, int worker)
+{
+    struct job *j = of;
+    if (worker < 0 || worker >= CREW_MOST || number < 0 || number >= j->parts) {
+        atomic_fetch_add(&j->strangers, 1);
+        return;
+    }
+    for (int i = 0; i < j->of_a_part; i++)
+        j->sums[worker] += (uint64_t)(number + i);
+    atomic_fetch_add(&j->done[number], 1);
+}
+
+/* Whether each part was done once, and the sum is right. */
+static bool job_is_done(struct crew *crew, int parts, int of_a_part)
+{
+    static struct job j;
+    uint64_t sum = 0, should = 0;
+    memset(&j, 0, sizeof j);
+    j.parts = parts;
+    j.of_a_part = of_a_part;
+    crew_run(crew, parts, part, &j);
+    bool good = !atomic_load(&j.strangers);
+    for (int i = 0; i < parts; i++) {
+        good = good && atomic_load(&j.done[i]) == 1;
+        for (int k = 0; k < of_a_part; k++)
+            should += (uint64_t)(i + k);
+    }
+    for (int i = 0; i < CREW_MOST; i++)
+        sum += j.sums[i];
+    return good && sum == should;
+}
+
+static void each_part_is_done_once(void **unused)
+{
+    (void)unused;
+    for (int threads = 0; threads <= THREADS; threads++) {
+        struct crew *crew = crew_create(threads);
+        assert_int_equal(crew != NULL, threads > 1);
+        assert_int_equal(crew_size(crew), threads > 1 ? threads : 1);
+        for (int i = 0; i < JOBS; i++)
+            assert_true(job_is_done(crew, i * 7 % PARTS_MOST, i % 50));
+        crew_destroy(crew);
+    }
+}
+
+static void threads_that_sleep_wake_up(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(THREADS);
+    for (int i = 0; i < 50; i++) {
+        usleep(1000);
+        assert_true(job_is_done(crew, 40, 2000));
+    }
+    crew_destroy(crew);
+}
+
+static void crews_that_never_worked_end(void **unused)
+{
+    (void)unused;
+    crew_destroy(NULL);
+    crew_destroy(crew_create(THREADS));
+}
+
+static void a_child_works_alone(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(THREADS);
+    assert_true(job_is_done(crew, 40, 2000)); /* there are threads */
+    pid_t child = fork();
+    if (child == 0) {
+        alarm(20);
+        bool good = job_is_done(crew, 40, 2000);
+        crew_destroy(crew);
+        _exit(good ? 0 : 1);
+    }
+    int status = -1;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    assert_true(job_is_done(crew, 40, 2000));
+    crew_destroy(crew);
+}
+
+static atomic_int signals_of_others;
+static pid_t caller;
+
+static void caught(int number)
+{
+    (void)number;
+    if (gettid() != caller)
+        atomic_fetch_add(&signals_of_others, 1);
+}
+
+static void no_thread_takes_a_signal(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(THREADS);
+    struct sigaction act = {.sa_handler = caught}, before;
+    caller = gettid();
+    sigaction(SIGUSR1, &act, &before);
+    for (int i = 0; i < 200; i++) {
+        assert_true(job_is_done(crew, 40, 200));
+        kill(getpid(), SIGUSR1);
+    }
+    sigaction(SIGUSR1, &before, NULL);
+    assert_int_equal(atomic_load(&signals_of_others), 0);
+    crew_destroy(crew);
+}
+
+static void short_work_is_not_shared_out(void **unused)
+{
+    (void)unused;
+    struct crew *crew = crew_create(2);
+    assert_int_equal(crew_parts(crew, 1e-6), 1);
+    assert_int_equal(crew_parts(NULL, 1), 1);
+    assert_true(crew_parts(crew, 1) > 1);
+    assert_true(crew_parts(crew, 1) <= 100);
+    crew_destroy(crew);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_part_is_done_once),
+        cmocka_unit_test(threads_that_sleep_wake_up),
+        cmocka_unit_test(crews_that_never_worked_end),
+        cmocka_unit_test(a_child_works_alone),
+        cmocka_unit_test(no_thread_takes_a_signal),
+        cmocka_unit_test(short_work_is_not_shared_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
