@@ -1,4 +1,4 @@
--- What water does that flows (version 2 of the paper's model): a picture of each effect, or of one: what=backrun.
+-- What water does that flows: a picture of each effect, or of one: what=backrun.
 -- All are on one kind of paper, but for the ink, in the same air: only water, pigment, gravity and time differ.
 
 local scale, what, most = param("scale", 1), param("what", "all"), param("steps", 2000)

@@ -148,8 +148,8 @@ static int make_paper(lua_State *L)
     config.seed = (uint64_t)script_arg_integer(
         L, 1, "paper", "seed", (int)(script->config->seed & 0x7fffffff), 0, 2147483647);
     parts_read(L, &config);
-    config.model =
-        script_arg_integer(L, 1, "paper", "version", config.model, 1, PAPER_MODEL_VERSION);
+    const int version = script_arg_integer(L, 1, "paper", "version", 0, 1, PAPER_MODEL_VERSION);
+    config.model = version ? version : config.model;
     const char *rule = script_arg_text(L, 1, "paper", "rule");
     if (rule)
         config.rule = (enum paper_rule)script_arg_choice(L, "paper rule", rule, rules);
@@ -164,7 +164,7 @@ static int make_paper(lua_State *L)
     bool found = false;
     enum paper_status status = PAPER_OK;
     if (history)
-        status = script_paper_resumed(paper, &config, undo, &found);
+        status = script_paper_resumed(paper, &config, version == 0, undo, &found);
     if (status == PAPER_OK && !found)
         status = paper_sheet_create(&config, &paper->sheet);
     if (status == PAPER_OK && !found && history)

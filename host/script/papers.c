@@ -139,7 +139,7 @@ void script_paper_forget(struct script_paper *paper)
 
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       double budget_bytes, bool *found)
+                                       bool any_version, double budget_bytes, bool *found)
 {
     struct paper_state *state = paper->script->config->resumed;
     *found = false;
@@ -151,7 +151,10 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
         enum paper_status status = paper_state_describe(state, i, &saved);
         if (status != PAPER_OK)
             return status;
-        if (!paper_sheet_config_same(&saved, config)) {
+        struct paper_sheet_config wanted = *config;
+        if (any_version)
+            wanted.model = saved.model;
+        if (!paper_sheet_config_same(&saved, &wanted)) {
             char text[80];
             snprintf(text, sizeof text,
                      "paper %d is not the one that was saved; it begins anew", paper->number);

@@ -27,10 +27,11 @@ void script_paper_room_take(lua_State *L, struct script_paper *paper, double wid
 /* Adds the paper, which has a sheet now, to the list of open papers; removes it. */
 void script_paper_keep(struct script_paper *paper);
 void script_paper_forget(struct script_paper *paper);
-/* The saved sheet that this paper resumes; *found false: none. */
+/* The saved sheet that this paper resumes; *found false: none. Where the script names no
+ * version, a sheet of any version is resumed. */
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       double budget_bytes, bool *found);
+                                       bool any_version, double budget_bytes, bool *found);
 
 /* Shows the paper to the host. Returns why the host wants the script to stop, or NULL; the
  * second function raises that as an error. */

@@ -24,13 +24,19 @@ static void check(enum paper_status status)
 }
 
 /* Always two pigments, so that all tests have the same kernels. */
-static struct paper_sheet *sheet_make(void)
+static struct paper_sheet *sheet_of(int model)
 {
     struct paper_sheet_config config =
         sheet_of_two(WIDTH, HEIGHT, "quinacridone rose", "phthalo green");
+    config.model = model;
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     return sheet;
+}
+
+static struct paper_sheet *sheet_make(void)
+{
+    return sheet_of(PAPER_MODEL_USUAL);
 }
 
 static struct paper_brush brush_small(void)
@@ -216,10 +222,12 @@ static void masking_fluid_is_not_painted(void **state)
 
 /* ---- sameness ---- */
 
+/* On the sheet of version 1: bristles of version 2 leave more in some places of the sheet than
+ * in others, which no layer holds. */
 static void paint(bool mirrored, float *rose, float *water)
 {
     static float height[FIBERS], turned[FIBERS];
-    struct paper_sheet *sheet = sheet_make();
+    struct paper_sheet *sheet = sheet_of(1);
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_HEIGHT, 0, height));
     for (enum paper_layer layer = PAPER_LAYER_HEIGHT; layer <= PAPER_LAYER_CAPACITY; layer++) {
         check(paper_sheet_layer_read(sheet, layer, 0, height));

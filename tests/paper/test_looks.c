@@ -36,14 +36,27 @@ static struct paper_air air_make(void)
     return air;
 }
 
-static struct paper_sheet *sheet_make(const char *stock, const struct paper_air *air)
+static struct paper_sheet *sheet_of(int model, const char *stock, const struct paper_air *air)
 {
     struct paper_sheet_config config = sheet_of_two(SIDE, SIDE, "phthalo green", "burnt umber");
+    config.model = model;
     config.stock = *paper_stock_find(stock);
     struct paper_sheet *sheet;
     check(paper_sheet_create(&config, &sheet));
     check(paper_sheet_air(sheet, air));
     return sheet;
+}
+
+static struct paper_sheet *sheet_make(const char *stock, const struct paper_air *air)
+{
+    return sheet_of(PAPER_MODEL_USUAL, stock, air);
+}
+
+/* Water that spreads (version 1). Tests that use it measure how far it does; test_flow.c
+ * measures water that flows. */
+static struct paper_sheet *sheet_spreading(const char *stock, const struct paper_air *air)
+{
+    return sheet_of(1, stock, air);
 }
 
 static void disc_put(struct paper_sheet *sheet, double radius, const double *amount)
@@ -286,7 +299,7 @@ static void backruns_push_pigment_away(void **state)
     static float before[FIBERS], after[FIBERS];
     struct paper_air air = air_make();
     air.humidity = 0.0002;
-    struct paper_sheet *sheet = sheet_make("cold press", &air);
+    struct paper_sheet *sheet = sheet_spreading("cold press", &air);
     disc_put(sheet, 40, (double[]){0.25, 0.4, NONE});
     steps(sheet, 30);
     pigment_read(sheet, LIGHT, before);
@@ -353,7 +366,7 @@ static void light_pigments_run_ahead(void **state)
     static float light[FIBERS], heavy[FIBERS], wet[FIBERS];
     struct paper_air air = air_make();
     air.settling = 0.001;
-    struct paper_sheet *sheet = sheet_make("cold press", &air);
+    struct paper_sheet *sheet = sheet_spreading("cold press", &air);
     for (int i = 0; i < FIBERS; i++)
         wet[i] = 0.5f;
     check(paper_sheet_layer_write(sheet, PAPER_LAYER_INFUSED_WATER, 0, wet));
@@ -418,7 +431,7 @@ static void masking_fluid_keeps_clear(void **state)
     memset(on, 255, sizeof on);
     struct paper_screen screen = {.width_px = 20, .height_px = 20, .gray = on};
     struct paper_air air = air_make();
-    struct paper_sheet *sheet = sheet_make("cold press", &air);
+    struct paper_sheet *sheet = sheet_spreading("cold press", &air);
     check(paper_sheet_resist(sheet, &screen, 38, 38, true));
     disc_put(sheet, 35, (double[]){1, 1, NONE});
     steps(sheet, 100);

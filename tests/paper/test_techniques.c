@@ -153,6 +153,19 @@ static void splatter_falls_where_it_is_thrown(void **state)
 
 /* ---- salt ---- */
 
+/* What flowing water meets: its eddies turn the other way in the mirror. */
+static void flow_mirror(struct paper_sheet *sheet)
+{
+    static float values[FIBERS], turned[FIBERS];
+    for (enum paper_layer which = PAPER_LAYER_SIZING; which <= PAPER_LAYER_CURRENT; which++) {
+        layer(sheet, which, 0, values);
+        for (int i = 0; i < FIBERS; i++)
+            turned[i - i % WIDTH + (WIDTH - 1 - i % WIDTH)] =
+                which == PAPER_LAYER_CURRENT ? -values[i] : values[i];
+        check(paper_sheet_layer_write(sheet, which, 0, turned));
+    }
+}
+
 static void salted(bool mirrored, float *rose, float *water)
 {
     static float values[FIBERS], turned[FIBERS];
@@ -183,6 +196,8 @@ static void salted(bool mirrored, float *rose, float *water)
             turned[i - i % WIDTH + (WIDTH - 1 - i % WIDTH)] = values[i];
         check(paper_sheet_layer_write(sheet, which, 0, turned));
     }
+    if (mirrored)
+        flow_mirror(sheet);
     double before[3] = {total(sheet, 0) + total(sheet, -1), total(sheet, 1), total(sheet, 2)};
     steps(sheet, 60);
     double after[3] = {total(sheet, 0) + total(sheet, -1), total(sheet, 1), total(sheet, 2)};
