@@ -46,7 +46,7 @@ static struct field *field_part(struct machine *m, uint32_t id, struct machine_t
                      "a value's width must be 1..128 bits, a float's 32 or 64");
         return NULL;
     }
-    int bits = machine_type_bits(type);
+    int bits = type_field_bits(type);
     if (*offset + (uint32_t)bits > f->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT,
                      "%d bits from bit %u on run over the end of a field of %u bits", bits,
@@ -61,7 +61,7 @@ static struct machine_value *value_beyond(struct machine *m, uint32_t id,
                                           struct machine_type type, enum machine_scope scope)
 {
     struct machine_value *sum = NULL;
-    uint32_t bits = (uint32_t)machine_type_bits(type);
+    uint32_t bits = (uint32_t)type_field_bits(type);
     for (uint32_t at = 0, n; at < bits; at += n) {
         n = bits - at;
         uint32_t part = beyond_part(m, id, at, &n);
@@ -97,9 +97,8 @@ struct machine_value *machine_field_value(struct machine *m, uint32_t field,
     uint32_t offset;
     if (type.s && type_good(type))
         return soft_unpacked(
-            m, machine_field_value(m, field, MACHINE_UINT(machine_type_bits(type)), scope),
-            type);
-    if (m->settings.lenient && beyond_field(m, field, (uint32_t)machine_type_bits(type)))
+            m, machine_field_value(m, field, MACHINE_UINT(type_field_bits(type)), scope), type);
+    if (m->settings.lenient && beyond_field(m, field, (uint32_t)type_field_bits(type)))
         return value_beyond(m, field, type, scope);
     struct field *f = field_part(m, field, type, &offset);
     if (!f || !alias_bring(m, f, false, false))

@@ -56,7 +56,7 @@ static bool take_over(struct machine *m, struct field *alias)
     return f.fine == alias ? reshape_fine_from_coarse(m, &f) : reshape_coarse_from_fine(m, &f);
 }
 
-bool alias_bring(struct machine *m, struct field *f, bool writes, bool whole)
+bool alias_bring_over(struct machine *m, struct field *f, bool writes, bool whole)
 {
     struct field *root = f->root ? f->root : f;
     if (!root->aliases)

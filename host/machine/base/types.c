@@ -31,13 +31,11 @@ struct machine_type machine_float_type(int s, int e)
 
 int machine_type_bits(struct machine_type type)
 {
-    return type.s ? type.s + type.e + 1 : type.width;
+    return type_field_bits(type);
 }
 
-bool type_good(struct machine_type type)
+bool type_format_good(struct machine_type type)
 {
-    if (!type.s && !type.e)
-        return true;
     return type.kind == MACHINE_FLOAT && type.width == 64 && type.s >= 1 && type.s <= 52 &&
            type.e >= 2 && type.e <= 11;
 }

@@ -19,7 +19,16 @@ static inline bool type_is_short(struct machine_type t)
 
 size_t type_bytes(struct machine_type type); /* in a buffer */
 
-bool type_good(struct machine_type type); /* s and e are within their ranges, or 0 */
+bool type_format_good(struct machine_type type);       /* s and e are within their ranges */
+static inline bool type_good(struct machine_type type) /* ... or 0 */
+{
+    return (!type.s && !type.e) || type_format_good(type);
+}
+/* As machine_type_bits(). */
+static inline int type_field_bits(struct machine_type type)
+{
+    return type.s ? type.s + type.e + 1 : type.width;
+}
 
 uint64_t type_rounded(uint64_t x, struct machine_type type); /* a double's bits */
 

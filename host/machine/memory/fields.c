@@ -133,12 +133,9 @@ uint32_t machine_field_allocate(struct machine *m, int vpset, uint32_t bits,
     return base;
 }
 
-struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
+struct field *field_search(struct machine *m, uint32_t id, uint32_t *offset)
 {
-    int i = m->memory->last_found;
-    if (!(i < m->memory->fields_count && m->memory->fields[i]->base <= id &&
-          id - m->memory->fields[i]->base < m->memory->fields[i]->bits))
-        i = fields_above(m, id) - 1;
+    int i = fields_above(m, id) - 1;
     if (i < 0 || id - m->memory->fields[i]->base >= m->memory->fields[i]->bits) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "there is no field %u (any more)", id);
         return NULL;

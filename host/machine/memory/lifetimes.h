@@ -21,7 +21,5 @@ struct lifetimes {
 
 /* Called at the beginning of each call. */
 void lifetimes_call(struct machine *m);
-/* Called when a slot is accessed by the current call. */
-void lifetimes_accessed(struct machine *m, struct slot *slot, bool overwrites);
 
 #endif

@@ -66,10 +66,37 @@ static inline struct flags *flags_of(const struct machine *m, const struct vpset
     return &m->memory->flags[s - m->values->sets];
 }
 
+/* ---- lifetimes.c ---- */
+
+/* Called when a slot is accessed by the current call. */
+static inline void lifetimes_accessed(struct machine *m, struct slot *slot, bool overwrites)
+{
+    struct lifetimes *l = &m->memory->lifetimes;
+    if (!l->noted)
+        return;
+    if (overwrites && slot->call_accessed && l->calls - slot->call_accessed < LIFETIMES) {
+        int32_t bytes = (int32_t)(slot->bits + 7) / 8;
+        l->dead[slot->call_accessed % LIFETIMES] += bytes;
+        l->dead[l->calls % LIFETIMES] -= bytes;
+    }
+    slot->call_accessed = l->calls;
+}
+
 /* ---- fields.c ---- */
 
 void fields_finish(struct machine *m);
-struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset);
+struct field *field_search(struct machine *m, uint32_t id, uint32_t *offset);
+/* The field that the id is in; NULL and an error if there is none. */
+static inline struct field *field_find(struct machine *m, uint32_t id, uint32_t *offset)
+{
+    const struct memory *all = m->memory;
+    struct field *last =
+        all->last_found < all->fields_count ? all->fields[all->last_found] : NULL;
+    if (!last || id - last->base >= last->bits)
+        return field_search(m, id, offset);
+    *offset = id - last->base;
+    return last;
+}
 /* The field that the id is in, or past the end of but not yet in the next; NULL if there is none. */
 struct field *field_near(const struct machine *m, uint32_t id, uint32_t *offset);
 /* The field that begins at the id; NULL if none does. */
@@ -98,13 +125,32 @@ enum machine_status field_replace(struct machine *m, struct field *f, uint32_t o
 void field_slots_put(struct machine *m, struct field *f, uint32_t from, uint32_t to,
                      const struct slot *slots, int count);
 struct machine_value *slot_zero(struct machine *m, int width);
-/* The first slot that ends beyond offset. */
-int slot_at(const struct field *f, uint32_t offset);
-void slot_accessed(struct machine *m, struct slot *slot, bool overwrites);
+/* The first slot that ends beyond offset. Most fields have a single one. */
+int slot_search(const struct field *f, uint32_t offset);
+static inline int slot_at(const struct field *f, uint32_t offset)
+{
+    return f->slots_count && offset < f->slots[0].offset + f->slots[0].bits
+               ? 0
+               : slot_search(f, offset);
+}
+static inline void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
+{
+    lifetimes_accessed(m, slot, overwrites);
+    if (slot->epoch_accessed == m->values->epoch)
+        return;
+    slot->epoch_accessed = m->values->epoch;
+    slot->overwritten_first = overwrites && slot->epoch_created != m->values->epoch;
+}
 /* Writes to `out` which field or flag holds the value; "" if none does. */
 void memory_where(const struct machine *m, const struct machine_value *v, char *out,
                   size_t size);
-struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits);
+static inline struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits)
+{
+    int i = slot_at(f, offset);
+    return i < f->slots_count && f->slots[i].offset == offset && f->slots[i].bits == bits
+               ? &f->slots[i]
+               : NULL;
+}
 
 /* ---- flags.c ---- */
 

@@ -31,7 +31,7 @@ struct machine_value *slot_zero(struct machine *m, int width)
     return machine_constant(m, MACHINE_UINT(width), (struct machine_scalar){0, 0});
 }
 
-int slot_at(const struct field *f, uint32_t offset)
+int slot_search(const struct field *f, uint32_t offset)
 {
     int low = 0, high = f->slots_count;
     while (low < high) {
@@ -42,23 +42,6 @@ int slot_at(const struct field *f, uint32_t offset)
             high = middle;
     }
     return low;
-}
-
-void slot_accessed(struct machine *m, struct slot *slot, bool overwrites)
-{
-    lifetimes_accessed(m, slot, overwrites);
-    if (slot->epoch_accessed == m->values->epoch)
-        return;
-    slot->epoch_accessed = m->values->epoch;
-    slot->overwritten_first = overwrites && slot->epoch_created != m->values->epoch;
-}
-
-struct slot *slot_exact(const struct field *f, uint32_t offset, uint32_t bits)
-{
-    int i = slot_at(f, offset);
-    return i < f->slots_count && f->slots[i].offset == offset && f->slots[i].bits == bits
-               ? &f->slots[i]
-               : NULL;
 }
 
 bool field_holds(const struct field *f, uint32_t offset, const struct machine_value *v)

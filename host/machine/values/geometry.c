@@ -8,10 +8,8 @@
 #include "base/types.h"
 #include "values/values.h"
 
-struct vpset *vpset_get(struct machine *m, int vpset)
+struct vpset *vpset_missing(struct machine *m, int vpset)
 {
-    if (vpset > 0 && vpset < m->values->sets_count && m->values->sets[vpset].used)
-        return &m->values->sets[vpset];
     machine_fail(m, MACHINE_BAD_ARGUMENT,
                  vpset ? "there is no VP set %d" : "there is no current VP set (%d)", vpset);
     return NULL;

@@ -17,8 +17,6 @@ struct vpset {
     enum machine_order order;
 };
 
-struct vpset *vpset_get(struct machine *m, int vpset); /* NULL and an error if there is none */
-
 void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
                    enum machine_order order);
 /* The position of a processor in a buffer, in elements. */

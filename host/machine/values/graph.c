@@ -83,19 +83,10 @@ static void node_free(struct machine *m, struct machine_value *v)
 
 #endif
 
-void graph_ref(struct machine_value *v)
+void graph_borrowed_grow(struct machine *m)
 {
-    v->refs++;
-}
-
-struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
-{
-    if (m->values->borrowed_count == m->values->borrowed_capacity)
-        m->values->borrowed = array_grown(m->values->borrowed, &m->values->borrowed_capacity,
-                                          sizeof *m->values->borrowed);
-    m->values->borrowed[m->values->borrowed_count++] = v;
-    v->refs++;
-    return v;
+    m->values->borrowed = array_grown(m->values->borrowed, &m->values->borrowed_capacity,
+                                      sizeof *m->values->borrowed);
 }
 
 void graph_give_back(struct machine *m)
@@ -289,10 +280,8 @@ struct machine_value *graph_buffer_node(struct machine *m, struct machine_type t
 }
 
 /* Iterative: chains can be long. */
-void graph_unref(struct machine *m, struct machine_value *v)
+void graph_release(struct machine *m, struct machine_value *v)
 {
-    if (--v->refs)
-        return;
     m->values->release_count = 0;
     for (;;) {
         if (v->interned) {

@@ -18,9 +18,32 @@ struct machine_value *graph_find(struct machine *m, const struct machine_value *
 void graph_become(struct machine *m, struct machine_value *v, const struct machine_value *key);
 /* Drops the definition of a node that has a buffer. */
 void graph_forget(struct machine *m, struct machine_value *v);
-void graph_ref(struct machine_value *v);
-void graph_unref(struct machine *m, struct machine_value *v);
-struct machine_value *graph_borrow(struct machine *m, struct machine_value *v);
+
+/* ---- references: inline, because each recorded call takes and drops a dozen ---- */
+
+static inline void graph_ref(struct machine_value *v)
+{
+    v->refs++;
+}
+/* Releases a node whose last reference is gone. */
+void graph_release(struct machine *m, struct machine_value *v);
+static inline void graph_unref(struct machine *m, struct machine_value *v)
+{
+    if (!--v->refs)
+        graph_release(m, v);
+}
+/* Makes room for one more borrowed value. */
+void graph_borrowed_grow(struct machine *m);
+/* A reference that lasts until the next instruction. */
+static inline struct machine_value *graph_borrow(struct machine *m, struct machine_value *v)
+{
+    struct values *all = m->values;
+    if (all->borrowed_count == all->borrowed_capacity)
+        graph_borrowed_grow(m);
+    all->borrowed[all->borrowed_count++] = v;
+    v->refs++;
+    return v;
+}
 void graph_give_back(struct machine *m); /* releases everything that was borrowed */
 
 /* Whether it is a state's own. */

@@ -67,6 +67,16 @@ struct values {
     uint64_t random_seed, random_draws;
 };
 
+/* The error that there is no such set; NULL. */
+struct vpset *vpset_missing(struct machine *m, int vpset);
+/* NULL and an error if there is none. */
+static inline struct vpset *vpset_get(struct machine *m, int vpset)
+{
+    const struct values *v = m->values;
+    return vpset > 0 && vpset < v->sets_count && v->sets[vpset].used ? &v->sets[vpset]
+                                                                     : vpset_missing(m, vpset);
+}
+
 static inline void values_before_change(struct machine *m)
 {
     if (m->values->before_change)
