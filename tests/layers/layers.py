@@ -8,7 +8,8 @@ there is a docs/tour.md, it must name each folder of the table.
 C is read as text, in the shape that clang-format gives it here: a function's braces stand alone in the first column. A file
 uses another one if it names a function or a variable with external linkage that the other one defines. Names after `.` and
 `->` are members; a local variable's name counts, so it should not be that of a function elsewhere. In a header the bodies of
-inline functions and macros count, the prototypes do not. What macros define is not seen, but for the prefixes that the table
+inline functions and macros count, the prototypes do not. An inline function may call a function that its header declares and
+its folder defines: the two are halves of one, of which the first is compiled into callers. What macros define is not seen, but for the prefixes that the table
 lists (`names`).
 """
 import bisect
@@ -33,6 +34,7 @@ ARGUMENTS = re.compile(r"\([^()]+\)")
 TOUR_LINE = re.compile(r"^ {4}([a-z][\w/]*)/(?: |$)", re.MULTILINE)
 KEYWORDS = {"void", "int", "char", "float", "double", "return", "sizeof"}
 CALLED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")
+PROTOTYPE = re.compile(r"\b([A-Za-z_]\w*)\s*\([^;{}]*\)\s*;")
 VARIABLE = re.compile(r"\b([A-Za-z_]\w*)(?:\[[^\]\n]*\])*\s*[=,;]")
 WORD = re.compile(r"(?<![\w.])(?<!->)(?<!struct )(?<!enum )(?<!union )[A-Za-z_]\w*")
 
@@ -151,6 +153,7 @@ class File:
         self.external = {name for name, _, _, static in self.functions if not static}
         self.own = {name for name, _, _, _ in self.functions}
         lines = bare.split("\n")
+        self.declared = set()  # by a header's prototypes
         if path.endswith(".c"):
             for _, first, last, _ in self.functions:
                 lines[first - 1:last] = [""] * (last - first + 1)
@@ -158,6 +161,10 @@ class File:
             used = self.code
         else:
             self.promised = {name for text in EXTERN.findall(bare) for name in VARIABLE.findall(text)}
+            outside = list(lines)
+            for _, first, last, _ in self.functions:
+                outside[first - 1:last] = [""] * (last - first + 1)
+            self.declared = set(PROTOTYPE.findall("\n".join(outside)))
             used = "\n".join("\n".join(lines[first:last]) for _, first, last, _ in self.functions)
             used += "\n".join(body for _, body in macros)
         self.names = set(WORD.findall(used))
@@ -373,7 +380,8 @@ class House:
                 allowed = places
         if allowed:
             for path in allowed:
-                if path != file.path:
+                half = name in file.declared and self.row_of[path] == row
+                if path != file.path and not half:
                     self.edges[file.path].add(path)
         else:
             self.offend(("call", file.path, name), file, file.line_of(name),

@@ -152,6 +152,12 @@ class Layers(unittest.TestCase):
                     "low/b.c": '#include "l.h"\n' + function("b", 4, body="    l();\n")}, ROWS,
                    "low/b.c:1: is in a circle of 2 files", "low/l.h:1: is in a circle")
 
+    def test_an_inline_function_and_what_its_header_declares_are_halves_of_one(self):
+        inline = function("l", 4, "static inline void", "    b();\n")
+        files = {"low/l.h": "void b(void);\n" + inline, "low/b.c": '#include "l.h"\n' + function("b", 4, body="    l();\n")}
+        self.clean(files)
+        self.wrong({"base/l.h": files["low/l.h"], "low/b.c": files["low/b.c"]}, ROWS, "base/l.h:1: uses b of low/b.c")
+
     def test_circle_of_three_names_the_way_and_leaves_out_who_only_calls_it(self):
         self.wrong({"low/%s.c" % one: function(one, 4, body="    %s();\n" % other) for one, other in
                     (("a", "b"), ("b", "c"), ("c", "a"), ("d", "a"))}, ROWS,
