@@ -46,9 +46,12 @@ bool font_text_white(uint32_t character);
 bool font_text_ends_line(uint32_t character);
 /* Common and inherited characters go with those before them, at the beginning with those behind. */
 void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts);
-/* Where lines may end (UAX 14): libunibreak's signs, of the place behind each character. False: no memory. */
+/* line_ends.c: where lines may end (UAX 14), by libunibreak's signs, of the place behind each character. False: no memory. */
 bool font_breaks_find(const uint32_t *characters, int count, const char *language,
                       char *breaks);
+/* By ICU whatever the characters; false also where it is not installed. */
+bool font_breaks_by_icu(const uint32_t *characters, int count, const char *language,
+                        char *breaks);
 /* The paragraph's levels (UAX 9). direction: 1 it runs to the left, -1 to the right, 0 as its first letter; *base: its own level.
  * False: no memory. */
 bool font_levels_find(const uint32_t *characters, int count, int direction, int8_t *levels,

@@ -2,7 +2,7 @@
  *
  * A paragraph is what stands between two ends of line in the text. It is cut into runs: characters of one direction (FriBidi's
  * levels), one script and one face. With a width given, its runs are shaped once to learn how far each character moves the pen,
- * and lines take as much as fits up to a place where Unicode's rules allow a break (libunibreak, UAX 14); where there is
+ * and lines take as much as fits up to a place where Unicode's rules allow a break (UAX 14); where there is
  * none, up to a letter. Then each line is shaped by itself, since letters may join or kern otherwise at its ends, its
  * runs are put in the order in which they are seen (from the highest level down to the lowest odd one, what is on
  * that level or above is turned around: rule L2 of the Unicode bidirectional algorithm), and when all lines are known
@@ -35,7 +35,7 @@ struct paragraph {
     double *
         advances; /* of a character, where lines are to be broken: of a cluster, at its first; else 0 */
     bool *clusters; /* one begins here */
-    char *breaks;   /* libunibreak's, of the place behind a character */
+    char *breaks;   /* libunibreak's signs, of the place behind a character */
     int count, runs_count, base;
 };
 

@@ -4,12 +4,6 @@
 #include <stdlib.h>
 
 #include <fribidi.h>
-#include <linebreak.h>
-
-__attribute__((constructor)) static void breaks_begin(void)
-{
-    init_linebreak(); /* an index to its tables */
-}
 
 bool font_text_invisible(uint32_t c)
 {
@@ -39,35 +33,6 @@ bool font_text_white(uint32_t c)
 bool font_text_ends_line(uint32_t c)
 {
     return c == '\n' || c == 0x0b || c == 0x0c || c == 0x85 || c == 0x2028 || c == 0x2029;
-}
-
-/* What libunibreak is given for a character. Its tables are of Unicode 6: it stops the program at flags, and emoji are unknown to it. */
-static uint32_t known_to_breaks(uint32_t c)
-{
-    enum { IDEOGRAPH = 0x4e00, MARK = 0x308, UNKNOWN = 0xfffd };
-    bool flag = c >= 0x1f1e6 && c <= 0x1f1ff, modifier = c >= 0x1f3fb && c <= 0x1f3ff;
-    bool emoji = c >= 0x1f300 && c <= 0x1faff;
-    return modifier ? MARK : flag || emoji ? IDEOGRAPH : (c & 0xfffe) == 0xfffe ? UNKNOWN : c;
-}
-
-bool font_breaks_find(const uint32_t *characters, int count, const char *language, char *breaks)
-{
-    uint32_t *known = calloc((size_t)count + 1, sizeof *known);
-    int flags = 0; /* regional indicators in a row: two are one flag */
-    if (!known)
-        return false;
-    for (int i = 0; i < count; i++)
-        known[i] = known_to_breaks(characters[i]);
-    set_linebreaks_utf32(known, (size_t)count, language, breaks);
-    for (int i = 0; i + 1 < count; i++) {
-        flags = characters[i] >= 0x1f1e6 && characters[i] <= 0x1f1ff ? flags + 1 : 0;
-        bool half = flags % 2 && characters[i + 1] >= 0x1f1e6 && characters[i + 1] <= 0x1f1ff;
-        bool joins = characters[i] == 0x200d;
-        if ((half || joins) && breaks[i] == LINEBREAK_ALLOWBREAK)
-            breaks[i] = LINEBREAK_NOBREAK;
-    }
-    free(known);
-    return true;
 }
 
 void font_scripts_choose(const uint32_t *characters, int count, hb_script_t *scripts)

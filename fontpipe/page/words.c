@@ -193,6 +193,9 @@ void words_thai(struct paragraph *p)
                 word && places && thai_breaker
                     ? th_brk_wc_find_breaks(thai_breaker, word, places, (size_t)(end - i))
                     : 0;
+            for (int k = i; count > 0 && k + 1 < end;
+                 k++) /* not where another has found words */
+                p->letters[k].brk = LINEBREAK_NOBREAK;
             for (int k = 0; k < count; k++)
                 if (places[k] > 0 && places[k] < end - i && p->letters[i + places[k]].cluster)
                     p->letters[i + places[k] - 1].brk = LINEBREAK_ALLOWBREAK;

@@ -1,0 +1,185 @@
+/* line_ends.c - where lines may end: by ICU, which knows Unicode's present rules and the words of Thai, Lao, Khmer and Burmese, or,
+ * where it is not installed, by libunibreak, whose tables are of Unicode 6.
+ *
+ * ICU is large (its data alone 30 MB), and most text needs nothing of it: of plain letters, white space and usual signs
+ * both say the same (tests/fontpipe/test_unicode.c). So it is loaded when the first paragraph comes that has more. */
+#include "text_internal.h"
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <linebreak.h>
+#include <unicode/ubrk.h>
+
+/* ---- libunibreak ---- */
+
+__attribute__((constructor)) static void unibreak_begin(void)
+{
+    init_linebreak(); /* an index to its tables */
+}
+
+/* What libunibreak is given for a character: it stops the program at flags, and emoji are unknown to it. */
+static uint32_t known_to_unibreak(uint32_t c)
+{
+    enum { IDEOGRAPH = 0x4e00, MARK = 0x308, UNKNOWN = 0xfffd };
+    bool flag = c >= 0x1f1e6 && c <= 0x1f1ff, modifier = c >= 0x1f3fb && c <= 0x1f3ff;
+    bool emoji = c >= 0x1f300 && c <= 0x1faff;
+    return modifier ? MARK : flag || emoji ? IDEOGRAPH : (c & 0xfffe) == 0xfffe ? UNKNOWN : c;
+}
+
+static bool by_unibreak(const uint32_t *characters, int count, const char *language,
+                        char *breaks)
+{
+    uint32_t *known = calloc((size_t)count + 1, sizeof *known);
+    int flags = 0; /* regional indicators in a row: two are one flag */
+    if (!known)
+        return false;
+    for (int i = 0; i < count; i++)
+        known[i] = known_to_unibreak(characters[i]);
+    set_linebreaks_utf32(known, (size_t)count, language, breaks);
+    for (int i = 0; i + 1 < count; i++) {
+        flags = characters[i] >= 0x1f1e6 && characters[i] <= 0x1f1ff ? flags + 1 : 0;
+        bool half = flags % 2 && characters[i + 1] >= 0x1f1e6 && characters[i + 1] <= 0x1f1ff;
+        bool joins = characters[i] == 0x200d;
+        if ((half || joins) && breaks[i] == LINEBREAK_ALLOWBREAK)
+            breaks[i] = LINEBREAK_NOBREAK;
+    }
+    free(known);
+    return true;
+}
+
+/* ---- ICU ---- */
+
+/* Its functions have its version in their names, as the library has in its own: those that the headers are of. */
+#define TEXT_OF(x) #x
+#define TEXT(x) TEXT_OF(x)
+#define VERSIONED(name) name TEXT(U_ICU_VERSION_SUFFIX)
+
+enum { LANGUAGES_MAX = 16 };
+
+static struct {
+    void *library;
+    UBreakIterator *(*open)(UBreakIteratorType, const char *, const UChar *, int32_t,
+                            UErrorCode *);
+    void (*close)(UBreakIterator *);
+    void (*text_set)(UBreakIterator *, const UChar *, int32_t, UErrorCode *);
+    int32_t (*next)(UBreakIterator *);
+    int32_t (*status)(UBreakIterator *);
+} icu;
+
+static struct {
+    char language[16];
+    UBreakIterator *iterator;
+} iterators[LANGUAGES_MAX];
+static int iterators_count;
+static pthread_mutex_t icu_lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_once_t icu_once = PTHREAD_ONCE_INIT;
+
+static bool function_find(const char *name, void *function)
+{
+    void *found = dlsym(icu.library, name);
+    memcpy(function, &found, sizeof found); /* a function's address, as POSIX has it */
+    return found != NULL;
+}
+
+static void icu_begin(void)
+{
+    icu.library = dlopen("libicuuc.so." U_ICU_VERSION_SHORT, RTLD_NOW | RTLD_LOCAL);
+    if (icu.library && !(function_find(VERSIONED("ubrk_open"), &icu.open) &&
+                         function_find(VERSIONED("ubrk_close"), &icu.close) &&
+                         function_find(VERSIONED("ubrk_setText"), &icu.text_set) &&
+                         function_find(VERSIONED("ubrk_next"), &icu.next) &&
+                         function_find(VERSIONED("ubrk_getRuleStatus"), &icu.status)))
+        icu.library = NULL;
+}
+
+static void icu_end(void) __attribute__((destructor));
+static void icu_end(void)
+{
+    for (int i = 0; i < iterators_count; i++)
+        icu.close(iterators[i].iterator);
+    iterators_count = 0;
+}
+
+/* The language's iterator, NULL if there is none. Under the lock. */
+static UBreakIterator *iterator_of(const char *language)
+{
+    UErrorCode error = U_ZERO_ERROR;
+    char name[sizeof iterators->language];
+    snprintf(name, sizeof name, "%s", language ? language : "");
+    for (int i = 0; i < iterators_count; i++)
+        if (strcmp(iterators[i].language, name) == 0)
+            return iterators[i].iterator;
+    if (iterators_count == LANGUAGES_MAX)
+        return iterators[0].iterator;
+    UBreakIterator *made = icu.open(UBRK_LINE, name, NULL, 0, &error);
+    if (U_FAILURE(error))
+        return NULL;
+    memcpy(iterators[iterators_count].language, name, sizeof name);
+    iterators[iterators_count++].iterator = made;
+    return made;
+}
+
+static bool by_icu(const uint32_t *characters, int count, const char *language, char *breaks)
+{
+    UChar *text = calloc(2 * (size_t)count + 1, sizeof *text);
+    int32_t *behind = calloc(2 * (size_t)count + 1, sizeof *behind), units = 0;
+    UErrorCode error = U_ZERO_ERROR;
+    bool good = text && behind;
+    for (int i = 0; good && i < count; i++) {
+        uint32_t c = characters[i];
+        c = c > 0x10ffff || (c >= 0xd800 && c < 0xe000) ? 0xfffd : c;
+        breaks[i] = LINEBREAK_NOBREAK;
+        if (c > 0xffff)
+            text[units++] = (UChar)(0xd7c0 + (c >> 10));
+        text[units++] = c > 0xffff ? (UChar)(0xdc00 | (c & 0x3ff)) : (UChar)c;
+        behind[units] = i + 1;
+    }
+    pthread_mutex_lock(&icu_lock);
+    UBreakIterator *iterator = good ? iterator_of(language) : NULL;
+    if (iterator)
+        icu.text_set(iterator, text, units, &error);
+    good = iterator && U_SUCCESS(error);
+    for (int32_t at; good && (at = icu.next(iterator)) != UBRK_DONE;)
+        if (behind[at])
+            breaks[behind[at] - 1] = icu.status(iterator) >= UBRK_LINE_HARD
+                                         ? LINEBREAK_MUSTBREAK
+                                         : LINEBREAK_ALLOWBREAK;
+    pthread_mutex_unlock(&icu_lock);
+    free(text);
+    free(behind);
+    return good;
+}
+
+/* ---- the one or the other ---- */
+
+/* Letters, digits and signs of which both say the same. */
+static bool plain(uint32_t c)
+{
+    return c == ' ' || c == ',' || c == '.' || c == 0xad || (c >= 'a' && c <= 'z') ||
+           (c >= 'A' && c <= 'Z') || (c >= 0xc0 && c <= 0x17f && c != 0xd7 && c != 0xf7) ||
+           c == '(' || c == ')' || c == ';' || c == ':' || c == '!' || c == '?' || c == '\'';
+}
+
+bool font_breaks_find(const uint32_t *characters, int count, const char *language, char *breaks)
+{
+    int first = 0; /* white space at the beginning is no plain text */
+    while (first < count && plain(characters[first]) && characters[0] != ' ')
+        first++;
+    if (first < count) {
+        pthread_once(&icu_once, icu_begin);
+        if (icu.library && by_icu(characters, count, language, breaks))
+            return true;
+    }
+    return by_unibreak(characters, count, language, breaks);
+}
+
+bool font_breaks_by_icu(const uint32_t *characters, int count, const char *language,
+                        char *breaks)
+{
+    pthread_once(&icu_once, icu_begin);
+    return icu.library && by_icu(characters, count, language, breaks);
+}
