@@ -27,9 +27,11 @@ static double compile_time(const struct plan *p)
     return s;
 }
 
-/* Byte code has a step for it; of gets it has none. */
+/* Byte code has a step for it. */
 static bool is_known(const struct machine_value *v)
 {
+    if (v->op == NODE_GATHER)
+        return v->in[1]->buffer != NULL;
     return v->op == NODE_SHIFT || !node_ops[v->op].inputs || op_has(v->op, OP_ALONE);
 }
 

@@ -75,6 +75,8 @@ static void places_begin(const struct run *r, struct machine_value *const *nodes
             continue;
         if (place->kind == PLACE_NUMBER)
             fill(at, nodes[place->node]->imm, place->bytes, lanes);
+        else if (place->kind == PLACE_WHOLE)
+            at = r->buffers[place->node]->host;
         else if (place->kind == PLACE_DRAW)
             memcpy(at, (uint64_t[2]){nodes[place->node]->imm.lo, nodes[place->node]->imm.hi},
                    16);

@@ -9,6 +9,9 @@
 
 enum { NO_PLACE = -1 };
 
+/* Seconds for what comes from anywhere in memory, beside the step. */
+static const double fetch_s = 0.5e-9;
+
 /* While a program is made. */
 struct making {
     struct byte_code *p;
@@ -334,6 +337,23 @@ static lanes_function *loop_of(const struct plan_node *n, struct machine_type fr
     return loop ? loop : lanes_find(n->op, a);
 }
 
+/* What is in an array at a place: nobody's lanes in particular, so the array is taken as it is. */
+static void step_fetched(struct making *k, const struct plan_node *n, int to, const int in[3])
+{
+    enum lanes_class c = lanes_bits_of(lanes_class_of(n->type));
+    int array = place_add(k->p, (struct place){.kind = PLACE_WHOLE,
+                                               .bytes = (uint8_t)lanes_bytes(c),
+                                               .node = n->in[1]});
+    argument_add(k->p, ARGUMENT_INPUT, n->in[1]);
+    struct lanes_step *s = step_add(k, lanes_find(LANES_FETCH, c), LANES_FETCH, to);
+    s->in[0] = (uint16_t)in[0];
+    s->in[1] = (uint16_t)array;
+    s->in[2] = (uint16_t)in[2];
+    s->from = MACHINE_UINT(32);
+    s->type = n->type;
+    k->p->lane_s += fetch_s;
+}
+
 static void step_operation(struct making *k, const struct plan_node *n, int to, const int in[3])
 {
     struct machine_type from = k->g->nodes[n->in[0]].type;
@@ -366,6 +386,12 @@ static bool loads(const struct making *k, int node)
     return plan_loads(&k->g->nodes[node], k->stage);
 }
 
+/* Whether it takes operand j lane by lane; else whole, from memory. */
+static bool takes(const struct plan_node *n, int j)
+{
+    return n->op != NODE_GATHER || j != 1;
+}
+
 static void find_needed(struct making *k, const int *stores, int count)
 {
     const struct plan_graph *g = k->g;
@@ -378,7 +404,7 @@ static void find_needed(struct making *k, const int *stores, int count)
         if (!k->needed[i] || n->constant || loads(k, i) || n->op == NODE_SHIFT)
             continue;
         for (int j = 0; j < node_ops[n->op].inputs; j++)
-            k->needed[n->in[j]] = true;
+            k->needed[n->in[j]] = k->needed[n->in[j]] || takes(n, j);
     }
     for (int i = 0; i < g->count; i++) {
         const struct plan_node *n = &g->nodes[i];
@@ -387,7 +413,8 @@ static void find_needed(struct making *k, const int *stores, int count)
         if (n->op == NODE_REINTERPRET && !k->output[i])
             k->owner[i] = k->owner[n->in[0]];
         for (int j = 0; j < node_ops[n->op].inputs; j++)
-            k->last[k->owner[n->in[j]]] = i;
+            if (takes(n, j))
+                k->last[k->owner[n->in[j]]] = i;
     }
 }
 
@@ -418,7 +445,7 @@ static void node_compute(struct making *k, int node)
         return;
     }
     for (int j = 0; j < node_ops[n->op].inputs; j++)
-        in[j] = k->place[n->in[j]];
+        in[j] = takes(n, j) ? k->place[n->in[j]] : 0;
     if (k->owner[node] != node) {
         k->place[node] = in[0];
         return;
@@ -426,6 +453,8 @@ static void node_compute(struct making *k, int node)
     int to = k->place[node] = place_of_result(k, node);
     if (node_ops[n->op].inputs == 0) {
         step_generated(k, n, node, to);
+    } else if (n->op == NODE_GATHER) {
+        step_fetched(k, n, to, in);
     } else if (n->op == NODE_REINTERPRET) {
         step_copied(k, to, n->type, in[0]);
     } else {
@@ -434,8 +463,8 @@ static void node_compute(struct making *k, int node)
     k->p->ops++;
     k->p->cost += node_cost(n->op, n->type);
     for (int j = 0; j < node_ops[n->op].inputs; j++) {
-        int owner = k->owner[n->in[j]];
-        if (k->last[owner] == node && !k->output[owner]) {
+        int owner = takes(n, j) ? k->owner[n->in[j]] : node;
+        if (owner != node && k->last[owner] == node && !k->output[owner]) {
             k->last[owner] = -1; /* once, if it is two operands */
             register_put(k, k->place[owner]);
         }

@@ -6,6 +6,7 @@
  *     REGISTER lanes in the nearest cache   no
  *     NUMBER   a register full of a number  no
  *     DRAW     a random draw's key, limit   no
+ *     WHOLE    an array, of any VP set      no
  *
  * Steps name places by their number. */
 #ifndef LUTETIA_MACHINE_BYTE_CODE_H
@@ -17,12 +18,19 @@
 /* Lanes of a block, at most: a register is up to 4 KiB (of wide ones 8), a few of which are in use. */
 enum { BLOCK_LANES = 512 };
 
-enum place_kind { PLACE_ARRAY, PLACE_MOVED, PLACE_REGISTER, PLACE_NUMBER, PLACE_DRAW };
+enum place_kind {
+    PLACE_ARRAY,
+    PLACE_MOVED,
+    PLACE_REGISTER,
+    PLACE_NUMBER,
+    PLACE_DRAW,
+    PLACE_WHOLE
+};
 
 struct place {
     uint8_t kind;     /* enum place_kind */
     uint8_t bytes;    /* of a lane */
-    int32_t node;     /* of an array, a number, a draw */
+    int32_t node;     /* of an array, whole or not, a number, a draw */
     size_t offset;    /* of a register among the registers */
     int32_t *further; /* of a MOVED: along each axis; owned */
 };

@@ -38,6 +38,7 @@ enum lanes_op {
     LANES_JOIN,                 /* a | b << detail */
     LANES_CANONICAL,            /* NaNs of `to` become the one that operations give */
     LANES_FIT,                  /* `to`, doubles, rounded to the format of type */
+    LANES_FETCH, /* in: places of 32 bits; an array, which is not the lanes'; how many places there are. 0 where there is none */
     LANES_PLACE, /* a row-major index becomes a send address: PLOG2 is detail, the ratio is mask */
     LANES_DRAW, /* a row-major index becomes a random number: see NODE_RANDOM */
     LANES_OP_COUNT

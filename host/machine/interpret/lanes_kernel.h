@@ -134,6 +134,19 @@ typedef double f64;
         IN(T, 2, b);                                                                           \
         EACH d[i] = c[i] ? a[i] : b[i];                                                        \
     }                                                                                          \
+    LOOP(fetch, T)                                                                             \
+    {                                                                                          \
+        TO(T);                                                                                 \
+        IN(u32, 0, place);                                                                     \
+        IN(T, 1, array);                                                                       \
+        const u32 count = *(const u32 *)at[s->in[2]];                                          \
+        EACH                                                                                   \
+        {                                                                                      \
+            const bool there = place[i] < count;                                               \
+            const T v = array[there ? place[i] : 0];                                           \
+            d[i] = there ? v : 0;                                                              \
+        }                                                                                      \
+    }                                                                                          \
     LOOP(copy, T)                                                                              \
     {                                                                                          \
         memcpy(at[s->to], at[s->in[0]], (size_t)n * sizeof(T));                                \
@@ -467,6 +480,7 @@ const struct lanes_table TABLE = {
             [NODE_OVERFLOW_FDIV] = OF_FLOATS(over_fdiv),
             [NODE_OVERFLOW_RESULT] = OF_FLOATS(over_result),
             [LANES_COPY] = OF_INTEGERS(copy),
+            [LANES_FETCH] = OF_INTEGERS(fetch),
             [LANES_JOIN] = OF_INTEGERS(join),
             [LANES_CANONICAL] = OF_FLOATS(canonical),
             [LANES_FIT] = {[LANES_F64] = fit_f64},

@@ -27,10 +27,15 @@ static void rows_repeat(const struct lines *l, char *out, size_t bytes, size_t r
         row_repeat(l, out, bytes, row + (size_t)(k * l->step));
 }
 
-/* Where a row of lines begins. */
-static size_t row_of(const struct lines *l, size_t row)
+size_t near_lines_row(const struct lines *l, size_t row)
 {
     return l->base + row % l->inner * l->inner_stride + row / l->inner * l->outer_stride;
+}
+
+void near_lines_repeat(const struct lines *l, void *out, size_t bytes)
+{
+    for (size_t row = 0; row < l->inner * l->outer; row++)
+        rows_repeat(l, out, bytes, near_lines_row(l, row));
 }
 
 /* What the parts share. A piece is a group of lines, or of one line a chunk. */
@@ -60,7 +65,8 @@ static void group_scan(const struct share *s, size_t piece)
     int lanes = s->loops->many ? LOOPS_LANES : 1, column = (int)(piece % s->groups) * lanes;
     for (int n, end = column + lanes < l->columns ? column + lanes : l->columns; column < end;
          column += n) {
-        const struct stretch one = stretch_of(s, row_of(l, row) + (size_t)column, 0, l->length);
+        const struct stretch one =
+            stretch_of(s, near_lines_row(l, row) + (size_t)column, 0, l->length);
         n = end - column == LOOPS_LANES && lanes == LOOPS_LANES ? LOOPS_LANES : 1;
         (n > 1 ? s->loops->many : s->loops->one)(&one, s->run, line + (size_t)column);
     }
@@ -94,7 +100,7 @@ static bool chunks_scan(struct crew *crew, struct share *s)
     if (!s->chunks)
         return false;
     for (size_t row = 0; row < l->inner * l->outer; row++) {
-        s->row = row_of(l, row);
+        s->row = near_lines_row(l, row);
         s->writes = false;
         crew_run(crew, s->parts, part_scan, s);
         s->loops->join(s->j, s->chunks, (int)s->pieces);
@@ -119,8 +125,8 @@ void near_lines_scan(struct crew *crew, int parts, const struct lines *l,
         s.pieces = rows * s.groups;
         crew_run(crew, parts, part_scan, &s);
     }
-    for (size_t row = 0; row < rows && !j->sums; row++)
-        rows_repeat(l, j->out->host, j->element->bytes, row_of(l, row));
+    if (!j->sums)
+        near_lines_repeat(l, j->out->host, j->element->bytes);
 }
 
 /* ---- lines filled ---- */
@@ -146,7 +152,7 @@ static void part_fill(void *of, int part, int worker)
         const char *element = f->from + (f->origin.base + row % l->inner * f->origin.inner +
                                          row / l->inner * f->origin.outer) *
                                             bytes;
-        char *to = f->to + row_of(l, row) * bytes;
+        char *to = f->to + near_lines_row(l, row) * bytes;
         ptrdiff_t step = (ptrdiff_t)l->step * (ptrdiff_t)bytes;
         if (l->along && l->step > 0)
             array_fill(to + first * bytes, element, bytes, end - first);
@@ -166,6 +172,5 @@ void near_lines_fill(struct crew *crew, int parts, const struct lines *l, size_t
                         .origin = origin,
                         .parts = parts};
     crew_run(crew, parts, part_fill, &f);
-    for (size_t row = 0; row < l->inner * l->outer; row++)
-        rows_repeat(l, out->host, bytes, row_of(l, row));
+    near_lines_repeat(l, out->host, bytes);
 }

@@ -13,4 +13,8 @@ void near_lines_fill(struct crew *crew, int parts, const struct lines *l, size_t
                      const struct device_buffer *from, struct origin origin,
                      struct device_buffer *out);
 
+/* Where a row of lines begins; the other ends of all rows that the lines are in, into the halos. */
+size_t near_lines_row(const struct lines *l, size_t row);
+void near_lines_repeat(const struct lines *l, void *out, size_t bytes);
+
 #endif

@@ -11,6 +11,8 @@
 #include "base/scalar.h"
 #include "kernels.h"
 #include "memory/memory.h"
+#include "ops/near.h"
+#include "ops/near_rank.h"
 #include "ops/scan.h"
 #include "run/materialise.h"
 #include "values/graph.h"
@@ -186,6 +188,57 @@ static enum machine_status sort_words(struct machine *m, const struct sort *t,
     return MACHINE_OK;
 }
 
+static struct device_buffer *ranks_far(struct machine *m, const struct vpset *s, int axis,
+                                       const struct words *w)
+{
+    struct sort t = sort_of(m, s, axis);
+    size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
+    struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
+    const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
+                             geometry_bytes(s, MACHINE_UINT(32))};
+    enum machine_status status = MACHINE_OK;
+    for (int i = 0; i < 4 && !status; i++)
+        if (!(*all[i] = device_buffer_get(m, bytes[i])))
+            status = m->status;
+    if (!status)
+        status = sort_words(m, &t, w);
+    for (int i = 0; i < 3; i++)
+        if (*all[i])
+            device_buffer_unref(m, *all[i]);
+    if (status && t.ranks)
+        device_buffer_unref(m, t.ranks);
+    device_flush(m);
+    return status ? NULL : t.ranks;
+}
+
+/* A line that is longer is sorted in chunks by the device's units: the front end has a thread for each line only. */
+enum { NEAR_LINE_MOST = 1 << 17 };
+
+/* Seconds for a processor and word of its key on the front end's thread. */
+static const double rank_word_s = 8e-9;
+
+/* By the front end; else by the device. NULL: error set. */
+static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, int axis,
+                                      const struct words *w)
+{
+    const struct lines l = lines_of(s, axis, false);
+    struct near_word words[WORDS_MAX];
+    bool is_long = l.length > NEAR_LINE_MOST && m->settings.near < 2;
+    double start, seconds = rank_word_s * (double)s->count * w->count;
+    struct device_buffer *ranks = device_rows_get(m, geometry_rows(s, MACHINE_UINT(32)));
+    for (int i = 0; i < w->count; i++)
+        words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};
+    bool good =
+        !is_long && near_begin(m, ranks, &start) &&
+        near_rank(m->device->crew, device_parts(m, seconds), &l, words, w->count, ranks);
+    if (good)
+        near_end(m, "sorting", start);
+    if (good || !ranks)
+        return ranks;
+    device_buffer_unref(m, ranks);
+    return ranks_far(m, s, axis, w);
+}
+
 struct machine_value *machine_rank(struct machine *m, int axis, bool downward, bool is_signed,
                                    enum machine_segments segments, struct machine_value *bits,
                                    struct machine_value *value)
@@ -200,23 +253,6 @@ struct machine_value *machine_rank(struct machine *m, int axis, bool downward, b
         !materialise_all(m, m->values->set_current, w.values, w.count))
         return NULL;
     s = &m->values->sets[m->values->set_current];
-    struct sort t = sort_of(m, s, axis);
-    size_t lines = lines_count(&t.lines), count = lines * (size_t)t.lines.length;
-    struct device_buffer **const all[4] = {&t.pairs[0], &t.pairs[1], &t.counts, &t.ranks};
-    const size_t bytes[4] = {count * 8, count * 8, (lines * (size_t)t.chunks << t.digit) * 4,
-                             geometry_bytes(s, MACHINE_UINT(32))};
-    enum machine_status status = MACHINE_OK;
-    for (int i = 0; i < 4 && !status; i++)
-        if (!(*all[i] = device_buffer_get(m, bytes[i])))
-            status = m->status;
-    if (!status)
-        status = sort_words(m, &t, &w);
-    for (int i = 0; i < 3; i++)
-        if (*all[i])
-            device_buffer_unref(m, *all[i]);
-    if (status && t.ranks)
-        device_buffer_unref(m, t.ranks);
-    device_flush(m);
-    return status ? NULL
-                  : graph_buffer_node(m, MACHINE_UINT(32), m->values->set_current, t.ranks);
+    struct device_buffer *ranks = ranks_of(m, s, axis, &w);
+    return ranks ? graph_buffer_node(m, MACHINE_UINT(32), m->values->set_current, ranks) : NULL;
 }
