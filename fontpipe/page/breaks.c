@@ -47,8 +47,16 @@ static double badness_of(double ratio)
     return bad < BREAK_INFINITE ? bad : BREAK_INFINITE;
 }
 
-static enum fitness fitness_of(double ratio, double badness)
+/* TeX's badness: a whole number, of which the fitness is a matter; about 100 |ratio|^3. */
+static double badness_whole(double ratio)
 {
+    double r = floor(297 * fabs(ratio));
+    return r > 1290 ? BREAK_INFINITE : floor((r * r * r + 131072) / 262144);
+}
+
+static enum fitness fitness_of(double ratio)
+{
+    double badness = badness_whole(ratio);
     if (ratio < 0)
         return badness > 12 ? TIGHT : DECENT;
     return badness > 99 ? VERY_LOOSE : badness > 12 ? LOOSE : DECENT;
@@ -59,7 +67,7 @@ double breaks_demerits(const struct break_place *from, const struct break_place 
 {
     double bad = badness_of(ratio), line = line_penalty + bad, p = to->penalty;
     double demerits = line * line;
-    *fitness = (int)fitness_of(ratio, bad);
+    *fitness = (int)fitness_of(ratio);
     demerits += p > 0 ? p * p : p > -BREAK_INFINITE ? -p * p : 0;
     if (from->flagged && (to->flagged || last))
         demerits += last ? last_hyphen_demerits : hyphens_demerits;
