@@ -1,49 +1,111 @@
 /* verb_paint.c - `lutetia paint`: type or a bitmap in ink on wet paper. */
-#include "lutetia.h"
-#include "options.h"
+#include "verb_paint.h"
 
 #include <display.h>
 #include <face.h>
+#include <sheet.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct paint {
-    const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
-    double angle_deg;
-    double size_px; /* 0: the line is fitted to the paper */
-    double ink[3], water, wet;
-    int size[2], steps, every, seed;
-    double gravity, gravity_x, humidity, weights[3], absorbency;
-    struct option_list pools;
-    struct paper_screen screen;
-};
-
 static const char *const fonts[] = {"EBGaramond12-Regular", "DejaVuSerif", NULL};
 
 static struct paint paint_default(void)
 {
-    struct paper_config config = paper_config_default();
-    struct paper_weather weather = paper_weather_default();
     return (struct paint){
         .view = "color",
         .out_path = "out.png",
-        .ink = {0.93, 0.76, 0.38},
-        .water = 0.8,
-        .wet = 0.25,
+        .model = "full",
+        .ink = {NAN, NAN, NAN},
+        .water = NAN,
+        .wet = NAN,
         .size = {1024, 640},
-        .steps = 200,
+        .steps = -1,
         .every = 10,
-        .seed = (int)config.seed,
-        .gravity = weather.gravity_y,
-        .gravity_x = weather.gravity_x,
-        .humidity = weather.humidity,
-        .weights = {weather.molecular_weight[0], weather.molecular_weight[1],
-                    weather.molecular_weight[2]},
-        .absorbency = config.absorbency,
+        .seed = (int)paper_config_default().seed,
+        .gravity = NAN,
+        .gravity_x = NAN,
+        .humidity = NAN,
+        .weights = {NAN, NAN, NAN},
+        .absorbency = NAN,
     };
+}
+
+static double or_else(double given, double otherwise)
+{
+    return isnan(given) ? otherwise : given;
+}
+
+static int gravity_check(const char *name, double given, double least, double most)
+{
+    return given >= least && given <= most
+               ? EXIT_SUCCESS
+               : fail_usage("paint", "--%s must be %g..%g with this model (got %g)", name,
+                            least, most, given);
+}
+
+static int full_take(struct paint *paint)
+{
+    const struct paper_air air = paper_air_default();
+    if (!isnan(paint->absorbency) || !isnan(paint->weights[0]))
+        return fail_usage("paint", "--%s is the thesis's model's; add --model thesis",
+                          isnan(paint->absorbency) ? "weights" : "absorbency");
+    paint->stock = paint->stock ? paint->stock : paper_stock_number(0)->name;
+    if (!paper_stock_find(paint->stock)) {
+        char known[200] = "";
+        const struct paper_stock *stock;
+        for (int i = 0; (stock = paper_stock_number(i)); i++) {
+            const size_t at = strlen(known);
+            snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", stock->name);
+        }
+        return fail_usage("paint", "there is no paper stock '%.40s'; there are %s",
+                          paint->stock, known);
+    }
+    paint->ink_is_given = !isnan(paint->ink[0]);
+    paint->water = or_else(paint->water, 0.9);
+    paint->wet = or_else(paint->wet, 0);
+    paint->steps = paint->steps < 0 ? 400 : paint->steps;
+    paint->gravity = or_else(paint->gravity, air.gravity[1]);
+    paint->gravity_x = or_else(paint->gravity_x, air.gravity[0]);
+    paint->humidity = or_else(paint->humidity, air.humidity);
+    const int status = gravity_check("gravity", paint->gravity, -1, 1);
+    return status == EXIT_SUCCESS ? gravity_check("gravity-x", paint->gravity_x, -1, 1)
+                                  : status;
+}
+
+static int thesis_take(struct paint *paint)
+{
+    static const double ink[3] = {0.93, 0.76, 0.38};
+    const struct paper_weather weather = paper_weather_default();
+    if (paint->stock)
+        return fail_usage("paint", "--stock is the full model's; the thesis has one paper");
+    for (int i = 0; i < 3; i++) {
+        paint->ink[i] = or_else(paint->ink[i], ink[i]);
+        paint->weights[i] = or_else(paint->weights[i], weather.molecular_weight[i]);
+    }
+    paint->water = or_else(paint->water, 0.8);
+    paint->wet = or_else(paint->wet, 0.25);
+    paint->steps = paint->steps < 0 ? 200 : paint->steps;
+    paint->gravity = or_else(paint->gravity, weather.gravity_y);
+    paint->gravity_x = or_else(paint->gravity_x, weather.gravity_x);
+    paint->humidity = or_else(paint->humidity, weather.humidity);
+    paint->absorbency = or_else(paint->absorbency, paper_config_default().absorbency);
+    const double pull = PAPER_GRAVITY_MAX;
+    const int status = gravity_check("gravity", paint->gravity, 1 / pull, pull);
+    return status == EXIT_SUCCESS ? gravity_check("gravity-x", paint->gravity_x, 1 / pull, pull)
+                                  : status;
+}
+
+/* Options that were not given get the model's values; those of the other model are refused. */
+static int model_take(struct paint *paint)
+{
+    if (strcmp(paint->model, "full") == 0)
+        return full_take(paint);
+    if (strcmp(paint->model, "thesis") == 0)
+        return thesis_take(paint);
+    return fail_usage("paint", "--model must be full or thesis (got '%.60s')", paint->model);
 }
 
 static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
@@ -60,29 +122,34 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
          &paint->filter, 0, 0, 0},
         {"angle", 0, OPTION_NUMBER, "DEG", "turns the type counterclockwise (0)",
          &paint->angle_deg, -3600, 3600, 0},
-        {"ink", 0, OPTION_NUMBERS, "C,M,Y", "cyan, magenta, yellow of the type, 0..1",
-         paint->ink, 0, 1, 3},
-        {"water", 0, OPTION_NUMBER, "W", "water put on with the type, 0..1 (0.8)",
-         &paint->water, 0, 1, 0},
-        {"wet", 0, OPTION_NUMBER, "W", "water on the whole sheet before, 0..1 (0.25)",
-         &paint->wet, 0, 1, 0},
+        {"model", 0, OPTION_TEXT, "MODEL", "full or thesis (full)", &paint->model, 0, 0, 0},
+        {"stock", 0, OPTION_TEXT, "NAME", "full: the paper's kind (cold press)", &paint->stock,
+         0, 0, 0},
+        {"ink", 0, OPTION_NUMBERS, "C,M,Y",
+         "cyan, magenta, yellow of the type, 0..1 (full: ultramarine)", paint->ink, 0, 1, 3},
+        {"water", 0, OPTION_NUMBER, "W",
+         "water put on with the type, 0..1 (full 0.9; thesis 0.8)", &paint->water, 0, 1, 0},
+        {"wet", 0, OPTION_NUMBER, "W",
+         "water on the whole sheet before, 0..1 (full 0; thesis 0.25)", &paint->wet, 0, 1, 0},
         {"pool", 0, OPTION_LIST, "X,Y,W,H,A",
          "water of amount A/100 in a rectangle; any number", &paint->pools, -side, side, 5},
         {"image", 0, OPTION_TEXT, "FILE", "screen a gray PNG instead of type: black is ink",
          &paint->image_path, 0, 0, 0},
         {"paper", 0, OPTION_SIZE, "WxH", "fibers (1024x640)", paint->size, PAPER_SIDE_MIN, side,
          0},
-        {"absorbency", 0, OPTION_NUMBER, "A", "of the paper, 0..0.25 (0.18)",
+        {"absorbency", 0, OPTION_NUMBER, "A", "thesis: of the paper, 0..0.25 (0.18)",
          &paint->absorbency, 0, PAPER_ABSORBENCY_MAX, 0},
-        {"steps", 0, OPTION_INTEGER, "N", "cycles (200)", &paint->steps, 0, 1e6, 0},
-        {"gravity", 0, OPTION_NUMBER, "G", "downwards, 0.5..2; 1 is none", &paint->gravity,
-         1 / pull, pull, 0},
-        {"gravity-x", 0, OPTION_NUMBER, "G", "to the right, 0.5..2; 1 is none",
-         &paint->gravity_x, 1 / pull, pull, 0},
-        {"humidity", 0, OPTION_NUMBER, "H", "water that dries in a cycle, 0..1 (0.0004)",
-         &paint->humidity, 0, 1, 0},
-        {"weights", 0, OPTION_NUMBERS, "C,M,Y", "how easily pigments move, 0..1 (1,0.35,0.7)",
-         paint->weights, 0, 1, 3},
+        {"steps", 0, OPTION_INTEGER, "N", "cycles (full 400; thesis 200)", &paint->steps, 0,
+         1e6, 0},
+        {"gravity", 0, OPTION_NUMBER, "G",
+         "downwards: full -1..1 (0); thesis 0.5..2, 1 is none", &paint->gravity, -1, pull, 0},
+        {"gravity-x", 0, OPTION_NUMBER, "G", "to the right, as gravity", &paint->gravity_x, -1,
+         pull, 0},
+        {"humidity", 0, OPTION_NUMBER, "H",
+         "water that dries in a cycle, 0..1 (full the air's; thesis 0.0004)", &paint->humidity,
+         0, 1, 0},
+        {"weights", 0, OPTION_NUMBERS, "C,M,Y",
+         "thesis: how easily pigments move, 0..1 (1,0.35,0.7)", paint->weights, 0, 1, 3},
         {"seed", 0, OPTION_INTEGER, "S", "of the paper (1990)", &paint->seed, 0, 2147483647, 0},
         {"view", 0, OPTION_TEXT, "VIEW", "color or water", &paint->view, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "write pictures on the way there", &paint->frames_dir,
@@ -108,7 +175,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         return fail_usage("paint", "give a text or --image FILE, one of them");
     if (strcmp(paint->view, "color") != 0 && strcmp(paint->view, "water") != 0)
         return fail_usage("paint", "--view must be color or water (got '%.60s')", paint->view);
-    return EXIT_SUCCESS;
+    return model_take(paint);
 }
 
 /* The size at which the line takes four fifths of the width, or three fifths of the height. */
@@ -156,65 +223,6 @@ static int screen_from_image(struct paint *paint)
     return EXIT_SUCCESS;
 }
 
-static enum paper_status paint_apply(const struct paint *paint, struct paper *sheet)
-{
-    struct paper_ink ink = {paint->ink[0], paint->ink[1], paint->ink[2], paint->water};
-    enum paper_status status = paper_rectangle(sheet, 0, 0, paint->size[0], paint->size[1],
-                                               &(struct paper_ink){.water = paint->wet});
-    for (int i = 0; i < paint->pools.count && status == PAPER_OK; i++) {
-        const double *pool = paint->pools.numbers[i];
-        status = paper_rectangle(sheet, (int)pool[0], (int)pool[1], (int)pool[2], (int)pool[3],
-                                 &(struct paper_ink){.water = pool[4] / 100});
-    }
-    if (status == PAPER_OK)
-        status = paper_screen_ink(sheet, &paint->screen,
-                                  (paint->size[0] - paint->screen.width_px) / 2,
-                                  (paint->size[1] - paint->screen.height_px) / 2, &ink);
-    return status;
-}
-
-static int frame_write(const struct paint *paint, struct paper *sheet, enum paper_view view,
-                       int step)
-{
-    char path[4096];
-    int length = snprintf(path, sizeof path, "%s/frame-%06d.png", paint->frames_dir, step);
-    if (length < 0 || (size_t)length >= sizeof path)
-        return fail("paint", "--frames: the folder's name is too long");
-    return sheet_write("paint", sheet, view, path);
-}
-
-static int paint_run(const struct paint *paint, struct paper *sheet)
-{
-    enum paper_view view =
-        strcmp(paint->view, "water") == 0 ? PAPER_VIEW_WATER : PAPER_VIEW_COLOR;
-    struct paper_weather weather = {
-        .gravity_x = paint->gravity_x,
-        .gravity_y = paint->gravity,
-        .humidity = paint->humidity,
-        .molecular_weight = {paint->weights[0], paint->weights[1], paint->weights[2]}};
-    int status = EXIT_SUCCESS;
-    if (paint_apply(paint, sheet) != PAPER_OK || paper_finish(sheet) != PAPER_OK)
-        status = fail_paper("paint");
-    struct progress progress = progress_begin("painting", paint->steps);
-    for (int step = 0; step <= paint->steps && status == EXIT_SUCCESS; step++) {
-        if (interrupted())
-            break;
-        if (paint->frames_dir && step % paint->every == 0)
-            status = frame_write(paint, sheet, view, step);
-        if (step == paint->steps || status != EXIT_SUCCESS)
-            break;
-        if (paper_disperse(sheet, &weather) != PAPER_OK ||
-            ((step + 1) % STEPS_AT_ONCE == 0 && paper_finish(sheet) != PAPER_OK))
-            status = fail_paper("paint");
-        if ((step + 1) % STEPS_AT_ONCE == 0)
-            progress_show(&progress, step + 1);
-    }
-    progress_end(&progress);
-    if (interrupted())
-        return EXIT_INTERRUPTED;
-    return status == EXIT_SUCCESS ? sheet_write("paint", sheet, view, paint->out_path) : status;
-}
-
 int verb_paint(int argc, char **argv)
 {
     struct paint paint = paint_default();
@@ -230,19 +238,8 @@ int verb_paint(int argc, char **argv)
     interrupt_catch();
     if (status == EXIT_SUCCESS)
         status = machine_prepare("paint", paint.size[0], paint.size[1]);
-    struct paper *sheet = NULL;
-    if (status == EXIT_SUCCESS) {
-        struct paper_config config = paper_config_default();
-        config.width = paint.size[0];
-        config.height = paint.size[1];
-        config.seed = (uint64_t)paint.seed;
-        config.absorbency = paint.absorbency;
-        if (paper_create(&config, &sheet) != PAPER_OK)
-            status = fail_paper("paint");
-        else
-            status = paint_run(&paint, sheet);
-    }
-    paper_destroy(sheet);
+    if (status == EXIT_SUCCESS)
+        status = strcmp(paint.model, "full") == 0 ? paint_sheet(&paint) : paint_thesis(&paint);
     paper_screen_destroy(&paint.screen);
     return interrupt_report("paint", status, "the picture is");
 }

@@ -360,6 +360,12 @@ static void text_options(lua_State *L, int index, struct paper_line *line)
         line->font = font_face_first(text_fonts);
 }
 
+/* A text without options takes these parts of a sheet's width or height; it is measured at
+ * the size of the trial. */
+#define TEXT_WIDE 0.8
+#define TEXT_HIGH 0.6
+#define TEXT_TRIAL 100.0
+
 /* text("word", {size=, font=, x=, y=, align=, …}): x, y is the beginning of the baseline, or
  * its middle or end. */
 int script_mask_text_push(lua_State *L, int index)
@@ -399,6 +405,37 @@ int script_mask_text_push(lua_State *L, int index)
     lua_pushnumber(L, screen.advance_px);
     lua_pushnumber(L, screen.lines_count * screen.line_height_px);
     return 3;
+}
+
+/* The options of a text that is as wide as it goes well, in the middle of width x height. */
+static void text_place(lua_State *L, int options, double size, double x, double y)
+{
+    const struct {
+        const char *name;
+        double value;
+    } fields[] = {{"size", size}, {"x", x}, {"y", y}};
+    lua_createtable(L, 0, 3);
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        lua_pushnumber(L, fields[i].value);
+        lua_setfield(L, -2, fields[i].name);
+    }
+    lua_replace(L, options);
+}
+
+void script_mask_text_fit(lua_State *L, int index, int width, int height)
+{
+    const int options = index + 1;
+    text_place(L, options, TEXT_TRIAL, 0, 0);
+    lua_pop(L, script_mask_text_push(L, index) - 1);
+    const struct script_mask *trial = luaL_checkudata(L, -1, script_mask_type);
+    const double by_width = TEXT_WIDE * width / fmax(1, trial->width),
+                 by_height = TEXT_HIGH * height / fmax(1, trial->height);
+    const double scale =
+        fmax(1, fmin(8192, TEXT_TRIAL * fmin(by_width, by_height))) / TEXT_TRIAL;
+    const double x = width / 2.0 - scale * (trial->x + trial->width / 2.0),
+                 y = height / 2.0 - scale * (trial->y + trial->height / 2.0);
+    lua_pop(L, 1);
+    text_place(L, options, scale * TEXT_TRIAL, x, y);
 }
 
 static int make_text(lua_State *L)

@@ -65,12 +65,17 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     lua_pop(L, 1);
 }
 
+/* Of papers that name none. */
+#define PIGMENT_USUAL "french ultramarine"
+
 static void pigments_read(lua_State *L, struct paper_sheet_config *config)
 {
     lua_pushliteral(L, "pigments");
     int type = lua_rawget(L, 1);
     if (type == LUA_TNIL) {
         lua_pop(L, 1);
+        if (config->parts) /* the thesis's paper has none of itself */
+            config->pigments[config->pigments_count++] = *paper_pigment_find(PIGMENT_USUAL);
         return;
     }
     if (type != LUA_TTABLE || lua_rawlen(L, -1) > PAPER_PIGMENTS_MAX)
@@ -159,12 +164,19 @@ static int make_paper(lua_State *L)
     double undo = fmin(UNDO_BYTES_MOST, (double)(script->config->memory_bytes / UNDO_SHARE));
     undo = 1e6 * script_arg_number(L, 1, "paper", "undo", undo * 1e-6, 0, 1e6);
 
+    struct paper_sheet_config before = config;
+    before.model = version ? version : 1;
+    lua_pushliteral(L, "pigments");
+    if (lua_rawget(L, 1) == LUA_TNIL)
+        before.pigments_count = 0;
+    lua_pop(L, 1);
+
     struct script_paper *paper = script_paper_new(L);
     script_paper_room_take(L, paper, config.width, config.height, config.pigments_count);
     bool found = false;
     enum paper_status status = PAPER_OK;
     if (history)
-        status = script_paper_resumed(paper, &config, version == 0, undo, &found);
+        status = script_paper_resumed(paper, &config, &before, undo, &found);
     if (status == PAPER_OK && !found)
         status = paper_sheet_create(&config, &paper->sheet);
     if (status == PAPER_OK && !found && history)
@@ -228,15 +240,35 @@ static int paper_put(lua_State *L)
     return 0;
 }
 
-/* p:type("word", {…}, {water = …}): puts text() onto the sheet. Returns its length, and its
- * lines' height. */
+/* What type is put with where a script names no amounts: water, and the first pigment. */
+#define TYPE_WATER 0.9
+#define TYPE_PIGMENT 1.2
+
+static void type_amounts_usual(lua_State *L, const struct paper_sheet_config *config,
+                               double *amount)
+{
+    if (config->pigments_count == 0)
+        luaL_error(L, "type on a paper without pigments needs amounts: p:type(\"word\", {}, "
+                      "{water = 1})");
+    memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
+    amount[0] = TYPE_WATER;
+    amount[1] = TYPE_PIGMENT;
+}
+
+/* p:type("word" [, {…} [, {water = …}]]): puts text() onto the sheet; without options in its
+ * middle, as large as goes well. Returns its length, and its lines' height. */
 static int paper_put_type(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 4);
     double amount[1 + PAPER_PIGMENTS_MAX];
     struct paper_screen screen;
     int x, y;
-    script_paper_amounts(L, 4, paper->sheet, amount);
+    if (lua_isnoneornil(L, 4))
+        type_amounts_usual(L, config_of(paper), amount);
+    else
+        script_paper_amounts(L, 4, paper->sheet, amount);
+    if (lua_isnoneornil(L, 3))
+        script_mask_text_fit(L, 2, config_of(paper)->width, config_of(paper)->height);
     int made = script_mask_text_push(L, 2);
     if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
         script_paper_check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));

@@ -160,7 +160,6 @@ static int paper_total_of(lua_State *L)
 /* ---- looking ---- */
 
 /* On paper that is felted; the first model's pictures stay as they were. */
-#define RELIEF_LIGHT 1.6
 
 static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
 
@@ -185,8 +184,8 @@ static int paper_frame(lua_State *L)
         view.show = (enum paper_show)script_arg_choice(L, "frame show", show, shows);
     view.low = script_arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
     view.high = script_arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
-    view.light =
-        script_arg_number(L, 3, "frame", "light", config->model >= 2 ? RELIEF_LIGHT : 0, 0, 4);
+    view.light = script_arg_number(L, 3, "frame", "light",
+                                   config->model >= 2 ? PAPER_LIGHT_USUAL : 0, 0, 4);
     int bits = script_arg_integer(L, 3, "frame", "bits", 8, 8, 16);
     if (bits != 8 && bits != 16)
         luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);

@@ -139,7 +139,8 @@ void script_paper_forget(struct script_paper *paper)
 
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       bool any_version, double budget_bytes, bool *found)
+                                       const struct paper_sheet_config *before,
+                                       double budget_bytes, bool *found)
 {
     struct paper_state *state = paper->script->config->resumed;
     *found = false;
@@ -151,10 +152,8 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
         enum paper_status status = paper_state_describe(state, i, &saved);
         if (status != PAPER_OK)
             return status;
-        struct paper_sheet_config wanted = *config;
-        if (any_version)
-            wanted.model = saved.model;
-        if (!paper_sheet_config_same(&saved, &wanted)) {
+        if (!paper_sheet_config_same(&saved, config) &&
+            !paper_sheet_config_same(&saved, before)) {
             char text[80];
             snprintf(text, sizeof text,
                      "paper %d is not the one that was saved; it begins anew", paper->number);

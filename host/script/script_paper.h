@@ -27,11 +27,12 @@ void script_paper_room_take(lua_State *L, struct script_paper *paper, double wid
 /* Adds the paper, which has a sheet now, to the list of open papers; removes it. */
 void script_paper_keep(struct script_paper *paper);
 void script_paper_forget(struct script_paper *paper);
-/* The saved sheet that this paper resumes; *found false: none. Where the script names no
- * version, a sheet of any version is resumed. */
+/* The saved sheet that this paper resumes, as the script describes it now, or as the same
+ * words described it before version 2 was the usual one; *found false: none. */
 enum paper_status script_paper_resumed(struct script_paper *paper,
                                        const struct paper_sheet_config *config,
-                                       bool any_version, double budget_bytes, bool *found);
+                                       const struct paper_sheet_config *before,
+                                       double budget_bytes, bool *found);
 
 /* Shows the paper to the host. Returns why the host wants the script to stop, or NULL; the
  * second function raises that as an error. */

@@ -45,12 +45,37 @@ static const struct {
      ""},
     {"gravity nan", {"paint", "x", "--gravity", "nan", "-o", OUT}, NULL, 2, "--gravity", "nan"},
     {"gravity inf", {"paint", "x", "--gravity=inf", "-o", OUT}, NULL, 2, "--gravity", "inf"},
-    {"gravity zero",
-     {"paint", "x", "--gravity", "0", "-o", OUT},
+    {"the thesis's gravity zero",
+     {"paint", "x", "--model", "thesis", "--gravity", "0", "-o", OUT},
      NULL,
      2,
      "--gravity",
      "0.5..2"},
+    {"gravity of the thesis",
+     {"paint", "x", "--gravity-x", "1.3", "-o", OUT},
+     NULL,
+     2,
+     "--gravity-x",
+     "-1..1"},
+    {"weights of the thesis",
+     {"paint", "x", "--weights", "1,1,1", "-o", OUT},
+     NULL,
+     2,
+     "--weights",
+     "--model thesis"},
+    {"stock of the thesis",
+     {"paint", "x", "--model", "thesis", "--stock", "rough", "-o", OUT},
+     NULL,
+     2,
+     "--stock",
+     ""},
+    {"unknown stock", {"paint", "x", "--stock", "silk", "-o", OUT}, NULL, 2, "'silk'", "xuan"},
+    {"unknown model",
+     {"paint", "x", "--model", "half", "-o", OUT},
+     NULL,
+     2,
+     "--model",
+     "thesis"},
     {"humidity nan",
      {"paint", "x", "--humidity", "-nan", "-o", OUT},
      NULL,
@@ -279,16 +304,15 @@ static void paint_writes_a_picture(void **state)
     unlink(out);
 }
 
-static void same_seed_same_file(void **state)
+static void same_seed_same_file_of(const char *model)
 {
-    (void)state;
     static char bytes[2][1 << 18];
     size_t counts[2];
     for (int i = 0; i < 2; i++) {
         const char *out = scratch_path("same.png");
         struct child child = {.arguments = {"", "paint", "Aa", "--paper", "128x96", "--steps",
                                             "9", "--font", "DejaVuSerif", "--seed", "4", "-o",
-                                            out},
+                                            out, "--model", model},
                               .variables = {i ? "LUTETIA_EAGER=1" : "LUTETIA_EAGER=0"}};
         run(&child, 0);
         FILE *file = fopen(out, "rb");
@@ -299,6 +323,13 @@ static void same_seed_same_file(void **state)
     }
     assert_int_equal(counts[0], counts[1]);
     assert_memory_equal(bytes[0], bytes[1], counts[0]);
+}
+
+static void same_seed_same_file(void **state)
+{
+    (void)state;
+    same_seed_same_file_of("full");
+    same_seed_same_file_of("thesis");
 }
 
 static void frames_are_written(void **state)

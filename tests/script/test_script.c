@@ -60,6 +60,30 @@ static void words_are_read_and_must_be_asked_for(void **state)
     assert_non_null(strstr(s.errors, "up to 64"));
 }
 
+/* A paper and a word, and nothing else: it stands in the middle, four fifths as wide as the sheet. */
+static void type_needs_no_options(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    scripted_run(
+        &s, "local p = paper{width = 120, height = 90} p:type('oo')\n"
+            "local left, right, top, bottom = 999, -1, 999, -1\n"
+            "for y = 0, 89 do for x = 0, 119 do\n"
+            "  if p:at('surface pigment', x, y, 'french ultramarine') > 0.5 then\n"
+            "    left, right = math.min(left, x), math.max(right, x)\n"
+            "    top, bottom = math.min(top, y), math.max(bottom, y)\n"
+            "  end\n"
+            "end end\n"
+            "assert(math.abs(left + right - 119) <= 1 and math.abs(top + bottom - 89) <= 1)\n"
+            "assert(math.abs(right - left + 1 - 96) <= 2, right - left)\n"
+            "local most = p:at('surface water', left + 4, 45)\n"
+            "assert(p:total('water') > 0 and most <= 0.9)\n"
+            "p:step(2) assert(p:total('water') > 0)");
+    assert_string_equal(s.errors, "");
+    scripted_run(&s, "paper{width = 40, height = 30, pigments = {}}:type('o')");
+    assert_non_null(strstr(s.errors, "without pigments needs amounts"));
+}
+
 static void what_the_state_takes_is_limited(void **state)
 {
     (void)state;
@@ -327,6 +351,7 @@ int main(void)
         cmocka_unit_test(prints_and_errors_go_to_the_host),
         cmocka_unit_test(a_host_without_functions_is_one),
         cmocka_unit_test(words_are_read_and_must_be_asked_for),
+        cmocka_unit_test(type_needs_no_options),
         cmocka_unit_test(what_the_state_takes_is_limited),
         cmocka_unit_test(the_host_sees_each_step),
         cmocka_unit_test(what_is_computed_again_is_told_apart),

@@ -1,0 +1,31 @@
+/* verb_paint.h - `lutetia paint`: what its options say, and the two kinds of sheet that it paints on. */
+#ifndef LUTETIA_VERB_PAINT_H
+#define LUTETIA_VERB_PAINT_H
+
+#include "lutetia.h"
+#include "options.h"
+
+#include <stdlib.h>
+
+struct paint {
+    const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
+    const char *model, *stock;
+    double angle_deg;
+    double size_px; /* 0: the line is fitted to the paper */
+    /* Options that were not given are NaN until the model's values are taken. */
+    double ink[3], water, wet, gravity, gravity_x, humidity, weights[3], absorbency;
+    bool ink_is_given;
+    int size[2], steps, every, seed;
+    struct option_list pools;
+    struct paper_screen screen;
+};
+
+/* Each paints the picture and writes it. EXIT_SUCCESS, EXIT_INTERRUPTED, or prints why not. */
+int paint_thesis(const struct paint *paint);
+int paint_sheet(const struct paint *paint);
+
+/* The name of the picture of a step on the way. EXIT_SUCCESS, or prints why not. */
+enum { PAINT_PATH_MAX = 4096 };
+int paint_frames_path(const struct paint *paint, int step, char *path);
+
+#endif
