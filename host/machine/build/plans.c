@@ -12,6 +12,9 @@
 #include "base/errors.h"
 #include "build/background.h"
 
+/* Seconds. */
+static const double short_s = 10e-6;
+
 void plans_finish(struct machine *m)
 {
     for (int i = 0; i < m->plans->table_size; i++)
@@ -48,6 +51,11 @@ bool plan_saves_nothing(const struct plan *p, int turns)
         sets += first;
     }
     return p->quality == BOXED && p->launches_count >= turns * sets;
+}
+
+bool plan_is_short(const struct plan *p)
+{
+    return p->quality == INTERPRETED && p->predicted_s < short_s;
 }
 
 bool plan_is_hopeless(const struct plan *p)

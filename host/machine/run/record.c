@@ -7,6 +7,21 @@
 #include "run/replay.h"
 #include "values/graph.h"
 
+/* A program that does not repeat, of short plans, pays more for states that nobody finds again than for its work. After so many
+ * evaluations in vain states are looked for after some of them only. */
+enum { IN_VAIN_MOST = 256, IN_VAIN_RESTS = 192, IN_VAIN_TRIES = 64 };
+
+static bool rests(struct machine *m)
+{
+    struct replay *p = m->run->replay;
+    if (m->run->calls_foreseen != p->foreseen)
+        p->in_vain = 0;
+    p->foreseen = m->run->calls_foreseen;
+    if (p->in_vain == IN_VAIN_MOST + IN_VAIN_RESTS)
+        p->in_vain = IN_VAIN_MOST - IN_VAIN_TRIES;
+    return p->is_short && ++p->in_vain > IN_VAIN_MOST;
+}
+
 bool record_init(struct machine *m)
 {
     if (m->settings.eager || !m->settings.replay)
@@ -108,6 +123,7 @@ void record_evaluates(struct machine *m, struct plan *plan, struct machine_value
     if (!p)
         return;
     p->forgets = history_evaluates(m, plan, due);
+    p->is_short = plan_is_short(plan);
     if (p->depth || p->forgets)
         states_from_forget(m);
     if (p->from < 0)
@@ -247,6 +263,12 @@ void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
         return;
     if (p->depth) { /* in the middle of a call: no state begins here */
         states_from_forget(m);
+        return;
+    }
+    if (rests(m)) {
+        states_from_forget(m);
+        p->log_count = 0;
+        record_failed(m);
         return;
     }
     struct walk w;

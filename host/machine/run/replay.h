@@ -162,6 +162,11 @@ struct replay {
     bool forgets; /* all states are forgotten after it, because the loop was evaluated
                    * otherwise in them */
 
+    /* Evaluations after which a state was looked for, and no call was foreseen since: see record.c. */
+    int in_vain;
+    uint64_t foreseen; /* calls foreseen by then */
+    bool is_short;     /* the plan of the last evaluation is */
+
     struct device_buffer **scratch;
     int scratch_capacity;
 };
