@@ -2,8 +2,9 @@
  * reshape.h.
  *
  * Virtual processor (p, r), the r-th of physical processor p, has the row-major index p * ratio
- * + r in send order and r * P + p in NEWS order. Each has k finer ones: coarse (p, j) is fine
- * (p, j * k) to (p, j * k + k - 1).
+ * + r in send order (layout 1) and r * P + p where processors are dealt out (layout 0). With
+ * subgrids (layout 2) it is the sum without carry of what each bit of p * ratio + r stands for.
+ * Each has k finer ones: coarse (p, j) is fine (p, j * k) to (p, j * k + k - 1).
  *
  *     slices   out i of coarse (p, j) = fine (p, j * k + first + i), for i < n
  *     weave    fine (p, j * k + first + i * parts + t) = the t-th `width` bits of in i of coarse (p, j)
@@ -15,16 +16,38 @@
  */
 
 #define SET(s)                                                                                 \
-    uint s##_count, uint s##_ratio, uint s##_plog2, uint s##_send, uint s##_width,             \
-        uint s##_pitch, uint s##_halo
+    uint s##_count, uint s##_ratio, uint s##_plog2, uint s##_layout, uint16 s##_low,           \
+        uint16 s##_high, uint s##_width, uint s##_pitch, uint s##_halo
 
-/* The row-major index; UINT_MAX if there is no such processor. */
-inline uint index_at(uint p, uint r, uint count, uint ratio, uint plog2, uint send)
+#define SUBGRIDS 2
+
+inline uint linear(uint x, const uint *bits)
 {
-    const ulong n = send ? (ulong)p * ratio + r : ((ulong)r << plog2) + p;
-    return n < count ? (uint)n : 0xffffffffu;
+    uint sum = 0;
+    for (; x; x >>= 1, bits++)
+        sum ^= *bits & -(x & 1);
+    return sum;
 }
-#define INDEX(s, p, r) index_at(p, r, s##_count, s##_ratio, s##_plog2, s##_send)
+
+/* The row-major index; UINT_MAX if there is no such processor. base: of (p, 0), for subgrids. */
+inline uint index_at(uint p, uint r, uint base, uint count, uint ratio, uint plog2, uint layout,
+                     const uint *bits)
+{
+    const ulong n = layout == SUBGRIDS ? base ^ linear(r, bits)
+                    : layout           ? (ulong)p * ratio + r
+                                       : ((ulong)r << plog2) + p;
+    return n < count && (layout != SUBGRIDS || (ulong)p * ratio + r < count) ? (uint)n
+                                                                             : 0xffffffffu;
+}
+#define PREPARE(s)                                                                             \
+    uint s##_bits[32];                                                                         \
+    vstore16(s##_low, 0, s##_bits);                                                            \
+    vstore16(s##_high, 1, s##_bits)
+/* Before the virtual processors of p. */
+#define BASE(s, p)                                                                             \
+    const uint s##_base = s##_layout == SUBGRIDS ? linear((p)*s##_ratio, s##_bits) : 0
+#define INDEX(s, p, r)                                                                         \
+    index_at(p, r, s##_base, s##_count, s##_ratio, s##_plog2, s##_layout, s##_bits)
 
 inline size_t place(uint n, uint width, uint pitch, uint halo)
 {
@@ -59,7 +82,11 @@ inline size_t place(uint n, uint width, uint pitch, uint halo)
 #define PROCESSORS(body)                                                                       \
     const uint j = get_global_id(1), begin = get_global_id(0) * run;                           \
     const uint end = min(begin + run, 1u << c_plog2);                                          \
+    PREPARE(c);                                                                                \
+    PREPARE(f);                                                                                \
     for (uint p = begin; p < end; p++) {                                                       \
+        BASE(c, p);                                                                            \
+        BASE(f, p);                                                                            \
         const uint m = INDEX(c, p, j);                                                         \
         body                                                                                   \
     }
@@ -120,7 +147,9 @@ __kernel void put(SET(c), uint run, uint words, uint start, uint parts, uint out
                   uint width, const __global ELEMENT *in, __global uint *image)
 {
     const uint begin = get_global_id(0) * run, end = min(begin + run, 1u << c_plog2);
-    for (uint p = begin; p < end; p++)
+    PREPARE(c);
+    for (uint p = begin; p < end; p++) {
+        BASE(c, p);
         for (uint r = 0; r < c_ratio; r++) {
             const uint m = INDEX(c, p, r), at = start + r / parts * outer + r % parts * inner;
             const ELEMENT v = m != 0xffffffffu ? in[PLACE(c, m)] : (ELEMENT)(0);
@@ -129,13 +158,16 @@ __kernel void put(SET(c), uint run, uint words, uint start, uint parts, uint out
             if (width > 64)
                 image_write(memory, at + 64, width - 64, HIGH(v));
         }
+    }
 }
 
 __kernel void get(SET(c), uint run, uint words, uint start, uint parts, uint outer, uint inner,
                   uint width, const __global uint *image, __global ELEMENT *out)
 {
     const uint begin = get_global_id(0) * run, end = min(begin + run, 1u << c_plog2);
-    for (uint p = begin; p < end; p++)
+    PREPARE(c);
+    for (uint p = begin; p < end; p++) {
+        BASE(c, p);
         for (uint r = 0; r < c_ratio; r++) {
             const uint m = INDEX(c, p, r), at = start + r / parts * outer + r % parts * inner;
             const __global uint *memory = image + (size_t)p * words;
@@ -146,6 +178,7 @@ __kernel void get(SET(c), uint run, uint words, uint start, uint parts, uint out
             const ELEMENT v = JOINED(low, high);
             STORE(c, out, m, v);
         }
+    }
 }
 #else
 #ifdef PAIR

@@ -3,6 +3,8 @@
  * Processors are counted by row-major index. Elements lie in rows of `width`, `pitch` apart, that
  * begin and end with `halo` columns which repeat the other end.
  *
+ * Addresses are indices already: the host makes them.
+ *
  *     claim      owner[d] = 1 + the highest index that sends to d
  *     scatter    dest[d] = source of the last that sends to d; for few work-items
  *     deliver    dest[d] = source of its owner, or old[d]
@@ -12,7 +14,7 @@
  *     arrived    1 where there is an owner
  *     edges      fills the halo
  *
- * -DFLAT=1: an index is an address, and both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
+ * -DFLAT=1: both sets have one row. -DADDRESS= uchar .. ulong2: of address fields; -DELEMENT= the same: of messages; -DKIND=0 bits up to
  * 64, 1 float or double, 2 pairs of 64. */
 #pragma OPENCL FP_CONTRACT OFF
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -21,7 +23,6 @@
 #define NOBODY 0xfffffffeu /* sends to a processor that does not exist */
 
 #define LAYOUT(s) uint s##_width, uint s##_pitch, uint s##_halo
-#define ORDER uint count, uint ratio, uint plog2, uint send
 
 /* Divides by a number that stays the same: with k = 31 + the least s for which it is at most 2^s, n / by is
  * n * (2^k / by + 1) >> k for all n below 2^31. A division takes ten times as long. */
@@ -51,18 +52,7 @@ inline size_t place(uint n, struct divisor width, uint pitch, uint halo)
 #define DIVIDES_PLACE(s) const struct divisor s##_row = divisor_of(s##_width)
 #define PLACE(s, n) place(n, s##_row, s##_pitch, s##_halo)
 
-#define DIVIDES_ADDRESS const struct divisor share_of = divisor_of(ratio)
-#define INDEX_OF(a) index_of(a, count, share_of, plog2, send)
-inline uint index_of(uint a, uint count, struct divisor ratio, uint plog2, uint send)
-{
-    if (!FLAT && !send && ratio.by > 1) {
-        const uint processor = over(a, ratio);
-        if (a >> 31 || processor >> plog2)
-            return NOBODY;
-        a = (a - processor * ratio.by) << plog2 | processor;
-    }
-    return a < count ? a : NOBODY;
-}
+#define INDEX_OF(a) ((a) < count ? (a) : NOBODY)
 
 #define COLUMNS(s)                                                                             \
     const uint row = get_global_id(1), begin = get_global_id(0) * run,                         \
@@ -74,12 +64,11 @@ inline uint index_of(uint a, uint count, struct divisor ratio, uint plog2, uint 
 
 /* First every sender writes its index; then senders that find a lower index than their own
  * correct it. Without collisions there is no atomic operation. */
-__kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second,
+__kernel void claim(LAYOUT(s), uint run, uint mask, uint count, uint all, uint second,
                     const __global ADDRESS *address, const __global uchar *context,
                     volatile __global uint *owner)
 {
     COLUMNS(s);
-    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++) {
         const uint i = row * s_width + x + 1;
         if (!all && !context[first + x])
@@ -94,12 +83,11 @@ __kernel void claim(LAYOUT(s), uint run, uint mask, ORDER, uint all, uint second
     }
 }
 
-__kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
+__kernel void route(LAYOUT(s), uint run, uint mask, uint count, uint all,
                     const __global ADDRESS *address, const __global uchar *context,
                     __global uint *to)
 {
     COLUMNS(s);
-    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++)
         to[row * s_width + x] =
             all || context[first + x] ? INDEX_OF(ADDRESS_OF(address[first + x]) & mask) : NONE;
@@ -109,14 +97,14 @@ __kernel void route(LAYOUT(s), uint run, uint mask, ORDER, uint all,
 /* out holds the old dest. Each work-item has a share of the destinations and passes over all
  * senders in order. Messages for other shares are written to a dummy place (trash, one for
  * each work-item), because a branch on them could not be predicted. */
-__kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint all, uint share,
-                      uint notifies, uint trash, const __global ADDRESS *restrict address,
+__kernel void scatter(LAYOUT(s), uint rows, uint mask, uint count, LAYOUT(d), uint all,
+                      uint share, uint notifies, uint trash,
+                      const __global ADDRESS *restrict address,
                       const __global uchar *restrict context,
                       const __global ELEMENT *restrict from, __global ELEMENT *restrict out,
                       __global uint *restrict owner)
 {
     DIVIDES_PLACE(d);
-    DIVIDES_ADDRESS;
     const uint low = get_global_id(0) * share;
     const size_t lost = (size_t)trash + get_global_id(0) * 64;
     for (uint row = 0; row < rows; row++) {
@@ -131,13 +119,12 @@ __kernel void scatter(LAYOUT(s), uint rows, uint mask, ORDER, LAYOUT(d), uint al
     }
 }
 
-__kernel void fetch(LAYOUT(s), uint run, uint mask, ORDER, LAYOUT(f),
+__kernel void fetch(LAYOUT(s), uint run, uint mask, uint count, LAYOUT(f),
                     const __global ADDRESS *address, const __global ELEMENT *restrict from,
                     __global ELEMENT *restrict out)
 {
     COLUMNS(s);
     DIVIDES_PLACE(f);
-    DIVIDES_ADDRESS;
     for (uint x = begin; x < end; x++) {
         const uint d = INDEX_OF(ADDRESS_OF(address[first + x]) & mask);
         const ELEMENT v = d < NOBODY ? from[PLACE(f, d)] : (ELEMENT)(0);

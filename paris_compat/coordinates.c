@@ -50,7 +50,11 @@ static struct machine_value *rest(struct machine *m, struct machine_value *n, ui
 static struct machine_value *index_of(struct machine *m, const struct paris_geometry *g,
                                       struct machine_value *address)
 {
-    if (paris_geometry_order(g) == MACHINE_SEND_ORDER || g->ratio == 1)
+    if (g->layout.blocks)
+        return machine_resize(
+            m, machine_layout_index_value(m, &g->layout, machine_resize(m, address, 32, false)),
+            WIDTH, false);
+    if (g->layout.order == MACHINE_SEND_ORDER || g->ratio == 1)
         return address;
     return machine_binary(m, MACHINE_ADD, quotient(m, address, g->ratio),
                           times(m, rest(m, address, g->ratio), CM_physical_processors_limit));
@@ -59,7 +63,11 @@ static struct machine_value *index_of(struct machine *m, const struct paris_geom
 static struct machine_value *address_of(struct machine *m, const struct paris_geometry *g,
                                         struct machine_value *index)
 {
-    if (paris_geometry_order(g) == MACHINE_SEND_ORDER || g->ratio == 1)
+    if (g->layout.blocks)
+        return machine_resize(
+            m, machine_layout_address_value(m, &g->layout, machine_resize(m, index, 32, false)),
+            WIDTH, false);
+    if (g->layout.order == MACHINE_SEND_ORDER || g->ratio == 1)
         return index;
     return machine_binary(m, MACHINE_ADD, quotient(m, index, CM_physical_processors_limit),
                           times(m, rest(m, index, CM_physical_processors_limit), g->ratio));

@@ -1,10 +1,8 @@
 /* geometry.c - geometries as data, and the conversion between Paris's send addresses and the
  * machine's row-major indices.
  *
- * With P physical processors and n virtual ones, R = ceil(n / P) to each, the processor of
- * row-major index i is virtual processor i div P of physical processor i mod P, and its send
- * address is (i mod P) * R + i div P. Where all axes are in send order the row-major index
- * is the send address; a geometry that has axes of both orders is in NEWS order.
+ * machine_layout.h tells where virtual processors live. A geometry that has axes of both orders
+ * is in NEWS order; its axes in send order are numbered in binary.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -63,7 +61,12 @@ bool paris_geometry_complete(struct paris_geometry *g)
         }
     }
     uint64_t physical = CM_physical_processors_limit;
-    g->ratio = (g->count + physical - 1) / physical;
+    uint8_t orders[MACHINE_AXES_MAX];
+    for (int axis = 0; axis < g->rank; axis++)
+        orders[axis] =
+            g->ordering[axis] == CM_send_order ? MACHINE_SEND_ORDER : MACHINE_NEWS_ORDER;
+    machine_layout_make(&g->layout, g->dimensions, g->weight, orders, g->rank, physical);
+    g->ratio = g->layout.ratio;
     return true;
 }
 
@@ -82,32 +85,14 @@ unsigned int paris_address_bits(const struct paris_geometry *g)
     return paris_count_bits(CM_physical_processors_limit * g->ratio);
 }
 
-enum machine_order paris_geometry_order(const struct paris_geometry *g)
-{
-    for (int axis = 0; axis < g->rank; axis++)
-        if (g->ordering[axis] != CM_send_order)
-            return MACHINE_NEWS_ORDER;
-    return MACHINE_SEND_ORDER;
-}
-
-static bool in_send_order(const struct paris_geometry *g)
-{
-    return paris_geometry_order(g) == MACHINE_SEND_ORDER;
-}
-
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index)
 {
-    uint64_t physical = CM_physical_processors_limit;
-    return in_send_order(g) ? index : index % physical * g->ratio + index / physical;
+    return machine_layout_address(&g->layout, index);
 }
 
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address)
 {
-    uint64_t physical = CM_physical_processors_limit;
-    uint64_t index = in_send_order(g)
-                         ? send_address
-                         : send_address % g->ratio * physical + send_address / g->ratio;
-    return send_address < physical * g->ratio && index < g->count ? index : UINT64_MAX;
+    return machine_layout_index(&g->layout, send_address);
 }
 
 uint64_t paris_index_let_pass(const struct paris_geometry *g, uint64_t send_address)

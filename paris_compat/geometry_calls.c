@@ -164,21 +164,26 @@ int CM_geometry_axis_ordering(CM_geometry_id_t geometry, unsigned int axis)
     return g ? g->ordering[axis] : CM_news_order;
 }
 
-/* In a row-major array, a processor's virtual processors are along the first axis as far as
- * that suffices, then along the next. */
+/* Where processors are dealt out (machine_layout.h), a processor's virtual ones are along the
+ * first axis as far as that suffices, then along the next; in send order from the last axis on. */
 unsigned int CM_geometry_axis_vp_ratio(CM_geometry_id_t geometry, unsigned int axis)
 {
     paris_the.call = "CM_geometry_axis_vp_ratio";
     const struct paris_geometry *g = geometry_axis(geometry, axis);
     if (!g)
         return 0;
-    uint64_t left = g->ratio;
-    for (unsigned int i = 0; i < axis; i++) {
-        uint64_t taken = left < (uint64_t)g->dimensions[i] ? left : (uint64_t)g->dimensions[i];
+    if (g->layout.powers)
+        return 1u << g->layout.subgrid[axis];
+    uint64_t left = g->ratio, taken = 1;
+    bool last_first = g->layout.order == MACHINE_SEND_ORDER;
+    for (int i = 0; i < g->rank; i++) {
+        int a = last_first ? g->rank - 1 - i : i;
+        taken = left < (uint64_t)g->dimensions[a] ? left : (uint64_t)g->dimensions[a];
         left = (left + taken - 1) / taken;
+        if (a == (int)axis)
+            break;
     }
-    return (unsigned int)(left < (uint64_t)g->dimensions[axis] ? left
-                                                               : (uint64_t)g->dimensions[axis]);
+    return (unsigned int)taken;
 }
 
 unsigned int CM_geometry_axis_weight(CM_geometry_id_t geometry, unsigned int axis)
@@ -206,6 +211,8 @@ static unsigned int off_chip_bits(CM_geometry_id_t geometry, const struct paris_
                                   unsigned int axis)
 {
     unsigned int vps = CM_geometry_axis_vp_ratio(geometry, axis);
+    if (g->layout.powers)
+        return g->layout.node[axis];
     uint64_t left = ((uint64_t)g->dimensions[axis] + vps - 1) / vps;
     return left > 1 ? paris_count_bits(left) : 0;
 }

@@ -103,6 +103,7 @@ struct paris_geometry {
     uint8_t ordering[MACHINE_AXES_MAX];
     uint64_t count; /* virtual processors */
     uint64_t ratio;
+    struct machine_layout layout;
     int sets; /* VP sets that have it */
     unsigned int serial;
 };
@@ -289,8 +290,6 @@ CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry);
 bool paris_set_select(CM_vp_set_id_t set);
 
 /* The machine's row-major index and Paris's send address. */
-/* In send order: all axes are. Else the row-major index n is VP n div P of processor n mod P. */
-enum machine_order paris_geometry_order(const struct paris_geometry *g);
 uint64_t paris_address_of_index(const struct paris_geometry *g, uint64_t index);
 /* UINT64_MAX if there is no such processor. */
 uint64_t paris_index_of_address(const struct paris_geometry *g, uint64_t send_address);

@@ -60,8 +60,7 @@ void CM_set_vp_set_geometry(CM_vp_set_id_t vp_set, CM_geometry_id_t geometry)
                    geometry, (unsigned long long)g->count, (unsigned long long)old->count);
         return;
     }
-    if (machine_vpset_arrange(m, vp_set, g->dimensions, g->rank, paris_geometry_order(g)) !=
-        MACHINE_OK) {
+    if (machine_vpset_arrange(m, vp_set, g->dimensions, g->rank, &g->layout) != MACHINE_OK) {
         paris_fail_machine();
         return;
     }

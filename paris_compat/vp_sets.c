@@ -39,7 +39,7 @@ CM_vp_set_id_t paris_set_make(CM_geometry_id_t geometry)
 {
     struct machine *m = paris_the.machine;
     const struct paris_geometry *g = paris_geometry_find(geometry);
-    int set = machine_vpset_create_ordered(m, g->dimensions, g->rank, paris_geometry_order(g));
+    int set = machine_vpset_create_laid_out(m, g->dimensions, g->rank, &g->layout);
     if (!set) {
         paris_fail_machine();
         return 0;

@@ -41,6 +41,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "machine_layout.h"
 #include "machine_op.h"
 
 struct machine;
@@ -232,23 +233,20 @@ int machine_devices_list(void (*each)(void *context, int index, const char *plat
 
 /* ---- VP sets ---- */
 
-#define MACHINE_AXES_MAX 31
-
 /* Shape: dimensions[0..rank-1], each 1 or more, axis 0 varies slowest in memory (row-major).
  * Returns an id from 1 on, or 0. A VP set starts with context 1 and test and overflow 0
  * everywhere. */
 int machine_vpset_create(struct machine *m, const int *dimensions, int rank);
-/* How virtual processors are assigned to P physical ones, with VP ratio R = ceil(count / P).
- * In NEWS order the VP of row-major index n is VP n div P of processor n mod P. In send
- * order it is VP n mod R of processor n div R. A send address is processor * R + VP: in send
- * order the row-major index. machine_vpset_create() is NEWS order. */
-enum machine_order { MACHINE_NEWS_ORDER, MACHINE_SEND_ORDER };
+/* Where they live is told by machine_layout.h; machine_vpset_create() is NEWS order. */
 int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
                                  enum machine_order order);
+/* layout: machine_layout_make() of these dimensions and machine_processors_count(). */
+int machine_vpset_create_laid_out(struct machine *m, const int *dimensions, int rank,
+                                  const struct machine_layout *layout);
 /* Gives the same processors another geometry of the same size. A processor is identified by
  * its send address, and keeps its content. */
 enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
-                                          int rank, enum machine_order order);
+                                          int rank, const struct machine_layout *layout);
 enum machine_status machine_vpset_destroy(struct machine *m,
                                           int vpset); /* destroys its fields, too */
 enum machine_status machine_vpset_select(struct machine *m,

@@ -6,7 +6,7 @@
 
 #include "sample.h"
 
-enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 9, VIEWS_MOST = 8 };
+enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 12, VIEWS_MOST = 8 };
 
 struct view {
     uint32_t id, bits;
@@ -132,7 +132,8 @@ static void make_sets(void)
         {1, {64}, MACHINE_SEND_ORDER},      {1, {128}, MACHINE_SEND_ORDER},
         {2, {4, 4}, MACHINE_NEWS_ORDER},    {2, {2, 32}, MACHINE_NEWS_ORDER},
         {3, {4, 4, 3}, MACHINE_SEND_ORDER}, {1, {48}, MACHINE_NEWS_ORDER},
-        {2, {8, 16}, MACHINE_SEND_ORDER},
+        {2, {8, 16}, MACHINE_SEND_ORDER},   {2, {8, 8}, MACHINE_NEWS_ORDER},
+        {3, {8, 2, 8}, MACHINE_NEWS_ORDER}, {1, {64}, MACHINE_NEWS_ORDER},
     };
 
     for (int i = 0; i < SETS; i++) {

@@ -27,9 +27,12 @@ static struct set set_make(int rank, enum machine_order order)
     static const int most[] = {150, 12, 6, 4, 3};
     int lengths[5];
     struct set s = {.count = 1, .order = order};
+    bool powers = next(2);
 
     for (int axis = 0; axis < rank; axis++) {
         lengths[axis] = 1 + (int)next((uint64_t)most[rank - 1]);
+        if (powers) /* then processors have subgrids */
+            lengths[axis] = 1 << (31 - __builtin_clz((unsigned int)lengths[axis]));
         s.count *= (uint64_t)lengths[axis];
     }
     s.ratio = (s.count + PROCESSORS - 1) / PROCESSORS;
@@ -40,7 +43,15 @@ static struct set set_make(int rank, enum machine_order order)
 
 static uint64_t address_of(const struct set *s, uint64_t n)
 {
-    return s->order == MACHINE_SEND_ORDER ? n : n % PROCESSORS * s->ratio + n / PROCESSORS;
+    return machine_send_address(machine, s->id, n); /* test_layout.c holds it to the rule */
+}
+
+static void arrange(int set, const int *lengths, int rank, enum machine_order order)
+{
+    struct machine_layout l;
+    const uint8_t orders[3] = {order, order, order};
+    machine_layout_make(&l, lengths, NULL, orders, rank, PROCESSORS);
+    assert_ok(machine_vpset_arrange(machine, set, lengths, rank, &l), machine);
 }
 
 /* UINT64_MAX: nobody lives there. */
@@ -286,18 +297,17 @@ static void gets_wait(void **unused)
                                       machine_binary(machine, MACHINE_XOR, v, shifted),
                                       MACHINE_EVERYWHERE),
                   machine);
-        machine_begin(machine);
-        if (round % 3 == 0)
-            assert_ok(machine_vpset_destroy(machine, to.id), machine);
-        else if (round % 3 == 1)
-            assert_ok(machine_vpset_arrange(machine, to.id, lengths, 1, !(round >> 1 & 1)),
-                      machine);
-        int axis = machine_vpset_rank(machine, from.id) - 1;
-        uint64_t width = (uint64_t)machine_vpset_length(machine, from.id, axis);
         for (uint64_t n = 0; n < from.count; n++) {
             uint64_t at = index_of(&to, (uint64_t)address[n]);
             last[n] = at == UINT64_MAX ? 0 : x[at];
         }
+        machine_begin(machine);
+        if (round % 3 == 0)
+            assert_ok(machine_vpset_destroy(machine, to.id), machine);
+        else if (round % 3 == 1)
+            arrange(to.id, lengths, 1, !(round >> 1 & 1));
+        int axis = machine_vpset_rank(machine, from.id) - 1;
+        uint64_t width = (uint64_t)machine_vpset_length(machine, from.id, axis);
         for (uint64_t n = 0; n < from.count; n++)
             sum[n] = last[n] ^ last[n - n % width + (n + 1) % width];
         field_is(&from, e, type, sum, NULL, "a neighbour's get", round);
@@ -377,45 +387,57 @@ static void values_that_wait_are_sent(void **unused)
     assert_ok(machine_vpset_destroy(machine, set), machine);
 }
 
-static void geometry_of_a_set_changes(void **unused)
-{
-    (void)unused;
-    static const struct {
-        int rank, lengths[3];
-        enum machine_order order;
-    } shapes[] = {{2, {6, 40}, MACHINE_NEWS_ORDER},
-                  {1, {240}, MACHINE_SEND_ORDER},
-                  {3, {20, 3, 4}, MACHINE_NEWS_ORDER},
-                  {2, {12, 20}, MACHINE_SEND_ORDER}};
-    wide x[240];
-    struct set s = {.count = 240, .ratio = 15};
+struct arrangement {
+    int rank, lengths[3];
+    enum machine_order order;
+};
 
-    s.id = machine_vpset_create(machine, shapes[0].lengths, 2);
+static void set_changes(int count, const struct arrangement *shapes)
+{
+    wide x[256];
+    struct set s = {.count = (uint64_t)count, .ratio = (uint64_t)count / PROCESSORS};
+
+    s.id = machine_vpset_create(machine, shapes[0].lengths, shapes[0].rank);
     assert_ok(machine_vpset_select(machine, s.id), machine);
     machine_begin(machine);
-    for (uint64_t n = 0; n < 240; n++)
-        x[n] = n % PROCESSORS * 15 + n / PROCESSORS;
+    for (uint64_t n = 0; n < s.count; n++)
+        x[n] = address_of(&s, n);
     uint32_t f = field_of(&s, MACHINE_UINT(32), x);
     uint32_t g = machine_field_allocate(machine, s.id, 32, MACHINE_HEAP);
     assert_ok(
         machine_field_store(machine, g, machine_self_address(machine, 32), MACHINE_EVERYWHERE),
         machine);
     for (int i = 1; i <= 4; i++) {
-        assert_ok(machine_vpset_arrange(machine, s.id, shapes[i % 4].lengths,
-                                        shapes[i % 4].rank, shapes[i % 4].order),
-                  machine);
+        arrange(s.id, shapes[i % 4].lengths, shapes[i % 4].rank, shapes[i % 4].order);
         s.order = shapes[i % 4].order;
-        for (uint64_t n = 0; n < 240; n++)
+        for (uint64_t n = 0; n < s.count; n++)
             x[n] = address_of(&s, n);
         field_is(&s, f, MACHINE_UINT(32), x, NULL, "after another geometry", i);
         field_is(&s, g, MACHINE_UINT(32), x, NULL, "what was a number of its own", i);
         assert_int_equal(machine_vpset_rank(machine, s.id), shapes[i % 4].rank);
     }
-    assert_int_equal(machine_vpset_arrange(machine, s.id, (int[]){7}, 1, MACHINE_NEWS_ORDER),
+    struct machine_layout seven;
+    machine_layout_make(&seven, (int[]){7}, NULL, NULL, 1, PROCESSORS);
+    assert_int_equal(machine_vpset_arrange(machine, s.id, (int[]){7}, 1, &seven),
                      MACHINE_BAD_ARGUMENT);
     machine_error_clear(machine);
     machine_begin(machine);
     assert_ok(machine_vpset_destroy(machine, s.id), machine);
+}
+
+static void geometry_of_a_set_changes(void **unused)
+{
+    (void)unused;
+    static const struct arrangement dealt[] = {{2, {6, 40}, MACHINE_NEWS_ORDER},
+                                               {1, {240}, MACHINE_SEND_ORDER},
+                                               {3, {20, 3, 4}, MACHINE_NEWS_ORDER},
+                                               {2, {12, 20}, MACHINE_SEND_ORDER}},
+                                    subgrids[] = {{2, {16, 16}, MACHINE_NEWS_ORDER},
+                                                  {1, {256}, MACHINE_SEND_ORDER},
+                                                  {3, {4, 32, 2}, MACHINE_NEWS_ORDER},
+                                                  {1, {256}, MACHINE_NEWS_ORDER}};
+    set_changes(240, dealt);
+    set_changes(256, subgrids);
 }
 
 static void wrong_messages_are_refused(void **unused)

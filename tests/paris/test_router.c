@@ -365,16 +365,22 @@ static void geometries_say_what_they_are(void **unused)
     assert_int_equal(CM_geometry_axis_on_chip_bits(g, 0), 0);
     assert_int_equal(CM_geometry_axis_on_chip_pos(g, 0), 0);
     assert_int_equal(CM_geometry_total_vp_ratio(g), 8);
-    assert_int_equal(CM_geometry_axis_vp_ratio(g, 0), 8);
-    assert_int_equal(CM_geometry_axis_off_chip_bits(g, 0), 0);
-    assert_int_equal(CM_geometry_axis_off_chip_bits(g, 1), 4);
-    assert_int_equal(CM_geometry_axis_off_chip_pos(g, 0), 4);
+    /* In send order addresses are row-major: 8 processors of a row are together. */
+    assert_int_equal(CM_geometry_axis_vp_ratio(g, 0), 1);
+    assert_int_equal(CM_geometry_axis_vp_ratio(g, 1), 8);
+    assert_int_equal(CM_geometry_axis_off_chip_bits(g, 0), 3);
+    assert_int_equal(CM_geometry_axis_off_chip_bits(g, 1), 1);
+    assert_int_equal(CM_geometry_axis_off_chip_pos(g, 0), 1);
     assert_int_equal(CM_geometry_axis_off_chip_pos(g, 1), 0);
     assert_true(CM_geometry_serial_number(g) != CM_geometry_serial_number(h));
-    /* All axes in send order: row-major; else as in NEWS order. */
+    /* The weights 3 and 1 make subgrids of 4 by 2. */
+    assert_int_equal(CM_geometry_axis_vp_ratio(h, 0), 4);
+    assert_int_equal(CM_geometry_axis_vp_ratio(h, 1), 2);
     assert_int_equal(CM_fe_make_news_coordinate(g, 0, 1), 16);
     assert_int_equal(CM_fe_make_news_coordinate(g, 1, 1), 1);
-    assert_int_equal(CM_fe_make_news_coordinate(h, 1, 1), 8);
+    assert_int_equal(CM_fe_make_news_coordinate(h, 1, 1), 1);
+    assert_int_equal(CM_fe_make_news_coordinate(h, 0, 1), 2);
+    assert_int_equal(CM_fe_make_news_coordinate(h, 1, 2), 8);
     /* The same processors in another geometry. */
     CM_vp_set_id_t set = CM_allocate_vp_set(g);
     uint64_t x[TO], wanted[TO];
@@ -383,7 +389,9 @@ static void geometries_say_what_they_are(void **unused)
     CM_set_vp_set_geometry(set, h);
     assert_int_equal(CM_vp_set_geometry(set), h);
     for (int n = 0; n < TO; n++)
-        wanted[n] = x[n % PHYSICAL * 8 + n / PHYSICAL];
+        wanted[n] = x[CM_fe_deposit_news_coordinate(
+            h, CM_fe_make_news_coordinate(h, 0, (unsigned int)n / 16), 1,
+            (unsigned int)n % 16)];
     is_in("another geometry", set, f, 32, wanted);
     assert_int_equal(CM_u_read_from_processor_1L(77, f, 32), (unsigned int)x[77]);
     CM_deallocate_geometry(g);

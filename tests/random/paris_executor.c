@@ -119,12 +119,18 @@ static void write_floats(struct execution *x)
     free(numbers);
 }
 
-/* The machine is NEWS-ordered: row-major index n is VP n div P of processor n mod P. */
+/* Of a row-major index. */
 static unsigned int address(const struct execution *x)
 {
-    uint64_t count = geometry_count(geometry(x)), ratio = (count + PROCESSORS - 1) / PROCESSORS;
+    CM_geometry_id_t g = CM_vp_set_geometry(CM_current_vp_set);
+    unsigned int a = 0, n = (unsigned int)x->in->where;
 
-    return (unsigned int)(x->in->where % PROCESSORS * ratio + x->in->where / PROCESSORS);
+    for (unsigned int axis = (unsigned int)CM_geometry_rank(g); axis-- > 0;) {
+        unsigned int length = CM_geometry_axis_length(g, axis);
+        a = CM_fe_deposit_news_coordinate(g, a, axis, n % length);
+        n /= length;
+    }
+    return a;
 }
 
 static void remember_field(struct execution *x, CM_field_id_t field, bool heap)

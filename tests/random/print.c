@@ -162,8 +162,9 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
                 "{ /* data_%s (%" PRIu32
                 "u, n) of program.c */\n        int n;\n        for (n = 0; n < %d; n++)\n",
                 info->shape == WRITE_ARRAY ? "word" : "real", in->where, (int)count);
-        fprintf(out, "            CM_%c_write_to_processor_1L (address (%d, n), ",
-                info->shape == WRITE_ARRAY ? 'u' : 'f', (int)count);
+        fprintf(out,
+                "            CM_%c_write_to_processor_1L (address (CM_current_vp_set, n), ",
+                info->shape == WRITE_ARRAY ? 'u' : 'f');
         print_part(out, &in->d);
         fprintf(out,
                 info->shape == WRITE_ARRAY ? ", data_word (%" PRIu32 "u, n) & %#" PRIx64
@@ -174,7 +175,7 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
         return;
     case WRITE_PROCESSOR:
     case WRITE_PROCESSOR_FLOAT:
-        fprintf(out, "%s (address (%d, %" PRIu32 "), ", info->name, (int)count, in->where);
+        fprintf(out, "%s (address (CM_current_vp_set, %" PRIu32 "), ", info->name, in->where);
         print_part(out, &in->d);
         fputs(", ", out);
         if (info->shape == WRITE_PROCESSOR)
@@ -188,9 +189,9 @@ static void print_one(FILE *out, const struct program *p, const struct instructi
     case READ_PROCESSOR:
         fprintf(out,
                 "{ int n; for (n = %d; n < %d; n++) printf (\"%%u\\n\", "
-                "CM_u_read_from_processor_1L (address (%d, n), ",
+                "CM_u_read_from_processor_1L (address (CM_current_vp_set, n), ",
                 info->shape == OBSERVE ? 0 : (int)in->where,
-                info->shape == OBSERVE ? (int)count : (int)in->where + 1, (int)count);
+                info->shape == OBSERVE ? (int)count : (int)in->where + 1);
         print_part(out, &in->a);
         fprintf(out, ", %d)); }\n", in->a.bits);
         return;
@@ -216,8 +217,13 @@ void program_print(const struct program *p, FILE *out)
 
     fputs("#include <math.h>\n#include <stdio.h>\n#include <cm/paris.h>\n\n"
           "/* LUTETIA_PROCESSORS=16; a row-major index as a send address */\n"
-          "#define address(count, n) ((unsigned) ((n) % 16 * (((count) + 15) / 16) + (n) / "
-          "16))\n\n"
+          "static unsigned address (CM_vp_set_id_t set, int n)\n{\n"
+          "    CM_geometry_id_t g = CM_vp_set_geometry (set);\n"
+          "    unsigned a = 0;\n    int axis;\n"
+          "    for (axis = CM_geometry_rank (g) - 1; axis >= 0; axis--) {\n"
+          "        int length = (int) CM_geometry_axis_length (g, axis);\n"
+          "        a = CM_fe_deposit_news_coordinate (g, a, axis, n % length);\n"
+          "        n /= length;\n    }\n    return a;\n}\n\n"
           "int main (void)\n{\n",
           out);
     for (int n = 0; n < p->count; n++)

@@ -14,27 +14,45 @@ int machine_vpset_create(struct machine *m, const int *dimensions, int rank)
     return machine_vpset_create_ordered(m, dimensions, rank, MACHINE_NEWS_ORDER);
 }
 
-int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
-                                 enum machine_order order)
+/* False: error set. */
+static bool axes_good(struct machine *m, const int *dimensions, int rank)
 {
     if (rank < 1 || rank > MACHINE_AXES_MAX) {
         machine_fail(m, MACHINE_BAD_ARGUMENT, "a geometry has 1..%d axes (got %d)",
                      MACHINE_AXES_MAX, rank);
-        return 0;
+        return false;
     }
     uint64_t count = 1;
     for (int i = 0; i < rank; i++) {
         if (dimensions[i] < 1) {
             machine_fail(m, MACHINE_BAD_ARGUMENT,
                          "axis %d must have a length of 1 or more (got %d)", i, dimensions[i]);
-            return 0;
+            return false;
         }
         count *= (uint64_t)dimensions[i];
         if (count > INT32_MAX) {
             machine_fail(m, MACHINE_NO_MEMORY, "a VP set has at most 2^31 - 1 processors");
-            return 0;
+            return false;
         }
     }
+    return true;
+}
+
+int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int rank,
+                                 enum machine_order order)
+{
+    struct machine_layout layout;
+    if (!axes_good(m, dimensions, rank))
+        return 0;
+    geometry_layout(m, &layout, dimensions, rank, order);
+    return machine_vpset_create_laid_out(m, dimensions, rank, &layout);
+}
+
+int machine_vpset_create_laid_out(struct machine *m, const int *dimensions, int rank,
+                                  const struct machine_layout *layout)
+{
+    if (!axes_good(m, dimensions, rank))
+        return 0;
     settle(m);
     int id = 1;
     while (id < m->values->sets_count && m->values->sets[id].used)
@@ -52,7 +70,7 @@ int machine_vpset_create_ordered(struct machine *m, const int *dimensions, int r
     struct vpset *s = &m->values->sets[id];
     *s = (struct vpset){.used = true, .generation = (uint16_t)(s->generation + 1)};
     *flags_of(m, s) = (struct flags){.overflow = {.op = 0}};
-    geometry_make(m, s, dimensions, rank, order);
+    geometry_make(m, s, dimensions, rank, layout);
     for (int flag = 0; flag < 3; flag++) {
         flags_of(m, s)->of[flag] = (struct slot){.bits = 1, .epoch_created = m->values->epoch};
         struct machine_value *one = machine_constant(
@@ -100,7 +118,7 @@ static bool slots_lay_out(struct machine *m, struct slot *slots, int count, int 
 
 /* All values are made before any is stored, so that a failure changes nothing. */
 enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const int *dimensions,
-                                          int rank, enum machine_order order)
+                                          int rank, const struct machine_layout *layout)
 {
     struct vpset *s = vpset_get(m, vpset);
     uint64_t count = 1;
@@ -121,7 +139,7 @@ enum machine_status machine_vpset_arrange(struct machine *m, int vpset, const in
                            ? (size_t)m->memory->fields[i]->slots_count
                            : 0;
     struct vpset to = *s;
-    geometry_make(m, &to, dimensions, rank, order);
+    geometry_make(m, &to, dimensions, rank, layout);
     struct machine_value **fresh = calloc(slots_count, sizeof *fresh);
     if (!fresh)
         return machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for another geometry");

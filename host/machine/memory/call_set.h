@@ -13,15 +13,20 @@ static inline void call_layout(struct kernel_call *c, const struct vpset *s)
     call_uint(c, (uint64_t)s->halo);
 }
 
-/* Passes how addresses map to row-major indices: count, ratio, logarithm of the number of
- * processors, order. */
+/* Passes where processors live: count, ratio, logarithm of the number of processors, which
+ * layout, and for subgrids the index that each bit of an address stands for. */
 static inline void call_order(struct kernel_call *c, const struct machine *m,
                               const struct vpset *s)
 {
+    cl_uint bits[32] = {0};
     call_uint(c, s->count);
     call_uint(c, s->ratio);
     call_uint(c, (uint64_t)m->values->processors_log2);
-    call_uint(c, s->order == MACHINE_SEND_ORDER);
+    call_uint(c, s->layout.blocks ? 2 : s->layout.order == MACHINE_SEND_ORDER);
+    for (int i = 0; s->layout.blocks && UINT64_C(1) << i < s->count; i++)
+        bits[i] = (cl_uint)machine_layout_index(&s->layout, UINT64_C(1) << i);
+    call_argument(c, 16 * sizeof *bits, bits);
+    call_argument(c, 16 * sizeof *bits, bits + 16);
 }
 
 static inline void call_set(struct kernel_call *c, const struct machine *m,

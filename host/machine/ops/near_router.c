@@ -80,20 +80,6 @@ static void addresses_read(const struct near_route *r, size_t at, int n, uint32_
     }
 }
 
-/* Send addresses become row-major indices; those of nobody more than any. */
-static void addresses_resolve(const struct near_route *r, uint32_t *a, int n)
-{
-    if (r->to->order == MACHINE_SEND_ORDER || r->to->ratio == 1)
-        return;
-    const struct divisor d = divisor_of(r->to->ratio);
-    const int log2 = r->processors_log2;
-    for (int i = 0; i < n; i++) {
-        const uint32_t processor = over(a[i], d);
-        a[i] = a[i] >> 31 || processor >> log2 ? UINT32_MAX
-                                               : (a[i] - processor * d.by) << log2 | processor;
-    }
-}
-
 /* The active ones whose processor exists, one after the other. */
 static void hops_pick(const struct near_route *r, const struct range *to, size_t at, int n,
                       const uint32_t *index, struct hops *h)
@@ -133,7 +119,6 @@ static void hops_find(const struct near_route *r, const struct range *to, size_t
 {
     uint32_t index[BLOCK];
     addresses_read(r, at, n, index);
-    addresses_resolve(r, index, n);
     hops_pick(r, to, at, n, index, h);
     places_find(r->to, h);
 }
@@ -308,7 +293,6 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
     if (r->context || r->to->rows > 1)
         return false;
     addresses_read(r, at, n, index);
-    addresses_resolve(r, index, n);
     for (int i = 0; i < n; i++)
         greatest = index[i] > greatest ? index[i] : greatest;
     if (greatest >= r->to->count)

@@ -5,15 +5,14 @@
 #include "base/crew.h"
 #include "values/values.h"
 
-/* Where messages go, or come from: senders, their addresses, and the processors that these are. The arrays are the front end's,
+/* Where messages go, or come from: senders, and the row-major indices of the processors they address. The arrays are the front end's,
  * and the device is not at them. */
 struct near_route {
     const struct vpset *from, *to;
     const struct device_buffer *address, *context; /* context NULL: all send */
     size_t address_bytes;                          /* of an element */
     uint32_t mask;                                 /* the bits of an address that count */
-    int processors_log2;
-    struct crew *crew; /* which does it in so many parts */
+    struct crew *crew;                             /* which does it in so many parts */
     int parts;
 };
 

@@ -20,6 +20,7 @@
 #include "memory/call_set.h"
 #include "memory/memory.h"
 #include "ops/gets.h"
+#include "ops/index.h"
 #include "ops/near.h"
 #include "ops/near_router.h"
 #include "run/evaluate.h"
@@ -52,6 +53,11 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         other = other->in[0];
     g->from_set = m->values->set_current;
     g->to_set = to_set;
+    bool is_index = !index_is_address(&m->values->sets[to_set]);
+    if (is_index)
+        address = index_of_address(m, to_set, address);
+    if (!address)
+        return false;
     g->context = under_context
                      ? m->memory->flags[m->values->set_current].of[MACHINE_CONTEXT].value
                      : NULL;
@@ -77,9 +83,9 @@ static bool message_make(struct machine *m, struct message *g, struct machine_va
         g->context = materialise(m, g->from_set, g->context);
     g->from = &m->values->sets[g->from_set];
     g->to = &m->values->sets[to_set];
-    g->flat = g->from->rows == 1 && g->to->rows == 1 &&
-              (g->to->order == MACHINE_SEND_ORDER || g->to->ratio == 1);
-    int bits = machine_address_bits(m, to_set), width = address->type.width;
+    g->flat = g->from->rows == 1 && g->to->rows == 1;
+    int bits = is_index ? INDEX_BITS : machine_address_bits(m, to_set),
+        width = address->type.width;
     bits = bits < width ? bits : width;
     g->mask = bits >= 32 ? UINT32_MAX : (UINT32_C(1) << bits) - 1;
     return g->context != NULL;
@@ -122,7 +128,7 @@ static struct device_buffer *addresses_pass(struct machine *m, const struct mess
         call_layout(&c, g->from);
         call_uint(&c, call_run(m));
         call_uint(&c, g->mask);
-        call_order(&c, m, g->to);
+        call_uint(&c, g->to->count);
         call_uint(&c, g->all);
         if (claims)
             call_uint(&c, pass);
@@ -205,7 +211,7 @@ static enum machine_status scatter(struct machine *m, const struct message *g,
     call_layout(&c, g->from);
     call_uint(&c, g->from->rows);
     call_uint(&c, g->mask);
-    call_order(&c, m, g->to);
+    call_uint(&c, g->to->count);
     call_layout(&c, g->to);
     call_uint(&c, g->all);
     call_uint(&c, share);
@@ -294,7 +300,6 @@ static struct near_route route_of(const struct machine *m, const struct message 
                                .context = g->all ? NULL : g->context->buffer,
                                .address_bytes = type_bytes(g->address->type),
                                .mask = g->mask,
-                               .processors_log2 = m->values->processors_log2,
                                .crew = m->device->crew,
                                .parts = shares && parts > size ? size : parts};
 }
@@ -487,7 +492,7 @@ static struct machine_value *fetch(struct machine *m, const struct message *g)
     call_layout(&c, g->from);
     call_uint(&c, call_run(m));
     call_uint(&c, g->mask);
-    call_order(&c, m, g->to);
+    call_uint(&c, g->to->count);
     call_layout(&c, g->to);
     call_buffer(&c, g->address->buffer);
     call_buffer(&c, g->source->buffer);

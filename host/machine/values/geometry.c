@@ -15,10 +15,19 @@ struct vpset *vpset_missing(struct machine *m, int vpset)
     return NULL;
 }
 
-void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
-                   enum machine_order order)
+void geometry_layout(const struct machine *m, struct machine_layout *l, const int *dimensions,
+                     int rank, enum machine_order order)
 {
-    s->order = order;
+    uint8_t orders[MACHINE_AXES_MAX];
+    memset(orders, order, sizeof orders);
+    machine_layout_make(l, dimensions, NULL, orders, rank,
+                        (uint64_t)m->values->processors_count);
+}
+
+void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
+                   const struct machine_layout *layout)
+{
+    s->layout = *layout;
     s->rank = rank;
     memcpy(s->dimensions, dimensions, (size_t)rank * sizeof *dimensions);
     s->count = 1;
@@ -26,8 +35,7 @@ void geometry_make(const struct machine *m, struct vpset *s, const int *dimensio
         s->count *= (uint64_t)dimensions[i];
     s->width = dimensions[rank - 1];
     s->rows = s->count / (uint64_t)s->width;
-    s->ratio = (s->count + (uint64_t)m->values->processors_count - 1) /
-               (uint64_t)m->values->processors_count;
+    s->ratio = layout->ratio;
     const struct device_shape *shape = &m->device->shape;
     s->halo = s->width >= shape->vector ? shape->halo : 0;
     s->pitch = (size_t)s->width + 2 * (size_t)s->halo;
@@ -91,7 +99,7 @@ uint64_t machine_vpset_ratio(const struct machine *m, int vpset)
 enum machine_order machine_vpset_order(const struct machine *m, int vpset)
 {
     const struct vpset *s = peek(m, vpset);
-    return s ? s->order : MACHINE_NEWS_ORDER;
+    return s ? s->layout.order : MACHINE_NEWS_ORDER;
 }
 
 int machine_address_bits(const struct machine *m, int vpset)
@@ -107,23 +115,13 @@ int machine_address_bits(const struct machine *m, int vpset)
 uint64_t machine_send_address(const struct machine *m, int vpset, uint64_t index)
 {
     const struct vpset *s = peek(m, vpset);
-    uint64_t processors = (uint64_t)m->values->processors_count;
-    if (s && s->order == MACHINE_SEND_ORDER)
-        return index;
-    return s ? index % processors * s->ratio + index / processors : 0;
+    return s ? machine_layout_address(&s->layout, index) : 0;
 }
 
 uint64_t machine_index(const struct machine *m, int vpset, uint64_t send_address)
 {
     const struct vpset *s = peek(m, vpset);
-    if (!s)
-        return UINT64_MAX;
-    uint64_t processor = send_address / s->ratio, which = send_address % s->ratio;
-    uint64_t index = s->order == MACHINE_SEND_ORDER
-                         ? send_address
-                         : which * (uint64_t)m->values->processors_count + processor;
-    return processor < (uint64_t)m->values->processors_count && index < s->count ? index
-                                                                                 : UINT64_MAX;
+    return s ? machine_layout_index(&s->layout, send_address) : UINT64_MAX;
 }
 
 int machine_processors_count(const struct machine *m)

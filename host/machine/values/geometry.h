@@ -14,11 +14,14 @@ struct vpset {
     int halo;             /* columns repeated on both sides of a row */
     size_t pitch;         /* elements from row to row */
     uint64_t ratio;
-    enum machine_order order;
+    struct machine_layout layout;
 };
 
 void geometry_make(const struct machine *m, struct vpset *s, const int *dimensions, int rank,
-                   enum machine_order order);
+                   const struct machine_layout *layout);
+/* Of a set with weights of 1. */
+void geometry_layout(const struct machine *m, struct machine_layout *l, const int *dimensions,
+                     int rank, enum machine_order order);
 /* The position of a processor in a buffer, in elements. */
 size_t geometry_place(const struct vpset *s, uint64_t index);
 /* Of a buffer for one value of that type: its rows, and 16 elements more where they have a halo. */

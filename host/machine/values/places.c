@@ -74,7 +74,12 @@ struct machine_value *machine_coordinate(struct machine *m, int axis, int width)
 
 struct machine_value *machine_self_address(struct machine *m, int width)
 {
-    if (machine_vpset_order(m, m->values->set_current) == MACHINE_SEND_ORDER)
+    const struct vpset *s = vpset_get(m, m->values->set_current);
+    if (s && s->layout.blocks)
+        return machine_resize(
+            m, machine_layout_address_value(m, &s->layout, machine_self_index(m, 32)), width,
+            false);
+    if (s && (s->layout.order == MACHINE_SEND_ORDER || s->ratio == 1))
         return machine_self_index(m, width);
     return generated(m, NODE_SEND_ADDRESS, 0, 0, width, (struct machine_scalar){0, 0});
 }
