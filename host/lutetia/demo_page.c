@@ -8,8 +8,8 @@
  *
  * Lutetia was a town in a marsh.  The word stands on the water's edge. Its mirror image is
  * screened into the wet half in DEMO_BANDS bands, one after the other, the deepest first.
- * The light pigment of each ink moves furthest: cyan around the indigo, yellow around the
- * ochre.
+ * Water stands in that half: it carries the inks, mixes those that meet, and leaves dark edges
+ * where it dries.
  */
 #include "demo_page.h"
 #include "demo_scenery.h"
@@ -39,41 +39,50 @@ static const char *const caption_fonts[] = {"EBGaramond12-Italic", "LinLibertine
                                             "DejaVuSerif-Italic", "DejaVuSerif", NULL};
 
 static const int syllable_of[LETTERS] = {0, 0, 1, 1, 2, 2, 2};
-static const struct paper_ink inks[SYLLABLES] = {
-    {.cyan = 0.94, .magenta = 0.80, .yellow = 0.36}, /* indigo */
-    {.cyan = 0.36, .magenta = 0.93, .yellow = 0.50}, /* madder */
-    {.cyan = 0.15, .magenta = 0.50, .yellow = 0.93}, /* ochre */
+/* Three, since a step's time grows with them; reeds are blue and yellow. */
+static const char *const pigments[] = {"french ultramarine", "quinacridone rose",
+                                       "hansa yellow"};
+enum { PIGMENTS = sizeof pigments / sizeof *pigments };
+
+/* Amounts of water, and of each pigment. */
+struct ink {
+    double amount[1 + PAPER_PIGMENTS_MAX];
 };
-static const struct paper_ink caption_ink = {.cyan = 0.82, .magenta = 0.76, .yellow = 0.48};
+static const struct ink inks[SYLLABLES] = {
+    {{0, 1.6, 0.12, 0}},   /* indigo */
+    {{0, 0.15, 1.4, 0}},   /* madder */
+    {{0, 0.02, 0.3, 1.4}}, /* ochre */
+};
+static const struct ink caption_ink = {{0, 1.2, 0.3, 0.1}};
 
 /* A reflection is a little paler than the letters, and its ink brings water. */
-static const double reflection_strength = 0.95, reflection_water = 0.6;
+static const double reflection_strength = 0.7, reflection_water = 0.5;
 /* Steps from one band to the next; all bands take four fifths of the time. */
-enum { BAND_STEPS = 5 * DEMO_MOMENT };
+enum { BAND_STEPS = DEMO_MOMENT };
 
 static const struct {
     enum demo_mask_kind kind;
-    struct paper_ink ink;
+    struct ink ink;
 } marsh[] = {
-    {DEMO_WATER, {.water = 1}},
-    {DEMO_DEEP, {.cyan = 0.27, .magenta = 0.15, .yellow = 0.09}},
-    {DEMO_CLAY, {.cyan = 0.05, .magenta = 0.13, .yellow = 0.13}},
-    {DEMO_REED, {.cyan = 0.12, .magenta = 0.06, .yellow = 0.16}},
+    {DEMO_WATER, {{0.7}}},
+    {DEMO_DEEP, {{0, 0.3, 0, 0.05}}},
+    {DEMO_CLAY, {{0, 0, 0.12, 0.08}}},
+    {DEMO_REED, {{0, 0.12, 0, 0.3}}},
 };
 
 struct demo_page {
     struct demo_letter letters[LETTERS];
     struct demo_letter caption;
-    struct paper_weather weather;
 };
 
-struct paper_config demo_page_config(void)
+struct paper_sheet_config demo_page_config(void)
 {
-    struct paper_config config = paper_config_default();
+    struct paper_sheet_config config = paper_sheet_config_default();
     config.width = DEMO_WIDTH;
     config.height = DEMO_HEIGHT;
-    config.absorbency = 0.22;
-    config.absorbency_variation = 0.5;
+    config.pigments_count = PIGMENTS;
+    for (int i = 0; i < PIGMENTS; i++)
+        config.pigments[i] = *paper_pigment_find(pigments[i]);
     return config;
 }
 
@@ -135,10 +144,6 @@ enum paper_status demo_page_create(struct demo_page **out)
     struct demo_page *page = calloc(1, sizeof *page);
     if (!page)
         return PAPER_NO_MEMORY;
-    page->weather = (struct paper_weather){.gravity_x = 1,
-                                           .gravity_y = 1.3,
-                                           .humidity = 0.0003,
-                                           .molecular_weight = {1, 0.25, 0.6}};
     enum paper_status status = word_set(page);
     if (status == PAPER_OK)
         status = caption_set(page);
@@ -160,13 +165,13 @@ void demo_page_destroy(struct demo_page *page)
     free(page);
 }
 
-static enum paper_status letter_screen(struct paper *sheet, const struct demo_letter *letter,
-                                       const struct paper_ink *ink)
+static enum paper_status letter_screen(struct paper_sheet *sheet,
+                                       const struct demo_letter *letter, const struct ink *ink)
 {
-    return paper_screen_ink(sheet, &letter->screen, letter->x_px, letter->y_px, ink);
+    return paper_sheet_put(sheet, &letter->screen, letter->x_px, letter->y_px, ink->amount);
 }
 
-enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet)
+enum paper_status demo_page_begin(struct demo_page *page, struct paper_sheet *sheet)
 {
     const struct demo_mask mask = {DEMO_WIDTH, DEMO_HEIGHT, WATERLINE_PX};
     enum paper_status status = PAPER_OK;
@@ -174,17 +179,17 @@ enum paper_status demo_page_begin(struct demo_page *page, struct paper *sheet)
         struct paper_screen screen;
         if (!demo_mask_screen(&mask, marsh[i].kind, &screen))
             return PAPER_NO_MEMORY;
-        status = paper_screen_ink(sheet, &screen, 0, 0, &marsh[i].ink);
+        status = paper_sheet_put(sheet, &screen, 0, 0, marsh[i].ink.amount);
         paper_screen_destroy(&screen);
     }
     for (int i = 0; i < LETTERS && status == PAPER_OK; i++)
         status = letter_screen(sheet, &page->letters[i], &inks[syllable_of[i]]);
     if (status == PAPER_OK)
         status = letter_screen(sheet, &page->caption, &caption_ink);
-    return status == PAPER_OK ? paper_finish(sheet) : status;
+    return status == PAPER_OK ? paper_sheet_finish(sheet) : status;
 }
 
-static enum paper_status reflection_screen(struct demo_page *page, struct paper *sheet,
+static enum paper_status reflection_screen(struct demo_page *page, struct paper_sheet *sheet,
                                            int band)
 {
     struct paper_screen screen = {.width_px = DEMO_WIDTH, .height_px = DEMO_HEIGHT};
@@ -197,26 +202,25 @@ static enum paper_status reflection_screen(struct demo_page *page, struct paper 
         for (int i = 0; i < LETTERS; i++)
             if (syllable_of[i] == syllable)
                 demo_reflection_blend(&page->letters[i], band, &screen);
-        struct paper_ink ink = {.cyan = inks[syllable].cyan * reflection_strength,
-                                .magenta = inks[syllable].magenta * reflection_strength,
-                                .yellow = inks[syllable].yellow * reflection_strength,
-                                .water = reflection_water};
-        status = paper_screen_ink(sheet, &screen, 0, 0, &ink);
+        struct ink ink = {{reflection_water}};
+        for (int i = 1; i <= PIGMENTS; i++)
+            ink.amount[i] = inks[syllable].amount[i] * reflection_strength;
+        status = paper_sheet_put(sheet, &screen, 0, 0, ink.amount);
         if (status == PAPER_OK)
-            status = paper_finish(sheet);
+            status = paper_sheet_finish(sheet);
     }
     paper_screen_destroy(&screen);
     return status;
 }
 
-enum paper_status demo_page_step(struct demo_page *page, struct paper *sheet, int step)
+enum paper_status demo_page_step(struct demo_page *page, struct paper_sheet *sheet, int step)
 {
     enum paper_status status = PAPER_OK;
     if (step % BAND_STEPS == 0 && step / BAND_STEPS < DEMO_BANDS)
         status = reflection_screen(page, sheet, step / BAND_STEPS);
     if (status == PAPER_OK)
-        status = paper_disperse(sheet, &page->weather);
+        status = paper_sheet_step(sheet);
     if (status == PAPER_OK && (step + 1) % STEPS_AT_ONCE == 0)
-        status = paper_finish(sheet);
+        status = paper_sheet_finish(sheet);
     return status;
 }

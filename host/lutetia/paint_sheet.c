@@ -1,10 +1,7 @@
 /* paint_sheet.c - `lutetia paint`: a sheet with layers, on which water flows. */
+#include "sheet_picture.h"
 #include "verb_paint.h"
 
-#include <display.h>
-#include <sheet.h>
-
-#include <stdint.h>
 #include <string.h>
 
 /* Without --ink the type has one pigment; with it, the three that it names. */
@@ -63,37 +60,11 @@ static enum paper_status all_put(const struct paint *paint, struct paper_sheet *
     return status == PAPER_OK ? paper_sheet_finish(sheet) : status;
 }
 
-static int picture_write(const struct paint *paint, struct paper_sheet *sheet, const char *path)
-{
-    const bool water = strcmp(paint->view, "water") == 0;
-    const struct paper_sheet_view view = {.show = water ? PAPER_SHOW_WATER : PAPER_SHOW_COLOR,
-                                          .high = 1,
-                                          .light = PAPER_LIGHT_USUAL};
-    struct display_image image = {
-        .width_px = paint->size[0], .height_px = paint->size[1], .channels = 3};
-    const size_t count = 3 * (size_t)image.width_px * (size_t)image.height_px;
-    uint16_t *rgb = malloc(count * sizeof *rgb);
-    int status = EXIT_SUCCESS;
-    if (!rgb)
-        status = fail("paint", "no memory for a picture");
-    else if (display_image_create(&image) != DISPLAY_OK)
-        status = fail("paint", "%s", display_error());
-    else if (paper_sheet_view(sheet, &view, rgb) != PAPER_OK)
-        status = fail_paper("paint");
-    for (size_t i = 0; i < count && status == EXIT_SUCCESS; i++)
-        image.pixels[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
-    if (interrupted())
-        status = EXIT_INTERRUPTED;
-    else if (status == EXIT_SUCCESS && display_png_write(path, &image) != DISPLAY_OK)
-        status = fail("paint", "%s", display_error());
-    display_image_destroy(&image);
-    free(rgb);
-    return status;
-}
-
 static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
 {
     int status = all_put(paint, sheet) == PAPER_OK ? EXIT_SUCCESS : fail_paper("paint");
+    const enum paper_show show =
+        strcmp(paint->view, "water") == 0 ? PAPER_SHOW_WATER : PAPER_SHOW_COLOR;
     struct progress progress = progress_begin("painting", paint->steps);
     for (int step = 0; step <= paint->steps && status == EXIT_SUCCESS; step++) {
         char path[PAINT_PATH_MAX];
@@ -101,7 +72,8 @@ static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
             break;
         if (paint->frames_dir && step % paint->every == 0) {
             status = paint_frames_path(paint, step, path);
-            status = status == EXIT_SUCCESS ? picture_write(paint, sheet, path) : status;
+            status = status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, show, path)
+                                            : status;
         }
         if (step == paint->steps || status != EXIT_SUCCESS)
             break;
@@ -115,7 +87,8 @@ static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
     progress_end(&progress);
     if (interrupted())
         return EXIT_INTERRUPTED;
-    return status == EXIT_SUCCESS ? picture_write(paint, sheet, paint->out_path) : status;
+    return status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, show, paint->out_path)
+                                  : status;
 }
 
 int paint_sheet(const struct paint *paint)

@@ -2,6 +2,7 @@
 #include "demo_page.h"
 #include "lutetia.h"
 #include "options.h"
+#include "sheet_picture.h"
 
 #include <display.h>
 
@@ -21,7 +22,7 @@ enum {
 
 struct demo {
     const char *dir;
-    struct paper *sheet;
+    struct paper_sheet *sheet;
     struct demo_page *page;
     struct display_image strip, view;
     int stages_count;
@@ -34,8 +35,9 @@ static int stage_step(int stage)
 
 static int stage_take(struct demo *demo)
 {
-    if (paper_view_read(demo->sheet, PAPER_VIEW_COLOR, demo->view.pixels) != PAPER_OK)
-        return fail_paper("demo");
+    const int status = sheet_picture_read("demo", demo->sheet, PAPER_SHOW_COLOR, &demo->view);
+    if (status != EXIT_SUCCESS)
+        return status;
     size_t strip_row = 3 * (size_t)demo->strip.width_px, page_row = 3 * (size_t)DEMO_WIDTH;
     size_t left = 3 * (size_t)(demo->stages_count * (STAGE_WIDTH + STAGE_GAP));
     for (size_t y = 0; y < STAGE_HEIGHT; y++)
@@ -79,8 +81,8 @@ static int demo_write(struct demo *demo)
                          ? EXIT_SUCCESS
                          : fail("demo", "%s", display_error());
         else
-            status = sheet_write("demo", demo->sheet,
-                                 i == 0 ? PAPER_VIEW_COLOR : PAPER_VIEW_WATER, path);
+            status = sheet_picture_write("demo", demo->sheet,
+                                         i == 0 ? PAPER_SHOW_COLOR : PAPER_SHOW_WATER, path);
         if (status == EXIT_SUCCESS)
             printf("%s\n", path);
     }
@@ -107,8 +109,8 @@ static int demo_prepare(struct demo *demo)
     status = machine_prepare("demo", DEMO_WIDTH, DEMO_HEIGHT);
     if (status != EXIT_SUCCESS)
         return status;
-    struct paper_config config = demo_page_config();
-    if (paper_create(&config, &demo->sheet) != PAPER_OK)
+    struct paper_sheet_config config = demo_page_config();
+    if (paper_sheet_create(&config, &demo->sheet) != PAPER_OK)
         return fail_paper("demo");
     return EXIT_SUCCESS;
 }
@@ -143,7 +145,7 @@ int verb_demo(int argc, char **argv)
     if (status == EXIT_SUCCESS)
         printf("%dx%d fibers, %d cycles: painted in %.1f s, written in %.1f s\n", DEMO_WIDTH,
                DEMO_HEIGHT, DEMO_STEPS, painted_s - began_s, seconds_now() - painted_s);
-    paper_destroy(demo.sheet);
+    paper_sheet_destroy(demo.sheet);
     demo_page_destroy(demo.page);
     display_image_destroy(&demo.strip);
     display_image_destroy(&demo.view);
