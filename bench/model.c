@@ -189,6 +189,27 @@ bool model_measure(int program, int width, int height, int rounds,
     return good;
 }
 
+/* The numbers that predictions are made of: as they are, and as they are measured. */
+static bool costs_report(struct bench_report *r)
+{
+    double ns[MACHINE_COSTS];
+    if (!machine_begin_form(MODEL_CHOSEN))
+        return false;
+    struct machine *m = paris_machine();
+    const struct machine_tuning tuning = machine_tuning_get(m);
+    if (machine_costs_measure(m, ns) != MACHINE_OK)
+        return bench_fail("%s", machine_error(m));
+    for (int i = 0; i < MACHINE_COSTS; i++) {
+        const char *name = machine_cost_name((enum machine_cost)i);
+        struct bench_sample is = {tuning.cost_ns[i], tuning.cost_ns[i]},
+                            measured = {ns[i], ns[i]};
+        bench_report_add(r, "cost", name, is, 1, "ns");
+        if (ns[i] > 0)
+            bench_report_add(r, "cost, measured", name, measured, 1, "ns");
+    }
+    return true;
+}
+
 int bench_model_main(int argc, char **argv)
 {
     static const char *const names[MODEL_FORMS] = {"rows", "strips", "chosen"};
@@ -204,7 +225,8 @@ int bench_model_main(int argc, char **argv)
     int status = bench_machine_start(&report, &options, true, argc, argv);
     if (status >= 0)
         return status;
-    bool ok = true;
+    fprintf(stderr, "model: costs ...\n");
+    bool ok = costs_report(&report);
     for (int i = 0; ok && i < options.sizes_count; i++)
         for (int p = 0; ok && p < model_programs_count(); p++) {
             struct model_result results[MODEL_FORMS];

@@ -24,18 +24,27 @@ enum { VALUES_MOST = 5, WARM_RUNS = 5, ROUNDS = 11, TRIED_MOST = 64 };
 /* The ratio from which another value is chosen: smaller gains may be noise. */
 #define CLEARLY 0.97
 
-/* The works that are timed for each knob. 0 ends the values; the usual value is tried first. */
+/* What a knob is about: it says when the knob does nothing. */
+enum about {
+    ABOUT_ITEMS,  /* work-items */
+    ABOUT_LANES,  /* ... that have vectors */
+    ABOUT_TURNS,  /* several turns in one evaluation; in strips, which need vectors */
+    ABOUT_STRIPS, /* strips, which need several turns, too */
+};
+
+/* The works that are timed for each knob. The usual value is tried first. */
 static const struct step {
     enum machine_knob knob;
-    int values[VALUES_MOST + 1];
+    enum about about;
+    int values_count, values[VALUES_MOST];
     bool works[TUNE_KINDS];
 } steps[] = {
-    {MACHINE_VECTOR, {16, 8, 4}, {true, true, true}},
-    {MACHINE_RUN, {4096, 1024, 256}, {false, true, true}},
-    {MACHINE_STREAMS, {1, 0}, {[TUNE_TRAFFIC] = true}},
-    {MACHINE_TURNS, {8, 4, 2, 1}, {[TUNE_STENCIL] = true}},
-    {MACHINE_COLUMNS, {4096, 1024, 512, 256}, {[TUNE_STENCIL] = true}},
-    {MACHINE_STRIPS_EACH, {3, 1, 2, 4, 6}, {[TUNE_STENCIL] = true}},
+    {MACHINE_VECTOR, ABOUT_ITEMS, 3, {16, 8, 4}, {true, true, true}},
+    {MACHINE_RUN, ABOUT_ITEMS, 3, {4096, 1024, 256}, {false, true, true}},
+    {MACHINE_STREAMS, ABOUT_LANES, 2, {1, 0}, {[TUNE_TRAFFIC] = true}},
+    {MACHINE_TURNS, ABOUT_TURNS, 4, {8, 4, 2, 1}, {[TUNE_STENCIL] = true}},
+    {MACHINE_COLUMNS, ABOUT_STRIPS, 4, {4096, 1024, 512, 256}, {[TUNE_STENCIL] = true}},
+    {MACHINE_STRIPS_EACH, ABOUT_STRIPS, 5, {3, 1, 2, 4, 6}, {[TUNE_STENCIL] = true}},
 };
 
 enum { STEPS_COUNT = sizeof steps / sizeof *steps };
@@ -85,7 +94,7 @@ static bool contest_open(struct contest *c, struct tune *t, const struct step *s
     for (int i = 0; i < count; i++) {
         struct machine_tuning tuning = t->best;
         tuning.of[s->knob] = values[i];
-        if (s->knob < MACHINE_TURNS) /* earlier knobs do not affect strips */
+        if (s->about == ABOUT_ITEMS || s->about == ABOUT_LANES) /* they do not affect strips */
             tuning.of[MACHINE_TURNS] = 1;
         c->works[i] = tune_work_create(kind, 0, &tuning);
         if (!c->works[i])
@@ -183,14 +192,9 @@ static int values_of(const struct step *s, int usual, int *values)
 {
     int count = 0;
     values[count++] = usual;
-    for (int i = 0;
-         i < VALUES_MOST && (s->values[i] || s->knob == MACHINE_STREAMS) && count < VALUES_MOST;
-         i++) {
-        if (s->knob == MACHINE_STREAMS && i == 2)
-            break;
+    for (int i = 0; i < s->values_count && count < VALUES_MOST; i++)
         if (s->values[i] != usual)
             values[count++] = s->values[i];
-    }
     return count;
 }
 
@@ -198,13 +202,10 @@ static int values_of(const struct step *s, int usual, int *values)
  * need vectors and several turns. */
 static bool step_applies(const struct tune *t, const struct step *s)
 {
+    bool lanes = t->best.of[MACHINE_VECTOR] > 1, turns = t->best.of[MACHINE_TURNS] > 1;
     if (t->usual.of[MACHINE_VECTOR] == 1)
         return false;
-    if (s->knob >= MACHINE_TURNS && t->best.of[MACHINE_VECTOR] == 1)
-        return false;
-    if (s->knob > MACHINE_TURNS && t->best.of[MACHINE_TURNS] == 1)
-        return false;
-    return s->knob != MACHINE_STREAMS || t->best.of[MACHINE_VECTOR] > 1;
+    return s->about == ABOUT_ITEMS || (lanes && (s->about != ABOUT_STRIPS || turns));
 }
 
 static int step_tune(struct tune *t, const struct step *s)
@@ -250,8 +251,48 @@ static int runs_in_all(const struct tune *t)
     return runs;
 }
 
+static bool costs_differ(double a, double b)
+{
+    return a < b || a > b;
+}
+
+/* The cost model's numbers, with the chosen knobs. */
+static int costs_tune(struct tune *t)
+{
+    struct machine_config config = machine_config_default();
+    struct machine *m;
+    double ns[MACHINE_COSTS];
+    config.tuning = &t->best;
+    config.eager = 0;
+    enum machine_status status = machine_create(&config, &m);
+    if (!status)
+        status = machine_costs_measure(m, ns);
+    int end =
+        !status ? EXIT_SUCCESS : fail("tune", "%s", m ? machine_error(m) : "not enough memory");
+    for (int i = 0; i < MACHINE_COSTS && !status; i++)
+        if (ns[i] > 0)
+            t->best.cost_ns[i] = ns[i];
+    machine_destroy(m);
+    return interrupted() ? EXIT_INTERRUPTED : end;
+}
+
+static void costs_print(const struct tune *t)
+{
+    printf("%-12s %12s  %12s  (ns; what plans follow from)\n", "", "usual", "measured");
+    for (int i = 0; i < MACHINE_COSTS; i++) {
+        printf("%-12s %12.4g  ", machine_cost_name((enum machine_cost)i), t->usual.cost_ns[i]);
+        if (costs_differ(t->best.cost_ns[i], t->usual.cost_ns[i]))
+            printf("%12.4g  %.2fx\n", t->best.cost_ns[i],
+                   t->best.cost_ns[i] / t->usual.cost_ns[i]);
+        else
+            printf("%12s\n", "-");
+    }
+}
+
 static void table_print(const struct tune *t)
 {
+    if (!t->tried_count)
+        return;
     printf("%-12s %6s  ", "", "");
     for (int kind = 0; kind < TUNE_KINDS; kind++)
         printf("  %10s", tune_kind_name((enum tune_kind)kind));
@@ -285,6 +326,11 @@ static int json_write(const char *path, const struct tune *t, struct machine *m)
     for (int k = 0; k < MACHINE_KNOBS; k++)
         fprintf(f, "%s\"%s\": %d", k ? ", " : "", machine_knob_name((enum machine_knob)k),
                 t->best.of[k]);
+    fputs("},\n \"costs\": {", f);
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        fprintf(f, "%s\"%s_ns\": {\"usual\": %.9g, \"is\": %.9g}", i ? ", " : "",
+                machine_cost_name((enum machine_cost)i), t->usual.cost_ns[i],
+                t->best.cost_ns[i]);
     fputs("},\n \"tried\": [", f);
     for (int i = 0; i < t->tried_count; i++) {
         const struct tried *r = &t->tried[i];
@@ -322,18 +368,20 @@ static int tune(struct machine *m, bool dry, const char *json_path)
     t.best = t.usual;
     printf("%s, driver %s\n", machine_device_name(m), machine_device_driver(m));
     fflush(stdout);
-    if (t.usual.of[MACHINE_VECTOR] == 1) {
-        puts("there is nothing to measure: what suits such a device is known");
-        return EXIT_SUCCESS;
-    }
+    bool knobs = t.usual.of[MACHINE_VECTOR] > 1;
+    if (!knobs)
+        puts("the knobs have values that suit any such device; its costs are measured");
     t.progress = progress_begin("tune", runs_in_all(&t));
     int status = EXIT_SUCCESS;
     for (int i = 0; i < STEPS_COUNT && status == EXIT_SUCCESS; i++)
         status = step_tune(&t, &steps[i]);
     progress_end(&t.progress);
+    if (status == EXIT_SUCCESS)
+        status = costs_tune(&t);
     if (status != EXIT_SUCCESS)
         return status;
     table_print(&t);
+    costs_print(&t);
     if (json_path)
         status = json_write(json_path, &t, m);
     if (dry || status != EXIT_SUCCESS)

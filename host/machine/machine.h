@@ -93,20 +93,30 @@ struct machine_scalar {
 
 /* Tuning parameters. None of them changes a bit of a result. */
 enum machine_knob {
-    MACHINE_VECTOR,      /* lanes of 32 bits in a work-item: 1, 4, 8 or 16 */
-    MACHINE_RUN,         /* columns that a work-item goes along */
-    MACHINE_STREAMS,     /* the most turns of a loop that are evaluated at once; 1: one by
-                          * one */
-    MACHINE_TURNS,       /* columns of a strip, in which several turns go through the caches */
-    MACHINE_COLUMNS,     /* approximate number of strips for each compute unit */
+    MACHINE_VECTOR,  /* lanes of 32 bits in a work-item: 1, 4, 8 or 16 */
+    MACHINE_RUN,     /* columns that a work-item goes along */
+    MACHINE_STREAMS, /* 1: large arrays are stored past the caches */
+    MACHINE_TURNS,   /* the most turns of a loop that are evaluated at once; 1: one by one */
+    MACHINE_COLUMNS, /* columns of a strip, in which several turns go through the caches */
     MACHINE_STRIPS_EACH, /* strips for each compute unit, about */
     MACHINE_KNOBS
 };
+/* The numbers of the cost model, in nanoseconds: plans follow from them. None of them changes a bit of a result. */
+enum machine_cost {
+    MACHINE_COST_OP,   /* one vector instruction; on a GPU, an instruction for an element */
+    MACHINE_COST_BYTE, /* one byte to or from memory */
+    MACHINE_COST_NEAR_BYTE, /* one byte to or from a cache, or a GPU's local memory */
+    MACHINE_COST_LAUNCH,    /* one launch of a kernel */
+    MACHINE_COSTS
+};
 struct machine_tuning {
-    int of[MACHINE_KNOBS]; /* -1: the usual value for the kind of device */
+    int of[MACHINE_KNOBS];         /* -1: the usual value for the kind of device */
+    double cost_ns[MACHINE_COSTS]; /* 0: the usual value */
 };
 const char *machine_knob_name(enum machine_knob knob); /* "vector" */
 bool machine_knob_allows(enum machine_knob knob, int value);
+const char *machine_cost_name(enum machine_cost cost); /* "near byte" */
+bool machine_cost_allows(enum machine_cost cost, double ns);
 struct machine_tuning machine_tuning_usual(void);
 
 /* ---- the machine ---- */
@@ -190,9 +200,12 @@ bool machine_cache_folder(char out[static MACHINE_CACHE_FOLDER_MAX], const char 
 int machine_processors_count(const struct machine *m);
 const char *machine_device_name(const struct machine *m);
 
-/* The knobs in effect: what the environment forces (docs/engine.md), else config's or the
- * stored tuning, else the usual values. None is -1. */
+/* The knobs and costs in effect: what the environment forces (docs/engine.md), else config's or the
+ * stored tuning, else the usual values. No knob is -1, no cost 0. */
 struct machine_tuning machine_tuning_get(const struct machine *m);
+/* Measures the costs on the machine's device, in a few seconds, by programs of its own. 0: could not be measured. Called
+ * between instructions. Errors: as of fields and evaluations. */
+enum machine_status machine_costs_measure(struct machine *m, double ns[MACHINE_COSTS]);
 /* Stores a tuning for all machines on that device from now on, in all programs. The file
  * appears when it is complete. Errors: MACHINE_BAD_ARGUMENT (the file, and why it cannot be
  * written); the old tuning stays. */

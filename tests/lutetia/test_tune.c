@@ -87,6 +87,28 @@ static void every_knob_gives_the_same_bits(void **state)
     }
 }
 
+/* Whatever the device: no cost is absurd, and the machine is as it was. */
+static void costs_are_measured(void **state)
+{
+    struct machine_config config = machine_config_default();
+    struct machine *m;
+    double ns[MACHINE_COSTS];
+    (void)state;
+    config.eager = 0;
+    assert_int_equal(machine_create(&config, &m), MACHINE_OK);
+    int set = machine_vpset_create(m, (int[]){8, 192}, 2);
+    assert_int_equal(machine_vpset_select(m, set), MACHINE_OK);
+    struct machine_tuning before = machine_tuning_get(m);
+    assert_int_equal(machine_costs_measure(m, ns), MACHINE_OK);
+    assert_int_equal(machine_vpset_current(m), set);
+    struct machine_tuning after = machine_tuning_get(m);
+    assert_memory_equal(&before, &after, sizeof before);
+    assert_true(ns[MACHINE_COST_LAUNCH] > 10 && ns[MACHINE_COST_LAUNCH] < 1e7);
+    assert_true(ns[MACHINE_COST_OP] > 1e-5 && ns[MACHINE_COST_OP] < 100);
+    assert_true(ns[MACHINE_COST_BYTE] > 1e-5 && ns[MACHINE_COST_BYTE] < 100);
+    machine_destroy(m);
+}
+
 /* ---- the command ---- */
 
 static void fails_with(struct child *child, int status, const char *said)
@@ -133,6 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_knob_gives_the_same_bits),
+        cmocka_unit_test(costs_are_measured),
         cmocka_unit_test(wrong_lines_are_said),
         cmocka_unit_test(an_interrupted_one_keeps_nothing),
     };

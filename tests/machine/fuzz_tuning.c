@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 static const struct device device = {
     .platform_name = "Platform of tests", .name = "device 1", .driver = "3.1+x"};
 
-static const char good[] = "lutetia tuning 1\n"
+static const char good[] = "lutetia tuning 2\n"
                            "platform Platform of tests\n"
                            "device device 1\n"
                            "driver 3.1+x\n"
@@ -25,6 +25,10 @@ static const char good[] = "lutetia tuning 1\n"
                            "turns 4\n"
                            "columns 128\n"
                            "strips_each 2\n"
+                           "op_fs 64000\n"
+                           "byte_fs 22000\n"
+                           "near_byte_fs 0\n"
+                           "launch_fs 3000000000\n"
                            "end\n";
 
 static void must(bool holds, const char *what)
@@ -47,6 +51,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
         must(parsed ? machine_knob_allows((enum machine_knob)k, tuning.of[k])
                     : tuning.of[k] == -1,
              "a value that may not be");
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        must(!(tuning.cost_ns[i] < 0) && tuning.cost_ns[i] <= (parsed ? 1e9 : 0),
+             "a cost that may not be");
     must(parsed || (strncmp(why, "line ", 5) == 0 && !strchr(why, '\n')),
          "no reason in a line");
     must(!parsed || (count > 100 && !memcmp(copy + count - 5, "\nend\n", 5)),

@@ -17,12 +17,16 @@ static struct machine *opened(const struct machine_tuning *tuning)
 
 static struct machine_tuning some(void)
 {
-    return (struct machine_tuning){{[MACHINE_VECTOR] = 8,
-                                    [MACHINE_RUN] = 32,
-                                    [MACHINE_STREAMS] = 0,
-                                    [MACHINE_TURNS] = 3,
-                                    [MACHINE_COLUMNS] = 48,
-                                    [MACHINE_STRIPS_EACH] = 5}};
+    return (struct machine_tuning){.of = {[MACHINE_VECTOR] = 8,
+                                          [MACHINE_RUN] = 32,
+                                          [MACHINE_STREAMS] = 0,
+                                          [MACHINE_TURNS] = 3,
+                                          [MACHINE_COLUMNS] = 48,
+                                          [MACHINE_STRIPS_EACH] = 5},
+                                   .cost_ns = {[MACHINE_COST_OP] = 0.125,
+                                               [MACHINE_COST_BYTE] = 0.03125,
+                                               [MACHINE_COST_NEAR_BYTE] = 0.015625,
+                                               [MACHINE_COST_LAUNCH] = 12345}};
 }
 
 static void assert_tuned(const struct machine_tuning *tuning, struct machine_tuning wanted)
@@ -84,6 +88,15 @@ static void a_tuning_is_kept_and_read_again(void **state)
     assert_int_equal(machine_tuning_keep(m, &wanted), MACHINE_BAD_ARGUMENT);
     support_failed(m, MACHINE_BAD_ARGUMENT, "vector");
     wanted = some();
+    wanted.cost_ns[MACHINE_COST_LAUNCH] = -1;
+    assert_int_equal(machine_tuning_keep(m, &wanted), MACHINE_BAD_ARGUMENT);
+    support_failed(m, MACHINE_BAD_ARGUMENT, "launch");
+    wanted = some();
+    assert_tuned(NULL, wanted);
+    /* A cost that was not measured is the table's. */
+    wanted.cost_ns[MACHINE_COST_BYTE] = 0;
+    assert_ok(machine_tuning_keep(m, &wanted), m);
+    wanted.cost_ns[MACHINE_COST_BYTE] = usual.cost_ns[MACHINE_COST_BYTE];
     assert_tuned(NULL, wanted);
     machine_destroy(m);
 }
@@ -105,15 +118,19 @@ static void line_change(const char *path, const char *begins, const char *with)
 
 static void a_file_that_is_wrong_is_as_if_it_were_not_there(void **state)
 {
-    static const char *const changes[][3] = {{"lutetia", "lutetia tuning 2\n", "line 1"},
+    static const char *const changes[][3] = {{"lutetia", "lutetia tuning 1\n", "line 1"},
                                              {"driver", "driver 0.1\n", "driver"},
                                              {"device", "device another\n", "device"},
                                              {"vector", "vector 3\n", "1, 4, 8 or 16"},
                                              {"turns", "turns\n", "turns"},
                                              {"columns", "", "columns"},
+                                             {"op_fs", "op_fs much\n", "op_fs"},
+                                             {"byte_fs", "byte_fs -1\n", "0 to 10^15"},
+                                             {"near", "byte_fs 3\n", "near_byte_fs"},
+                                             {"launch", "", "launch_fs"},
                                              {"end", "", "too early"},
                                              {"end", "end\nend\n", "the last"}};
-    struct machine *m = opened(&(struct machine_tuning){{-1, -1, -1, -1, -1, -1}});
+    struct machine *m = opened(&(struct machine_tuning){.of = {-1, -1, -1, -1, -1, -1}});
     struct machine_tuning usual = machine_tuning_get(m), tuning = some();
     char path[600], text[800];
 
@@ -198,6 +215,43 @@ static void knobs_reach_the_kernels(void **state)
         fail_msg("no kernel of strips of 48 columns: %s", line);
 }
 
+/* The costs decide whether values are computed again or stored: launches that cost a second make one kernel, and launches
+ * that cost nothing, with operations that cost a microsecond, make two. */
+static uint64_t kernels_where(double op_ns, double launch_ns)
+{
+    struct machine_tuning tuning = machine_tuning_usual();
+    struct machine_stats before, after;
+    tuning.cost_ns[MACHINE_COST_OP] = op_ns;
+    tuning.cost_ns[MACHINE_COST_LAUNCH] = launch_ns;
+    setenv("LUTETIA_STRIPS", "0", 1);
+    struct machine *m = opened(&tuning);
+    unsetenv("LUTETIA_STRIPS");
+    int set = support_set(m, 2, 64, 192);
+    uint32_t field = machine_field_allocate(m, set, 32, MACHINE_HEAP);
+    struct machine_value *v =
+        machine_to_float(m, machine_coordinate(m, 1, 32), MACHINE_F32, false);
+    assert_ok(machine_field_store(m, field, v, MACHINE_EVERYWHERE), m);
+    assert_ok(machine_finish(m), m);
+    machine_stats_get(m, &before);
+    machine_begin(m);
+    v = machine_field_value(m, field, MACHINE_F32, MACHINE_EVERYWHERE);
+    for (int i = 0; i < 4; i++)
+        v = machine_binary(m, MACHINE_FADD, machine_binary(m, MACHINE_FMUL, v, v), v);
+    v = machine_binary(m, MACHINE_FADD, machine_shift(m, v, 0, 1), v);
+    assert_ok(machine_field_store(m, field, v, MACHINE_EVERYWHERE), m);
+    assert_ok(machine_finish(m), m);
+    machine_stats_get(m, &after);
+    machine_destroy(m);
+    return after.kernels_run - before.kernels_run;
+}
+
+static void costs_reach_the_plans(void **state)
+{
+    (void)state;
+    assert_int_equal(kernels_where(1e-5, 1e9), 1);
+    assert_int_equal(kernels_where(1000, 1), 2);
+}
+
 static int begin(void **state)
 {
     unsetenv("LUTETIA_TUNED");
@@ -211,6 +265,7 @@ int main(void)
         cmocka_unit_test(a_file_that_is_wrong_is_as_if_it_were_not_there),
         cmocka_unit_test(a_folder_that_cannot_be_is_said),
         cmocka_unit_test(knobs_reach_the_kernels),
+        cmocka_unit_test(costs_reach_the_plans),
     };
     return cmocka_run_group_tests(tests, begin, support_cache_remove);
 }

@@ -16,6 +16,7 @@ struct settings {
     uint64_t interpret;  /* plans run as byte code: 0 never, 1 until kernels pay, 2 always */
     uint64_t background; /* better kernels are compiled while others run */
     uint64_t knob[MACHINE_KNOBS];
+    double cost_ns[MACHINE_COSTS]; /* measured for this device (device/tuning.c); 0: not */
     uint64_t strips, in_place, scatter, gather, narrow, keeps_nan;
     uint64_t near;    /* the front end looks at memory that is its own by itself */
     uint64_t lenient; /* what is past a field's end is what lies after it: access/beyond.h */

@@ -11,19 +11,12 @@
 #include "build/background.h"
 #include "build/plans.h"
 
-/* Seconds: a kernel's launch and wait, as in docs/engine.md; the search for a plan and its text; a compiler's for a kernel, and
- * for each operation in it. */
-static const double launch_s = 12e-6, ask_s = 1e-3, compile_s = 0.1, compile_op_s = 2e-3;
-/* What a kernel takes of the interpreter's time. */
-static const double kernel_part = 0.4;
-/* Many turns of a loop can be one kernel of a plan of that time; of a shorter one the calls take longer. */
-static const double turns_from_s = 4e-6;
-
-static double compile_time(const struct plan *p)
+static double compile_time(const struct machine *m, const struct plan *p)
 {
+    const struct device_shape *shape = &m->device->shape;
     double s = 0;
     for (int i = 0; i < p->launches_count; i++)
-        s += compile_s + compile_op_s * p->launches[i].program->ops;
+        s += 1e-9 * (shape->compile_ns + shape->compile_op_ns * p->launches[i].program->ops);
     return s;
 }
 
@@ -134,11 +127,11 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
 {
     double start = watch_clock(m);
     struct plan *p = could_be(m, q) ? plan_interpreted(m, q) : NULL;
-    if (!p || m->settings.interpret > 1 || p->predicted_s < ask_s)
+    if (!p || m->settings.interpret > 1 || p->predicted_s < 1e-9 * m->device->shape.text_ns)
         return p;
     struct plan *better = interpreted_at_hand(m, q);
     p->asked = true;
-    if (better || p->predicted_s > compile_time(p)) {
+    if (better || p->predicted_s > compile_time(m, p)) {
         plan_free(p);
         return better;
     }
@@ -149,13 +142,14 @@ struct plan *interpreted_make(struct machine *m, const struct plan_request *q)
 
 bool interpreted_is_due(const struct machine *m, const struct plan *p)
 {
+    const struct device_shape *shape = &m->device->shape;
     if (m->settings.interpret != 1 || !p->runs)
         return false;
-    if (!p->asked && p->spent_s > ask_s)
+    if (!p->asked && p->spent_s > 1e-9 * shape->text_ns)
         return true;
     double mean = p->spent_s / (double)p->runs,
-           saved = mean - kernel_part * mean - launch_s * p->launches_count;
-    if (p->worked >= m->settings.box_after && mean > turns_from_s)
+           saved = mean - shape->kernel_part * mean - 1e-9 * shape->wait_ns * p->launches_count;
+    if (p->worked >= m->settings.box_after && mean > 1e-9 * shape->turns_from_ns)
         return true;
-    return saved * (double)p->runs > compile_time(p);
+    return saved * (double)p->runs > compile_time(m, p);
 }

@@ -7,10 +7,6 @@
 #include "device/call.h"
 #include "kernels.h"
 
-/* The most kernels in the queue. While better ones are being built, only as many as keep the
- * device busy, since all of them would be old kernels. */
-enum { KERNELS_AHEAD = 256, KERNELS_AHEAD_BUILDING = 16 };
-
 size_t plan_run_columns(const struct machine *m, int vector)
 {
     size_t run = (size_t)m->device->shape.run_columns, lanes = (size_t)vector;
@@ -279,9 +275,10 @@ enum machine_status plan_run(struct machine *m, struct plan *p, struct device_bu
         device_flush(m);
     if (m->watch)
         watch_span(m, WATCH_LAUNCH, start, "\"kernels\":%d", p->launches_count);
-    status = status
-                 ? status
-                 : device_pace(m, background_busy(m) ? KERNELS_AHEAD_BUILDING : KERNELS_AHEAD);
+    /* While better kernels are built, the queue has only as many as keep the device busy: all would be old ones. */
+    const struct device_shape *shape = &m->device->shape;
+    const int ahead = background_busy(m) ? shape->kernels_ahead_building : shape->kernels_ahead;
+    status = status ? status : device_pace(m, (uint64_t)ahead);
     for (int i = 0; i < p->stored_count && status; i++) {
         struct device_buffer **b = &buffers[p->stored[i]];
         if (*b)

@@ -13,14 +13,6 @@
 #include "base/parts.h"
 #include "device/device.h"
 
-enum {
-    LARGE_PAGE_BYTES = 2 << 20,
-    SKEW_BYTES = 7 * 128,
-    SKEW_PAGE_BYTES = 4096,
-    SKEW_LARGE_BYTES = 64 << 10,
-    POOL_BYTES_MAX = 1 << 30
-};
-
 void device_pool_empty(struct device *d)
 {
     for (int i = 0; i < d->pool_count; i++) {
@@ -44,15 +36,15 @@ static cl_mem memory_get(const struct device *d, struct rows rows, void **host, 
     void *address;
     *host = NULL;
     size_t bytes = rows.bytes, skipped = -rows.first % LINE_BYTES;
-    bool large = bytes >= LARGE_PAGE_BYTES;
+    size_t page = d->shape.large_page_bytes;
+    bool large = bytes >= page;
     if (!d->is_cpu || (!d->is_pocl && !large && !skipped))
         return clCreateBuffer(d->context, CL_MEM_READ_WRITE, bytes, NULL, error);
     *error = CL_OUT_OF_HOST_MEMORY;
-    if (posix_memalign(&address, large ? LARGE_PAGE_BYTES : DEVICE_GUARD_BYTES,
-                       skipped + bytes))
+    if (posix_memalign(&address, large ? page : DEVICE_GUARD_BYTES, skipped + bytes))
         return NULL;
 #ifdef MADV_HUGEPAGE
-    madvise(address, bytes / LARGE_PAGE_BYTES * LARGE_PAGE_BYTES, MADV_HUGEPAGE);
+    madvise(address, bytes / page * page, MADV_HUGEPAGE);
 #endif
     cl_mem memory = clCreateBuffer(d->context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes,
                                    (char *)address + skipped, error);
@@ -68,14 +60,12 @@ static cl_mem memory_get(const struct device *d, struct rows rows, void **host, 
     return NULL;
 }
 
-/* The range of offsets from a page at which arrays begin. Processors first compare only the
- * low 12 bits of addresses, and delay a load that seems to read what a slightly earlier
- * store writes (4K aliasing). So the offsets of any nine arrays in a row differ by 384 bytes
+/* The range of offsets from a page at which arrays begin. The offsets of any nine arrays in a row differ by 384 bytes
  * or more (sub-buffers begin at multiples of 128). The offsets also spread the rows of many
  * large arrays over the sets of a cache. */
-static size_t skew_room(size_t bytes)
+static size_t skew_room(const struct device_shape *shape, size_t bytes)
 {
-    return bytes < LARGE_PAGE_BYTES ? SKEW_PAGE_BYTES : SKEW_LARGE_BYTES;
+    return bytes < shape->large_page_bytes ? shape->skew_page_bytes : shape->skew_large_bytes;
 }
 
 struct device_buffer *device_buffer_get(struct machine *m, size_t bytes)
@@ -102,7 +92,7 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
             b->refs = 1;
             return b;
         }
-    size_t whole = bytes + skew_room(bytes) + 2 * DEVICE_GUARD_BYTES;
+    size_t whole = bytes + skew_room(&d->shape, bytes) + 2 * DEVICE_GUARD_BYTES;
     if (whole > d->memory_max_alloc_bytes || d->held_bytes + whole > d->memory_bytes) {
         device_pool_empty(d);
         machine_fail(
@@ -124,8 +114,9 @@ struct device_buffer *device_rows_get(struct machine *m, struct rows rows)
         parent = b ? memory_get(d, (struct rows){whole, rows.first}, &host, &error) : NULL;
     }
     if (!error) {
-        cl_buffer_region region = {.origin = DEVICE_GUARD_BYTES +
-                                             SKEW_BYTES * d->skew++ % skew_room(bytes),
+        cl_buffer_region region = {.origin =
+                                       DEVICE_GUARD_BYTES + d->shape.skew_bytes * d->skew++ %
+                                                                skew_room(&d->shape, bytes),
                                    .size = bytes};
         b->mem = clCreateSubBuffer(parent, CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
                                    &region, &error);
@@ -168,7 +159,7 @@ void device_buffer_unref(struct machine *m, struct device_buffer *b)
             d->pool_capacity = capacity;
         }
     }
-    if (d->pool_count == d->pool_capacity || d->pool_bytes + b->bytes > POOL_BYTES_MAX) {
+    if (d->pool_count == d->pool_capacity || d->pool_bytes + b->bytes > d->shape.pool_bytes) {
         clReleaseMemObject(b->mem);
         free(b);
         return;

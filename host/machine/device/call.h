@@ -16,8 +16,6 @@
 #include "watch/watch.h"
 
 /* Work for each work-item on a CPU: columns; physical processors. */
-enum { CALL_RUN = 4096, CALL_PROCESSORS_RUN = 512 };
-
 struct kernel_call {
     cl_kernel kernel; /* NULL after an error, which the machine's error text explains */
     cl_uint at;
@@ -88,13 +86,13 @@ static inline enum machine_status call_start_3d(struct kernel_call *c, struct ma
 /* Columns for each work-item of call_over(); the kernel needs the number as an argument. */
 static inline size_t call_run(const struct machine *m)
 {
-    return m->device->is_cpu ? CALL_RUN : 1;
+    return (size_t)m->device->shape.call_columns;
 }
 
 /* Physical processors for each work-item of call_processors(). */
 static inline size_t call_processors_run(const struct machine *m)
 {
-    return m->device->is_cpu ? CALL_PROCESSORS_RUN : 1;
+    return (size_t)m->device->shape.call_processors;
 }
 
 /* The C type of an element of that many bytes in memory; 16 is a pair. */

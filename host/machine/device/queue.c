@@ -55,9 +55,6 @@ static void part_move(void *of, int part, int worker)
         memcpy(g->to + first, g->from + first, end - first);
 }
 
-/* Seconds for a byte. */
-static const double move_s = 0.06e-9;
-
 static void move(const struct machine *m, char *to, const void *from, size_t bytes,
                  size_t pattern_bytes)
 {
@@ -65,7 +62,8 @@ static void move(const struct machine *m, char *to, const void *from, size_t byt
                        .from = from,
                        .bytes = bytes,
                        .pattern_bytes = pattern_bytes,
-                       .parts = device_parts(m, move_s * (double)bytes)};
+                       .parts =
+                           device_parts(m, 1e-9 * m->device->shape.move_ns * (double)bytes)};
     crew_run(m->device->crew, g.parts, part_move, &g);
 }
 

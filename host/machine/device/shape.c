@@ -38,6 +38,20 @@ static void shape_tiles(const struct device *d, const struct settings *s,
 
 /* ---- the table ---- */
 
+/* What all rows have. Processors first compare only the low 12 bits of addresses, and delay a load that seems to read what a
+ * slightly earlier store writes (4K aliasing): hence the skews. The front end's costs were measured on one core with AVX-512,
+ * the compiler's with PoCL's clang. */
+#define ROW_USUAL                                                                              \
+    .large_page_bytes = 2 << 20, .skew_bytes = 7 * 128, .skew_page_bytes = 4096,               \
+    .skew_large_bytes = 64 << 10, .pool_bytes = 1 << 30, .kernels_ahead = 256,                 \
+    .kernels_ahead_building = 16, .move_ns = 0.06, .reduce_ns = 0.1, .rank_ns = 8,             \
+    .send_ns = 1.2, .scan_ns = 0.6, .fill_ns = 0.2, .wait_ns = 12e3, .text_ns = 1e6,           \
+    .compile_ns = 1e8, .compile_op_ns = 2e6, .kernel_part = 0.4, .turns_from_ns = 4e3
+/* ... and all of CPUs, whose units are few and have long work-items. */
+#define ROW_CPU                                                                                \
+    ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \
+               .fill_run = 1 << 16
+
 /* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken. */
 static const struct shape_row {
     bool is_cpu;
@@ -49,43 +63,31 @@ static const struct shape_row {
     {.is_cpu = true,
      .platform = "Portable Computing Language",
      .instruction_ns = 0.064,
-     .shape = {.byte_ns = 0.022,
-               .near_byte_ns = 0.004,
-               .launch_ns = 3000,
-               .run_columns = 4096,
-               .strips_each = 3,
+     .shape = {ROW_CPU, .byte_ns = 0.022, .near_byte_ns = 0.004, .launch_ns = 3000,
+               .run_columns = 4096, .strips_each = 3,
                .strip_columns = 4096, /* a few rows of many arrays are in the caches */
-               .strip_least = 128,
-               .near_bytes = 512 << 10, /* half of a second-level cache */
-               .pass_cost = 600,
-               .turns = 8,
-               .arrays_foreseen = 16,
-               .fetch_bytes = 4 << 20,
-               .stream_bytes = 48 << 20,
-               .in_place_bytes = 12 << 20,
-               .streams = true,
+               .strip_least = 128, .near_bytes = 512 << 10, /* half of a second-level cache */
+               .pass_cost = 600, .turns = 8, .arrays_foreseen = 16, .fetch_bytes = 4 << 20,
+               .stream_bytes = 48 << 20, .in_place_bytes = 12 << 20, .streams = true,
                .from = "measured with PoCL on two cores with AVX-512"}},
     {.is_cpu = true,
      .instruction_ns = 0.064,
-     .shape = {.byte_ns = 0.022,
-               .near_byte_ns = 0.004,
-               .launch_ns = 3000,
-               .run_columns = 4096,
-               .strips_each = 3,
-               .strip_columns = 4096,
-               .strip_least = 128,
-               .near_bytes = 512 << 10,
-               .pass_cost = 600,
-               .turns = 8,
-               .arrays_foreseen = 16,
-               .fetch_bytes = 4 << 20,
-               .stream_bytes = 48 << 20,
-               .in_place_bytes = 12 << 20,
+     .shape = {ROW_CPU, .byte_ns = 0.022, .near_byte_ns = 0.004, .launch_ns = 3000,
+               .run_columns = 4096, .strips_each = 3, .strip_columns = 4096, .strip_least = 128,
+               .near_bytes = 512 << 10, .pass_cost = 600, .turns = 8, .arrays_foreseen = 16,
+               .fetch_bytes = 4 << 20, .stream_bytes = 48 << 20, .in_place_bytes = 12 << 20,
                .streams = true,
                .from = "PoCL's on another CPU; not measured with this driver"}},
     {.is_cpu =
          false, /* 1e13 operations a second, 1 TB/s, 15 TB/s to and from local memory: plans follow from the ratios */
-     .shape = {.vector = 1,
+     .shape = {ROW_USUAL,
+               .call_columns = 1,
+               .call_processors = 1,
+               .send_shares = 4096,
+               .scan_run = 256,
+               .fill_run = 256,
+               .sort_chunk = 2048,
+               .vector = 1,
                .op_ns = 1e-4,
                .byte_ns = 1e-3,
                .near_byte_ns = 6e-5,
@@ -141,6 +143,29 @@ static int said(const struct settings *s, enum machine_knob knob, int usual)
     return s->knob[knob] == SETTING_FREE ? usual : (int)s->knob[knob];
 }
 
+/* For a CPU, op_ns is what an instruction of all lanes takes, until shape_of() knows how many there are. */
+static double *cost_in(struct device_shape *shape, enum machine_cost cost)
+{
+    switch (cost) {
+    case MACHINE_COST_OP:
+        return &shape->op_ns;
+    case MACHINE_COST_BYTE:
+        return &shape->byte_ns;
+    case MACHINE_COST_NEAR_BYTE:
+        return &shape->near_byte_ns;
+    case MACHINE_COST_LAUNCH:
+    case MACHINE_COSTS:
+        break;
+    }
+    return &shape->launch_ns;
+}
+
+double shape_cost_ns(const struct device_shape *shape, enum machine_cost cost)
+{
+    struct device_shape copy = *shape;
+    return *cost_in(&copy, cost) * (cost == MACHINE_COST_OP ? shape->vector : 1);
+}
+
 struct device_shape shape_of(const struct device *d, const struct settings *s)
 {
     struct device_shape shape = shape_usual(d);
@@ -151,6 +176,14 @@ struct device_shape shape_of(const struct device *d, const struct settings *s)
     shape.streams = said(s, MACHINE_STREAMS, shape.streams) != 0;
     shape.no_strips = s->strips == 0;
     shape.always_strips = s->strips == 1;
+    bool measured = false;
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        if (s->cost_ns[i] > 0) {
+            *cost_in(&shape, (enum machine_cost)i) = s->cost_ns[i];
+            measured = true;
+        }
+    if (measured)
+        shape.from = "measured on this device by lutetia tune";
     if (d->is_cpu) {
         shape.vector = said(s, MACHINE_VECTOR, shape.vector);
         shape.halo = shape.vector > 1 ? shape.vector : 0;

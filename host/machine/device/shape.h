@@ -6,6 +6,8 @@
 #ifndef LUTETIA_MACHINE_SHAPE_H
 #define LUTETIA_MACHINE_SHAPE_H
 
+#include <stddef.h>
+
 #include "machine.h"
 
 struct device_shape {
@@ -40,10 +42,34 @@ struct device_shape {
         fetch_bytes; /* of fewer, all arrays together, kernels of rows fetch nothing ahead: they are near */
     double stream_bytes;   /* of more, all arrays together, storing past the caches pays */
     double in_place_bytes; /* of more, writing over what is read pays: fewer are near anyway */
-    const char *from;      /* where these numbers come from */
+    /* Arrays: device/buffers.c. */
+    size_t large_page_bytes; /* arrays as large are in pages as large */
+    size_t skew_bytes; /* from where an array begins in its page to where the next one does */
+    size_t skew_page_bytes;  /* ... until it has gone so far; */
+    size_t skew_large_bytes; /* in large pages, so far */
+    uint64_t pool_bytes;     /* the most that are kept for arrays to come */
+    /* Work-items of kernels written by hand. */
+    int call_columns, call_processors; /* of each */
+    int send_shares;   /* that share out the destinations of a send; 0: one for each unit */
+    int scatter_units; /* with so many or fewer, sends go from senders, not from destinations */
+    int scan_run;      /* elements of a line for each; 0: as units have use for */
+    int fill_run;      /* ... where a scan is carried on */
+    int sort_chunk; /* elements of a line that are sorted together; 0: as units have use for */
+    /* The queue: kernels in it, and while better ones are built. */
+    int kernels_ahead, kernels_ahead_building;
+    /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
+    double move_ns, reduce_ns, rank_ns, send_ns, scan_ns, fill_ns;
+    /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of the search for a plan and its
+     * text, of a compiler for a kernel and for each operation in it; the part that a kernel takes of the interpreter's
+     * time; the least time of a plan of which many turns can be one kernel. */
+    double wait_ns, text_ns, compile_ns, compile_op_ns, kernel_part, turns_from_ns;
+    const char *from; /* where these numbers come from */
 };
 
 /* What is usual on a GPU, but for what the device tells. */
 struct device_shape shape_gpu(void);
+
+/* A cost in the terms of struct machine_tuning. */
+double shape_cost_ns(const struct device_shape *shape, enum machine_cost cost);
 
 #endif

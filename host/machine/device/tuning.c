@@ -3,13 +3,15 @@
  * Each device has a text file tuning-HASH in the folder of cache.c, with all of these lines in
  * this order. A file with another version number is ignored.
  *
- *     lutetia tuning 1
+ *     lutetia tuning 2
  *     platform Portable Computing Language
  *     device pthread-AMD EPYC
  *     driver 3.1
  *     vector 16
  *     run 4096
  *     ...                    each knob
+ *     op_fs 64000            what one costs, in femtoseconds; 0: not measured
+ *     ...                    each cost
  *     end
  *
  * The hash is of the platform's and the device's name only. So a file made with another
@@ -29,12 +31,34 @@
 #include "output_file.h"
 #include "visible_text.h"
 
-#define FIRST_LINE "lutetia tuning 1"
+#define FIRST_LINE "lutetia tuning 2"
+
+/* Costs are written in whole femtoseconds. */
+#define FS_IN_NS 1e6
+#define COST_FS_MOST UINT64_C(1000000000000000) /* a second */
 
 static const char *const names[MACHINE_KNOBS] = {
     [MACHINE_VECTOR] = "vector",   [MACHINE_RUN] = "run",
     [MACHINE_STREAMS] = "streams", [MACHINE_TURNS] = "turns",
     [MACHINE_COLUMNS] = "columns", [MACHINE_STRIPS_EACH] = "strips_each"};
+
+static const struct {
+    const char *name, *line;
+} costs[MACHINE_COSTS] = {[MACHINE_COST_OP] = {"operation", "op_fs"},
+                          [MACHINE_COST_BYTE] = {"byte", "byte_fs"},
+                          [MACHINE_COST_NEAR_BYTE] = {"near byte", "near_byte_fs"},
+                          [MACHINE_COST_LAUNCH] = {"launch", "launch_fs"}};
+
+const char *machine_cost_name(enum machine_cost cost)
+{
+    return costs[cost].name;
+}
+
+bool machine_cost_allows(enum machine_cost cost, double ns)
+{
+    (void)cost;
+    return ns >= 1 / FS_IN_NS && ns <= (double)COST_FS_MOST / FS_IN_NS;
+}
 
 const char *machine_knob_name(enum machine_knob knob)
 {
@@ -46,18 +70,23 @@ struct machine_tuning machine_tuning_usual(void)
     struct machine_tuning usual;
     for (int k = 0; k < MACHINE_KNOBS; k++)
         usual.of[k] = -1;
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        usual.cost_ns[i] = 0;
     return usual;
 }
 
 struct machine_tuning machine_tuning_get(const struct machine *m)
 {
     const struct device_shape *shape = &m->device->shape;
-    return (struct machine_tuning){{[MACHINE_VECTOR] = shape->vector,
-                                    [MACHINE_RUN] = shape->run_columns,
-                                    [MACHINE_STREAMS] = shape->streams,
-                                    [MACHINE_TURNS] = shape->turns,
-                                    [MACHINE_COLUMNS] = shape->strip_columns,
-                                    [MACHINE_STRIPS_EACH] = shape->strips_each}};
+    struct machine_tuning tuning = {.of = {[MACHINE_VECTOR] = shape->vector,
+                                           [MACHINE_RUN] = shape->run_columns,
+                                           [MACHINE_STREAMS] = shape->streams,
+                                           [MACHINE_TURNS] = shape->turns,
+                                           [MACHINE_COLUMNS] = shape->strip_columns,
+                                           [MACHINE_STRIPS_EACH] = shape->strips_each}};
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        tuning.cost_ns[i] = shape_cost_ns(shape, (enum machine_cost)i);
+    return tuning;
 }
 
 /* ---- the text ---- */
@@ -152,6 +181,15 @@ bool tuning_parse(const char *bytes, size_t length, const struct device *d,
                          settings_knob_may_be((enum machine_knob)k), text);
         found.of[k] = (int)value;
     }
+    for (int i = 0; i < MACHINE_COSTS; i++) {
+        uint64_t fs;
+        if (!named_read(&r, costs[i].line, line, sizeof line, &text))
+            return false;
+        if (!settings_number(text, &fs) || fs > COST_FS_MOST)
+            return wrong(&r, "%s must be a number from 0 to 10^15 (is \"%.20s\")",
+                         costs[i].line, text);
+        found.cost_ns[i] = (double)fs / FS_IN_NS;
+    }
     if (!line_read(&r, line, sizeof line))
         return false;
     if (strcmp(line, "end") != 0 || r.at != r.end)
@@ -211,6 +249,9 @@ void tuning_apply(struct machine *m, const struct machine_config *config)
         if (m->settings.knob[k] == SETTING_FREE &&
             machine_knob_allows((enum machine_knob)k, tuning.of[k]))
             m->settings.knob[k] = (uint64_t)tuning.of[k];
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        if (machine_cost_allows((enum machine_cost)i, tuning.cost_ns[i]))
+            m->settings.cost_ns[i] = tuning.cost_ns[i];
 }
 
 enum machine_tuned machine_tuning_describe(const struct machine *m, char *out, size_t size)
@@ -235,6 +276,8 @@ static void file_write(FILE *f, const struct device *d, const struct machine_tun
             d->driver);
     for (int k = 0; k < MACHINE_KNOBS; k++)
         fprintf(f, "%s %d\n", names[k], tuning->of[k]);
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        fprintf(f, "%s %.0f\n", costs[i].line, tuning->cost_ns[i] * FS_IN_NS);
     fputs("end\n", f);
 }
 
@@ -247,6 +290,13 @@ enum machine_status machine_tuning_keep(struct machine *m, const struct machine_
         if (!machine_knob_allows((enum machine_knob)k, tuning->of[k]))
             return machine_fail(m, MACHINE_BAD_ARGUMENT, "%s must be %s (is %d)", names[k],
                                 settings_knob_may_be((enum machine_knob)k), tuning->of[k]);
+    for (int i = 0; i < MACHINE_COSTS; i++)
+        if (tuning->cost_ns[i] < 0 ||
+            (tuning->cost_ns[i] > 0 &&
+             !machine_cost_allows((enum machine_cost)i, tuning->cost_ns[i])))
+            return machine_fail(m, MACHINE_BAD_ARGUMENT,
+                                "%s must be 0, or from 10^-6 to 10^9 ns (is %g)", costs[i].name,
+                                tuning->cost_ns[i]);
     if (!machine_cache_folder(folder, &why) || why || !file_path(path, sizeof path, m->device))
         return machine_fail(
             m, MACHINE_BAD_ARGUMENT,

@@ -292,21 +292,19 @@ static void part_sum(void *of, int part, int worker)
         g->sums[i] = run_sum(g, i);
 }
 
-/* Seconds for a number. */
-static const double sum_s = 0.1e-9;
-
 bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
                size_t run, struct machine_scalar *sums)
 {
     if (!m->device->is_pocl || !what->numbers->host ||
         (what->context && !what->context->host) || device_settle_for(m, "reducing"))
         return false;
-    struct summing g = {.set = s,
-                        .what = what,
-                        .run = run,
-                        .runs = ((size_t)s->width + run - 1) / run,
-                        .sums = sums,
-                        .parts = device_parts(m, sum_s * (double)s->count)};
+    struct summing g = {
+        .set = s,
+        .what = what,
+        .run = run,
+        .runs = ((size_t)s->width + run - 1) / run,
+        .sums = sums,
+        .parts = device_parts(m, 1e-9 * m->device->shape.reduce_ns * (double)s->count)};
     crew_run(m->device->crew, g.parts, part_sum, &g);
     return true;
 }

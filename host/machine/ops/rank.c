@@ -17,7 +17,7 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
-enum { WORDS_MAX = 6, CHUNK_GPU = 2048, LONG = 1 << 15, SHORT = 64 };
+enum { WORDS_MAX = 6, LONG = 1 << 15, SHORT = 64 };
 
 enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
 
@@ -114,11 +114,11 @@ struct sort {
 static struct sort sort_of(const struct machine *m, const struct vpset *s, int axis)
 {
     struct sort t = {.lines = lines_of(s, axis, false), .set = s, .chunks = 1};
-    int length = t.lines.length;
+    int length = t.lines.length, chunk = m->device->shape.sort_chunk;
     t.digit = length <= SHORT ? 4 : length < LONG || !m->device->is_cpu ? 8 : 11;
     t.chunk = length;
-    if (!m->device->is_cpu && length > CHUNK_GPU) {
-        t.chunk = CHUNK_GPU;
+    if (chunk && length > chunk) {
+        t.chunk = chunk;
     } else if (m->device->is_cpu && length >= LONG) {
         int wanted = 2 * m->device->units;
         t.chunk = (length - 1) / wanted + 1;
@@ -214,9 +214,6 @@ static struct device_buffer *ranks_far(struct machine *m, const struct vpset *s,
 /* A line that is longer is sorted in chunks by the device's units: the front end has a thread for each line only. */
 enum { NEAR_LINE_MOST = 1 << 17 };
 
-/* Seconds for a processor and word of its key on the front end's thread. */
-static const double rank_word_s = 8e-9;
-
 /* By the front end; else by the device. NULL: error set. */
 static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, int axis,
                                       const struct words *w)
@@ -224,7 +221,7 @@ static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, 
     const struct lines l = lines_of(s, axis, false);
     struct near_word words[WORDS_MAX];
     bool is_long = l.length > NEAR_LINE_MOST && m->settings.near < 2;
-    double start, seconds = rank_word_s * (double)s->count * w->count;
+    double start, seconds = 1e-9 * m->device->shape.rank_ns * (double)s->count * w->count;
     struct device_buffer *ranks = device_rows_get(m, geometry_rows(s, MACHINE_UINT(32)));
     for (int i = 0; i < w->count; i++)
         words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};

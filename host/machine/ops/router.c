@@ -28,7 +28,7 @@
 #include "values/graph.h"
 #include "values/make.h"
 
-enum { GPU_SHARES = 4096, SCATTER_UNITS = 8, NO_PROCESSOR = -2 };
+enum { NO_PROCESSOR = -2 };
 
 struct message {
     const struct vpset *from, *to;
@@ -187,7 +187,8 @@ static enum machine_status deliver(struct machine *m, const struct message *g,
 /* The number of work-items that share out the destinations. */
 static size_t shares(const struct machine *m, const struct vpset *to)
 {
-    size_t count = m->device->is_cpu ? (size_t)m->device->units : GPU_SHARES;
+    size_t count = (size_t)(m->device->shape.send_shares ? m->device->shape.send_shares
+                                                         : m->device->units);
     return count < to->count ? count : (size_t)to->count;
 }
 
@@ -195,7 +196,7 @@ static bool scatters(const struct machine *m)
 {
     if (m->settings.scatter != SETTING_FREE)
         return m->settings.scatter;
-    return m->device->is_cpu && m->device->units <= SCATTER_UNITS;
+    return m->device->units <= m->device->shape.scatter_units;
 }
 
 /* out already contains the old dest. */
@@ -286,13 +287,10 @@ static struct machine_value *arrivals(struct machine *m, const struct message *g
     return graph_buffer_node(m, MACHINE_BIT, g->to_set, b);
 }
 
-/* Seconds for each sender on the front end's thread, without waits for memory. */
-static const double hop_s = 1.2e-9;
-
 /* shares: each part passes all senders. */
 static struct near_route route_of(const struct machine *m, const struct message *g, bool shares)
 {
-    int parts = device_parts(m, hop_s * (double)g->from->count),
+    int parts = device_parts(m, 1e-9 * m->device->shape.send_ns * (double)g->from->count),
         size = crew_size(m->device->crew);
     return (struct near_route){.from = g->from,
                                .to = g->to,

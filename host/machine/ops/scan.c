@@ -23,7 +23,7 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
-enum { RUN_FLOATS = 512, RUN_GPU = 256, RUN_LEAST = 65536, LANES = 16 };
+enum { RUN_FLOATS = 512, RUN_LEAST = 65536, LANES = 16 };
 
 enum { JOINS, FINISHES, FILLS };
 
@@ -96,8 +96,8 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
 {
     if (e->kind == 1)
         return RUN_FLOATS;
-    if (!m->device->is_cpu)
-        return RUN_GPU;
+    if (m->device->shape.scan_run)
+        return m->device->shape.scan_run;
     int runs = 4 * m->device->units, run = (l->length - 1) / runs + 1;
     return run < RUN_LEAST ? RUN_LEAST : run;
 }
@@ -156,9 +156,6 @@ static enum machine_status scan_stage(struct machine *m, const struct lines *l,
     return call_start_3d(&c, m, (size_t)runs, rows_of(l, lanes), l->outer, "scanning");
 }
 
-/* Seconds for each element that the front end scans or fills. */
-static const double scan_element_s = 0.6e-9, fill_element_s = 0.2e-9;
-
 static double elements_of(const struct lines *l)
 {
     return (double)lines_count(l) * (double)l->length;
@@ -171,7 +168,7 @@ static enum machine_status scan_lines(struct machine *m, const struct lines *l,
     int run = run_of(m, l, e), runs = (l->length - 1) / run + 1;
     double start;
     if (near_begin(m, j->out, &start)) {
-        int parts = device_parts(m, scan_element_s * elements_of(l));
+        int parts = device_parts(m, 1e-9 * m->device->shape.scan_ns * elements_of(l));
         near_lines_scan(m->device->crew, parts, l, j, run);
         near_end(m, "scanning", start);
         return MACHINE_OK;
@@ -228,13 +225,13 @@ static enum machine_status fill_lines(struct machine *m, const struct lines *l,
                                                            : UINT128];
     double start;
     if (near_begin(m, out, &start)) {
-        int parts = device_parts(m, fill_element_s * elements_of(l));
+        int parts = device_parts(m, 1e-9 * m->device->shape.fill_ns * elements_of(l));
         near_lines_fill(m->device->crew, parts, l, e->bytes, from, origin, out);
         near_end(m, "scanning", start);
         return MACHINE_OK;
     }
     struct line_scan j = {.element = same, .out = out, .sums = from};
-    int run = m->device->is_cpu ? 1 << 16 : RUN_GPU, runs = (l->length - 1) / run + 1;
+    int run = m->device->shape.fill_run, runs = (l->length - 1) / run + 1;
     return scan_stage(m, l, &j, FILLS, run, runs, origin, NULL, NULL);
 }
 
