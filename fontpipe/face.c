@@ -17,6 +17,7 @@
 #include FT_FONT_FORMATS_H
 #include FT_MULTIPLE_MASTERS_H
 #include FT_OUTLINE_H
+#include FT_TRUETYPE_TABLES_H
 
 #include <fontconfig/fcfreetype.h> /* after both */
 
@@ -68,9 +69,24 @@ static enum font_status axes_read(struct font_face *face)
     return FONT_OK;
 }
 
+struct FT_FaceRec_ *font_face_freetype(struct font_face *face)
+{
+    return face->ft;
+}
+
+/* Of pictures in colours alone. FreeType leaves such a face's em out. */
+static bool has_pictures(FT_Face ft)
+{
+    const TT_Header *head = FT_Get_Sfnt_Table(ft, FT_SFNT_HEAD);
+    if (!FT_HAS_COLOR(ft) || ft->num_fixed_sizes < 1 || !head)
+        return false;
+    ft->units_per_EM = head->Units_Per_EM;
+    return true;
+}
+
 /* Takes path and bytes. */
 static enum font_status face_begin(char *path, unsigned char *bytes, size_t count, int index,
-                                   struct font_face **out)
+                                   bool pictures, struct font_face **out)
 {
     struct font_face *face = calloc(1, sizeof *face);
     *out = NULL;
@@ -92,7 +108,8 @@ static enum font_status face_begin(char *path, unsigned char *bytes, size_t coun
         status = font_fail(FONT_BAD_ARGUMENT, "%s has no face %d", path, index);
     } else if (error) {
         status = face_fail(face, "not a font that can be read", error);
-    } else if (!FT_IS_SCALABLE(face->ft) || face->ft->units_per_EM == 0) {
+    } else if (!(FT_IS_SCALABLE(face->ft) || (pictures && has_pictures(face->ft))) ||
+               face->ft->units_per_EM == 0) {
         status = font_fail(FONT_BAD_FILE, "%s has no outlines, only bitmaps", path);
     } else {
         status = axes_read(face);
@@ -113,93 +130,10 @@ enum font_status font_face_open_memory(const void *bytes, size_t count, int inde
     unsigned char *copy = malloc(count);
     if (copy)
         memcpy(copy, bytes, count);
-    return face_begin(strdup("font in memory"), copy, count, index, out);
+    return face_begin(strdup("font in memory"), copy, count, index, false, out);
 }
 
-/* ---- finding ---- */
-
-/* Of files of one name OpenType comes first, then Type 1, then what is left: bitmaps, compressed ones. */
-static int ending_rank(const char *path)
-{
-    static const char *const endings[] = {".otf", ".ttf", ".otc", ".ttc",
-                                          ".t1",  ".pfb", ".pfa"};
-    enum { COUNT = sizeof endings / sizeof *endings, OPENTYPE = 4 };
-    const char *ending = strrchr(path, '.');
-    for (int i = 0; ending && i < COUNT; i++)
-        if (strcasecmp(ending, endings[i]) == 0)
-            return i < OPENTYPE ? 0 : 1;
-    return 2;
-}
-
-static bool comes_first(const char *path, const char *other)
-{
-    int rank = ending_rank(path), others = ending_rank(other);
-    return rank != others ? rank < others : strcmp(path, other) < 0;
-}
-
-/* A file called so, or a family that fontconfig has: the path, or NULL. */
-static char *by_fontconfig(const char *name, int *index)
-{
-    char *path = NULL;
-    FcPattern *pattern = NULL, *match = NULL;
-    FcFontSet *all = NULL;
-    FcObjectSet *objects = NULL;
-    FcResult result;
-    if (!FcInit())
-        return NULL;
-    /* By the file's name, so that a file is always found by it. Of several the first in order. */
-    objects = FcObjectSetBuild(FC_FILE, (char *)NULL);
-    pattern = FcPatternCreate();
-    all = objects && pattern ? FcFontList(NULL, pattern, objects) : NULL;
-    size_t length = strlen(name);
-    for (int i = 0; all && i < all->nfont; i++) {
-        FcChar8 *file;
-        if (FcPatternGetString(all->fonts[i], FC_FILE, 0, &file) != FcResultMatch)
-            continue;
-        const char *base = strrchr((char *)file, '/');
-        base = base ? base + 1 : (char *)file;
-        if (strncasecmp(base, name, length) != 0 || (base[length] && base[length] != '.'))
-            continue;
-        if (!path || comes_first((char *)file, path)) {
-            free(path);
-            path = strdup((char *)file);
-        }
-    }
-    if (pattern)
-        FcPatternDestroy(pattern);
-    pattern = NULL;
-    if (!path && (pattern = FcNameParse((const FcChar8 *)name))) {
-        FcChar8 *wanted, *got, *file;
-        FcConfigSubstitute(NULL, pattern, FcMatchPattern);
-        FcDefaultSubstitute(pattern);
-        FcPattern *asked = FcNameParse((const FcChar8 *)name);
-        match = FcFontMatch(NULL, pattern, &result);
-        /* fontconfig always has an answer: it must be of the family asked for. */
-        bool same = false;
-        for (int i = 0; match && asked &&
-                        FcPatternGetString(asked, FC_FAMILY, 0, &wanted) == FcResultMatch &&
-                        FcPatternGetString(match, FC_FAMILY, i, &got) == FcResultMatch;
-             i++)
-            same = same || FcStrCmpIgnoreCase(wanted, got) == 0;
-        if (same && FcPatternGetString(match, FC_FILE, 0, &file) == FcResultMatch) {
-            path = strdup((char *)file);
-            int found = 0;
-            if (*index == 0 && FcPatternGetInteger(match, FC_INDEX, 0, &found) == FcResultMatch)
-                *index = found & 0xffff;
-        }
-        if (asked)
-            FcPatternDestroy(asked);
-    }
-    if (match)
-        FcPatternDestroy(match);
-    if (pattern)
-        FcPatternDestroy(pattern);
-    if (all)
-        FcFontSetDestroy(all);
-    if (objects)
-        FcObjectSetDestroy(objects);
-    return path;
-}
+/* ---- opening ---- */
 
 static enum font_status file_read(const char *path, unsigned char **bytes, size_t *count)
 {
@@ -229,30 +163,8 @@ static enum font_status file_read(const char *path, unsigned char **bytes, size_
     return status;
 }
 
-char *font_face_find(const char *name, int *index)
-{
-    struct stat about;
-    int own = 0;
-    if (!name || !*name)
-        return NULL;
-    if (strchr(name, '/') || (stat(name, &about) == 0 && S_ISREG(about.st_mode)))
-        return strdup(name);
-    return by_fontconfig(name, index ? index : &own);
-}
-
-const char *font_face_first(const char *const *names)
-{
-    for (int i = 0; names[i]; i++) {
-        char *path = font_face_find(names[i], NULL);
-        bool found = path != NULL;
-        free(path);
-        if (found)
-            return names[i];
-    }
-    return names[0];
-}
-
-enum font_status font_face_open(const char *name, int index, struct font_face **out)
+static enum font_status face_open(const char *name, int index, bool pictures,
+                                  struct font_face **out)
 {
     *out = NULL;
     if (!name || !*name)
@@ -269,7 +181,17 @@ enum font_status font_face_open(const char *name, int index, struct font_face **
         free(path);
         return status;
     }
-    return face_begin(path, bytes, count, index, out);
+    return face_begin(path, bytes, count, index, pictures, out);
+}
+
+enum font_status font_face_open(const char *name, int index, struct font_face **out)
+{
+    return face_open(name, index, false, out);
+}
+
+enum font_status font_face_open_coloured(const char *name, int index, struct font_face **out)
+{
+    return face_open(name, index, true, out);
 }
 
 void font_face_close(struct font_face *face)

@@ -24,6 +24,8 @@ struct font_face;
  * fontconfig knows it ("DejaVu Sans:bold"). index: of the face in a collection, 0 otherwise.
  * Errors: BAD_FILE, NO_MEMORY, BAD_ARGUMENT for an index the file has not. */
 enum font_status font_face_open(const char *name, int index, struct font_face **out);
+/* Also such as have nothing but pictures in colours (colour.h): their glyphs have no outlines. */
+enum font_status font_face_open_coloured(const char *name, int index, struct font_face **out);
 /* The file of such a name, or NULL; index (may be NULL) becomes a family's in a collection if it is 0. Owns: the caller
  * frees it. */
 char *font_face_find(const char *name, int *index);

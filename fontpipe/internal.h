@@ -19,6 +19,11 @@ extern _Thread_local struct error_text font_last_error;
 /* Of the bytes of a key. */
 uint32_t font_hash(const void *key, size_t bytes_count);
 
+/* face.c: FreeType's. */
+struct font_face;
+struct FT_FaceRec_;
+struct FT_FaceRec_ *font_face_freetype(struct font_face *face);
+
 /* outline.c: of a prepared outline. */
 struct font_outline;
 enum font_status font_outline_polynomials(struct font_outline *o);

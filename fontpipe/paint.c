@@ -91,6 +91,7 @@ static void entry_free(struct font_painter *p, struct entry *e)
     p->stats.kept_count--;
     font_edges_finish(&e->edges);
     font_gray_finish(&e->gray);
+    free(e->picture.bgra);
     free(e);
 }
 
@@ -340,6 +341,102 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
                              : status;
 }
 
+/* A glyph's own picture, kept or read. */
+static enum font_status picture_get(struct font_painter *p, const struct font_placed *g,
+                                    const struct font_colour_picture **out)
+{
+    struct key key;
+    memset(&key, 0, sizeof key);
+    key.version = font_face_version(g->face);
+    key.glyph = g->glyph;
+    key.place_x = key.place_y = -2;
+    struct entry *e = entry_find(p, &key);
+    if (!e) {
+        struct font_colour_picture picture;
+        enum font_status status = font_colour_picture_get(g->face, g->glyph, &picture);
+        if (status != FONT_OK)
+            return status;
+        e = entry_make(p, &key);
+        if (!e) {
+            free(picture.bgra);
+            return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
+        }
+        e->picture = picture;
+        entry_weigh(p, e, sizeof *e + 4 * (size_t)picture.width_px * (size_t)picture.height_px);
+    }
+    *out = &e->picture;
+    return FONT_OK;
+}
+
+/* A glyph's picture where it goes; with `box` (may be NULL) only the box around it, untouched if there is none. */
+static enum font_status picture_draw(struct font_painter *p, const struct font_layout *layout,
+                                     int i, const struct font_map *map, double x_px,
+                                     double y_px, const struct font_ink *ink,
+                                     struct font_picture *to, struct font_box *box)
+{
+    const struct font_placed *g = &layout->glyphs[i];
+    const struct font_colour_picture *from = NULL;
+    struct font_map pixels;
+    double x, y, size_px = font_placed_size(layout, g);
+    enum font_status status = picture_get(p, g, &from);
+    if (status == FONT_OK && from->bgra)
+        status = font_placed_map(layout, i, map, x_px, y_px, &pixels, &x, &y);
+    if (status != FONT_OK || !from->bgra)
+        return status;
+    if (box)
+        font_blend_picture_box(from, &pixels, size_px, x, y, box);
+    else
+        font_blend_picture(p, from, &pixels, size_px, x, y,
+                           ink->kind == FONT_INK_PLAIN ? ink->rgba[3] : 1, to);
+    return FONT_OK;
+}
+
+/* Glyph i as its outline, in an ink. */
+static enum font_status outline_draw(struct font_painter *p, const struct font_layout *layout,
+                                     int i, const struct font_map *map, double x_px,
+                                     double y_px, const struct font_ink *ink,
+                                     struct font_picture *picture)
+{
+    struct font_map whole;
+    double x, y;
+    enum font_status status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
+    for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
+        const struct font_gray *gray;
+        int whole_x, whole_y;
+        double shift =
+            p->def.stripes ? (1 - c) / 3.0 : 0; /* red is left: the glyph is right of it */
+        status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray, &whole_x,
+                            &whole_y);
+        if (status == FONT_OK)
+            font_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, x_px, y_px,
+                       picture);
+    }
+    return status;
+}
+
+/* Its layers, the first below all, each a glyph in a colour of its own or in the ink. */
+static enum font_status layers_draw(struct font_painter *p, const struct font_layout *layout,
+                                    int i, const struct font_map *map, double x_px, double y_px,
+                                    const struct font_ink *ink, struct font_picture *picture)
+{
+    struct font_colour_layer layers[FONT_COLOUR_LAYERS_MAX];
+    struct font_placed one = layout->glyphs[i];
+    struct font_layout alone = *layout;
+    enum font_status status = FONT_OK;
+    int count = font_colour_layers(one.face, one.glyph, layers);
+    alone.glyphs = &one;
+    alone.glyphs_count = 1;
+    for (int k = 0; k < count && status == FONT_OK; k++) {
+        const double *c = layers[k].rgba;
+        double left = ink->kind == FONT_INK_PLAIN ? ink->rgba[3] : 1;
+        struct font_ink own = font_ink_plain(c[0], c[1], c[2], c[3] * left);
+        one.glyph = layers[k].glyph;
+        status =
+            outline_draw(p, &alone, 0, map, x_px, y_px, layers[k].own ? &own : ink, picture);
+    }
+    return status;
+}
+
 enum font_status font_painter_layout(struct font_painter *p, const struct font_layout *layout,
                                      const struct font_map *map, double x_px, double y_px,
                                      struct font_picture *picture)
@@ -347,21 +444,18 @@ enum font_status font_painter_layout(struct font_painter *p, const struct font_l
     struct font_ink own = font_ink_plain(p->def.ink[0], p->def.ink[1], p->def.ink[2], 1);
     enum font_status status = FONT_OK;
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
-        struct font_map whole;
-        double x, y;
-        int number = layout->glyphs[i].ink;
-        const struct font_ink *ink = number > 0 ? &layout->inks[number - 1] : &own;
-        status = glyph_place(layout, i, map, x_px, y_px, &whole, &x, &y);
-        for (int c = 0; c < (p->def.stripes ? 3 : 1) && status == FONT_OK; c++) {
-            const struct font_gray *gray;
-            int whole_x, whole_y;
-            double shift =
-                p->def.stripes ? (1 - c) / 3.0 : 0; /* red is left: the glyph is right of it */
-            status = glyph_draw(p, layout, i, &whole, x + shift, y, &p->scratch[c], &gray,
-                                &whole_x, &whole_y);
-            if (status == FONT_OK)
-                font_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, x_px, y_px,
-                           picture);
+        const struct font_placed *g = &layout->glyphs[i];
+        const struct font_ink *ink = g->ink > 0 ? &layout->inks[g->ink - 1] : &own;
+        switch (font_colour_of(g->face, g->glyph)) {
+        case FONT_COLOUR_PICTURE:
+            status = picture_draw(p, layout, i, map, x_px, y_px, ink, picture, NULL);
+            break;
+        case FONT_COLOUR_LAYERS:
+            status = layers_draw(p, layout, i, map, x_px, y_px, ink, picture);
+            break;
+        case FONT_COLOUR_NONE:
+            status = outline_draw(p, layout, i, map, x_px, y_px, ink, picture);
+            break;
         }
     }
     return status;
@@ -414,37 +508,79 @@ enum font_status font_painter_glyph(struct font_painter *p, struct font_face *fa
     return status;
 }
 
+static void box_add(struct font_box *box, const struct font_box *more)
+{
+    bool first = box->x1 < box->x0;
+    box->x0 = first ? more->x0 : fmin(box->x0, more->x0);
+    box->y0 = first ? more->y0 : fmin(box->y0, more->y0);
+    box->x1 = first ? more->x1 : fmax(box->x1, more->x1);
+    box->y1 = first ? more->y1 : fmax(box->y1, more->y1);
+}
+
+/* The box around glyph i's outline; untouched if it has no ink. */
+static enum font_status outline_measure(struct font_painter *p,
+                                        const struct font_layout *layout, int i,
+                                        const struct font_map *map, double x_px, double y_px,
+                                        struct font_box *box)
+{
+    const struct font_placed *g = &layout->glyphs[i];
+    struct font_map whole;
+    struct font_edges *edges;
+    struct font_gray place;
+    struct key key;
+    double x, y;
+    enum font_status status = placed_map(layout, i, map, x_px, y_px, &whole, &x, &y);
+    if (status == FONT_OK)
+        status =
+            edges_get(p, g->face, g->glyph, &whole, font_placed_size(layout, g), &key, &edges);
+    if (status == FONT_OK)
+        status = font_gray_place(&place, edges, p->filter, x - floor(x), y - floor(y));
+    if (status != FONT_OK || !place.width_px)
+        return status;
+    double x0 = floor(x) + place.left_px, y0 = floor(y) + place.top_px;
+    *box = (struct font_box){x0, y0, x0 + place.width_px, y0 + place.height_px};
+    return FONT_OK;
+}
+
+static enum font_status layers_measure(struct font_painter *p, const struct font_layout *layout,
+                                       int i, const struct font_map *map, double x_px,
+                                       double y_px, struct font_box *box)
+{
+    struct font_colour_layer layers[FONT_COLOUR_LAYERS_MAX];
+    struct font_placed one = layout->glyphs[i];
+    struct font_layout alone = *layout;
+    enum font_status status = FONT_OK;
+    int count = font_colour_layers(one.face, one.glyph, layers);
+    alone.glyphs = &one;
+    alone.glyphs_count = 1;
+    for (int k = 0; k < count && status == FONT_OK; k++) {
+        struct font_box more = {1, 1, -1, -1};
+        one.glyph = layers[k].glyph;
+        status = outline_measure(p, &alone, 0, map, x_px, y_px, &more);
+        if (more.x0 <= more.x1)
+            box_add(box, &more);
+    }
+    return status;
+}
+
 enum font_status font_painter_measure(struct font_painter *p, const struct font_layout *layout,
                                       const struct font_map *map, double x_px, double y_px,
                                       struct font_box *box)
 {
     *box = (struct font_box){1, 1, -1, -1};
     enum font_status status = FONT_OK;
-    bool first = true;
     for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
         const struct font_placed *g = &layout->glyphs[i];
-        struct font_map whole;
-        struct font_edges *edges;
-        struct font_gray place;
-        struct key key;
-        double x, y;
-        status = placed_map(layout, i, map, x_px, y_px, &whole, &x, &y);
-        if (status == FONT_OK)
-            status = edges_get(p, g->face, g->glyph, &whole, font_placed_size(layout, g), &key,
-                               &edges);
-        if (status != FONT_OK)
-            break;
-        double fx = x - floor(x), fy = y - floor(y);
-        status = font_gray_place(&place, edges, p->filter, fx, fy);
-        if (status != FONT_OK || !place.width_px)
-            continue;
-        double x0 = floor(x) + place.left_px, y0 = floor(y) + place.top_px;
-        double x1 = x0 + place.width_px, y1 = y0 + place.height_px;
-        box->x0 = first ? x0 : fmin(box->x0, x0);
-        box->y0 = first ? y0 : fmin(box->y0, y0);
-        box->x1 = first ? x1 : fmax(box->x1, x1);
-        box->y1 = first ? y1 : fmax(box->y1, y1);
-        first = false;
+        struct font_box more = {1, 1, -1, -1};
+        enum font_colour colour = font_colour_of(g->face, g->glyph);
+        if (colour == FONT_COLOUR_PICTURE)
+            status = picture_draw(p, layout, i, map, x_px, y_px, NULL, NULL, &more);
+        else if (colour == FONT_COLOUR_LAYERS)
+            status = layers_measure(p, layout, i, map, x_px, y_px, &more);
+        else
+            status = outline_measure(p, layout, i, map, x_px, y_px, &more);
+        if (more.x0 <= more.x1)
+            box_add(box, &more);
     }
     return status;
 }

@@ -2,6 +2,7 @@
 #ifndef LUTETIA_FONT_PAINT_INTERNAL_H
 #define LUTETIA_FONT_PAINT_INTERNAL_H
 
+#include "colour.h"
 #include "internal.h"
 #include "paint.h"
 
@@ -13,13 +14,14 @@ struct key {
     double map[FONT_MAP_NUMBERS];
     uint32_t glyph;
     int32_t kind;
-    int32_t place_x, place_y; /* of a picture; -1 for edges */
+    int32_t place_x, place_y; /* of a gray picture; -1 for edges; -2 for one in colours */
 };
 
 struct entry {
     struct key key;
     struct font_edges edges; /* or: */
     struct font_gray gray;
+    struct font_colour_picture picture;
     size_t bytes;
     struct entry *next;          /* of the bucket */
     struct entry *newer, *older; /* in order of use */
@@ -45,6 +47,13 @@ struct font_painter {
 void font_blend(struct font_painter *p, const struct font_gray *gray, int x, int y, int channel,
                 const struct font_ink *ink, double ink_x, double ink_y,
                 struct font_picture *to);
+/* A glyph's own picture, of which `cover` is left, through a map that takes pixels around its origin to pixels around (x, y). */
+void font_blend_picture(const struct font_painter *p, const struct font_colour_picture *from,
+                        const struct font_map *map, double size_px, double x, double y,
+                        double cover, struct font_picture *to);
+/* The box around it. False: a point has no place. */
+bool font_blend_picture_box(const struct font_colour_picture *from, const struct font_map *map,
+                            double size_px, double x, double y, struct font_box *box);
 /* The same onto what is covered so far. */
 void font_blend_cover(const struct font_gray *gray, int x, int y, struct font_cover *to);
 

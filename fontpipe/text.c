@@ -174,6 +174,11 @@ enum font_status font_shaper_create(struct font_face *face, struct font_shaper *
     return FONT_OK;
 }
 
+void font_shaper_colour(struct font_shaper *s)
+{
+    s->colour = true;
+}
+
 void font_shaper_destroy(struct font_shaper *s)
 {
     if (!s)
@@ -230,7 +235,8 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
         return -1;
     FcPatternGetInteger(font, FC_INDEX, 0, &index);
     struct font_face *face;
-    if (font_face_open((const char *)file, index & 0xffff, &face) != FONT_OK)
+    if ((s->colour ? font_face_open_coloured
+                   : font_face_open)((const char *)file, index & 0xffff, &face) != FONT_OK)
         return -1;
     if (!font_face_glyph(face, character)) {
         font_face_close(face);

@@ -28,6 +28,7 @@ struct font_known {
 struct font_shaper {
     struct font_shaped_face faces[FONT_FACES_MAX];
     int faces_count;
+    bool colour; /* faces of pictures are welcome */
     hb_buffer_t *buffer;
     struct font_known known[FONT_KNOWN];
     FcFontSet *candidates; /* fontconfig's, best first; NULL until the first is needed */

@@ -30,6 +30,8 @@
 struct page_text;
 enum font_status page_text_create(struct page_text **out);
 void page_text_destroy(struct page_text *text); /* NULL is fine */
+/* As font_shaper_colour(), of all faces of styles that are made from now on. */
+void page_text_colour(struct page_text *text);
 
 /* ---- how letters look ---- */
 

@@ -149,6 +149,7 @@ struct page_text {
     int styles_count, styles_capacity;
     struct shared_face *faces; /* of styles, each once */
     int faces_count, faces_capacity;
+    bool colour;
     struct flow flows[FLOWS_MAX];
     struct paragraph **by_id;
     int ids_count, ids_capacity;

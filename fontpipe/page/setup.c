@@ -375,6 +375,8 @@ enum font_status page_setup_make(const struct page_setup *setup, const char *utf
         return font_fail(FONT_TOO_LARGE, "a text is at most %d bytes (got %zu)", BYTES_MAX,
                          bytes);
     enum font_status status = page_text_create(&m.text);
+    if (status == FONT_OK && setup->colour)
+        page_text_colour(m.text);
     if (status == FONT_OK)
         status = styles_make(&m);
     if (status == FONT_OK)

@@ -28,6 +28,7 @@ struct page_setup {
     double protrude, expand, tolerance;
     const struct page_shape *shapes; /* in the page's pixels */
     int shapes_count;
+    bool colour; /* as page_text_colour() */
     bool inked;
     struct font_ink ink;
 };

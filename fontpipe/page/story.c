@@ -22,6 +22,11 @@ enum font_status page_text_create(struct page_text **out)
     return FONT_OK;
 }
 
+void page_text_colour(struct page_text *t)
+{
+    t->colour = true;
+}
+
 static void paragraph_free(struct paragraph *p)
 {
     if (!p)
@@ -117,6 +122,8 @@ static enum font_status face_share(struct page_text *t, const struct page_style 
         status = font_face_axes_set(s->face, look->axes);
     if (status == FONT_OK)
         status = font_shaper_create(s->face, &s->shaper);
+    if (status == FONT_OK && t->colour)
+        font_shaper_colour(s->shaper);
     s->name = strdup(name);
     if (status == FONT_OK && !s->name)
         status = no_memory();
