@@ -135,13 +135,27 @@ bool event_log_split(struct event_log *log, int at, int steps)
     return true;
 }
 
+void event_log_remove(struct event_log *log, int at, int count)
+{
+    for (int i = at; i < at + count; i++) {
+        log->bytes -= record_bytes(&log->records[i]);
+        event_record_free(&log->records[i]);
+    }
+    log->count -= count;
+    memmove(log->records + at, log->records + at + count,
+            (size_t)(log->count - at) * sizeof *log->records);
+}
+
 void event_log_cut(struct event_log *log, int count)
 {
-    while (log->count > count) {
-        struct event_record *record = &log->records[--log->count];
-        log->bytes -= record_bytes(record);
-        event_record_free(record);
-    }
+    if (log->count > count)
+        event_log_remove(log, count, log->count - count);
+}
+
+void event_log_join(struct event_log *log, int at)
+{
+    log->records[at - 1].steps += log->records[at].steps;
+    event_log_remove(log, at, 1);
 }
 
 bool event_log_take_away(struct event_log *log, int count, struct event_record **out,

@@ -45,8 +45,12 @@ bool event_log_append(struct event_log *log, struct event_record record);
 /* Splits a record: the first part takes `steps`, the second the rest. Only the arguments of
  * kinds without any may be split so: the second part has none. False: no memory. */
 bool event_log_split(struct event_log *log, int at, int steps);
+/* Undoes a split: records at - 1 and at, the second of which has no arguments, are one again. */
+void event_log_join(struct event_log *log, int at);
 /* Removes the records from `count` on. */
 void event_log_cut(struct event_log *log, int count);
+/* Removes `count` records from `at` on; those behind them move up. */
+void event_log_remove(struct event_log *log, int at, int count);
 /* Moves the records from `count` on out of the log into an array; log->bytes still counts
  * them. False: no memory; nothing is moved. Owns: the caller gives the array to
  * event_log_put_back(). */

@@ -145,8 +145,9 @@ bool film_step(struct film *film, int paper, struct paper_sheet *sheet)
     if (!rgb)
         return film_fail(film, "no memory for a frame");
     bool done = true;
-    if (paper_sheet_view(sheet, &(struct paper_sheet_view){.show = film->show, .high = 1},
-                         rgb) != PAPER_OK)
+    struct paper_sheet_view view = paper_sheet_view_default(config);
+    view.show = film->show;
+    if (paper_sheet_view(sheet, &view, rgb) != PAPER_OK)
         done = film_fail(film, paper_error());
     if (done && film->video)
         done = video_step(film, config, rgb);

@@ -52,11 +52,18 @@ struct paper_moment {
 bool paper_history_moment(const struct paper_sheet *sheet, int number,
                           struct paper_moment *out);
 
+/* What operation `number` put: amounts as in paper_sheet_put(), and where: x, y, width, height (all of the sheet if there was
+ * no screen). *puts false: it put no amounts. Errors: BAD_FILE, NO_MEMORY. */
+enum paper_status paper_history_moment_put(const struct paper_sheet *sheet, int number,
+                                           double amount[1 + PAPER_PIGMENTS_MAX], int box[4],
+                                           bool *puts);
+
 /* Consecutive steps are one operation, until another operation or a call of this function. */
 void paper_history_mark(struct paper_sheet *sheet);
 
 /* Undoes the last operations, or redoes operations; returns how many. A new operation after
- * an undo replaces the undone ones. */
+ * an undo replaces the undone ones. Right after an insertion, all that was inserted is the last operation; it is taken out,
+ * and cannot be redone. */
 int paper_history_undo(struct paper_sheet *sheet, int count);
 int paper_history_redo(struct paper_sheet *sheet, int count);
 /* Goes to the sheet after that many steps, and all operations before the next step;

@@ -227,10 +227,17 @@ struct paper_sheet_view {
     double low, high;
     double
         light; /* on the paper's relief, from the upper left, in colours: 0 (even light) to 4; water that stands hides it */
+    int scale; /* pixels a fiber each way: 1 (or 0), 2 or 4; the mean of a fiber's pixels is what one shows */
 };
 
-/* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top.
- * Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
+/* The colours as they are usually looked at: with light on the relief of sheets of version 2; of version 1 without. */
+struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config);
+
+/* The memory besides rgb that a picture with more than one pixel a fiber takes while it is made. */
+double paper_sheet_view_bytes(const struct paper_sheet_config *config, int scale);
+
+/* Shape: rgb holds height * width * 3 display values of 16 bits, rows from the top; with more than one pixel a fiber,
+ * scale times as many each way. Errors: BAD_ARGUMENT, NO_MEMORY, MACHINE_FAILED. */
 enum paper_status paper_sheet_view(struct paper_sheet *sheet,
                                    const struct paper_sheet_view *view, uint16_t *rgb);
 

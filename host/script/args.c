@@ -28,6 +28,17 @@ static const char *described(lua_State *L, int index, char out[64])
     return out;
 }
 
+void script_names_push(lua_State *L, const char *const *names)
+{
+    luaL_Buffer list;
+    luaL_buffinit(L, &list);
+    for (int i = 0; names[i]; i++) {
+        luaL_addstring(&list, i ? ", " : "");
+        luaL_addstring(&list, names[i]);
+    }
+    luaL_pushresult(&list);
+}
+
 /* Pops the number on the top, which must be within bounds. */
 static double number_pop(lua_State *L, const char *what, const char *name, double low,
                          double high)
@@ -163,8 +174,11 @@ void script_arg_options(lua_State *L, int index, const char *what, const char *c
         if (lua_type(L, -2) == LUA_TSTRING)
             for (int i = 0; names[i] && !known; i++)
                 known = strcmp(lua_tostring(L, -2), names[i]) == 0;
-        if (!known)
-            luaL_error(L, "%s has no %s", what, described(L, -2, shown));
+        if (!known) {
+            described(L, -2, shown);
+            script_names_push(L, names);
+            luaL_error(L, "%s has no %s; it has %s", what, shown, lua_tostring(L, -1));
+        }
         lua_pushvalue(L, -2);
         lua_insert(L, -2);
         lua_rawset(L, copy);
@@ -205,15 +219,9 @@ double script_arg_at(lua_State *L, int index, const char *what, double low, doub
 int script_arg_choice(lua_State *L, const char *what, const char *text,
                       const char *const *names)
 {
-    luaL_Buffer list;
     for (int i = 0; names[i]; i++)
         if (strcmp(names[i], text) == 0)
             return i;
-    luaL_buffinit(L, &list);
-    for (int i = 0; names[i]; i++) {
-        luaL_addstring(&list, i ? ", " : "");
-        luaL_addstring(&list, names[i]);
-    }
-    luaL_pushresult(&list);
+    script_names_push(L, names);
     return luaL_error(L, "%s must be one of %s (got '%s')", what, lua_tostring(L, -1), text);
 }

@@ -35,6 +35,15 @@ void script_note_tell(const struct script *script, const char *text)
         script->host->note(script->host->context, text);
 }
 
+void script_note_where(lua_State *L, const char *text)
+{
+    luaL_where(L, 1);
+    lua_pushstring(L, text);
+    lua_concat(L, 2);
+    script_note_tell(script_of(L), lua_tostring(L, -1));
+    lua_pop(L, 1);
+}
+
 void script_progress_tell(const struct script *script, const struct script_progress *progress)
 {
     if (script->host->progress)

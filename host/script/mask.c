@@ -2,7 +2,7 @@
  *
  * A mask is either a polygon, kept as its corners until it is used, or gray values with a
  * place. Masks never change: methods that move, join or soften a mask make a new one.
- * Outside its shape a mask is 0.
+ * Outside its shape a mask is 0; what is made from masks by numbers, as 1 - m, may be more there.
  */
 #include "script_mask.h"
 
@@ -10,6 +10,7 @@
 #include <face.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,11 +116,39 @@ struct script_mask *script_mask_grayed(lua_State *L, int index)
     return made;
 }
 
+int script_mask_gray_at(const struct script_mask *mask, int x, int y)
+{
+    if (!mask->gray || x < mask->x || y < mask->y || x >= mask->x + mask->width ||
+        y >= mask->y + mask->height)
+        return mask->outside;
+    return mask->gray[(size_t)(y - mask->y) * (size_t)mask->width + (size_t)(x - mask->x)];
+}
+
+/* Pushes the mask as it is on a sheet of that size. */
+static const struct script_mask *all_over(lua_State *L, const struct script_mask *mask,
+                                          int width, int height)
+{
+    struct script_mask *made = script_mask_gray_new(L, width, height, 0, 0);
+    for (int y = 0; y < made->height; y++)
+        for (int x = 0; x < made->width; x++)
+            made->gray[(size_t)y * (size_t)made->width + (size_t)x] =
+                (uint8_t)script_mask_gray_at(mask, x, y);
+    return made;
+}
+
 bool script_mask_screen(lua_State *L, int index, int width, int height,
                         struct paper_screen *screen, int *x, int *y)
 {
     const struct script_mask *mask = luaL_checkudata(L, index, script_mask_type);
     *screen = (struct paper_screen){0};
+    if (mask->outside) {
+        const struct script_mask *all = all_over(L, mask, width, height);
+        *x = *y = 0;
+        screen->width_px = all->width;
+        screen->height_px = all->height;
+        screen->gray = all->gray;
+        return all->gray != NULL;
+    }
     if (!mask->points) {
         *x = mask->x;
         *y = mask->y;
@@ -479,6 +508,7 @@ static int make_function(lua_State *L)
     double height = floor(script_arg_at(L, 2, "mask's height", 1, SCRIPT_PLACE_MAX));
     luaL_checktype(L, 3, LUA_TFUNCTION);
     struct script_mask *mask = script_mask_gray_new(L, width, height, 0, 0);
+    size_t beyond = 0;
     for (int y = 0; y < mask->height; y++)
         for (int x = 0; x < mask->width; x++) {
             lua_pushvalue(L, 3);
@@ -487,9 +517,17 @@ static int make_function(lua_State *L)
             script_callback(L, 2, 1);
             double value = lua_tonumber(L, -1);
             lua_pop(L, 1);
+            beyond += !(value >= 0 && value <= 1);
             mask->gray[(size_t)y * (size_t)mask->width + (size_t)x] =
                 (uint8_t)lround(255 * (value > 0 ? value < 1 ? value : 1 : 0));
         }
+    if (beyond > 0) {
+        char text[128];
+        snprintf(text, sizeof text,
+                 "mask: %zu of its %zu values were not within 0..1 and were clamped", beyond,
+                 (size_t)mask->width * (size_t)mask->height);
+        script_note_where(L, text);
+    }
     return 1;
 }
 

@@ -1,4 +1,4 @@
-/* mask_change.c - new masks from masks: moved, turned, scaled, joined, softened. */
+/* mask_change.c - new masks from masks: moved, turned, scaled, joined, with numbers, softened. */
 #include "script_mask.h"
 
 #include <math.h>
@@ -32,24 +32,21 @@ static int transformed(lua_State *L, const double m[6])
         y2 = fmax(y2, ceil(to_y));
     }
     if (!mask->gray || det == 0) {
-        script_mask_gray_new(L, 0, 0, 0, 0);
+        script_mask_gray_new(L, 0, 0, 0, 0)->outside = mask->outside;
         return 1;
     }
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    made->outside = mask->outside;
     for (int row = 0; row < made->height; row++)
         for (int column = 0; column < made->width; column++) {
             double px = column + made->x + 0.5 - m[2], py = row + made->y + 0.5 - m[5];
             double x = (m[4] * px - m[1] * py) / det - mask->x - 0.5;
             double y = (m[0] * py - m[3] * px) / det - mask->y - 0.5, sum = 0;
-            if (!(x > -1 && y > -1 && x < mask->width && y < mask->height))
-                continue;
             int left = (int)floor(x), top = (int)floor(y);
             for (int i = 0; i < 4; i++) {
                 int at_x = left + (i & 1), at_y = top + (i >> 1);
-                if (at_x < 0 || at_y < 0 || at_x >= mask->width || at_y >= mask->height)
-                    continue;
                 sum += (1 - fabs(x - at_x)) * (1 - fabs(y - at_y)) *
-                       mask->gray[(size_t)at_y * (size_t)mask->width + (size_t)at_x];
+                       script_mask_gray_at(mask, mask->x + at_x, mask->y + at_y);
             }
             made->gray[(size_t)row * (size_t)made->width + (size_t)column] =
                 (uint8_t)lround(sum);
@@ -91,20 +88,48 @@ static int mask_scale(lua_State *L)
         L, (double[6]){scale, 0, at[0] * (1 - scale), 0, scale, at[1] * (1 - scale)});
 }
 
-static int gray_at(const struct script_mask *mask, int x, int y)
+/* a + b: union; a * b: intersection; a - b: a without b. */
+static int joined(char operation, int p, int q)
 {
-    if (x < mask->x || y < mask->y || x >= mask->x + mask->width || y >= mask->y + mask->height)
-        return 0;
-    return mask->gray[(size_t)(y - mask->y) * (size_t)mask->width + (size_t)(x - mask->x)];
+    return operation == '+'   ? p > q ? p : q
+           : operation == '*' ? (p * q + 127) / 255
+                              : (p * (255 - q) + 127) / 255;
 }
 
-/* a + b: union; a * b: intersection; a - b: a without b. */
+/* A mask and a number: m * n, n * m, m + n, n + m, m - n, n - m, within 0..1. */
+static int mask_count(lua_State *L, char operation)
+{
+    const bool first = lua_type(L, 1) == LUA_TNUMBER;
+    const int of = first ? 2 : 1;
+    const double number = operation == '*'
+                              ? script_arg_at(L, 3 - of, "a mask's factor", 0, 255)
+                              : script_arg_at(L, 3 - of, "what a mask is shifted by", -1, 1);
+    const struct script_mask *mask = script_mask_grayed(L, of);
+    uint8_t table[256];
+    for (int i = 0; i < 256; i++) {
+        const double value = i / 255.0;
+        const double made = operation == '*'   ? value * number
+                            : operation == '+' ? value + number
+                            : first            ? number - value
+                                               : value - number;
+        table[i] = (uint8_t)lround(255 * fmin(1, fmax(0, made)));
+    }
+    struct script_mask *made =
+        script_mask_gray_new(L, mask->width, mask->height, mask->x, mask->y);
+    made->outside = table[mask->outside];
+    for (size_t i = 0; made->gray && i < (size_t)made->width * (size_t)made->height; i++)
+        made->gray[i] = table[mask->gray[i]];
+    return 1;
+}
+
 static int mask_join(lua_State *L, char operation)
 {
     lua_settop(L, 2);
+    if (lua_type(L, 1) == LUA_TNUMBER || lua_type(L, 2) == LUA_TNUMBER)
+        return mask_count(L, operation);
     const struct script_mask *a = script_mask_grayed(L, 1), *b = script_mask_grayed(L, 2);
     int x1 = a->x, y1 = a->y, x2 = a->x + a->width, y2 = a->y + a->height;
-    if (operation == '+' && b->gray) {
+    if ((operation == '+' || a->outside || b->outside) && b->gray) {
         bool first = a->gray != NULL;
         x1 = first && x1 < b->x ? x1 : b->x;
         y1 = first && y1 < b->y ? y1 : b->y;
@@ -112,12 +137,11 @@ static int mask_join(lua_State *L, char operation)
         y2 = first && y2 > b->y + b->height ? y2 : b->y + b->height;
     }
     struct script_mask *made = script_mask_gray_new(L, x2 - x1, y2 - y1, x1, y1);
+    made->outside = (uint8_t)joined(operation, a->outside, b->outside);
     for (int y = y1; y < y2 && made->gray; y++)
         for (int x = x1; x < x2; x++) {
-            int p = a->gray ? gray_at(a, x, y) : 0, q = b->gray ? gray_at(b, x, y) : 0;
-            int value = operation == '+'   ? p > q ? p : q
-                        : operation == '*' ? (p * q + 127) / 255
-                                           : (p * (255 - q) + 127) / 255;
+            int value =
+                joined(operation, script_mask_gray_at(a, x, y), script_mask_gray_at(b, x, y));
             made->gray[(size_t)(y - y1) * (size_t)made->width + (size_t)(x - x1)] =
                 (uint8_t)value;
         }
@@ -140,14 +164,15 @@ static int mask_subtract(lua_State *L)
 }
 
 /* One pass of a box 2 * radius + 1 wide over `count` values `stride` apart. */
-static void box_pass(uint8_t *values, uint8_t *scratch, int count, size_t stride, int radius)
+static void box_pass(uint8_t *values, uint8_t *scratch, int count, size_t stride, int radius,
+                     int outside)
 {
-    int sum = 0, size = 2 * radius + 1;
+    int size = 2 * radius + 1, sum = size * outside;
     for (int i = -radius; i < count; i++) {
         if (i + radius < count)
-            sum += values[(size_t)(i + radius) * stride];
+            sum += values[(size_t)(i + radius) * stride] - outside;
         if (i - radius - 1 >= 0)
-            sum -= values[(size_t)(i - radius - 1) * stride];
+            sum -= values[(size_t)(i - radius - 1) * stride] - outside;
         if (i >= 0)
             scratch[i] = (uint8_t)((sum + size / 2) / size);
     }
@@ -166,6 +191,8 @@ static int mask_soften(lua_State *L)
         return 1;
     struct script_mask *made = script_mask_gray_new(
         L, mask->width + 2.0 * rim, mask->height + 2.0 * rim, mask->x - rim, mask->y - rim);
+    made->outside = mask->outside;
+    memset(made->gray, made->outside, (size_t)made->width * (size_t)made->height);
     for (int y = 0; y < mask->height; y++)
         memcpy(made->gray + (size_t)(y + rim) * (size_t)made->width + rim,
                mask->gray + (size_t)y * (size_t)mask->width, (size_t)mask->width);
@@ -174,9 +201,10 @@ static int mask_soften(lua_State *L)
         L, (size_t)(made->width > made->height ? made->width : made->height), 0);
     for (int pass = 0; pass < 3; pass++) {
         for (int y = 0; y < made->height; y++)
-            box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box);
+            box_pass(made->gray + (size_t)y * width, scratch, made->width, 1, box,
+                     made->outside);
         for (int x = 0; x < made->width; x++)
-            box_pass(made->gray + x, scratch, made->height, width, box);
+            box_pass(made->gray + x, scratch, made->height, width, box, made->outside);
         script_check(L);
     }
     lua_pop(L, 1);

@@ -23,15 +23,40 @@ static const struct paper_sheet_config *config_of(const struct script_paper *pap
 
 /* ---- making ---- */
 
+enum { KNOWN_MAX = 63 };
+
+static const struct paper_pigment *pigment_find(lua_State *L, const char *name)
+{
+    const struct paper_pigment *known = paper_pigment_find(name), *other;
+    const char *names[KNOWN_MAX + 1] = {NULL};
+    if (known)
+        return known;
+    for (int i = 0; i < KNOWN_MAX && (other = paper_pigment_number(i)) != NULL; i++)
+        names[i] = other->name;
+    script_names_push(L, names);
+    luaL_error(L, "there is no pigment '%s'; there are %s", name, lua_tostring(L, -1));
+    return NULL;
+}
+
+static const struct paper_stock *stock_find(lua_State *L, const char *name)
+{
+    const struct paper_stock *known = paper_stock_find(name), *other;
+    const char *names[KNOWN_MAX + 1] = {NULL};
+    if (known)
+        return known;
+    for (int i = 0; i < KNOWN_MAX && (other = paper_stock_number(i)) != NULL; i++)
+        names[i] = other->name;
+    script_names_push(L, names);
+    luaL_error(L, "there is no paper stock '%s'; there are %s", name, lua_tostring(L, -1));
+    return NULL;
+}
+
 /* Reads a pigment from the text or table on the top, and pops it. */
 static void pigment_read(lua_State *L, struct paper_pigment *pigment)
 {
     static const char *const besides[] = {"name", "like", "white", "black", NULL};
     if (lua_type(L, -1) == LUA_TSTRING) {
-        const struct paper_pigment *known = paper_pigment_find(lua_tostring(L, -1));
-        if (!known)
-            luaL_error(L, "there is no pigment '%s'", lua_tostring(L, -1));
-        *pigment = *known;
+        *pigment = *pigment_find(L, lua_tostring(L, -1));
         lua_pop(L, 1);
         return;
     }
@@ -41,10 +66,7 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     script_fields_options(L, t, "pigment", &paper_pigment_members, besides);
     const char *like = script_arg_text(L, t, "pigment", "like"),
                *name = script_arg_text(L, t, "pigment", "name");
-    const struct paper_pigment *known = paper_pigment_find(like ? like : "cyan");
-    if (!known)
-        luaL_error(L, "there is no pigment '%s'", like);
-    *pigment = *known;
+    *pigment = *pigment_find(L, like ? like : "cyan");
     if (name && (strlen(name) == 0 || strlen(name) >= PAPER_NAME_MAX))
         luaL_error(L, "a pigment's name must have 1..%d characters", PAPER_NAME_MAX - 1);
     if (name)
@@ -122,12 +144,8 @@ static void parts_read(lua_State *L, struct paper_sheet_config *config)
 static void stock_read(lua_State *L, struct paper_stock *stock)
 {
     const char *name = script_arg_text(L, 1, "paper", "stock");
-    if (name) {
-        const struct paper_stock *known = paper_stock_find(name);
-        if (!known)
-            luaL_error(L, "there is no paper stock '%s'", name);
-        *stock = *known;
-    }
+    if (name)
+        *stock = *stock_find(L, name);
     script_arg_color(L, 1, "paper", "color", stock->color);
     script_fields_read(L, 1, "paper", &paper_stock_members, stock);
 }
@@ -255,6 +273,30 @@ static void type_amounts_usual(lua_State *L, const struct paper_sheet_config *co
     amount[1] = TYPE_PIGMENT;
 }
 
+/* Says that type is off the sheet: how much of its ink. */
+static void off_sheet_tell(lua_State *L, const struct paper_sheet_config *config,
+                           const struct paper_screen *screen, int x, int y)
+{
+    double all = 0, off = 0;
+    char text[256];
+    for (int row = 0; row < screen->height_px && !config->torus; row++)
+        for (int column = 0; column < screen->width_px; column++) {
+            const int at_x = x + column, at_y = y + row;
+            const double ink =
+                screen->gray[(size_t)row * (size_t)screen->width_px + (size_t)column];
+            all += ink;
+            if (at_x < 0 || at_y < 0 || at_x >= config->width || at_y >= config->height)
+                off += ink;
+        }
+    if (off == 0)
+        return;
+    snprintf(text, sizeof text,
+             "type: %s of it is off the paper: it takes %d..%d by %d..%d, the paper is %dx%d",
+             off == all ? "all" : "some", x, x + screen->width_px, y, y + screen->height_px,
+             config->width, config->height);
+    script_note_where(L, text);
+}
+
 /* p:type("word" [, {…} [, {water = …}]]): puts text() onto the sheet; without options in its
  * middle, as large as goes well. Returns its length, and its lines' height. */
 static int paper_put_type(lua_State *L)
@@ -270,8 +312,10 @@ static int paper_put_type(lua_State *L)
     if (lua_isnoneornil(L, 3))
         script_mask_text_fit(L, 2, config_of(paper)->width, config_of(paper)->height);
     int made = script_mask_text_push(L, 2);
-    if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y))
+    if (screen_read(L, lua_gettop(L) - made + 1, paper, &screen, &x, &y)) {
+        off_sheet_tell(L, config_of(paper), &screen, x, y);
         script_paper_check(L, paper_sheet_put(paper->sheet, &screen, x, y, amount));
+    }
     script_check(L);
     return made - 1;
 }
@@ -324,6 +368,19 @@ static int paper_seal(lua_State *L)
 
 /* ---- time ---- */
 
+/* A pull has a direction: one number would mean right and down at once. 0 is none. */
+static void one_way_refuse(lua_State *L)
+{
+    static const char *const pulls[] = {"gravity", "seep"};
+    for (int i = 0; i < 2; i++) {
+        lua_pushstring(L, pulls[i]);
+        if (lua_rawget(L, 2) == LUA_TNUMBER && lua_tonumber(L, -1) != 0)
+            luaL_error(L, "air %s must be {right, down}, or 0 for none (got %s)", pulls[i],
+                       lua_tostring(L, -1));
+        lua_pop(L, 1);
+    }
+}
+
 static int paper_air(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 2);
@@ -341,7 +398,8 @@ static int paper_air(lua_State *L)
             members.first++;
             members.count--;
         }
-    }
+    } else
+        one_way_refuse(L);
     script_fields_read(L, 2, "air", &members, &air);
     if (config_of(paper)->parts == 0)
         air.thesis.humidity = air.humidity;
@@ -400,8 +458,10 @@ static int paper_index(lua_State *L)
     else {
         lua_pushvalue(L, 2);
         lua_rawget(L, lua_upvalueindex(1));
-        if (lua_isnil(L, -1))
-            luaL_error(L, "paper has no '%s'", key);
+        if (lua_isnil(L, -1)) {
+            lua_pushvalue(L, lua_upvalueindex(1));
+            script_method_unknown(L, "paper", key);
+        }
     }
     return 1;
 }

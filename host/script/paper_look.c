@@ -159,20 +159,18 @@ static int paper_total_of(lua_State *L)
 
 /* ---- looking ---- */
 
-/* On paper that is felted; the first model's pictures stay as they were. */
-
 static const char *const shows[] = {"color", "water", "wet", "layer", NULL};
 
-/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=}]) */
+/* paper:frame("name.png" [, {show=, layer=, pigment=, low=, high=, bits=, light=, scale=}]) */
 static int paper_frame(lua_State *L)
 {
-    static const char *const keys[] = {"show", "layer", "pigment", "low",
-                                       "high", "bits",  "light",   NULL};
+    static const char *const keys[] = {"show", "layer", "pigment", "low", "high",
+                                       "bits", "light", "scale",   NULL};
     struct script_paper *paper = script_paper_begin(L, 3);
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     const char *name = luaL_checkstring(L, 2);
     script_arg_options(L, 3, "frame", keys);
-    struct paper_sheet_view view = {.high = 1};
+    struct paper_sheet_view view = paper_sheet_view_default(config);
     const char *show = script_arg_text(L, 3, "frame", "show"),
                *layer = script_arg_text(L, 3, "frame", "layer");
     if (layer) {
@@ -184,8 +182,10 @@ static int paper_frame(lua_State *L)
         view.show = (enum paper_show)script_arg_choice(L, "frame show", show, shows);
     view.low = script_arg_number(L, 3, "frame", "low", 0, -1e6, 1e6);
     view.high = script_arg_number(L, 3, "frame", "high", 1, -1e6, 1e6);
-    view.light = script_arg_number(L, 3, "frame", "light",
-                                   config->model >= 2 ? PAPER_LIGHT_USUAL : 0, 0, 4);
+    view.light = script_arg_number(L, 3, "frame", "light", view.light, 0, 4);
+    view.scale = script_arg_integer(L, 3, "frame", "scale", 1, 1, 4);
+    if (view.scale == 3)
+        luaL_error(L, "frame scale must be 1, 2 or 4 pixels a fiber (got 3)");
     int bits = script_arg_integer(L, 3, "frame", "bits", 8, 8, 16);
     if (bits != 8 && bits != 16)
         luaL_error(L, "frame bits must be 8 or 16 (got %d)", bits);
@@ -193,21 +193,25 @@ static int paper_frame(lua_State *L)
 
     if (paper_history_following(paper->sheet) > 0 && access(path, F_OK) == 0)
         return 0; /* written before this run was saved */
-    size_t count = 3 * (size_t)config->width * (size_t)config->height;
+    const int width = config->width * view.scale, height = config->height * view.scale;
+    size_t count = 3 * (size_t)width * (size_t)height;
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
-    script_paper_check(L, paper_sheet_view(paper->sheet, &view, rgb));
+    const double besides = paper_sheet_view_bytes(config, view.scale);
+    script_memory_take(L, besides, "a picture");
+    const enum paper_status viewed = paper_sheet_view(paper->sheet, &view, rgb);
+    script_memory_give(paper->script, besides);
+    script_paper_check(L, viewed);
     script_check(L);
     enum display_status status;
     if (bits == 16) {
-        status = display_png_write_16(path, config->width, config->height, 3, rgb);
+        status = display_png_write_16(path, width, height, 3, rgb);
     } else {
         uint8_t *bytes = lua_newuserdatauv(L, count, 0);
         for (size_t i = 0; i < count; i++)
             bytes[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
-        status = display_png_write(path, &(struct display_image){.width_px = config->width,
-                                                                 .height_px = config->height,
-                                                                 .channels = 3,
-                                                                 .pixels = bytes});
+        status = display_png_write(
+            path, &(struct display_image){
+                      .width_px = width, .height_px = height, .channels = 3, .pixels = bytes});
     }
     if (status != DISPLAY_OK)
         luaL_error(L, "%s", display_error());

@@ -51,7 +51,31 @@ static int paper_to(lua_State *L)
     return 0;
 }
 
-/* paper:moments(): a list of {what =, time =, steps =, done =}. */
+/* Adds what the operation put to its table, which is on the top: put = {water =, ...}, and the rectangle. */
+static void put_tell(lua_State *L, const struct paper_sheet *sheet, int number)
+{
+    static const char *const sides[] = {"x", "y", "width", "height"};
+    const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    int box[4];
+    bool puts;
+    script_paper_check(L, paper_history_moment_put(sheet, number, amount, box, &puts));
+    if (!puts)
+        return;
+    lua_newtable(L);
+    for (int i = 0; i <= config->pigments_count; i++)
+        if (amount[i] != 0) {
+            lua_pushnumber(L, amount[i]);
+            lua_setfield(L, -2, i ? config->pigments[i - 1].name : "water");
+        }
+    lua_setfield(L, -2, "put");
+    for (int i = 0; i < 4; i++) {
+        lua_pushinteger(L, box[i]);
+        lua_setfield(L, -2, sides[i]);
+    }
+}
+
+/* paper:moments(): a list of {what =, time =, steps =, done =}; of what was put also put =, x =, y =, width =, height =. */
 static int paper_moments(lua_State *L)
 {
     struct script_paper *paper = script_paper_begin(L, 1);
@@ -69,6 +93,7 @@ static int paper_moments(lua_State *L)
         lua_setfield(L, -2, "steps");
         lua_pushboolean(L, i < done);
         lua_setfield(L, -2, "done");
+        put_tell(L, paper->sheet, i);
         lua_rawseti(L, -2, i + 1);
     }
     return 1;

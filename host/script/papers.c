@@ -175,7 +175,17 @@ int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet
     for (int i = 0; i < config->pigments_count; i++)
         if (strcmp(config->pigments[i].name, name) == 0)
             return i;
-    return luaL_error(L, "this paper has no pigment '%s'", name);
+    const char *names[PAPER_PIGMENTS_MAX + 1] = {NULL};
+    for (int i = 0; i < config->pigments_count; i++)
+        names[i] = config->pigments[i].name;
+    if (!names[0])
+        return luaL_error(L,
+                          "this paper has no pigment '%s', and no other: its pigments are "
+                          "named where it is made",
+                          name);
+    script_names_push(L, names);
+    return luaL_error(L, "this paper has no pigment '%s'; it has %s", name,
+                      lua_tostring(L, -1));
 }
 
 /* {water = 0.5, ["phthalo green"] = 0.2}: reads amounts in the order of the sheet's

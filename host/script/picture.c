@@ -88,16 +88,20 @@ static int make_picture(lua_State *L)
     return 1;
 }
 
-/* paper:picture(): the paper's present look */
+/* paper:picture([{light =}]): the paper's present look */
 static int paper_picture(lua_State *L)
 {
-    struct paper_sheet *sheet = script_paper_begin(L, 1)->sheet;
+    static const char *const keys[] = {"light", NULL};
+    struct paper_sheet *sheet = script_paper_begin(L, 2)->sheet;
+    script_arg_options(L, 2, "picture", keys);
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     size_t count = 3 * (size_t)config->width * (size_t)config->height;
     struct script_picture *picture = picture_new(L, config->width, config->height);
     picture_allocate(L, picture);
     uint16_t *rgb = lua_newuserdatauv(L, count * sizeof *rgb, 0);
-    script_paper_check(L, paper_sheet_view(sheet, &(struct paper_sheet_view){.high = 1}, rgb));
+    struct paper_sheet_view view = paper_sheet_view_default(config);
+    view.light = script_arg_number(L, 2, "picture", "light", view.light, 0, 4);
+    script_paper_check(L, paper_sheet_view(sheet, &view, rgb));
     for (size_t i = 0; i < count; i++)
         picture->rgb[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
     lua_pop(L, 1);

@@ -95,6 +95,8 @@ void script_hook_set(lua_State *L);
 bool script_interrupted(const struct script *script);
 void script_error_tell(const struct script *script, const char *text);
 void script_note_tell(const struct script *script, const char *text);
+/* The same, with the script's line. */
+void script_note_where(lua_State *L, const char *text);
 /* NULL: the work is over. */
 void script_progress_tell(const struct script *script, const struct script_progress *progress);
 
@@ -130,6 +132,8 @@ bool script_arg_numbers(lua_State *L, int index, const char *what, const char *n
 /* Reads "#rrggbb" or {r, g, b} in 0..1; false if missing. */
 bool script_arg_color(lua_State *L, int index, const char *what, const char *name,
                       double out[3]);
+/* Pushes the names of a NULL-ended list as one text, with commas between them. */
+void script_names_push(lua_State *L, const char *const *names);
 /* Finds the text in a NULL-ended list; raises an error that lists the choices. */
 int script_arg_choice(lua_State *L, const char *what, const char *text,
                       const char *const *names);
@@ -206,6 +210,8 @@ void script_midi_push(lua_State *L, const struct midi_message *m);
 
 /* Makes the metatable of a kind of userdata; gc may be NULL. */
 void script_type_open(lua_State *L, const char *name, lua_CFunction gc);
+/* Raises an error that names the methods in the table on the top. */
+void script_method_unknown(lua_State *L, const char *type, const char *name);
 /* Makes the metatables of the library's types, without their methods. */
 void script_call_open(lua_State *L);
 void script_mask_open(lua_State *L);

@@ -10,6 +10,7 @@ struct script_mask {
     int points_count;
     uint8_t *gray; /* NULL if empty */
     int x, y, width, height;
+    uint8_t outside; /* the value everywhere else; of a polygon 0 */
     double bytes;
 };
 
@@ -21,5 +22,7 @@ struct script_mask *script_mask_gray_new(lua_State *L, double width, double heig
                                          double y);
 /* Pushes the mask at index, converted to gray values. */
 struct script_mask *script_mask_grayed(lua_State *L, int index);
+/* The value of a gray mask, in 0..255, at a place. */
+int script_mask_gray_at(const struct script_mask *mask, int x, int y);
 
 #endif

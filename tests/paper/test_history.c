@@ -149,6 +149,55 @@ static void what_is_inserted_comes_before_what_followed(void **state)
     paper_sheet_destroy(other);
 }
 
+/* Operations by chance, then insertions at a chance time that are undone: the history and the sheet are as they were,
+ * and further undos go on from there. */
+static void undo_after_an_insertion_takes_it_back(void **state)
+{
+    (void)state;
+    for (int turn = 0; turn < 12; turn++) {
+        struct paper_sheet *sheet = sheet_new(turn % 2 ? 100e3 : 0);
+        for (int i = 0; i < 8; i++) {
+            box_put(sheet, below(12), below(10), 3 + below(8), (double[]){0.8, 0.4, 0.2});
+            for (int n = below(6); n >= 0; n--)
+                step(sheet);
+        }
+        const uint64_t before = state_hash(sheet);
+        const int done = paper_history_done(sheet);
+        const long steps = paper_sheet_steps(sheet);
+        check(paper_history_insert_begin(sheet, below((int)steps + 1)));
+        box_put(sheet, below(12), 3, 6, (double[]){0.4, 0, 0.7});
+        for (int n = below(4); n > 0; n--)
+            step(sheet);
+        check(paper_history_insert_end(sheet, true));
+        assert_true(state_hash(sheet) != before);
+        assert_true(paper_history_done(sheet) > done);
+        if (turn % 3 == 0) { /* the last operation and the insertion */
+            assert_int_equal(paper_history_undo(sheet, 2), 2);
+            assert_int_equal(paper_history_done(sheet), done - 1);
+            assert_int_equal(paper_history_redo(sheet, 9), 1);
+        } else
+            assert_int_equal(paper_history_undo(sheet, 1), 1);
+        assert_int_equal(paper_history_done(sheet), done);
+        assert_int_equal(paper_history_undone(sheet), 0);
+        assert_int_equal(paper_sheet_steps(sheet), steps);
+        assert_true(state_hash(sheet) == before);
+        paper_sheet_destroy(sheet);
+    }
+    /* once something was done since, the last operation is undone as ever */
+    struct paper_sheet *sheet = sheet_new(100e3);
+    box_put(sheet, 2, 2, 9, (double[]){1, 0.5, 0});
+    step(sheet);
+    check(paper_history_insert_begin(sheet, 0));
+    box_put(sheet, 9, 9, 4, (double[]){1, 0.5, 0});
+    check(paper_history_insert_end(sheet, true));
+    const uint64_t inserted = state_hash(sheet);
+    check(paper_sheet_dry(sheet));
+    assert_int_equal(paper_history_undo(sheet, 1), 1);
+    assert_true(state_hash(sheet) == inserted);
+    assert_int_equal(paper_history_done(sheet), 3);
+    paper_sheet_destroy(sheet);
+}
+
 /* ---- states ---- */
 
 struct saved {
@@ -500,6 +549,7 @@ int main(void)
         cmocka_unit_test(going_back_and_forth_gives_the_same_bits),
         cmocka_unit_test(moments_are_found_while_paint_flows),
         cmocka_unit_test(what_is_inserted_comes_before_what_followed),
+        cmocka_unit_test(undo_after_an_insertion_takes_it_back),
         cmocka_unit_test(a_saved_run_goes_on),
         cmocka_unit_test(a_saved_run_goes_on_where_much_was_undone),
         cmocka_unit_test(damaged_runs_are_refused_or_harmless),

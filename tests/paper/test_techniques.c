@@ -305,6 +305,67 @@ static void varnish_deepens_and_shines(void **state)
     paper_sheet_destroy(sheet);
 }
 
+/* A finer picture of a sheet with a disc and chance in it: the mean of a fiber's pixels is the fiber's, no pixel is beyond
+ * the nine fibers around it, and the disc's edge is nearer to a circle than the blocks of fibers are. */
+static void finer_pictures_have_the_same_means(void **state)
+{
+    (void)state;
+    enum { SCALE_MAX = 4 };
+    static uint16_t coarse[3 * FIBERS], fine[3 * FIBERS * SCALE_MAX * SCALE_MAX];
+    static uint8_t gray[FIBERS];
+    const double middle_x = 18.3, middle_y = 17.6, radius = 11.2;
+    struct paper_sheet *sheet = sheet_make();
+    for (int i = 0; i < FIBERS; i++) {
+        int covered = 0;
+        for (int j = 0; j < 64; j++)
+            covered += hypot(i % WIDTH + (j % 8 + 0.5) / 8 - middle_x,
+                             i / WIDTH + (j / 8 + 0.5) / 8 - middle_y) < radius;
+        gray[i] = (uint8_t)(covered * 255 / 64);
+    }
+    struct paper_screen screen = {.width_px = WIDTH, .height_px = HEIGHT, .gray = gray};
+    check(paper_sheet_put(sheet, &screen, 0, 0, (double[]){0, 1, 0.5}));
+    struct paper_sheet_view view = {.show = PAPER_SHOW_COLOR, .scale = 3};
+    assert_int_equal(paper_sheet_view(sheet, &view, fine), PAPER_BAD_ARGUMENT);
+    view.scale = 1;
+    check(paper_sheet_view(sheet, &view, coarse));
+    for (int scale = 2; scale <= SCALE_MAX; scale += 2) {
+        double off[2] = {0};
+        int wide = WIDTH * scale;
+        view.scale = scale;
+        check(paper_sheet_view(sheet, &view, fine));
+        const double dark = coarse[3 * (17 * WIDTH + 18)], light = coarse[0];
+        for (int i = 0; i < FIBERS; i++) {
+            int x = i % WIDTH, y = i / WIDTH, least = 65535, most = 0;
+            for (int j = 0; j < 9; j++) {
+                int ax = x + j % 3 - 1, ay = y + j / 3 - 1;
+                if (ax < 0 || ay < 0 || ax >= WIDTH || ay >= HEIGHT)
+                    continue;
+                least = coarse[3 * (ay * WIDTH + ax)] < least ? coarse[3 * (ay * WIDTH + ax)]
+                                                              : least;
+                most =
+                    coarse[3 * (ay * WIDTH + ax)] > most ? coarse[3 * (ay * WIDTH + ax)] : most;
+            }
+            double mean = 0;
+            for (int j = 0; j < scale * scale; j++) {
+                int px = x * scale + j % scale, py = y * scale + j / scale;
+                int value = fine[3 * (py * wide + px)];
+                assert_true(value >= least - 1 && value <= most + 1);
+                mean += (double)value / (scale * scale);
+                bool inside = hypot((px + 0.5) / scale - middle_x,
+                                    (py + 0.5) / scale - middle_y) < radius;
+                double true_value = inside ? dark : light;
+                off[0] += fabs(value - true_value);
+                off[1] += fabs(coarse[3 * i] - true_value);
+            }
+            assert_true(fabs(mean - coarse[3 * i]) <= 1);
+        }
+        print_message("%dx: %.2f of the blocks' error at a disc's edge is left\n", scale,
+                      off[0] / off[1]);
+        assert_true(off[0] < 0.8 * off[1]);
+    }
+    paper_sheet_destroy(sheet);
+}
+
 /* ---- colours ---- */
 
 /* Mixtures that the sheet itself shows, taken apart and shown again. */
@@ -435,6 +496,7 @@ int main(void)
         cmocka_unit_test(salt_pushes_pigment_away),
         cmocka_unit_test(lifting_takes_what_does_not_stain),
         cmocka_unit_test(varnish_deepens_and_shines),
+        cmocka_unit_test(finer_pictures_have_the_same_means),
         cmocka_unit_test(mixtures_are_separated_again),
         cmocka_unit_test(the_formula_is_the_sheets),
         cmocka_unit_test(colours_out_of_reach_are_met_as_well_as_can_be),

@@ -84,6 +84,99 @@ static void type_needs_no_options(void **state)
     assert_non_null(strstr(s.errors, "without pigments needs amounts"));
 }
 
+/* Each script ends with an error that has this in it. */
+static void wrong_names_and_numbers_are_answered(void **state)
+{
+    (void)state;
+    static const char *const wrong[][2] = {
+        {"rect(1, 1, 4, 4):turn(3)",
+         "mask has no 'turn'; it has bounds, move, rotate, scale, soften"},
+        {"p:paint()", "paper has no 'paint'; it has air, at, blot, brush, close"},
+        {"p:put(rect(1, 1, 4, 4), {blue = 1})", "no pigment 'blue'; it has cyan, yellow"},
+        {"paper{stock = 'canvas'}", "no paper stock 'canvas'; there are cold press, hot press"},
+        {"paper{pigments = {'blue'}}", "no pigment 'blue'; there are quinacridone rose, "},
+        {"p:frame('a.png', {size = 2})", "frame has no 'size'; it has show, layer"},
+        {"p:frame('a.png', {scale = 3})", "frame scale must be 1, 2 or 4 pixels a fiber"},
+        {"p:air{gravity = 1}", "air gravity must be {right, down}, or 0 for none (got 1)"},
+        {"p:put(rect(1, 1, 4, 4) * -1, {cyan = 1})", "a mask's factor must be 0..255"},
+        {"p:put(2 - rect(1, 1, 4, 4), {cyan = 1})", "what a mask is shifted by must be -1..1"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[256];
+        struct scripted s = {.config = scripted_config()};
+        snprintf(text, sizeof text,
+                 "local p = paper{width = 16, height = 16, pigments = {'cyan', 'yellow'}}\n%s",
+                 wrong[i][0]);
+        assert_int_equal(scripted_run(&s, text), SCRIPT_FAILED);
+        if (!strstr(s.errors, wrong[i][1]))
+            fail_msg("%s: %s", wrong[i][0], s.errors);
+    }
+}
+
+static void values_and_type_beyond_are_said(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(scripted_run(&s, "local p = paper{width = 40, height = 30}\n"
+                                      "p:type('o', {size = 20, x = 5, y = 20}, {water = 0.5})\n"
+                                      "mask(2, 2, function(x, y) return x end)"),
+                     SCRIPT_OK);
+    assert_string_equal(s.notes, "");
+    assert_int_equal(scripted_run(&s,
+                                  "local p = paper{width = 40, height = 30}\n"
+                                  "p:type('o', {size = 20, x = 50, y = 20}, {water = 0.5})\n"
+                                  "p:type('o', {size = 20, x = 36, y = 20}, {water = 0.5})\n"
+                                  "mask(4, 4, function(x, y) return x end)"),
+                     SCRIPT_OK);
+    assert_non_null(strstr(s.notes, "script.lua:2: type: all of it is off the paper"));
+    assert_non_null(strstr(s.notes, "script.lua:3: type: some of it is off the paper"));
+    assert_non_null(
+        strstr(s.notes, "script.lua:4: mask: 8 of its 16 values were not within 0..1"));
+}
+
+/* Values of masks: n / 255, read back by a layer. */
+static void masks_are_scaled_and_shifted_in_value(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(
+        scripted_run(
+            &s, "local p = paper{width = 40, height = 40, version = 1}\n"
+                "local function tell(m)\n"
+                "  p:layer('red', m)\n"
+                "  print(string.format('%.0f %.0f', 255 * p:at('red', 15, 15),"
+                " 255 * p:at('red', 35, 35)))\n"
+                "end\n"
+                "local m = rect(10, 10, 10, 10)\n"
+                "tell(m * 0.5) tell(0.5 * m) tell(1 - m) tell(m + 0.2) tell(0.2 + m)\n"
+                "tell(m - 0.4) tell(m * 2) tell(1 - rect(0, 0, 0, 0))\n"
+                "tell((1 - m) * rect(30, 30, 10, 10)) tell((1 - m) + m) tell(m - (1 - m))\n"
+                "tell((1 - m):move(20, 20)) tell((1 - m):soften(2)) tell((1 - m):rotate(30))"),
+        SCRIPT_OK);
+    assert_string_equal(s.prints, "128 0\n128 0\n0 255\n255 51\n255 51\n"
+                                  "153 0\n255 0\n255 255\n"
+                                  "0 255\n255 255\n255 0\n"
+                                  "255 0\n0 255\n255 255\n");
+}
+
+static void the_history_tells_what_was_put(void **state)
+{
+    (void)state;
+    struct scripted s = {.config = scripted_config()};
+    assert_int_equal(
+        scripted_run(&s, "local p = paper{width = 24, height = 16, pigments = {'cyan'}}\n"
+                         "p:put(rect(2, 3, 4, 5), {water = 0.5, cyan = 0.25})\n"
+                         "p:wash{cyan = 1}\n"
+                         "p:dry()\n"
+                         "for _, m in ipairs(p:moments()) do\n"
+                         "  print(m.what, m.put and m.put.water, m.put and m.put.cyan, m.x,"
+                         " m.y, m.width, m.height)\n"
+                         "end"),
+        SCRIPT_OK);
+    assert_string_equal(s.prints, "put\t0.5\t0.25\t2\t3\t4\t5\n"
+                                  "put\tnil\t1.0\t0\t0\t24\t16\n"
+                                  "dry\tnil\tnil\tnil\tnil\tnil\tnil\n");
+}
+
 static void what_the_state_takes_is_limited(void **state)
 {
     (void)state;
@@ -352,6 +445,10 @@ int main(void)
         cmocka_unit_test(a_host_without_functions_is_one),
         cmocka_unit_test(words_are_read_and_must_be_asked_for),
         cmocka_unit_test(type_needs_no_options),
+        cmocka_unit_test(wrong_names_and_numbers_are_answered),
+        cmocka_unit_test(values_and_type_beyond_are_said),
+        cmocka_unit_test(masks_are_scaled_and_shifted_in_value),
+        cmocka_unit_test(the_history_tells_what_was_put),
         cmocka_unit_test(what_the_state_takes_is_limited),
         cmocka_unit_test(the_host_sees_each_step),
         cmocka_unit_test(what_is_computed_again_is_told_apart),

@@ -97,6 +97,35 @@ bool paper_history_moment(const struct paper_sheet *p, int number, struct paper_
     return true;
 }
 
+enum paper_status paper_history_moment_put(const struct paper_sheet *p, int number,
+                                           double amount[1 + PAPER_PIGMENTS_MAX], int box[4],
+                                           bool *puts)
+{
+    const struct event_record *op = &p->history->log.records[number];
+    *puts = op->kind == SHEET_EVENT_PUT || op->kind == SHEET_EVENT_WASH;
+    if (!*puts)
+        return PAPER_OK;
+    void *arguments = NULL;
+    enum paper_status status = operation_arguments(&p->config, op, &arguments);
+    if (status == PAPER_OK) {
+        const struct event_put *put = arguments;
+        const struct paper_wash *wash = arguments;
+        const bool even = op->kind == SHEET_EVENT_PUT;
+        const struct paper_place *place = even ? &put->place : &wash->place;
+        memcpy(amount, even ? put->amount : wash->amount, sizeof put->amount);
+        const int all[4] = {0, 0, p->config.width, p->config.height};
+        memcpy(box, all, sizeof all);
+        if (place->screen) {
+            box[0] = place->x;
+            box[1] = place->y;
+            box[2] = place->screen->width_px;
+            box[3] = place->screen->height_px;
+        }
+    }
+    event_free(sheet_event_kind(operation_kind(op)), arguments);
+    return status;
+}
+
 int paper_history_following(const struct paper_sheet *p)
 {
     return p->history && p->history->following
@@ -188,6 +217,7 @@ static enum paper_status operation_perform(struct paper_sheet *p, const struct e
 static enum paper_status record(struct sheet_history *h, struct event_record op, bool *joined)
 {
     struct event_record *last = h->log.count > 0 ? &h->log.records[h->log.count - 1] : NULL;
+    h->inserted.count = 0;
     bool steps = op.kind == SHEET_EVENT_STEP;
     *joined = steps && h->open && last && last->kind == SHEET_EVENT_STEP &&
               last->steps < INT32_MAX / 2 && h->log.count != h->inserting_at;
@@ -336,6 +366,7 @@ static void move_to(struct paper_sheet *p, struct position position)
         checkpoint_offer(p, true); /* the way back */
     h->now = position;
     h->open = false;
+    h->inserted.count = 0;
     history_followed(h);
 }
 
@@ -349,7 +380,13 @@ int paper_history_undo(struct paper_sheet *p, int count)
     if (count <= 0)
         return 0;
     history_moved(h, NOTE_UNDO, count);
-    move_to(p, (struct position){done - count, 0});
+    int before = count;
+    if (h->inserted.count > 0 && h->inserting_at < 0) { /* all of it counts as one */
+        history_insertion_remove(h);
+        done = h->log.count;
+        before = count - 1 < done ? count - 1 : done;
+    }
+    move_to(p, (struct position){done - before, 0});
     return count;
 }
 
@@ -406,6 +443,8 @@ enum paper_status paper_history_insert_begin(struct paper_sheet *p, long time)
         return status;
     struct sheet_history *h = p->history;
     status = history_cut(h);
+    h->inserted.count = 0;
+    h->inserted.split = position.step > 0;
     if (status == PAPER_OK)
         status = history_split(h, position);
     if (status != PAPER_OK)
@@ -434,6 +473,8 @@ enum paper_status paper_history_insert_end(struct paper_sheet *p, bool keep)
     if (!keep)
         h->now = (struct position){h->inserting_at, 0};
     enum paper_status status = history_cut(h); /* at a boundary, which takes no memory */
+    h->inserted.op = h->inserting_at;
+    h->inserted.count = h->log.count - h->inserting_at;
     if (!event_log_put_back(&h->log, h->tail, h->tail_count) && status == PAPER_OK)
         status = paper_fail(PAPER_NO_MEMORY, "no memory for the history of a sheet");
     h->tail = NULL;

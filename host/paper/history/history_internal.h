@@ -85,6 +85,11 @@ struct sheet_history {
     int inserting_at;          /* operations before it cannot be undone; -1: no insertion */
     struct event_record *tail; /* the operations after the insertion */
     int tail_count;
+    struct {
+        int op,
+            count; /* the last insertion's operations; count 0: something was done or moved since */
+        bool split; /* it divided the steps around it */
+    } inserted;
     struct checkpoint points[CHECKPOINTS_MAX]; /* by position */
     int points_count;
     double budget_bytes, held_bytes;
@@ -115,6 +120,8 @@ enum paper_status history_append(struct sheet_history *h, struct event_record op
 enum paper_status history_cut(struct sheet_history *h);
 /* Splits an operation so that there is a boundary at the position. Errors: NO_MEMORY. */
 enum paper_status history_split(struct sheet_history *h, struct position position);
+/* Removes the operations of the last insertion, which must be h->inserted. */
+void history_insertion_remove(struct sheet_history *h);
 
 /* ---- positions (history/positions.c) ---- */
 

@@ -65,3 +65,28 @@ enum paper_status history_cut(struct sheet_history *h)
         h->at.op = -1;
     return PAPER_OK;
 }
+
+/* A position at the boundary of two operations that are joined. */
+static void joined_place(struct position *place, int op, int steps)
+{
+    if (place->op == op && place->step == 0)
+        *place = (struct position){op - 1, steps};
+}
+
+void history_insertion_remove(struct sheet_history *h)
+{
+    const struct position place = {h->inserted.op, 0};
+    checkpoints_drop_after(h, place);
+    if (position_compare(h->at, place) > 0)
+        h->at.op = -1;
+    event_log_remove(&h->log, place.op, h->inserted.count);
+    if (h->inserted.split && place.op > 0 && place.op < h->log.count) {
+        const int steps = h->log.records[place.op - 1].steps;
+        joined_place(&h->at, place.op, steps);
+        for (int i = 0; i < h->points_count; i++)
+            joined_place(&h->points[i].position, place.op, steps);
+        event_log_join(&h->log, place.op);
+    }
+    h->inserted.count = 0;
+    h->now = (struct position){h->log.count, 0};
+}

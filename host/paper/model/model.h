@@ -218,6 +218,9 @@ enum paper_status sheet_brush_total(struct paper_sheet *p, int number, int subst
 /* As paper_sheet_view(), of the sheet as it is. */
 enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
                              uint16_t *rgb);
+/* rgb = the picture with `scale` pixels a fiber each way (finer.c), from the one with one. Errors: NO_MEMORY. */
+enum paper_status sheet_finer(const uint16_t *coarse, int width, int height, bool torus,
+                              int scale, uint16_t *rgb);
 /* dest (three fields) = the sheet's colour as it lies, in the terms of substrate. Uses t[0..7]. */
 void sheet_color_make(struct paper_sheet *p, const CM_field_id_t dest[3]);
 /* Varnish over the colours. Uses t[0..3]. */

@@ -221,8 +221,15 @@ static enum paper_status shades_read(struct paper_sheet *p, int channels, const 
     return paper_leave(&p->page);
 }
 
-enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
-                             uint16_t *rgb)
+struct paper_sheet_view paper_sheet_view_default(const struct paper_sheet_config *config)
+{
+    return (struct paper_sheet_view){
+        .high = 1, .light = config->model >= 2 ? PAPER_LIGHT_USUAL : 0, .scale = 1};
+}
+
+/* One pixel a fiber. */
+static enum paper_status fibers_view(struct paper_sheet *p, const struct paper_sheet_view *view,
+                                     uint16_t *rgb)
 {
     CM_field_id_t layer = 0;
     if (view->show == PAPER_SHOW_LAYER) {
@@ -274,5 +281,25 @@ enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_vie
     enum paper_status status = shades_read(p, colored ? 3 : 1, table, one, rgb);
     free(one);
     free(table);
+    return status;
+}
+
+enum paper_status sheet_view(struct paper_sheet *p, const struct paper_sheet_view *view,
+                             uint16_t *rgb)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height, scale = view->scale;
+    if (scale < 0 || scale == 3 || scale > 4)
+        return paper_fail(PAPER_BAD_ARGUMENT,
+                          "a picture's scale must be 1, 2 or 4 pixels a fiber (got %d)", scale);
+    if (scale < 2)
+        return fibers_view(p, view, rgb);
+    uint16_t *coarse = malloc(3 * sizeof *coarse * (size_t)width * (size_t)height);
+    if (!coarse)
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a picture of %dx%d", width * scale,
+                          height * scale);
+    enum paper_status status = fibers_view(p, view, coarse);
+    if (status == PAPER_OK)
+        status = sheet_finer(coarse, width, height, p->config.torus, scale, rgb);
+    free(coarse);
     return status;
 }
