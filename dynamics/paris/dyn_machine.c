@@ -83,7 +83,8 @@ static int springs_in(const struct dyn_packed *packed)
     return count;
 }
 
-/* A field of addresses in the geometry, of the processors that are numbered so. */
+/* A field with the send addresses in the geometry: element i is the address of processor
+ * numbers[i]. */
 static CM_field_id_t addresses_of(CM_geometry_id_t geometry, const int32_t *numbers, int count)
 {
     int counts[1] = {count};
@@ -96,7 +97,8 @@ static CM_field_id_t addresses_of(CM_geometry_id_t geometry, const int32_t *numb
     return address;
 }
 
-/* As many slots as the mass with the most springs needs; or, where that are too many, as an eighth of the masses need. */
+/* The number of slots of each mass: the most springs that any mass has; or, if that is more
+ * than SLOTS_MOST, the greatest number that more than an eighth of the masses have. */
 static int slots_needed(const int32_t *degrees, int count)
 {
     int with[SLOTS_MOST + 2] = {0}; /* masses with so many springs or more */

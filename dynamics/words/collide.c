@@ -18,8 +18,8 @@ struct body {
     double corner[4][2];
 };
 
-/* Another box as seen from one side: how far the box's deepest corner is in front of the
- * side, negative behind. */
+/* How far the deepest corner of another box is in front of a side of this one; negative: behind
+ * the side. */
 struct touch {
     double apart, nx, ny; /* the normal points out of the side's own box */
     int side, corner;

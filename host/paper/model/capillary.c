@@ -26,7 +26,8 @@
 #define CARRIED 3.0    /* of carry */
 #define SPREADING 0.05 /* of 1 - carry */
 
-/* What each fiber brings to its faces: what it can still take, how full a neighbour must be to enter, 1 / water. */
+/* What a fiber contributes to the flow through its faces: the room it has left, how full a
+ * neighbour must be to enter it, and 1 / water. */
 struct pores {
     CM_field_id_t left, threshold, inverse;
 };
@@ -51,7 +52,8 @@ static void pores_make(struct paper_sheet *p, const struct sheet_terms *terms,
     CM_f_divinto_constant_2_1L(pores->inverse, 1.0, KIT_F);
 }
 
-/* d = how far a fiber with that saturation enters one with that threshold, times the saturation. */
+/* d = the saturation of the first fiber, times how far it can enter a fiber with that
+ * threshold. */
 static void pull_through(CM_field_id_t d, CM_field_id_t saturated, CM_field_id_t threshold)
 {
     kit_f_sub(d, saturated, threshold);

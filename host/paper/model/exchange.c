@@ -17,7 +17,8 @@
 enum { D_S = 52, D_E = 11, D_BITS = 64, GRAINS_BITS = 31, BRUSH_ROWS_LOG2 = 4 };
 #define D D_S, D_E
 
-/* of height: at full force a dry bristle touches what is higher than 1 - DRY_REACH; a full one touches all */
+/* on the scale of heights: at full force a dry bristle touches the fibers above 1 - DRY_REACH,
+ * a full one all fibers */
 #define DRY_REACH 0.55
 #define WET_REACH 1.5
 #define TOUCH_STEEPNESS 4.0
@@ -95,7 +96,8 @@ static void part_make(struct paper_sheet *p, struct sheet_brushes *b, CM_field_i
     CM_f_divide_2_1L(part, other, D);
 }
 
-/* share = part * (max (here - there, 0) + both) / here, at most 1 / among. */
+/* share = part * (max (here - there, 0) + both) / here, but at most 1 / among, so that all
+ * sharers together take no more than there is. */
 static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t here,
                        CM_field_id_t there, CM_field_id_t both, CM_field_id_t among,
                        CM_field_id_t held, CM_field_id_t other)
@@ -111,8 +113,8 @@ static void share_make(CM_field_id_t share, CM_field_id_t part, CM_field_id_t he
     CM_f_min_2_1L(share, other, D);
 }
 
-/* held loses what all places of its bristle give: the rows are a ring, so after shifts by 8, 4, 2 and 1 each has the sum of
- * all. */
+/* held loses what all places of its bristle give. The rows form a ring: after shifts by 8, 4, 2
+ * and 1 rows each row has the sum of all. */
 static void held_change(CM_field_id_t held, CM_field_id_t give, CM_field_id_t sum,
                         CM_field_id_t other)
 {
@@ -174,5 +176,6 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     CM_set_vp_set(p->page.grid.vp_set);
     CM_set_context();
     sheet_wet_around_make(p);
-    CM_warm_boot(); /* so that what comes next begins like any other: a step needs no kernels of its own */
+    CM_warm_boot(); /* so the next operation starts from the same kind of values as any other,
+                     * and a step after it needs no kernels of its own */
 }

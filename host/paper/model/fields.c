@@ -45,8 +45,9 @@ void sheet_fields_make(struct paper_sheet *p)
     p->page.inner_context = field_make(1);
 }
 
-/* Fills with zeros what changes from step to step. The machine knows that a field is 0 until it is written, and makes
- * other kernels for that; numbers that come from outside it takes as they are, so the first steps are like all others. */
+/* Fills the fields that change from step to step with zeros that come from outside the machine.
+ * The machine knows that a new field is 0 until it is written, and would make other kernels for
+ * the first steps. */
 enum paper_status sheet_amounts_clear(struct paper_sheet *p)
 {
     CM_field_id_t fields[8 + 3 * PAPER_PIGMENTS_MAX];

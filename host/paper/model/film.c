@@ -57,7 +57,8 @@ void sheet_film_faces_make(struct paper_sheet *p)
         kit_f_add(sum, p->sizing, other);
         kit_f_div(p->ease[axis], open[axis], sum);
     }
-    /* the mean of the corner's four fibers, in pairs across it, if all four faces between them are open */
+    /* the mean of the four fibers at the corner, added in opposite pairs; only where all four
+     * faces between them are open */
     kit_f_next(other, p->current, KIT_AXIS_X);
     kit_f_next(far, other, KIT_AXIS_Y);
     kit_f_add(sum, p->current, far);
@@ -75,7 +76,8 @@ void sheet_film_faces_make(struct paper_sheet *p)
 
 /* ---- faces ---- */
 
-/* d = 0..1, how far water of a fiber with part `from` wet goes to one with part `to`. Uses t[15]. */
+/* d = 0..1: the share of the flow from a fiber whose part `from` is wet that reaches a fiber
+ * whose part `to` is wet. Uses t[15]. */
 static void gate_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t from,
                       CM_field_id_t to)
 {
@@ -93,7 +95,8 @@ static void gate_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t from
     kit_f_mul(d, d, full);
 }
 
-/* speed[axis] as it is from now on; out, in are its parts, before room. Uses t[7..15]. */
+/* Computes the new speed[axis]. out and in are its positive and negative parts, before the
+ * receiver's room limits them. Uses t[7..15]. */
 static void speed_make(struct paper_sheet *p, const struct sheet_terms *terms, unsigned axis,
                        CM_field_id_t out, CM_field_id_t in)
 {
@@ -133,7 +136,8 @@ static void speed_make(struct paper_sheet *p, const struct sheet_terms *terms, u
     kit_f_add(speed, out, in);
 }
 
-/* d = what eddies move over the faces of the axis, units. q: the stream function at corners. */
+/* d = the flow that eddies cause through the faces of the axis, in units. q: the stream
+ * function at corners. */
 static void eddies_make(CM_field_id_t d, CM_field_id_t q, unsigned axis)
 {
     kit_f_previous(d, q, 1 - axis);
@@ -143,7 +147,8 @@ static void eddies_make(CM_field_id_t d, CM_field_id_t q, unsigned axis)
         kit_f_sub(d, d, q);
 }
 
-/* Parts of pigments that go over the faces of the axis, from those of water, before room. Uses t[7..15]. */
+/* The parts of pigments that pass the faces of the axis, from the parts of water, before the
+ * receiver's room limits them. Uses t[7..15]. */
 static void pigment_faces_make(struct paper_sheet *p, const struct sheet_terms *terms,
                                unsigned axis, CM_field_id_t water_out, CM_field_id_t water_in,
                                CM_field_id_t out, CM_field_id_t in)
@@ -194,7 +199,7 @@ static void room_heed(struct paper_sheet *p, CM_field_id_t room, unsigned axis,
     kit_f_mul(in, in, room);
 }
 
-/* At each corner: the depth that eddies move is the least of its four fibers'. Uses t[7..9]. */
+/* The depth that eddies move at a corner is the least depth of its four fibers. Uses t[7..9]. */
 static void swirl_make(struct paper_sheet *p, CM_field_id_t swirled)
 {
     CM_field_id_t other = p->t[7];

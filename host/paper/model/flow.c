@@ -65,7 +65,8 @@ void sheet_faces_below(struct sheet_faces *faces)
     }
 }
 
-/* As step.c: what comes in from below is computed again from both sides' amounts. */
+/* What comes in through the faces below is computed again from the amounts on both sides, as in
+ * step.c: a stored flow would take longer. */
 void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct sheet_faces *faces,
                         const double weight[2])
 {

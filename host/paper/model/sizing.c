@@ -118,7 +118,8 @@ static void spread_out(float *values, size_t count, float deviation)
     }
 }
 
-/* Eddies die down towards the edges of a sheet: what they move has no room beyond. */
+/* Eddies fade towards the edges of a sheet: water that they moved there would have nowhere to
+ * go. */
 static void edges_calm(float *values, const struct paper_sheet_config *config)
 {
     for (int y = 0; y < config->height; y++)

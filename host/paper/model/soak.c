@@ -18,20 +18,20 @@
 #define ADVANCE 4.375      /* of pinning */
 #define ADVANCE_LEAST 1e-3 /* units */
 #define NEIGHBOURS_HELP                                                                        \
-    1.2 /* how far wet neighbours lower it; a quarter of them are along a straight edge */
+    1.2 /* the most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet */
 #define NEIGHBOURS_LEAST 0.1
 #define DAMP_HELP 0.85
 #define EMPTY_PART 0.015625 /* of a fiber, that counts as full up to `advance` */
-#define DEEP_FROM                                                                              \
-    8.0 /* the part of a fiber that is thinner than 1 / this does not move as a film */
-#define SUCTION 10.0 /* of the stock's absorbency: well absorbing paper sucks the more */
+#define DEEP_FROM 8.0 /* a wet part of less than 1 / this of a fiber does not move as a film */
+#define SUCTION 10.0  /* of the stock's absorbency: well absorbing paper sucks the more */
 #define SUCTION_LOCAL 0.25
 #define SETTLING 4.0
 #define HOLLOWS                                                                                \
-    0.6 /* of granulation: what is lifted and settles again many times gathers there by itself */
+    0.6 /* of granulation; below 1, because pigment that is lifted and settles again gathers in hollows by itself */
 #define LIFTING 0.4
 #define LIFTED_FROM 0.25 /* depth, units, at which water lifts as fast as it can */
-/* Less than 1 - 1 / this of a fiber wet lifts nothing: the edge would be washed out. */
+/* Nothing is lifted from a fiber of which less than 1 - 1 / this is wet: otherwise the edge
+ * would be washed out. */
 #define LIFTED_WET 4.0
 #define HELD_UP 0.75 /* by a unit of depth, of what settles */
 #define SEEPED_SETTLING 0.1
@@ -73,7 +73,7 @@ static void sink_in(struct paper_sheet *p)
     }
 }
 
-/* d = height * slope + least, times `by`; at most 1 where it could be more. */
+/* d = by * (height * slope + least), cut off at 1 where it could be more. */
 static void rate_make(struct paper_sheet *p, CM_field_id_t d, double slope, double least,
                       CM_field_id_t by)
 {
@@ -192,13 +192,14 @@ static void dry_out(struct paper_sheet *p)
     water_lose(p, p->page.water, loss);
 }
 
-/* How far the neighbours look that wet_around spreads to: farther for wide edges, so that these are there as soon. */
+/* How far apart the fibers are among which wet_around spreads. Wide edges take greater
+ * distances, so that they form in as many steps as narrow ones. */
 static int around_reach(double width)
 {
     return width <= 10 ? 1 : width <= 20 ? 2 : 4;
 }
 
-/* d = what the two fibers hold that are `reach` away on the axis. Uses t[11]. */
+/* d = the sum over the two fibers at the distance `reach` on the axis. Uses t[11]. */
 static void both_sides_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t a,
                             unsigned axis, int reach)
 {
@@ -262,7 +263,8 @@ static void neighbourhood_make(struct paper_sheet *p, CM_field_id_t d)
     kit_f_add(d, d, one);
 }
 
-/* The edge comes forward or goes back; level and deep follow. Uses t[7..14]. */
+/* Moves the edge of the wet part forward or back, then computes level and deep from it. Uses
+ * t[7..14]. */
 static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];

@@ -144,7 +144,8 @@ static void settle(struct paper_sheet *p)
     }
 }
 
-/* d = how wet a fiber counts: surface water, or fibers more than damp; 0..1. */
+/* d = 0..1: how wet a fiber counts as. Surface water counts, and so does water in a fiber that
+ * is more than damp. */
 static void wetness(const struct paper_sheet *p, CM_field_id_t d)
 {
     kit_f_plus(d, p->page.water, -floor(p->air.damp * p->unit));
@@ -209,8 +210,8 @@ static void evaporate(struct paper_sheet *p)
 
 /* ---- between fibers ---- */
 
-/* Parts of a gradient at the faces of an axis: out and in at that above a fiber, and at that below, which is the
- * lower neighbour's. */
+/* The parts of a gradient that flow through the two faces of a fiber on an axis: out of it and
+ * into it at the face above, and at the face below, which is the lower neighbour's upper face. */
 struct faces {
     CM_field_id_t out, in, out_below, in_below;
 };
@@ -262,8 +263,9 @@ static void flow_take(struct paper_sheet *p, CM_field_id_t q, const struct faces
     kit_f_add(q, q, sum[1]);
 }
 
-/* d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10 upwards, or downwards from x on: w(x) + w(x-1)/2 + ...; on a sheet that is no
- * torus what is beyond the edge is dry. Uses t[14]. */
+/* Upwards: d = w(x+1) + w(x+2)/2 + ... + w(x+10)/10. Downwards the sum begins at the fiber
+ * itself: w(x) + w(x-1)/2 + .... Beyond the edge of a sheet that is no torus, fibers are dry.
+ * Uses t[14]. */
 static void pull_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t water,
                       unsigned axis, bool upwards)
 {
@@ -295,7 +297,8 @@ static void pull_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_t wate
     }
 }
 
-/* out, in of surface water and what is in it along the axis. level, film, wet, entry and room are those of each fiber. */
+/* The parts of surface water, and of the pigments in it, that leave and enter along the axis.
+ * level, film, wet, entry and room are fields with a number for each fiber. */
 struct surface_terms {
     CM_field_id_t water, level, film, wet, entry, room;
 };
@@ -308,7 +311,8 @@ static void displacement_make(struct paper_sheet *p, const struct surface_terms 
     kit_f_next(other, terms->level, axis);
     kit_f_sub(d, terms->level, other);
     kit_f_times(d, d, p->air.spread);
-    /* Levels even out as by diffusion with a coefficient of spread * water: kept below 1/8, or they would swing. */
+    /* Levels even out as by diffusion with the coefficient spread * water. It is kept below
+     * 1/8: larger coefficients would make levels swing. */
     kit_f_next(other, terms->water, axis);
     kit_f_add(other, other, terms->water);
     kit_f_times(other, other, 4 * p->air.spread);
@@ -393,8 +397,9 @@ static void flow_surface(struct paper_sheet *p, CM_field_id_t room)
         flow_take(p, p->surface[i], faces);
 }
 
-/* Water creeps along its gradient into what capacity its neighbour has left; pigments go along theirs where both sides of a face
- * are wet, and with the water. Uses t[1..14]; room is t[0]. */
+/* Water creeps along its gradient into the capacity that its neighbour has left. Pigments
+ * follow their own gradient where both sides of a face are wet, and move with the water. Uses
+ * t[1..14]; room is t[0]. */
 static void flow_infused(struct paper_sheet *p, CM_field_id_t room)
 {
     CM_field_id_t left = p->t[1], other = p->t[2], moved = p->t[3], fromward = p->t[4];

@@ -74,8 +74,8 @@ static void place_scatter(const struct sheet_brush *own, int number, uint64_t mo
     *ahead = away * sin(angle);
 }
 
-/* A line as wide as the bristle, without gaps: the golden section's multiples, from a place of the bristle's own, lie evenly in it
- * however many of them there are. */
+/* Places that lie evenly on a line as wide as the bristle, however many of them there are:
+ * multiples of the golden section, counted from a place of the bristle's own. */
 static void place_beside(const struct sheet_brush *own, int number, uint64_t moment,
                          double *side, double *ahead)
 {

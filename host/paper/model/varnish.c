@@ -29,7 +29,8 @@ enum paper_status sheet_varnish(struct paper_sheet *p, const void *arguments)
     return paper_leave(&p->page);
 }
 
-/* slope += the varnish that is one further, or -= one back; beyond the edge there is as much as at it. */
+/* slope += the varnish of the next fiber, or slope -= the varnish of the previous one. Beyond
+ * the edge it is as thick as at the edge. */
 static void beside(struct paper_sheet *p, CM_field_id_t slope, CM_field_id_t other,
                    unsigned axis, bool next)
 {

@@ -50,7 +50,8 @@ enum paper_status paper_weather_check(const struct paper_weather *w)
     return PAPER_OK;
 }
 
-/* In fibers whose inward gradient has that sign (+1, -1) multiplies or divides it by gravity. */
+/* Multiplies or divides the inward gradient by gravity, in fibers where the gradient has that
+ * sign (+1 or -1). */
 static void gravity_pull(struct paper *p, double gravity)
 {
     if (gravity == 1)

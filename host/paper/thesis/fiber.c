@@ -79,7 +79,8 @@ void paper_fibers_make(struct paper *p, const struct paper_config *config)
     for (int channel = 0; channel < 3; channel++)
         color_channel(p, channel, config->color[channel], noise, other);
 
-    /* The temporaries of fibers on the rim are never written again: they must not leak this noise. */
+    /* Fibers on the rim never write their temporaries again, so these are cleared: the noise
+     * must not remain in them. */
     CM_f_move_zero_1L(p->inflow, KIT_F);
     CM_f_move_zero_1L(p->inward, KIT_F);
     CM_f_move_zero_1L(p->outward, KIT_F);

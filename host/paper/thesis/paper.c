@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The fields; bits: as they are, or one of the two that the size decides. */
+/* The fields of a paper. bits: the length, or which of the two lengths that the paper's size
+ * decides. */
 enum { BITS_X = -1, BITS_Y = -2 };
 #define PAPER_FIELDS(F)                                                                        \
     F("image", image, PAPER_IMAGE_BITS)                                                        \
