@@ -184,20 +184,23 @@ static void device_memory_take(void *context, int index, const char *platform,
         memory->bytes = memory_bytes;
 }
 
-int machine_prepare(const char *verb, int width, int height)
+/* The machine holds old and new values at once; the picture is read as 4 bytes a fiber and
+ * written as 3. */
+double page_bytes(int width, int height)
+{
+    return (2.0 * paper_bits_per_fiber(width, height) + 56) / 8 * width * height;
+}
+
+int machine_prepare(const char *verb, int width, int height, double bytes)
 {
     if (!paris_reset(NULL))
         return fail(verb, "%s", paris_error());
     struct device_memory memory = {.device = machine_device_name(paris_machine())};
     machine_devices_list(device_memory_take, &memory);
-    /* The machine holds old and new values at once; the picture is read as 4 bytes a fiber
-     * and written as 3. */
-    double bits = 2.0 * paper_bits_per_fiber(width, height) + 56;
-    double needed = bits / 8 * width * height;
-    if (memory.bytes && needed > (double)memory.bytes)
+    if (memory.bytes && bytes > (double)memory.bytes)
         return fail(
             verb, "paper of %dx%d fibers needs %.1f GB and %s has %.1f GB; take smaller paper",
-            width, height, needed * 1e-9, memory.device, (double)memory.bytes * 1e-9);
+            width, height, bytes * 1e-9, memory.device, (double)memory.bytes * 1e-9);
     return EXIT_SUCCESS;
 }
 

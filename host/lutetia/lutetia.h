@@ -78,9 +78,11 @@ double seconds_now(void); /* seconds of a monotonic clock */
 
 /* ---- the machine and the sheet ---- */
 
-/* Creates the machine, and checks that a sheet of that size fits the memory. EXIT_SUCCESS,
- * or prints why not. */
-int machine_prepare(const char *verb, int width, int height);
+/* Creates the machine, and checks that a sheet of that size, which takes so many bytes, fits
+ * its memory. EXIT_SUCCESS, or prints why not. */
+int machine_prepare(const char *verb, int width, int height, double bytes);
+/* Those of a sheet of paper.h. */
+double page_bytes(int width, int height);
 
 /* Steps that are submitted before waiting for the machine: the longest that Ctrl-C and the
  * progress line wait. The number is constant, so that the machine can reuse its plan, and

@@ -2,24 +2,73 @@
 #include "sheet_picture.h"
 #include "verb_paint.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-/* Without --ink the type has one pigment; with it, the three that it names. */
-#define PIGMENT_USUAL "french ultramarine"
-#define PIGMENT_AMOUNT 1.2
+#define AMOUNT_USUAL 0.5 /* of a pigment that is named alone */
 
-static int sheet_make(const struct paint *paint, struct paper_sheet **out)
+/* NAME=AMOUNT */
+static int pigment_add(const char *text, struct paper_sheet_config *config, double *amount)
+{
+    char name[PAPER_NAME_MAX], known[600], *end = NULL;
+    const char *equals = strchr(text, '=');
+    const size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), text);
+    const struct paper_pigment *pigment = paper_pigment_find(name);
+    if (!pigment) {
+        paper_pigment_names(known, sizeof known);
+        return fail_usage("paint", "--pigment: there is no '%.60s'; there are %s", text, known);
+    }
+    const double value = equals ? strtod(equals + 1, &end) : AMOUNT_USUAL;
+    if (equals && (end == equals + 1 || *end || !(fabs(value) <= 4)))
+        return fail_usage("paint", "--pigment: an amount must be -4..4 (got '%.60s')", text);
+    for (int i = 0; i < config->pigments_count; i++)
+        if (strcmp(config->pigments[i].name, pigment->name) == 0)
+            return fail_usage("paint", "--pigment: %s is there twice", pigment->name);
+    if (config->pigments_count == PAPER_PIGMENTS_MAX)
+        return fail_usage("paint", "--pigment: there are at most %d", PAPER_PIGMENTS_MAX);
+    amount[1 + config->pigments_count] = value;
+    config->pigments[config->pigments_count++] = *pigment;
+    return EXIT_SUCCESS;
+}
+
+static int pigments_add(const struct paint *paint, struct paper_sheet_config *config,
+                        double *amount)
 {
     static const char *const inks[] = {"cyan", "magenta", "yellow"};
-    struct paper_sheet_config config = paper_sheet_config_default();
-    config.width = paint->size[0];
-    config.height = paint->size[1];
-    config.seed = (uint64_t)paint->seed;
-    config.stock = *paper_stock_find(paint->stock);
-    config.pigments_count = paint->ink_is_given ? 3 : 1;
-    for (int i = 0; i < config.pigments_count; i++)
-        config.pigments[i] = *paper_pigment_find(paint->ink_is_given ? inks[i] : PIGMENT_USUAL);
-    return paper_sheet_create(&config, out) == PAPER_OK ? EXIT_SUCCESS : fail_paper("paint");
+    static const char usual[] = "french ultramarine=1.2";
+    int status = EXIT_SUCCESS;
+    for (int i = 0; i < 3 && !isnan(paint->ink[0]) && status == EXIT_SUCCESS; i++) {
+        status = pigment_add(inks[i], config, amount);
+        amount[1 + i] = paint->ink[i];
+    }
+    for (int i = 0; i < paint->pigments.count && status == EXIT_SUCCESS; i++)
+        status = pigment_add(paint->pigments.texts[i], config, amount);
+    return status == EXIT_SUCCESS && !config->pigments_count
+               ? pigment_add(usual, config, amount)
+               : status;
+}
+
+int paint_sheet_config(const struct paint *paint, struct paper_sheet_config *config,
+                       double amount[1 + PAPER_PIGMENTS_MAX])
+{
+    char known[200];
+    *config = paper_sheet_config_default();
+    memset(amount, 0, sizeof *amount * (1 + PAPER_PIGMENTS_MAX));
+    amount[0] = paint->water;
+    config->width = paint->size[0];
+    config->height = paint->size[1];
+    config->seed = (uint64_t)paint->seed;
+    const struct paper_stock *stock =
+        paint->stock ? paper_stock_find(paint->stock) : &config->stock;
+    if (!stock) {
+        paper_stock_names(known, sizeof known);
+        return fail_usage("paint", "there is no paper stock '%.40s'; there are %s",
+                          paint->stock, known);
+    }
+    config->stock = *stock;
+    return pigments_add(paint, config, amount);
 }
 
 static enum paper_status pool_put(const struct paint *paint, struct paper_sheet *sheet,
@@ -38,16 +87,14 @@ static enum paper_status pool_put(const struct paint *paint, struct paper_sheet 
     return status;
 }
 
-static enum paper_status all_put(const struct paint *paint, struct paper_sheet *sheet)
+static enum paper_status all_put(const struct paint *paint, struct paper_sheet *sheet,
+                                 const double *amount)
 {
     struct paper_air air = paper_air_default();
     const double wet[1 + PAPER_PIGMENTS_MAX] = {paint->wet};
-    double amount[1 + PAPER_PIGMENTS_MAX] = {paint->water, PIGMENT_AMOUNT};
     air.gravity[0] = paint->gravity_x;
     air.gravity[1] = paint->gravity;
     air.humidity = paint->humidity;
-    if (paint->ink_is_given)
-        memcpy(amount + 1, paint->ink, sizeof paint->ink);
     enum paper_status status = paper_sheet_air(sheet, &air);
     if (status == PAPER_OK && paint->wet > 0)
         status = paper_sheet_put(sheet, NULL, 0, 0, wet);
@@ -60,11 +107,15 @@ static enum paper_status all_put(const struct paint *paint, struct paper_sheet *
     return status == PAPER_OK ? paper_sheet_finish(sheet) : status;
 }
 
-static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
+static int sheet_run(const struct paint *paint, struct paper_sheet *sheet, const double *amount)
 {
-    int status = all_put(paint, sheet) == PAPER_OK ? EXIT_SUCCESS : fail_paper("paint");
-    const enum paper_show show =
-        strcmp(paint->view, "water") == 0 ? PAPER_SHOW_WATER : PAPER_SHOW_COLOR;
+    int status = all_put(paint, sheet, amount) == PAPER_OK ? EXIT_SUCCESS : fail_paper("paint");
+    const struct paper_sheet_view view = {
+        .show = strcmp(paint->view, "water") == 0 ? PAPER_SHOW_WATER
+                : strcmp(paint->view, "wet") == 0 ? PAPER_SHOW_WET
+                                                  : PAPER_SHOW_COLOR,
+        .high = 1,
+        .light = paint->light};
     struct progress progress = progress_begin("painting", paint->steps);
     for (int step = 0; step <= paint->steps && status == EXIT_SUCCESS; step++) {
         char path[PAINT_PATH_MAX];
@@ -72,7 +123,7 @@ static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
             break;
         if (paint->frames_dir && step % paint->every == 0) {
             status = paint_frames_path(paint, step, path);
-            status = status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, show, path)
+            status = status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, &view, path)
                                             : status;
         }
         if (step == paint->steps || status != EXIT_SUCCESS)
@@ -87,16 +138,23 @@ static int sheet_run(const struct paint *paint, struct paper_sheet *sheet)
     progress_end(&progress);
     if (interrupted())
         return EXIT_INTERRUPTED;
-    return status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, show, paint->out_path)
+    return status == EXIT_SUCCESS ? sheet_picture_write("paint", sheet, &view, paint->out_path)
                                   : status;
 }
 
 int paint_sheet(const struct paint *paint)
 {
     struct paper_sheet *sheet = NULL;
-    int status = sheet_make(paint, &sheet);
+    struct paper_sheet_config config;
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    int status = paint_sheet_config(paint, &config, amount);
     if (status == EXIT_SUCCESS)
-        status = sheet_run(paint, sheet);
+        status =
+            machine_prepare("paint", config.width, config.height, paper_sheet_bytes(&config));
+    if (status == EXIT_SUCCESS)
+        status = paper_sheet_create(&config, &sheet) == PAPER_OK
+                     ? sheet_run(paint, sheet, amount)
+                     : fail_paper("paint");
     paper_sheet_destroy(sheet);
     return status;
 }

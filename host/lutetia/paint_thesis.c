@@ -63,6 +63,10 @@ int paint_thesis(const struct paint *paint)
     config.height = paint->size[1];
     config.seed = (uint64_t)paint->seed;
     config.absorbency = paint->absorbency;
+    const int ready = machine_prepare("paint", config.width, config.height,
+                                      page_bytes(config.width, config.height));
+    if (ready != EXIT_SUCCESS)
+        return ready;
     if (paper_create(&config, &sheet) != PAPER_OK)
         return fail_paper("paint");
     const int status = paint_run(paint, sheet);

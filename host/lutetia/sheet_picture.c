@@ -5,16 +5,15 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-int sheet_picture_read(const char *verb, struct paper_sheet *sheet, enum paper_show show,
-                       struct display_image *image)
+int sheet_picture_read(const char *verb, struct paper_sheet *sheet,
+                       const struct paper_sheet_view *view, struct display_image *image)
 {
-    const struct paper_sheet_view view = {.show = show, .high = 1, .light = PAPER_LIGHT_USUAL};
     const size_t count = 3 * (size_t)image->width_px * (size_t)image->height_px;
     uint16_t *rgb = malloc(count * sizeof *rgb);
     if (!rgb)
         return fail(verb, "no memory for a picture");
     int status = EXIT_SUCCESS;
-    if (paper_sheet_view(sheet, &view, rgb) != PAPER_OK)
+    if (paper_sheet_view(sheet, view, rgb) != PAPER_OK)
         status = fail_paper(verb);
     for (size_t i = 0; i < count && status == EXIT_SUCCESS; i++)
         image->pixels[i] = (uint8_t)((rgb[i] * 255u + 32767) / 65535);
@@ -22,15 +21,15 @@ int sheet_picture_read(const char *verb, struct paper_sheet *sheet, enum paper_s
     return status;
 }
 
-int sheet_picture_write(const char *verb, struct paper_sheet *sheet, enum paper_show show,
-                        const char *path)
+int sheet_picture_write(const char *verb, struct paper_sheet *sheet,
+                        const struct paper_sheet_view *view, const char *path)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     struct display_image image = {
         .width_px = config->width, .height_px = config->height, .channels = 3};
     if (display_image_create(&image) != DISPLAY_OK)
         return fail(verb, "%s", display_error());
-    int status = sheet_picture_read(verb, sheet, show, &image);
+    int status = sheet_picture_read(verb, sheet, view, &image);
     if (interrupted())
         status = EXIT_INTERRUPTED;
     else if (status == EXIT_SUCCESS && display_png_write(path, &image) != DISPLAY_OK)

@@ -41,12 +41,8 @@ struct spring_wet_def spring_wet_def_default(void)
 
 static int pigment_unknown(const char *name)
 {
-    char known[600] = "";
-    const struct paper_pigment *p;
-    for (int i = 0; (p = paper_pigment_number(i)); i++) {
-        const size_t at = strlen(known);
-        snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", p->name);
-    }
+    char known[600];
+    paper_pigment_names(known, sizeof known);
     return fail_usage("spring", "there is no pigment '%.40s'; there are %s", name, known);
 }
 
@@ -56,12 +52,13 @@ static int sheet_make(struct spring_wet *w)
     const struct paper_pigment *pigment = paper_pigment_find(w->def.pigment);
     if (!pigment)
         return pigment_unknown(w->def.pigment);
-    int status = machine_prepare("spring", w->def.width, w->def.height);
-    if (status != EXIT_SUCCESS)
-        return status;
     config.width = w->def.width;
     config.height = w->def.height;
     config.pigments[config.pigments_count++] = *pigment;
+    int status =
+        machine_prepare("spring", config.width, config.height, paper_sheet_bytes(&config));
+    if (status != EXIT_SUCCESS)
+        return status;
     return paper_sheet_create(&config, &w->sheet) == PAPER_OK ? EXIT_SUCCESS
                                                               : fail_paper("spring");
 }

@@ -28,6 +28,10 @@ struct demo {
     int stages_count;
 };
 
+static const struct paper_sheet_view color = {.show = PAPER_SHOW_COLOR,
+                                              .light = PAPER_LIGHT_USUAL},
+                                     water = {.show = PAPER_SHOW_WATER, .high = 1};
+
 static int stage_step(int stage)
 {
     return DEMO_STEPS * stage / (STAGES - 1);
@@ -35,7 +39,7 @@ static int stage_step(int stage)
 
 static int stage_take(struct demo *demo)
 {
-    const int status = sheet_picture_read("demo", demo->sheet, PAPER_SHOW_COLOR, &demo->view);
+    const int status = sheet_picture_read("demo", demo->sheet, &color, &demo->view);
     if (status != EXIT_SUCCESS)
         return status;
     size_t strip_row = 3 * (size_t)demo->strip.width_px, page_row = 3 * (size_t)DEMO_WIDTH;
@@ -81,8 +85,7 @@ static int demo_write(struct demo *demo)
                          ? EXIT_SUCCESS
                          : fail("demo", "%s", display_error());
         else
-            status = sheet_picture_write("demo", demo->sheet,
-                                         i == 0 ? PAPER_SHOW_COLOR : PAPER_SHOW_WATER, path);
+            status = sheet_picture_write("demo", demo->sheet, i == 0 ? &color : &water, path);
         if (status == EXIT_SUCCESS)
             printf("%s\n", path);
     }
@@ -106,10 +109,10 @@ static int demo_prepare(struct demo *demo)
         return status;
     if (demo_page_create(&demo->page) != PAPER_OK)
         return fail_paper("demo");
-    status = machine_prepare("demo", DEMO_WIDTH, DEMO_HEIGHT);
+    struct paper_sheet_config config = demo_page_config();
+    status = machine_prepare("demo", config.width, config.height, paper_sheet_bytes(&config));
     if (status != EXIT_SUCCESS)
         return status;
-    struct paper_sheet_config config = demo_page_config();
     if (paper_sheet_create(&config, &demo->sheet) != PAPER_OK)
         return fail_paper("demo");
     return EXIT_SUCCESS;

@@ -30,6 +30,7 @@ static struct paint paint_default(void)
         .humidity = NAN,
         .weights = {NAN, NAN, NAN},
         .absorbency = NAN,
+        .light = NAN,
     };
 }
 
@@ -52,27 +53,21 @@ static int full_take(struct paint *paint)
     if (!isnan(paint->absorbency) || !isnan(paint->weights[0]))
         return fail_usage("paint", "--%s is the thesis's model's; add --model thesis",
                           isnan(paint->absorbency) ? "weights" : "absorbency");
-    paint->stock = paint->stock ? paint->stock : paper_stock_number(0)->name;
-    if (!paper_stock_find(paint->stock)) {
-        char known[200] = "";
-        const struct paper_stock *stock;
-        for (int i = 0; (stock = paper_stock_number(i)); i++) {
-            const size_t at = strlen(known);
-            snprintf(known + at, sizeof known - at, "%s%s", i ? ", " : "", stock->name);
-        }
-        return fail_usage("paint", "there is no paper stock '%.40s'; there are %s",
-                          paint->stock, known);
-    }
-    paint->ink_is_given = !isnan(paint->ink[0]);
+    if (paint->pigments.count && !isnan(paint->ink[0]))
+        return fail_usage("paint", "give --ink or --pigment, one of them");
+    paint->light = or_else(paint->light, PAPER_LIGHT_USUAL);
     paint->water = or_else(paint->water, 0.9);
     paint->wet = or_else(paint->wet, 0);
     paint->steps = paint->steps < 0 ? 400 : paint->steps;
     paint->gravity = or_else(paint->gravity, air.gravity[1]);
     paint->gravity_x = or_else(paint->gravity_x, air.gravity[0]);
     paint->humidity = or_else(paint->humidity, air.humidity);
-    const int status = gravity_check("gravity", paint->gravity, -1, 1);
-    return status == EXIT_SUCCESS ? gravity_check("gravity-x", paint->gravity_x, -1, 1)
-                                  : status;
+    struct paper_sheet_config config;
+    double amount[1 + PAPER_PIGMENTS_MAX];
+    int status = gravity_check("gravity", paint->gravity, -1, 1);
+    if (status == EXIT_SUCCESS)
+        status = gravity_check("gravity-x", paint->gravity_x, -1, 1);
+    return status == EXIT_SUCCESS ? paint_sheet_config(paint, &config, amount) : status;
 }
 
 static int thesis_take(struct paint *paint)
@@ -81,6 +76,11 @@ static int thesis_take(struct paint *paint)
     const struct paper_weather weather = paper_weather_default();
     if (paint->stock)
         return fail_usage("paint", "--stock is the full model's; the thesis has one paper");
+    if (paint->pigments.count)
+        return fail_usage("paint", "--pigment is the full model's; the thesis has --ink");
+    if (!isnan(paint->light) || strcmp(paint->view, "wet") == 0)
+        return fail_usage("paint", "%s is the full model's; the thesis's paper is flat",
+                          isnan(paint->light) ? "--view wet" : "--light");
     for (int i = 0; i < 3; i++) {
         paint->ink[i] = or_else(paint->ink[i], ink[i]);
         paint->weights[i] = or_else(paint->weights[i], weather.molecular_weight[i]);
@@ -108,6 +108,22 @@ static int model_take(struct paint *paint)
     return fail_usage("paint", "--model must be full or thesis (got '%.60s')", paint->model);
 }
 
+/* What is painted and how it is shown; then the model's values. */
+static int words_take(struct paint *paint, const struct option_words *words)
+{
+    if (words->count > 1)
+        return fail_usage("paint", "there is one text; put it in quotes (then came '%.60s')",
+                          words->words[1]);
+    paint->text = words->count ? words->words[0] : NULL;
+    if (!paint->text == !paint->image_path)
+        return fail_usage("paint", "give a text or --image FILE, one of them");
+    if (strcmp(paint->view, "color") != 0 && strcmp(paint->view, "water") != 0 &&
+        strcmp(paint->view, "wet") != 0)
+        return fail_usage("paint", "--view must be color, water or wet (got '%.60s')",
+                          paint->view);
+    return model_take(paint);
+}
+
 static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
 {
     const double side = PAPER_SIDE_MAX, pull = PAPER_GRAVITY_MAX;
@@ -125,8 +141,11 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"model", 0, OPTION_TEXT, "MODEL", "full or thesis (full)", &paint->model, 0, 0, 0},
         {"stock", 0, OPTION_TEXT, "NAME", "full: the paper's kind (cold press)", &paint->stock,
          0, 0, 0},
-        {"ink", 0, OPTION_NUMBERS, "C,M,Y",
-         "cyan, magenta, yellow of the type, 0..1 (full: ultramarine)", paint->ink, 0, 1, 3},
+        {"pigment", 0, OPTION_TEXTS, "NAME=A",
+         "full: of the type, -4..4; any number (french ultramarine=1.2)", &paint->pigments, 0,
+         0, 0},
+        {"ink", 0, OPTION_NUMBERS, "C,M,Y", "or cyan, magenta, yellow of the type, 0..1",
+         paint->ink, 0, 1, 3},
         {"water", 0, OPTION_NUMBER, "W",
          "water put on with the type, 0..1 (full 0.9; thesis 0.8)", &paint->water, 0, 1, 0},
         {"wet", 0, OPTION_NUMBER, "W",
@@ -151,7 +170,10 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         {"weights", 0, OPTION_NUMBERS, "C,M,Y",
          "thesis: how easily pigments move, 0..1 (1,0.35,0.7)", paint->weights, 0, 1, 3},
         {"seed", 0, OPTION_INTEGER, "S", "of the paper (1990)", &paint->seed, 0, 2147483647, 0},
-        {"view", 0, OPTION_TEXT, "VIEW", "color or water", &paint->view, 0, 0, 0},
+        {"light", 0, OPTION_NUMBER, "L", "full: on the paper's relief, 0..4 (1.6)",
+         &paint->light, 0, 4, 0},
+        {"view", 0, OPTION_TEXT, "VIEW", "color, water, or full: wet, with light on the water",
+         &paint->view, 0, 0, 0},
         {"frames", 0, OPTION_TEXT, "DIR", "write pictures on the way there", &paint->frames_dir,
          0, 0, 0},
         {"every", 0, OPTION_INTEGER, "N", "cycles from one of them to the next (10)",
@@ -167,15 +189,7 @@ static int paint_options(struct paint *paint, int argc, char **argv, bool *help)
         options_help(rows);
         return EXIT_SUCCESS;
     }
-    if (words.count > 1)
-        return fail_usage("paint", "there is one text; put it in quotes (then came '%.60s')",
-                          words.words[1]);
-    paint->text = words.count ? words.words[0] : NULL;
-    if (!paint->text == !paint->image_path)
-        return fail_usage("paint", "give a text or --image FILE, one of them");
-    if (strcmp(paint->view, "color") != 0 && strcmp(paint->view, "water") != 0)
-        return fail_usage("paint", "--view must be color or water (got '%.60s')", paint->view);
-    return model_take(paint);
+    return words_take(paint, &words);
 }
 
 /* The size at which the line takes four fifths of the width, or three fifths of the height. */
@@ -236,8 +250,6 @@ int verb_paint(int argc, char **argv)
     if (status == EXIT_SUCCESS && paint.frames_dir)
         status = folder_make("paint", paint.frames_dir);
     interrupt_catch();
-    if (status == EXIT_SUCCESS)
-        status = machine_prepare("paint", paint.size[0], paint.size[1]);
     if (status == EXIT_SUCCESS)
         status = strcmp(paint.model, "full") == 0 ? paint_sheet(&paint) : paint_thesis(&paint);
     paper_screen_destroy(&paint.screen);

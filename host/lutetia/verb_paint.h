@@ -5,22 +5,29 @@
 #include "lutetia.h"
 #include "options.h"
 
+#include <sheet.h>
+
 #include <stdlib.h>
 
 struct paint {
     const char *text, *image_path, *font, *filter, *view, *frames_dir, *out_path;
     const char *model, *stock;
+    struct option_texts pigments; /* NAME=AMOUNT */
     double angle_deg;
     double size_px; /* 0: the line is fitted to the paper */
     /* Options that were not given are NaN until the model's values are taken. */
-    double ink[3], water, wet, gravity, gravity_x, humidity, weights[3], absorbency;
-    bool ink_is_given;
+    double ink[3], water, wet, gravity, gravity_x, humidity, weights[3], absorbency, light;
     int size[2], steps, every, seed;
     struct option_list pools;
     struct paper_screen screen;
 };
 
-/* Each paints the picture and writes it. EXIT_SUCCESS, EXIT_INTERRUPTED, or prints why not. */
+/* The sheet with layers that the options ask for, and the amounts of water and of its
+ * pigments that the type is put with. EXIT_SUCCESS, or prints why not. */
+int paint_sheet_config(const struct paint *paint, struct paper_sheet_config *config,
+                       double amount[1 + PAPER_PIGMENTS_MAX]);
+
+/* Each makes the machine, paints the picture and writes it. EXIT_SUCCESS, EXIT_INTERRUPTED, or prints why not. */
 int paint_thesis(const struct paint *paint);
 int paint_sheet(const struct paint *paint);
 

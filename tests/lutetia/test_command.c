@@ -43,6 +43,36 @@ static const struct {
      2,
      "--steps",
      ""},
+    {"pigment",
+     {"paint", "x", "--pigment", "octarine", "-o", OUT},
+     NULL,
+     2,
+     "octarine",
+     "hansa yellow"},
+    {"pigment's amount",
+     {"paint", "x", "--pigment", "cyan=many", "-o", OUT},
+     NULL,
+     2,
+     "-4..4",
+     "many"},
+    {"pigment twice",
+     {"paint", "x", "--pigment", "cyan", "--pigment", "cyan=1", "-o", OUT},
+     NULL,
+     2,
+     "twice",
+     "cyan"},
+    {"ink and pigment",
+     {"paint", "x", "--pigment", "cyan", "--ink", "1,0,0", "-o", OUT},
+     NULL,
+     2,
+     "--pigment",
+     "one of them"},
+    {"pigment of 1990",
+     {"paint", "x", "--model", "thesis", "--pigment", "cyan", "-o", OUT},
+     NULL,
+     2,
+     "--pigment",
+     "--ink"},
     {"gravity nan", {"paint", "x", "--gravity", "nan", "-o", OUT}, NULL, 2, "--gravity", "nan"},
     {"gravity inf", {"paint", "x", "--gravity=inf", "-o", OUT}, NULL, 2, "--gravity", "inf"},
     {"the thesis's gravity zero",
@@ -325,6 +355,36 @@ static void same_seed_same_file_of(const char *model)
     assert_memory_equal(bytes[0], bytes[1], counts[0]);
 }
 
+/* Papers, pigments and views of all kinds are painted, and look different. */
+static void papers_of_all_kinds(void **state)
+{
+    (void)state;
+    enum { KINDS = 4 };
+    static char bytes[KINDS][1 << 18];
+    size_t counts[KINDS];
+    static const char *const ways[KINDS][4] = {
+        {"--model=thesis", "--weights", "1,0.5,0.5", "--gravity=1.5"},
+        {"--pigment=burnt umber=0.8", "--stock", "rough", "--gravity=0.5"},
+        {"--pigment=burnt umber=0.8", "--stock", "rough", "--light=0"},
+        {"--ink", "0.2,0.8,0", "--stock=xuan", "--view=wet"}};
+    for (int i = 0; i < KINDS; i++) {
+        const char *out = scratch_path("kind.png");
+        struct child child = {.arguments = {"", "paint", "Aa", "--paper", "96x64", "--steps",
+                                            "9", "--font", "DejaVuSerif", "-o", out}};
+        for (int k = 0; k < 4; k++)
+            child.arguments[11 + k] = ways[i][k];
+        run(&child, 0);
+        assert_string_equal(child.errors, "");
+        FILE *file = fopen(out, "rb");
+        assert_non_null(file);
+        counts[i] = fread(bytes[i], 1, sizeof bytes[i], file);
+        fclose(file);
+        unlink(out);
+        for (int k = 0; k < i; k++)
+            assert_false(counts[i] == counts[k] && memcmp(bytes[i], bytes[k], counts[i]) == 0);
+    }
+}
+
 static void same_seed_same_file(void **state)
 {
     (void)state;
@@ -469,6 +529,7 @@ int main(void)
         cmocka_unit_test(info_lists_devices_and_bits),
         cmocka_unit_test(output_that_is_full_is_noticed),
         cmocka_unit_test(paint_writes_a_picture),
+        cmocka_unit_test(papers_of_all_kinds),
         cmocka_unit_test(same_seed_same_file),
         cmocka_unit_test(frames_are_written),
         cmocka_unit_test(a_dump_that_cannot_be_is_said_once),

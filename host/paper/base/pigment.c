@@ -10,6 +10,7 @@
 #include "base/base.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <strings.h>
 
 /* name; weight; density, staining, granulation; K; S; takes */
@@ -38,6 +39,15 @@ enum { PIGMENTS_COUNT = sizeof pigments / sizeof *pigments };
 const struct paper_pigment *paper_pigment_number(int number)
 {
     return number >= 0 && number < PIGMENTS_COUNT ? &pigments[number] : NULL;
+}
+
+void paper_pigment_names(char *text, size_t room)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (int i = 0; i < PIGMENTS_COUNT && used < room; i++)
+        used +=
+            (size_t)snprintf(text + used, room - used, "%s%s", i ? ", " : "", pigments[i].name);
 }
 
 const struct paper_pigment *paper_pigment_find(const char *name)

@@ -2,6 +2,7 @@
  * the second on is in model/felt.c. */
 #include "sheet.h"
 
+#include <stdio.h>
 #include <strings.h>
 
 static const struct paper_stock stocks[] = {
@@ -27,4 +28,13 @@ const struct paper_stock *paper_stock_find(const char *name)
         if (strcasecmp(stocks[i].name, name) == 0)
             return &stocks[i];
     return NULL;
+}
+
+void paper_stock_names(char *text, size_t room)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (int i = 0; i < STOCKS_COUNT && used < room; i++)
+        used +=
+            (size_t)snprintf(text + used, room - used, "%s%s", i ? ", " : "", stocks[i].name);
 }

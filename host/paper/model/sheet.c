@@ -17,6 +17,12 @@ struct paper_sheet_config paper_sheet_config_default(void)
     return config;
 }
 
+double paper_sheet_bytes(const struct paper_sheet_config *config)
+{
+    double arrays = 42 + 8.5 * config->pigments_count;
+    return (double)sizeof(float) * arrays * config->width * config->height;
+}
+
 /* ---- checking ---- */
 
 /* Of what kind it is, and its name, go before what is wrong. */
