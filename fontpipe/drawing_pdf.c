@@ -24,6 +24,7 @@ struct pdf {
     struct pdf_font *fonts;
     int fonts_count, fonts_capacity;
     bool covers[256]; /* translucencies that are used */
+    double x, y;      /* of the layout's origin, in pixels */
     FILE *f;
     long *offsets;
     int objects, offsets_capacity;
@@ -77,6 +78,63 @@ static bool stream_put(struct pdf *p, const char *bytes, size_t count)
 
 /* ---- what is on the page ---- */
 
+static bool gradient(const struct font_ink *ink)
+{
+    return (ink->kind == FONT_INK_LINEAR || ink->kind == FONT_INK_RADIAL) &&
+           ink->stops_count > 0;
+}
+
+/* From one stop to the next, and the ends' colours beyond them, as one function over 0..1. */
+static void stops_put(const struct font_ink *ink, FILE *f)
+{
+    int n = ink->stops_count;
+    fputs("<< /FunctionType 3 /Domain [0 1] /Functions [", f);
+    for (int i = 0; i <= n; i++) {
+        const double *a = ink->stops[i ? i - 1 : 0].rgba,
+                     *b = ink->stops[i < n ? i : n - 1].rgba;
+        fprintf(f,
+                " << /FunctionType 2 /Domain [0 1] /N 1 /C0 [%.5g %.5g %.5g] /C1 [%.5g %.5g "
+                "%.5g] >>",
+                a[0], a[1], a[2], b[0], b[1], b[2]);
+    }
+    fputs(" ] /Bounds [", f);
+    double before = 0;
+    for (int i = 0; i < n; i++) { /* bounds rise, and are within 0..1 */
+        before = fmin(fmax(ink->stops[i].at, before + 1e-6), 1 - 1e-6 * (n - i));
+        fprintf(f, " %.7f", before); /* PDF has no exponents */
+    }
+    fputs(" ] /Encode [", f);
+    for (int i = 0; i <= n; i++)
+        fputs(" 0 1", f);
+    fputs(" ] >>", f);
+}
+
+/* The layout's gradients. Their places are the page's, from the layout's origin on. */
+static void gradients_put(const struct pdf *p)
+{
+    fputs(" /Pattern <<", p->f);
+    for (int i = 0; i < p->layout->inks_count; i++) {
+        const struct font_ink *ink = &p->layout->inks[i];
+        if (!gradient(ink))
+            continue;
+        fprintf(
+            p->f,
+            "\n/P%d << /PatternType 2 /Matrix [%g 0 0 %g %.7g %.7g]\n/Shading << /ColorSpace "
+            "/DeviceRGB /Extend [true true] ",
+            i + 1, point_px, -point_px, p->x * point_px, (p->d->height_px - p->y) * point_px);
+        if (ink->kind == FONT_INK_RADIAL)
+            fprintf(p->f, "/ShadingType 3 /Coords [%.7g %.7g 0 %.7g %.7g %.7g]", ink->x0,
+                    ink->y0, ink->x0, ink->y0, ink->x1);
+        else
+            fprintf(p->f, "/ShadingType 2 /Coords [%.7g %.7g %.7g %.7g]", ink->x0, ink->y0,
+                    ink->x1, ink->y1);
+        fputs("\n/Function ", p->f);
+        stops_put(ink, p->f);
+        fputs(" >> >>", p->f);
+    }
+    fputs(" >>", p->f);
+}
+
 static void ink_put(struct pdf *p, int i, FILE *f)
 {
     struct font_ink own;
@@ -84,7 +142,10 @@ static void ink_put(struct pdf *p, int i, FILE *f)
     const double *c = ink->kind == FONT_INK_PLAIN ? ink->rgba : ink->stops[0].rgba;
     int cover = (int)lrint(255 * c[3]);
     p->covers[cover] = true;
-    fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
+    if (gradient(ink))
+        fprintf(f, "/Pattern cs /P%d scn /A%d gs\n", p->layout->glyphs[i].ink, cover);
+    else
+        fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
 }
 
 static enum font_status letter_put(struct pdf *p, int i, const struct font_map *map, double x,
@@ -100,7 +161,9 @@ static enum font_status letter_put(struct pdf *p, int i, const struct font_map *
         return status;
     if (i == 0 || p->layout->glyphs[i - 1].ink != g->ink)
         ink_put(p, i, f);
-    if (whole.kind == FONT_AFFINE) {
+    struct font_ink own;
+    /* Programs that show PDF do not clip gradients to the letters of such fonts: those are paths. */
+    if (whole.kind == FONT_AFFINE && !gradient(drawn_ink(p->d, p->layout, i, &own))) {
         font_face_describe(g->face, &info);
         double em = info.units_per_em * point_px;
         const double *m = whole.m;
@@ -244,7 +307,9 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
     for (int i = 0; i < 256; i++)
         if (p->covers[i])
             fprintf(p->f, " /A%d << /ca %.5g >>", i, i / 255.0);
-    fputs(" >> >> >>\nendobj\n", p->f);
+    fputs(" >>", p->f);
+    gradients_put(p);
+    fputs(" >> >>\nendobj\n", p->f);
     good = good && object_begin(p);
     fprintf(p->f, "<< /Type /Pages /Kids [%d 0 R] /Count 1 >>\nendobj\n", page);
     good = good && object_begin(p);
@@ -263,7 +328,7 @@ enum font_status font_drawing_pdf(const struct font_drawing *d,
                                   const struct font_layout *layout, const struct font_map *map,
                                   double x, double y, FILE *file)
 {
-    struct pdf p = {.d = d, .layout = layout};
+    struct pdf p = {.d = d, .layout = layout, .x = x, .y = y};
     char *content = NULL, *whole = NULL;
     size_t content_bytes = 0, whole_bytes = 0;
     enum font_status status = drawn_inks_check(layout);

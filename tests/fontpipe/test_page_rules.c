@@ -448,6 +448,43 @@ static void drawings_have_all_letters(void **state)
     end(&f);
 }
 
+/* Each gradient once, in the page's own places, and the letters in it. */
+static void drawings_have_gradients(void **state)
+{
+    (void)state;
+    struct font_face *face = face_open("DejaVuSans");
+    struct font_shaper *s = shaper_make(face);
+    struct font_layout l;
+    const struct font_ink inks[] = {
+        {.kind = FONT_INK_LINEAR,
+         .x1 = 100,
+         .stops_count = 3,
+         .stops = {{0, {1, 0, 0, 1}}, {0.25, {0, 1, 0, 1}}, {1, {0, 0, 1, 1}}}},
+        {.kind = FONT_INK_RADIAL,
+         .x0 = 80,
+         .x1 = 40,
+         .stops_count = 2,
+         .stops = {{0, {1, 1, 0, 1}}, {1, {0, 1, 1, 1}}}},
+    };
+    size_t bytes;
+    assert_font(font_shaper_layout(s, "abcdef", 6, 30, NULL, &l));
+    for (int i = 0; i < l.glyphs_count; i++) {
+        if (i % 3 == 0)
+            assert_true(font_layout_ink_add(&l, &inks[i / 3]) > 0);
+        l.glyphs[i].ink = i / 3 + 1;
+    }
+    char *pdf = drawn(&l, true, &bytes);
+    assert_int_equal(count_of(pdf, "/ShadingType 2 /Coords [0 0 100 0]"), 1);
+    assert_int_equal(count_of(pdf, "/ShadingType 3 /Coords [80 0 0 80 0 40]"), 1);
+    assert_int_equal(count_of(pdf, "/Bounds [ 0.0000010 0.2500000 0.9999990 ]"), 1);
+    assert_int_equal(count_of(pdf, "/Pattern cs /P1 scn"), 1);
+    assert_int_equal(count_of(pdf, "/Pattern cs /P2 scn"), 1);
+    free(pdf);
+    font_layout_finish(&l);
+    font_shaper_destroy(s);
+    font_face_close(face);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,6 +498,7 @@ int main(void)
         cmocka_unit_test(lines_go_down),
         cmocka_unit_test(thai_words_are_broken),
         cmocka_unit_test(drawings_have_all_letters),
+        cmocka_unit_test(drawings_have_gradients),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
