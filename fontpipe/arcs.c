@@ -86,7 +86,8 @@ static int up(float number)
 /* Neither x nor y turns around in it. */
 static void straight_put(struct maker *m, const struct font_arc *a)
 {
-    /* A curve goes at most |c| + 2 |b| in t, however it is cut, and is b / 4 beside its chord. */
+    /* However a curve is cut, x and y change by at most |c| + 2 |b| over t, and the curve is at
+     * most b / 4 away from its chord. */
     float across = fabsf(a->cx) + 2 * fabsf(a->bx), down = fabsf(a->cy) + 2 * fabsf(a->by);
     float far = (across > down ? across : down) * m->per_span;
     float bend = (fabsf(a->bx) + fabsf(a->by)) * m->per_bend;
@@ -149,9 +150,10 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-/* Into how many quadratic curves a cubic is cut. t^3 is 3/2 t^2 - 1/2 t and what is left: at most 0.0481 a, half of it to
- * either side, of which what is along the curve does not matter. What a pixel is wrong by is that over a half of what is in
- * it: of parts shorter than two pixels it may be more. */
+/* The number of quadratic curves that a cubic is cut into. In t^3 = (3/2 t^2 - 1/2 t) + rest,
+ * the rest is at most 0.0481 a, half of it to either side. The part of the rest along the curve
+ * does not matter. A pixel is wrong by at most the rest over half of the pixel's ink; of parts
+ * shorter than two pixels the error may be larger. */
 static int cubic_parts(const float c[2], const float b[2], const float a[2])
 {
     float size = fabsf(a[0]) + fabsf(a[1]);
@@ -243,7 +245,7 @@ static void warped_put(struct maker *m, const struct warp *w, double t0, struct 
         double t = 0.25 * (k + 1);
         double x = q[k].x - (p0.x + t * (cx + t * bx)), y = q[k].y - (p0.y + t * (cy + t * by));
         double tx = cx + 2 * t * bx, ty = cy + 2 * t * by, speed = hypot(tx, ty);
-        /* What is off along the curve matters little; where it turns there is more of it. */
+        /* An error along the curve matters little, and is larger where the curve turns. */
         off = fmax(off, speed > 1e-6 ? fabs(x * ty - y * tx) / speed : hypot(x, y));
         off = fmax(off, 0.1 * hypot(x, y));
     }

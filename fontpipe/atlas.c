@@ -196,7 +196,7 @@ static int shelf_cut(struct font_atlas *a, int height_px, enum font_status *stat
     return a->shelves_count++;
 }
 
-/* The lowest shelf with room, not more than half as high again as what is put on it. */
+/* The lowest shelf with room that is at most half as high again as the picture. */
 static int shelf_find(const struct font_atlas *a, int width_px, int height_px)
 {
     int best = -1;
@@ -340,7 +340,8 @@ static struct entry *entry_find(const struct font_atlas *a, const struct key *ke
     return NULL;
 }
 
-/* Draws what is not there yet. *out: NULL if it has no ink and no shelf to be kept with. */
+/* Draws a glyph that the atlas does not hold yet. *out: NULL if it has no ink and there is no
+ * shelf to keep it on. */
 static enum font_status entry_make(struct font_atlas *a, const struct key *key,
                                    const struct font_gray *gray, struct entry **out)
 {

@@ -32,8 +32,9 @@ enum font_status font_edges_kernel_avx512(const struct font_edges_job *job);
 /* The one that font_simd_use() chose, or this thread. */
 enum font_status font_edges_kernel(const struct font_edges_job *job);
 
-/* How many nodes an edge needs and, where the most are not enough, on how many pieces of it. across, down: all the way it
- * goes along x and y, at its flattest. */
+/* The number of nodes that an edge needs. If that is more than there can be, *pieces is the
+ * number of pieces to cut it into. across, down: the distances along x and y, where the edge is
+ * flattest. */
 static inline int font_nodes_needed(const struct font_filter *f, float length, float across,
                                     float down, int *pieces)
 {

@@ -27,12 +27,13 @@ struct disc_arc {
     float x, y;           /* where it begins */
     float dx, dy, length; /* its chord's direction, and how long that is; dx > 0 */
     float bend,
-        lens; /* how far beside the chord its middle is, downwards; and the area between them */
+        lens; /* the distance of the arc's middle from the chord, downwards; and the area between arc and chord */
     float weight;
 };
 
-/* The integral of sqrt(1 - x^2) from 0, for x from -1 to 1: to 1.5e-5. Near 1 it is pi/4 less (1 - |x|)^1.5 times what is all
- * but a line; the coefficients interpolate at Chebyshev's nodes. */
+/* The integral of sqrt (1 - x^2) from 0 to x, for x from -1 to 1, with an error of at most
+ * 1.5e-5. Near 1 it is pi/4 less (1 - |x|)^1.5 times a factor that is nearly linear in x; the
+ * coefficients interpolate that factor at Chebyshev's nodes. */
 /* To 14 bits where that is much faster: no processor draws the plain ones otherwise than another. */
 INLINE vector quick_root(vector v)
 {
@@ -95,12 +96,13 @@ INLINE vector disc_area(const struct disc_arc *a, const struct disc_columns *c, 
 {
     vector none = top * 0, one = none + 1, length = none + a->length;
     vector x0 = c->x0, y0 = a->y - top;
-    /* Where the chord is nearest, how far along it and how far beside; the arc is as far from the chord there. */
+    /* The chord's point nearest to the centre: its distance along the chord, and from it. There
+     * the arc is about as far from the chord. */
     vector foot = -(x0 * a->dx + y0 * a->dy),
            t = vector_between(foot * (1 / a->length), none, one);
     vector line = y0 * a->dx - x0 * a->dy, away = line + disc_beside(a, t);
     vector half = quick_root(vector_max(one - away * away, none));
-    /* And again with how far it is beside the chord where it meets the circle. */
+    /* Repeats that with the arc's distance from the chord where the arc meets the circle. */
     vector tp = vector_between((foot - half) * (1 / a->length), none, one);
     vector tq = vector_between((foot + half) * (1 / a->length), none, one);
     vector away_p = line + disc_beside(a, tp), away_q = line + disc_beside(a, tq);

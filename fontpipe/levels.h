@@ -38,7 +38,8 @@ enum font_status font_levels_outline_set(struct font_levels *levels,
 enum font_status font_levels_master_em_set(struct font_levels *levels, int em_px);
 enum font_status font_levels_master_fill(struct font_levels *levels, int x, int y, int width,
                                          int height, bool black);
-/* Another master altogether, retouched elsewhere; it is copied. Its em becomes the levels'. */
+/* Replaces the master by a copy of this one, which was retouched elsewhere. The levels take
+ * over its em. */
 enum font_status font_levels_master_set(struct font_levels *levels,
                                         const struct font_master *master);
 /* Returns how many rectangles are gone in *gone, which may be NULL. */

@@ -220,7 +220,7 @@ static bool grow(float **arrays, int *capacity, int wanted)
     return true;
 }
 
-/* Nodes in the order in which gray_kernel.h goes through them, and zeros behind. */
+/* Copies nodes into the order in which gray_kernel.h reads them, followed by zeros. */
 static void nodes_copy(float *to, const float *from, int count)
 {
     int third = count / 3, at = 0;

@@ -80,7 +80,8 @@ void font_rectangles_finish(struct font_rectangles *r);
 /* Runs of black that are the same in rows that follow each other are one rectangle; or in columns, where that makes fewer.
  * None overlap. Errors: NO_MEMORY. */
 enum font_status font_rectangles_make(struct font_rectangles *r, const struct font_master *m);
-/* In rows alone: more, but those that follow each other are alike, as merging wants them. */
+/* Cuts into rows alone. These are more rectangles, but those of neighbouring rows are alike, as
+ * merging needs them. */
 enum font_status font_rectangles_make_rows(struct font_rectangles *r,
                                            const struct font_master *m);
 /* Joins rectangles that follow each other, down the rows or along the columns as they were cut, and whose sides differ by at

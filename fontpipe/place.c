@@ -1,4 +1,5 @@
-/* place.c - where a layout's glyph goes: its own map, its place, the text's map. See text.h. */
+/* place.c - the position of a layout's glyph, from the glyph's own map, its place and the
+ * text's map. See text.h. */
 #include "edges.h"
 #include "internal.h"
 #include "text.h"

@@ -54,7 +54,8 @@ static enum font_status rectangle_add(struct font_rectangles *r, int x0, int y0,
 static enum font_status rows_join(struct font_rectangles *r, const struct font_master *m)
 {
     r->count = 0;
-    /* Those that still grow, from left to right: indices into items, of the row above and of this one. */
+    /* The rectangles that still grow, from left to right, as indices into items: of the row
+     * above, and of this row. */
     size_t most = (size_t)m->width_px / 2 + 2;
     int *open = calloc(2 * most, sizeof *open), *next = open ? open + most : NULL;
     if (!open)
@@ -100,7 +101,8 @@ static void bits_take(uint64_t *bits, int *begin, int *end)
     *bits &= *end < 64 ? ~0ull << *end : 0;
 }
 
-/* Pixels x0..x1 - 1 end above row y. Those that began at the same row, too, are a rectangle. */
+/* The columns x0..x1 - 1 of black end above row y. Neighbouring columns that also began at the
+ * same row form a rectangle. */
 static enum font_status columns_end(struct font_rectangles *r, const int *began, int x0, int x1,
                                     int y)
 {

@@ -21,7 +21,7 @@
 
 enum { SKIPPED = 77 };
 
-/* The line of the first claim that does not hold becomes the child's status. */
+/* A child's status is the line number of the first claim that does not hold. */
 #define HOLDS(claim)                                                                           \
     do {                                                                                       \
         if (!(claim))                                                                          \

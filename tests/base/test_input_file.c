@@ -1,4 +1,4 @@
-/* test_input_file.c - what is read is a regular file, and nothing holds whoever opens it. */
+/* test_input_file.c - only regular files are opened for reading, and opening never blocks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

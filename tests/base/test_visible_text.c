@@ -1,4 +1,4 @@
-/* test_visible_text.c - nothing that comes from outside does anything to a terminal. */
+/* test_visible_text.c - untrusted text has no effect on a terminal. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -70,7 +70,8 @@ static void what_has_no_room_is_left_out(void **state)
     assert_string_equal(out, "a");
 }
 
-/* Bytes by chance: no control comes through, nothing is written beyond the room, and what is shown stays as it is. */
+/* Random bytes: no control character passes, nothing is written beyond the buffer, and visible
+ * characters stay unchanged. */
 static void any_bytes_are_harmless(void **state)
 {
     (void)state;

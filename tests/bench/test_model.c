@@ -1,5 +1,6 @@
-/* The cost model beside measurements: what it prefers takes hardly longer than what it could have had, and it foresees
- * times within a factor. Processor time, the least of several rounds: others may be using the machine. */
+/* Compares the cost model with measurements: the plan that it prefers takes hardly longer than
+ * the alternatives, and predicted times are within a factor of measured ones. Times are
+ * processor time, the least of several rounds, because other programs may be using the machine. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

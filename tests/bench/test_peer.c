@@ -1,5 +1,5 @@
-/* test_peer.c - the peers in Python, where they are installed, and what becomes of one that is not
- * there or fails. */
+/* test_peer.c - the peers in Python, where they are installed; and the report where a peer is
+ * missing or fails. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

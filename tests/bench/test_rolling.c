@@ -16,7 +16,7 @@
 #include "rolling.h"
 
 /* The rectangle's distance from each edge: left, top, right, bottom; the steps taken, in two
- * goes; and how the sheet is cut. */
+ * calls; and the size of the pieces that the sheet is cut into. */
 static const struct {
     int width, height, rim[4], steps[2];
     struct rolling_tiling tiling;
@@ -162,7 +162,7 @@ static void openmp_agrees_for_any_steps(void **state)
         openmp_agrees_with(13, &(struct rolling_tiling){steps, 1 + steps % 4, 1 + steps % 3});
 }
 
-/* The measurement leaves the sheet as it was, and what it chooses can run. */
+/* The measurement does not change the sheet, and the sizes that it chooses can run. */
 static void tuned_agrees(void **state)
 {
     (void)state;

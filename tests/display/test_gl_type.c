@@ -158,7 +158,8 @@ static void glyphs_have_maps_and_inks(void **state)
         struct font_map all = font_map_rotation(9);
         gl_type_begin(s.type, WIDTH, HEIGHT);
         assert_display(gl_type_draw(s.type, &s.layout, turned ? &all : NULL, 8, 50, ink));
-        /* Distorted glyphs are where they are; the painter's places round only what is left over. */
+        /* Distorted glyphs are drawn in their places; the painter rounds only the remaining
+         * translation. */
         struct display_image wanted = painted(&s, turned ? &all : NULL, 8, 50, 16);
         assert_true(compare(&s, &wanted) > 1000);
         stage_close(&s);

@@ -53,7 +53,8 @@ static void events_come_in_order(void **state)
     assert_int_equal(queue.lost_count, 0);
 }
 
-/* What is dropped is named until the next event is taken; the queue has its own copy. */
+/* The names of dropped files are valid until the next event is taken; the queue has its own
+ * copies. */
 static void paths_are_copied(void **state)
 {
     (void)state;
@@ -94,7 +95,8 @@ static void full_queues_keep_what_ends_something(void **state)
     assert_int_equal(ups, 0);
 }
 
-/* Few moves are all kept, for a stroke is made of them; of many that wait the last ones become one. */
+/* A few moves are all kept, because a stroke is made of them. When many wait, the last ones are
+ * merged into one. */
 static void moves_become_one_where_many_wait(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_window.c - windows on an Xvfb: what is on the screen is what was shown. */
+/* test_window.c - windows on an Xvfb: the screen shows the image that was passed to the window. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -65,7 +65,7 @@ static void machine_steps_as_c_does(void **unused)
     }
 }
 
-/* A cloth that is torn from its rail: springs snap, and it is what is left that goes on. */
+/* A cloth is torn from its rail: springs snap, and the remaining springs go on moving. */
 static void springs_break_on_the_machine(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* test_network.c - networks: what is put in comes out, what cannot be is refused in one line and changes nothing. */
+/* test_network.c - networks: masses and springs are read back as they were set; invalid ones
+ * are refused with one line, and change nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -448,7 +448,8 @@ static void stiff_springs_divide_the_step(void **unused)
     }
 }
 
-/* The bound is sharp enough: a chain whose every other mass goes the other way explodes just past it. */
+/* The bound for stability is sharp: just beyond it, a chain whose neighbouring masses move in
+ * opposite directions explodes. */
 static void step_beyond_the_bound_would_explode(void **unused)
 {
     (void)unused;

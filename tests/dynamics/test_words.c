@@ -257,7 +257,8 @@ static struct fall fall(const struct fixture *f, const char *preset, double y, d
     return seen;
 }
 
-/* Dropped, it breaks between its letters, not all of them, and never within; others fall or hang in one piece. */
+/* A dropped word breaks between some of its letters, and never within a letter; other words
+ * fall or hang in one piece. */
 static void breakdown_breaks_and_others_do_not(void **state)
 {
     const struct fixture *f = *state;

@@ -87,7 +87,7 @@ static void gray_check(const struct font_gray *g, const struct font_filter *filt
     font_filter_describe(filter, &info);
     must(g->width_px >= 0 && g->height_px >= 0 && (!g->width_px) == (!g->pixels));
     must(g->pitch >= g->width_px && g->pitch % 16 == 0);
-    /* What is covered once is between none and full, but for what the filter goes beyond. */
+    /* A pixel that is covered once is between none and full, except for the filter's overshoot. */
     float slack = (float)(0.06 + 4 * info.undershoot);
     for (int r = 0; g->exact && r < g->height_px; r++)
         for (int c = 0; c < g->width_px; c++) {

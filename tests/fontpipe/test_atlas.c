@@ -1,4 +1,5 @@
-/* test_atlas.c - glyphs packed into pages: what is there is right, apart, within bounds, and goes in order of use. */
+/* test_atlas.c - glyphs packed into pages: their pictures are right, do not overlap, stay
+ * within bounds, and leave in the order of their last use. */
 #include "support.h"
 
 #include <atlas.h>
@@ -38,7 +39,8 @@ static void end(struct fixture *f)
     font_face_close(f->face);
 }
 
-/* What the page holds there is the glyph as it is drawn by itself, and blank beside and below. */
+/* The page holds the same picture of the glyph as drawing it alone gives, with blank pixels on
+ * its right and below it. */
 static void slot_check(const struct fixture *f, const struct font_atlas_slot *slot,
                        uint32_t glyph, double size, double x, double y)
 {
@@ -202,7 +204,8 @@ static void what_is_used_stays(void **state)
     uint32_t kept = font_face_glyph(f.face, '@');
     font_atlas_begin(f.atlas);
     assert_font(font_atlas_get(f.atlas, f.face, kept, 24, NULL, 0, 0, &first));
-    /* Used each frame: it is never drawn again, whatever comes and goes beside it. */
+    /* A glyph that is used in each frame is never drawn again, whichever other glyphs come and
+     * go. */
     for (int frame = 0; frame < 60; frame++) {
         font_atlas_begin(f.atlas);
         assert_font(font_atlas_get(f.atlas, f.face, kept, 24, NULL, 0, 0, &slot));

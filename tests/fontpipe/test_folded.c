@@ -1,5 +1,5 @@
-/* test_folded.c - glyphs through maps that fold: outlines that are mapped as short lines are those that are mapped as curves, and
- * what is covered from both sides is covered once. */
+/* test_folded.c - glyphs through maps that fold: outlines mapped as short lines equal those
+ * mapped as curves, and a region that is covered from both sides counts once. */
 #include "support.h"
 
 #include <gray.h>
@@ -85,7 +85,8 @@ static void lines_are_the_curves(void **state)
     font_face_close(face);
 }
 
-/* A square whose sides cross is two triangles; with a dent it is its boundary; folded over by a corner, likewise. */
+/* A square whose sides cross becomes two triangles; a square with a dent its boundary; so does
+ * one that is folded over by a corner. */
 static void folded_squares_cover_once(void **state)
 {
     (void)state;
@@ -118,7 +119,8 @@ static void folded_squares_cover_once(void **state)
     font_filter_destroy(filter);
 }
 
-/* Any corners at all: a painter draws the glyph, or says that it cannot, and never more than the corners' reach. */
+/* With any corners a painter draws the glyph or reports that it cannot, and never draws beyond
+ * the corners' reach. */
 static void painters_draw_through_any_corners(void **state)
 {
     (void)state;

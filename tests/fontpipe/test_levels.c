@@ -1,4 +1,5 @@
-/* test_levels.c - master, rectangles, and the levels' edits: what is made again and what is not. */
+/* test_levels.c - master, rectangles, and edits of the levels: which levels are made again
+ * after an edit, and which are not. */
 #include "support.h"
 
 #include <gold.h>
@@ -112,7 +113,8 @@ static struct font_gray gray_copy(const struct font_gray *g)
     return copy;
 }
 
-/* Rectangles that a plain look at each pixel finds: a row's run begins one where there is no such run above it. */
+/* Finds rectangles by a plain look at each pixel: a run of a row begins a rectangle if the row
+ * above has no such run. */
 static int cuts_count(const struct font_master *m, bool columns)
 {
     int count = 0, along = columns ? m->height_px : m->width_px,

@@ -32,7 +32,8 @@ static double area(const struct font_outline *o)
     return -0.5 * sum * o->turn;
 }
 
-/* How far the ends of segments are from closing: each point must be left as often as it is reached. */
+/* How far the segments are from closed contours: each point must be the end of as many segments
+ * as it is the beginning of. */
 static bool closed(const struct font_outline *o)
 {
     double x = 0, y = 0, xx = 0, yy = 0;

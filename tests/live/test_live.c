@@ -191,7 +191,8 @@ static void keys_outside_are_played_by_octaves(void **unused)
     stage_destroy(stage);
 }
 
-/* What is played for long is as what is played at once: notes that are forgotten make no difference. */
+/* A long performance looks like one played at once: notes that have been forgotten make no
+ * difference. */
 static void forgotten_notes_make_no_difference(void **unused)
 {
     (void)unused;
@@ -285,7 +286,7 @@ static void maps_set_controls(void **unused)
     midi_song_destroy(song);
 }
 
-/* What is wrong is one line, and what comes after it is played all the same. */
+/* An error is reported in one line, and the following events are played all the same. */
 static void what_maps_do_wrong_is_told(void **unused)
 {
     (void)unused;

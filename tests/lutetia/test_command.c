@@ -14,7 +14,8 @@ static const char *lutetia;
 #define OUT "@out@"   /* a file in the scratch folder that must not be there afterwards */
 #define JUNK "@junk@" /* a file there that holds no picture and no font */
 
-/* What is wrong, how, the exit status, and two things that the one line must say. */
+/* A wrong command line: what is wrong with it, its words, the exit status, and two texts that
+ * the one line must contain. */
 static const struct {
     const char *name;
     const char *arguments[10];

@@ -69,7 +69,7 @@ static long bytes_of(const char *path)
     return stat(path, &status) == 0 ? (long)status.st_size : -1;
 }
 
-/* Without ffmpeg the film is silent, and its sound lies beside it, as long as the film. */
+/* Without ffmpeg the film is silent; its sound is a file beside it that is as long as the film. */
 static void film_and_its_sound(void **state)
 {
     (void)state;

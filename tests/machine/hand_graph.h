@@ -24,7 +24,8 @@ int hand_node(struct hand_graph *h, int op, struct machine_type type, int a, int
 int hand_shift(struct hand_graph *h, int a, int axis, int distance);
 /* So many nodes more by chance, of all operations and many types, on a set with so many axes; the last ones are targets. */
 void hand_by_chance(struct hand_graph *h, int count, int rank);
-/* What no target wants goes: planner and codegen are given no such nodes. */
+/* Nodes that no target needs are removed, because planner and codegen are never given such
+ * nodes. */
 void hand_prune(struct hand_graph *h);
 
 struct vpset hand_set(int rank, const int *dimensions, int halo);

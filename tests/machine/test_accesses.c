@@ -1,5 +1,5 @@
-/* What a stage looks at, as the walk of the graph finds it, beside what codegen writes: graphs by chance, planned in rows and
- * in strips. No device is needed. */
+/* Compares what a stage looks at, as the walk of the graph finds it, with the text that codegen
+ * writes, for random graphs that are planned in rows and in strips. No device is needed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* test_errors.c - wrong calls: a status, one clear line, and a machine that goes on as if nothing had been said. */
+/* test_errors.c - wrong calls give a status and one clear line, and the machine goes on as if
+ * they had not been made. */
 #include "support.h"
 
 static struct machine *machine;

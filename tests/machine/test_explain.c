@@ -280,7 +280,8 @@ static void strips_keep_rows_in_no_array(void **state)
     assert_non_null(strstr(k->name, "FADD"));
 }
 
-/* The same in tiles, cheaper to compile: of what is stored in no array, tiles are kept. */
+/* The same in tiles, which are cheaper to compile. Values that are stored in no array are kept
+ * in tiles. */
 static void tiles_are_kept_in_no_array(void **state)
 {
     struct machine_value *v = value(field_of(1));

@@ -1,4 +1,5 @@
-/* test_fields.c - VP sets, fields, flags, context: what is stored where, and what is seen of it. */
+/* test_fields.c - VP sets, fields, flags, context: where a store goes, and what a later read
+ * returns. */
 #include "support.h"
 
 static struct machine *machine;

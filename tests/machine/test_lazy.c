@@ -244,8 +244,8 @@ static void finish_leaves_nothing_to_compute(void **state)
     free(out);
 }
 
-/* A value that was read is good until the next instruction, even if the content that it was a part
- * of is computed in between. */
+/* A value that was read stays valid until the next instruction, even if the field's content is
+ * computed in the meantime. */
 static void value_outlives_the_content_it_is_a_part_of(void **state)
 {
     struct sheet s;
