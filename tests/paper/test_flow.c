@@ -261,20 +261,35 @@ static double front_ratio(const float *amounts, float at)
     return length / sqrt(2 * TURN * area);
 }
 
-static void ink_runs_along_fibers(void **state)
+static double ink_front(uint64_t seed, const char *stock)
 {
-    (void)state;
-    struct paper_sheet *sheet = sheet_of(1, "blotting");
+    struct paper_sheet *sheet = sheet_of(seed, stock);
     struct paper_air air = paper_air_default();
     air.humidity = 0.0001;
     check(paper_sheet_air(sheet, &air));
     disc_put(sheet, 10, (double[]){4, 1.5, 0});
     steps(sheet, 2400);
     pigment_read(sheet, 0, first);
-    double ratio = front_ratio(first, 0.04f);
-    print_message("ink: its front is %.2f times as long as a smooth one\n", ratio);
-    assert_true(ratio >= 3);
     paper_sheet_destroy(sheet);
+    return front_ratio(first, 0.04f);
+}
+
+/* The third is the worst of eight sheets that were measured; their mean is 3.2. */
+static void ink_runs_along_fibers(void **state)
+{
+    (void)state;
+    static const uint64_t seeds[] = {1, 12, 13};
+    enum { SHEETS = sizeof seeds / sizeof *seeds };
+    int over_3 = 0;
+    for (int i = 0; i < SHEETS; i++) {
+        const double ratio = ink_front(seeds[i], "xuan");
+        print_message("ink on xuan %d: its front is %.2f times as long as a smooth one\n",
+                      i + 1, ratio);
+        over_3 += ratio >= 3;
+        assert_true(ratio > 1.7);
+    }
+    assert_true(over_3 >= 2);
+    assert_true(ink_front(1, "blotting") >= 3);
 }
 
 /* ---- drips ---- */
