@@ -127,6 +127,36 @@ static void each_loop_gives_what_lane_by_lane_gives(void **state)
     assert_true(steps_tried > 200);
 }
 
+/* Of places that there are and such as there are not, in arrays of every kind. */
+static void what_is_fetched_is_in_the_array(void **state)
+{
+    const struct tables t = tables_here();
+    enum { PLACES = 100 };
+    static uint32_t places[LANES], count[LANES];
+    static _Alignas(64) unsigned char array[16 * PLACES], out[16 * LANES];
+    void *at[] = {places, array, count, out};
+    const struct lanes_step s = {.op = LANES_FETCH, .in = {0, 1, 2}, .to = 3};
+    (void)state;
+    for (int i = 0; i < LANES; i++) {
+        places[i] = i % 7 == 3 ? UINT32_MAX - (uint32_t)i : (uint32_t)(i * 37 % (PLACES + 5));
+        count[i] = PLACES;
+    }
+    for (size_t i = 0; i < sizeof array; i++)
+        array[i] = (unsigned char)(i * 151 + 1);
+    for (int k = 0; k < t.count; k++)
+        for (int c = 0; c < LANES_INTEGERS; c++) {
+            static const unsigned char none[16];
+            size_t bytes = lanes_bytes((enum lanes_class)c);
+            assert_non_null(t.of[k]->of[LANES_FETCH][c]);
+            memset(out, 0x55, sizeof out);
+            t.of[k]->of[LANES_FETCH][c](&s, at, LANES);
+            for (int i = 0; i < LANES; i++)
+                assert_memory_equal(out + (size_t)i * bytes,
+                                    places[i] < PLACES ? array + places[i] * bytes : none,
+                                    bytes);
+        }
+}
+
 static bool conversion_is(int op, struct machine_type from, struct machine_type to)
 {
     bool a = from.kind == MACHINE_FLOAT, b = to.kind == MACHINE_FLOAT;
@@ -373,6 +403,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_loop_gives_what_lane_by_lane_gives),
         cmocka_unit_test(each_conversion_gives_what_lane_by_lane_gives),
+        cmocka_unit_test(what_is_fetched_is_in_the_array),
         cmocka_unit_test(short_formats_round_as_whole_numbers_do),
         cmocka_unit_test(blocks_find_their_neighbours),
         cmocka_unit_test(a_small_plan_is_never_compiled),

@@ -261,15 +261,14 @@ struct summing {
     int parts;
 };
 
-static struct machine_scalar run_sum(const struct summing *g, size_t i)
+static struct machine_scalar run_sum(const struct summing *g, size_t row, size_t i)
 {
     static uint64_t (*const integers[])(const struct near_sum *, const void *,
                                         const unsigned char *, size_t) = {
         run_and, run_or, run_xor, run_add, run_least, run_greatest};
     const struct near_sum *what = g->what;
     const struct vpset *s = g->set;
-    size_t x = i % g->runs * g->run, width = (size_t)s->width,
-           at = i / g->runs * s->pitch + (size_t)s->halo + x,
+    size_t x = i * g->run, width = (size_t)s->width, at = row * s->pitch + (size_t)s->halo + x,
            count = width - x < g->run ? width - x : g->run;
     const unsigned char *c =
         what->context ? (const unsigned char *)what->context->host + at : NULL;
@@ -288,8 +287,13 @@ static void part_sum(void *of, int part, int worker)
     size_t all = g->runs * (size_t)g->set->rows, first = all * (size_t)part / (size_t)g->parts,
            end = all * (size_t)(part + 1) / (size_t)g->parts;
     (void)worker;
-    for (size_t i = first; i < end; i++)
-        g->sums[i] = run_sum(g, i);
+    for (size_t i = first, row = i / g->runs, k = i % g->runs; i < end; i++) {
+        g->sums[i] = run_sum(g, row, k++);
+        if (k == g->runs) {
+            k = 0;
+            row++;
+        }
+    }
 }
 
 bool near_sums(struct machine *m, const struct vpset *s, const struct near_sum *what,
