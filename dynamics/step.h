@@ -20,11 +20,16 @@
  * needed, springs on the masses that need them are softened until that many suffice, and
  * counted.
  *
- * Sides. A mass that is below the floor and moves down is reflected: its normal velocity is
- * multiplied by -e, with the restitution e, and its depth becomes a height, times e. If it is
- * slower than gravity makes a mass in two parts, e is 0, and it comes to rest. Friction reduces
- * the tangential velocity by at most the coefficient of friction times the change of the normal
- * velocity. Walls and ceiling act in the same way.
+ * Sides. A mass that is below the floor and moves down is reflected. A part's speed s is that
+ * in its middle. A mass that gains A in a part and meets the floor at the fraction r of the
+ * part before its end met it with s + c, c = A (1/2 - r), both downwards. It leaves with
+ * e (s + c), e its restitution; in the part's middle it would have had e (s + c) + c upwards,
+ * which is its new speed, and its place is where that leads from the floor in r. Without c
+ * each bounce would be wrong by up to half of what a part gains. A is taken as half of s at
+ * most. If s is slower than gravity makes a mass in two parts, e is 0, and it comes to rest;
+ * where e is 0, so is A.
+ * Friction reduces the tangential velocity by at most the coefficient of friction times the
+ * change of the normal velocity. Walls and ceiling act in the same way.
  *
  * Thesis: the listing in its appendix 7.1, operation for operation, in doubles: one part;
  * floor, gravity and drag; no wind, walls, friction, damping of springs or pulls, and a

@@ -44,10 +44,11 @@ struct heard {
     double speed[DYN_RIGHT + 1][LANES];
 };
 
-/* Reflects at one side: p is the place across it and v the velocity, t the velocity along
- * it. inwards: 1 if p grows inwards, else -1. */
+/* Reflects at one side, as step.h says: p is the place across it and v the velocity, gained
+ * what v gains in a part; t is the velocity along it. inwards: 1 if p grows inwards, else
+ * -1. */
 INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
-                      lanes *p, lanes *v, lanes *t, struct heard *heard)
+                      lanes *p, lanes *v, lanes gained, lanes *t, struct heard *heard)
 {
     const lanes none = lanes_all(0), bound = lanes_all(at);
     lanes beyond = inwards > 0 ? bound - *p : *p - bound;
@@ -58,10 +59,19 @@ INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at,
         return;
     lanes e = lanes_pick(lanes_less(lanes_all(job->slow_speed), speed),
                          lanes_load(job->restitution + i), none);
-    lanes after = e * speed, back = e * lanes_min(beyond, lanes_all(job->h) * speed);
+    const lanes half = lanes_all(0.5), h = lanes_all(job->h), most = half * speed;
+    lanes gain = lanes_max(lanes_min(inwards > 0 ? -gained : gained, most), -most);
+    gain = lanes_pick(lanes_less(none, e), gain, none);
+    /* the time from the side to the part's end, in parts: at a steady speed, then as it is */
+    lanes left = lanes_min(beyond / (h * speed), lanes_all(1));
+    left =
+        lanes_min(beyond / (h * (speed + half * gain * (lanes_all(1) - left))), lanes_all(1));
+    lanes change = gain * (half - left), met = speed + change, after = e * met;
+    lanes middle = lanes_min(lanes_max(after + change, none), lanes_all(job->speed_limit));
+    lanes back = lanes_max(h * left * (after - half * gain * left), none);
     *p = lanes_pick(hit, inwards > 0 ? bound + back : bound - back, *p);
-    *v = lanes_pick(hit, inwards > 0 ? after : -after, *v);
-    lanes grip = lanes_load(job->friction + i) * (speed + after);
+    *v = lanes_pick(hit, inwards > 0 ? middle : -middle, *v);
+    lanes grip = lanes_load(job->friction + i) * (met + after);
     *t = lanes_pick(hit, *t - lanes_max(lanes_min(*t, grip), -grip), *t);
     heard->of_side[side] =
         lanes_bits(lanes_both(hit, lanes_less(lanes_all(job->clank_speed), after)));
@@ -69,7 +79,9 @@ INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at,
     lanes_store(heard->speed[side], after);
 }
 
-INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s, struct heard *heard)
+/* gained: what velocities gain in a part. */
+INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s,
+                       struct lanes_force gained, struct heard *heard)
 {
     lanes_mask out = lanes_either(lanes_either(lanes_less(s->y, lanes_all(job->least_y)),
                                                lanes_less(lanes_all(job->most_y), s->y)),
@@ -78,10 +90,10 @@ INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s, struct
     heard->any = 0;
     if (!lanes_bits(out))
         return;
-    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, &s->vx, heard);
-    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, &s->vx, heard);
-    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, &s->vy, heard);
-    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, &s->vy, heard);
+    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, gained.y, &s->vx, heard);
+    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, gained.y, &s->vx, heard);
+    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, gained.x, &s->vy, heard);
+    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, gained.x, &s->vy, heard);
 }
 
 static void clanks_tell(struct dyn_job *job, int i, const struct heard *heard)
@@ -99,11 +111,13 @@ static void clanks_tell(struct dyn_job *job, int i, const struct heard *heard)
 INLINE void masses_pass(struct dyn_job *job, bool moves)
 {
     const lanes limit = lanes_all(job->speed_limit), h = lanes_all(job->h);
+    const lanes whole = lanes_all(job->verlet ? 2 : 1); /* a part has so many kicks */
     for (int i = 0; i < job->masses; i += LANES) {
         struct lanes_state s = states_load(job->state + i);
         struct lanes_force f = forces_load(job->force + i);
         struct heard heard;
         lanes keep = lanes_load(job->keep + i), kick = lanes_load(job->kick + i);
+        struct lanes_force gained = {s.vx, s.vy};
         s.vx = keep * s.vx + kick * f.x + lanes_load(job->push_x + i);
         s.vy = keep * s.vy + kick * f.y + lanes_load(job->push_y + i);
         s.vx = lanes_max(lanes_min(s.vx, limit), -limit);
@@ -111,7 +125,9 @@ INLINE void masses_pass(struct dyn_job *job, bool moves)
         if (moves) {
             s.x = s.x + h * s.vx;
             s.y = s.y + h * s.vy;
-            sides_meet(job, i, &s, &heard);
+            gained.x = whole * (s.vx - gained.x);
+            gained.y = whole * (s.vy - gained.y);
+            sides_meet(job, i, &s, gained, &heard);
             forces_clear(job->force + i);
         }
         states_store(job->state + i, s);
