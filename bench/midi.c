@@ -3,8 +3,8 @@
  * A pseudo-terminal stands for the instrument; the server is a process, and so is each of 16
  * programs that listen. A thousand notes a second, five rounds of a thousand; each delivery is
  * timed, from before the write at the instrument's end to after the read in the program. The
- * cases are: an idle machine; as many busy processes as processors; and both with real-time
- * priority for the server, the programs and the player, where that is allowed. Lost or altered
+ * cases are: an idle machine; as many busy processes as processors; and each of them with
+ * real-time priority for the server, the programs and the player, where that is allowed. Lost or altered
  * messages are errors. Then a program takes the place of the instrument, because the terminal's
  * bytes go through a kernel worker, which has no such priority.
  *
@@ -176,9 +176,10 @@ int bench_midi_main(int argc, char **argv)
     }
     const bool real_time = midi_real_time_allowed();
     for (int player = MIDI_FROM_INSTRUMENT; ok && player <= MIDI_FROM_PROGRAM; player++)
-        for (int way = 0; ok && way < 2 + real_time; way++)
-            ok = case_measure(&report, (enum midi_player)player, way > 0, way > 1,
-                              options.repeat_count);
+        for (int loaded = 0; loaded < 2; loaded++)
+            for (int first = 0; ok && first < 1 + real_time; first++)
+                ok = case_measure(&report, (enum midi_player)player, loaded, first,
+                                  options.repeat_count);
     if (!real_time)
         fprintf(stderr, "lutetia bench midi: real time is not allowed here (`ulimit -r`); its "
                         "rows are missing\n");
