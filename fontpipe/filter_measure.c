@@ -141,17 +141,17 @@ static void nodes_measure(struct font_filter *f, struct trial *t)
     for (int l = 0; l < FONT_LENGTHS; l++)
         for (int s = 0; s < FONT_SLANTS; s++) {
             trial_begin(t, f, 0.25 * pow(2, 0.25 * l), font_slants[s]);
-            float *error = f->node_error[s][l] - 1;
+            float *error = f->node_error[s][l]; /* of m nodes: error[m - 1] */
             for (int m = 1; m <= FONT_NODES_MAX; m++) {
                 trial_nodes(t, f, m, t->sum);
-                error[m] = (float)(trial_error(t) / t->dx);
-                if (m > 1 && error[m] * t->dx < (double)f->piece_tolerance / 8) {
+                error[m - 1] = (float)(trial_error(t) / t->dx);
+                if (m > 1 && error[m - 1] * t->dx < (double)f->piece_tolerance / 8) {
                     while (++m <= FONT_NODES_MAX) /* more are as good */
-                        error[m] = error[m - 1];
+                        error[m - 1] = error[m - 2];
                 }
             }
             if (f->way != FONT_BY_PATCHES && l == 4 && s == 0 &&
-                error[4] * t->dx > (double)f->piece_tolerance)
+                error[3] * t->dx > (double)f->piece_tolerance)
                 return; /* half a pixel needs more than four: steps, 16 a pixel, are as few */
         }
     f->use_nodes = true;

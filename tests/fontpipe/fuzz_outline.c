@@ -159,7 +159,7 @@ int fuzz_outline(const uint8_t *bytes, size_t count)
     if (status == FONT_OK)
         status = font_outline_prepare(&o, rule);
     if (status == FONT_OK && font_edges_build(&edges, &o, &map, filter) == FONT_OK &&
-        (long)(edges.x1 - edges.x0 + 20) * (long)(edges.y1 - edges.y0 + 20) < 4000000 &&
+        (edges.x1 - edges.x0 + 20) * (edges.y1 - edges.y0 + 20) < 4e6f && /* none: infinite */
         font_gray_draw_exact(&gray, &edges, filter, x, y) == FONT_OK) {
         ink = gray.pixels != NULL;
         if (tame) {
