@@ -156,7 +156,7 @@ SCAN_OF(f64)
                 const bool had = has[i] & !f.begins;                                           \
                 const T old = f.begins ? none : acc[i];                                        \
                 first[i] = f.begins && k < first[i] ? k : first[i];                            \
-                acc[i] = f.active & !had ? in[here] : old;                                     \
+                acc[i] = (f.active & !had) ? in[here] : old;                                   \
                 has[i] = had | f.active;                                                       \
                 if (write)                                                                     \
                     out[here] = j->exclusive ? old : acc[i];                                   \
