@@ -49,7 +49,7 @@ static uint64_t address_of(const struct set *s, uint64_t n)
 static void arrange(int set, const int *lengths, int rank, enum machine_order order)
 {
     struct machine_layout l;
-    const uint8_t orders[3] = {order, order, order};
+    const uint8_t o = (uint8_t)order, orders[3] = {o, o, o};
     machine_layout_make(&l, lengths, NULL, orders, rank, PROCESSORS);
     assert_ok(machine_vpset_arrange(machine, set, lengths, rank, &l), machine);
 }

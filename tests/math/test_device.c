@@ -131,7 +131,7 @@ static void compare(int width, int eager, int ops_step)
         for (int i = 0; i < COUNT; i++) {
             struct machine_scalar x = {a[i], 0}, y = {b[i], 0}, wanted;
             uint64_t got = width == 32 ? small[i] : r[i];
-            assert_true(math_fold(functions[k], type, x, y, &wanted));
+            assert_true(math_fold((int)functions[k], type, x, y, &wanted));
             if (got != wanted.lo && wrong++ < 20)
                 fprintf(stderr, "%s of %d bits (%llx, %llx): %llx, on the front end %llx\n",
                         node_ops[functions[k]].name, width, (unsigned long long)a[i],

@@ -19,7 +19,7 @@ void geometry_layout(const struct machine *m, struct machine_layout *l, const in
                      int rank, enum machine_order order)
 {
     uint8_t orders[MACHINE_AXES_MAX];
-    memset(orders, order, sizeof orders);
+    memset(orders, (int)order, sizeof orders);
     machine_layout_make(l, dimensions, NULL, orders, rank,
                         (uint64_t)m->values->processors_count);
 }
