@@ -25,8 +25,9 @@
  * part before its end met it with s + c, c = A (1/2 - r), both downwards. It leaves with
  * e (s + c), e its restitution; in the part's middle it would have had e (s + c) + c upwards,
  * which is its new speed, and its place is where that leads from the floor in r. Without c
- * each bounce would be wrong by up to half of what a part gains. A is taken as half of s at
- * most. If s is slower than gravity makes a mass in two parts, e is 0, and it comes to rest;
+ * each bounce would be wrong by up to half of what a part gains. An A of more than half of s
+ * comes from stiff springs, and counts as 0: a bounce must not lend speed. If s is slower than
+ * gravity makes a mass in two parts, e is 0, and it comes to rest;
  * where e is 0, so is A.
  * Friction reduces the tangential velocity by at most the coefficient of friction times the
  * change of the normal velocity. Walls and ceiling act in the same way.

@@ -60,7 +60,10 @@ INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at,
     lanes e = lanes_pick(lanes_less(lanes_all(job->slow_speed), speed),
                          lanes_load(job->restitution + i), none);
     const lanes half = lanes_all(0.5), h = lanes_all(job->h), most = half * speed;
-    lanes gain = lanes_max(lanes_min(inwards > 0 ? -gained : gained, most), -most);
+    /* what changes the speed by more than half comes from elsewhere: stiff springs */
+    lanes gain = inwards > 0 ? -gained : gained;
+    gain =
+        lanes_pick(lanes_either(lanes_less(most, gain), lanes_less(gain, -most)), none, gain);
     gain = lanes_pick(lanes_less(none, e), gain, none);
     /* the time from the side to the part's end, in parts: at a steady speed, then as it is */
     lanes left = lanes_min(beyond / (h * speed), lanes_all(1));

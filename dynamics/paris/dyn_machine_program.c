@@ -157,6 +157,25 @@ static void speeds_change(const struct dyn_machine *machine, const CM_field_id_t
     CM_deallocate_stack_through(way);
 }
 
+/* A gain of more than half of the speed comes from elsewhere: stiff springs. It counts as
+ * none. other: for its use. */
+static void gain_limit(CM_field_id_t speed, CM_field_id_t gain, CM_field_id_t other)
+{
+    const CM_field_id_t context = CM_allocate_stack_field(1);
+    CM_store_context(context);
+    CM_f_multiply_constant_3_1L(other, speed, 0.5, REAL);
+    CM_f_gt_1L(gain, other, REAL);
+    CM_logand_context_with_test();
+    CM_f_move_constant_1L(gain, 0, REAL);
+    CM_load_context(context);
+    CM_f_negate_1_1L(other, REAL);
+    CM_f_lt_1L(gain, other, REAL);
+    CM_logand_context_with_test();
+    CM_f_move_constant_1L(gain, 0, REAL);
+    CM_load_context(context);
+    CM_deallocate_stack_through(context);
+}
+
 /* In the active processors: what a mass with this speed outwards, which gains `gain` in a
  * part and is `beyond` a side, has when it meets the side (in speed), its new place inwards
  * (in beyond), and its new speed inwards (in gain); after: its restitution, then the speed
@@ -166,10 +185,7 @@ static void bounce_find(const struct dyn_machine *machine, CM_field_id_t speed,
                         CM_field_id_t gain, CM_field_id_t beyond, CM_field_id_t after)
 {
     const CM_field_id_t left = real_for_a_while(), other = real_for_a_while();
-    CM_f_multiply_constant_3_1L(other, speed, 0.5, REAL);
-    CM_f_min_2_1L(gain, other, REAL);
-    CM_f_negate_1_1L(other, REAL);
-    CM_f_max_2_1L(gain, other, REAL);
+    gain_limit(speed, gain, other);
     CM_f_multiply_constant_3_1L(other, speed, machine->h, REAL);
     CM_f_divide_3_1L(left, beyond, other, REAL);
     CM_f_min_constant_2_1L(left, 1, REAL);

@@ -58,7 +58,7 @@ static void side(const struct meeting *at, double *p, double *v, double gained, 
     double speed = -*v, e = speed > at->slow ? at->e : 0, h = at->h;
     if (!(*p < 0 && speed > 0))
         return;
-    double gain = e > 0 ? fmax(fmin(-gained, speed / 2), -speed / 2) : 0;
+    double gain = e > 0 && fabs(gained) <= speed / 2 ? -gained : 0;
     double left = fmin(-*p / (h * speed), 1); /* of the part, when it meets the side */
     left = fmin(-*p / (h * (speed + gain / 2 * (1 - left))), 1);
     double met = speed + gain * (0.5 - left), leaves = e * met;
