@@ -8,17 +8,12 @@
  *     kernels compiled       by the cold process, for each size
  *
  * Times are for each element of each operation. All must come to the same numbers. */
-#include <fcntl.h>
-#include <ftw.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "bench.h"
+#include "cold.h"
 #include "harness.h"
 #include "interpreter.h"
 #include "of_machine.h"
@@ -27,10 +22,6 @@
 
 enum { WORD = 32, SIZES_COUNT = 4, SEED = 20 };
 static const int sizes[SIZES_COUNT] = {10, 1000, 100000, 4000000};
-static const char COLD[] =
-    "--cold-into"; /* what a cold process is told, then a size and a file */
-
-extern char **environ;
 
 /* ---- on Paris ---- */
 
@@ -214,79 +205,9 @@ static int cold_run(const char *size, const char *path)
         return EXIT_FAILURE;
     double passed = bench_now_s() - start;
     machine_stats_get(paris_machine(), &stats);
-    FILE *file = fopen(path, "w");
-    bool written = file && fprintf(file, "%.9f %llu %u", passed,
-                                   (unsigned long long)stats.kernels_built, s.result) > 0;
-    return file && fclose(file) == 0 && written ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
-static int entry_remove(const char *path, const struct stat *status, int kind,
-                        struct FTW *where)
-{
-    (void)status;
-    (void)kind;
-    (void)where;
-    return remove(path);
-}
-
-/* The environment, but with caches in that folder; LUTETIA_BACKGROUND as anybody's. The caller's to free. */
-static char **environment_of(char *cache, char *driver)
-{
-    static const char *const left_out[] = {
-        "XDG_CACHE_HOME=", "POCL_CACHE_DIR=", "LUTETIA_BACKGROUND="};
-    size_t count = 0, kept = 0;
-    while (environ[count])
-        count++;
-    char **out = calloc(count + 3, sizeof *out);
-    for (size_t i = 0; out && i < count; i++) {
-        bool wanted = true;
-        for (int k = 0; k < 3; k++)
-            wanted = wanted && strncmp(environ[i], left_out[k], strlen(left_out[k])) != 0;
-        if (wanted)
-            out[kept++] = environ[i];
-    }
-    if (out) {
-        out[kept++] = cache;
-        out[kept] = driver;
-    }
-    return out;
-}
-
-struct cold {
-    double seconds, kernels;
-    uint32_t result;
-};
-
-static bool cold_measure(int n, struct cold *out)
-{
-    char folder[] = "/tmp/lutetia-cold-XXXXXX", cache[64], driver[64], path[64], size[16];
-    char name[] = "lutetia-bench", bench[] = "interpreter", flag[sizeof COLD];
-    if (!mkdtemp(folder))
-        return bench_fail("no folder can be made in /tmp");
-    snprintf(cache, sizeof cache, "XDG_CACHE_HOME=%s", folder);
-    snprintf(driver, sizeof driver, "POCL_CACHE_DIR=%s/pocl", folder);
-    snprintf(path, sizeof path, "%s/times", folder);
-    snprintf(size, sizeof size, "%d", n);
-    memcpy(flag, COLD, sizeof COLD);
-    bool ok =
-        mkdir(strchr(driver, '=') + 1, 0700) == 0 || bench_fail("%s: cannot be made", folder);
-    char **environment = ok ? environment_of(cache, driver) : NULL;
-    char *arguments[] = {name, bench, flag, size, path, NULL};
-    pid_t pid;
-    int status = 0;
-    ok = environment &&
-         !posix_spawn(&pid, "/proc/self/exe", NULL, NULL, arguments, environment) &&
-         waitpid(pid, &status, 0) == pid && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    FILE *file = ok ? fopen(path, "r") : NULL;
-    unsigned result = 0;
-    ok = (file && fscanf(file, "%lf %lf %u", &out->seconds, &out->kernels, &result) == 3) ||
-         bench_fail("a cold run on %d processors did not succeed", n);
-    out->result = result;
-    if (file)
-        fclose(file);
-    free(environment);
-    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
-    return ok;
+    return cold_tell(path, &(struct cold){passed, (double)stats.kernels_built, s.result})
+               ? EXIT_SUCCESS
+               : EXIT_FAILURE;
 }
 
 /* ---- all ---- */
@@ -306,6 +227,7 @@ static bool size_measure(struct bench_report *r, int n, int repeat_count)
     static struct stack_program program;
     struct stack_paris paris;
     struct cold cold = {0};
+    char of_case[16];
     stack_program_make(&program, SEED, n);
     struct plain plain[2] = {{.of = stack_plain_create(&program, 1)},
                              {.of = stack_plain_create(&program, 2)}};
@@ -315,12 +237,11 @@ static bool size_measure(struct bench_report *r, int n, int repeat_count)
         {.what = "plain C", .work = plain_work, .context = &plain[0]},
         {.what = "plain C, two threads", .work = plain_work, .context = &plain[1]},
     };
-    ok = ok && cold_measure(n, &cold) && paris_begin(&paris, &program) &&
+    snprintf(of_case, sizeof of_case, "%d", n);
+    ok = ok && cold_measure("interpreter", of_case, &cold) && paris_begin(&paris, &program) &&
          bench_measure_in_turns(contenders, 3, repeat_count) &&
          results_same(plain, &paris, &cold, plain[0].of);
-    char of_case[16];
     double scale = 1e9 / ((double)n * STACK_OPERATIONS);
-    snprintf(of_case, sizeof of_case, "%d", n);
     if (ok) {
         struct bench_sample first = {cold.seconds, cold.seconds};
         struct bench_sample kernels = {cold.kernels, cold.kernels};
@@ -342,7 +263,7 @@ int bench_interpreter_main(int argc, char **argv)
     static struct bench_report report;
     struct bench_options options = {
         .name = "interpreter", .repeat_least = 3, .repeat_count = 11};
-    if (argc == 4 && !strcmp(argv[1], COLD))
+    if (argc == 4 && !strcmp(argv[1], COLD_FLAG))
         return cold_run(argv[2], argv[3]);
     setenv("LUTETIA_INTERPRET", "1", 0); /* as anybody's */
     int status = bench_machine_start(&report, &options, false, argc, argv);

@@ -24,6 +24,8 @@ static const struct {
     {"paris", bench_paris_main, "one instruction of each family, beside the copy bandwidth"},
     {"interpreter", bench_interpreter_main,
      "programs of vector operations that do not repeat, beside plain C"},
+    {"families", bench_families_main,
+     "histogram, transposition, sort, lists, scans, wide numbers, byte code, beside plain C"},
     {"fonts", bench_fonts_main, "glyphs in gray, beside FreeType and stb_truetype"},
     {"text", bench_text_main, "justified lines, beside Pango"},
     {"springs", bench_springs_main, "masses and springs, beside plain C, Chipmunk and Box2D"},
