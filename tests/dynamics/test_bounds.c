@@ -34,7 +34,7 @@ enum {
     MASSES_MOST = 6,
     SPRINGS_MOST = 12
 };
-#define GROWTH 12.0
+#define GROWTH 20.0
 
 static double any_of(uint64_t *state, const struct dyn_control *c)
 {
