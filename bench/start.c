@@ -55,10 +55,11 @@ static const struct {
     {"type, no machine", "type", {"type", "Paris", "-o", PICTURE}},
     {"first picture",
      "paint 300x200",
-     {"paint", "Paris", "--paper", "300x200", "--steps", "1", "-o", PICTURE}},
+     {"paint", "Paris", "--model=thesis", "--paper", "300x200", "--steps", "1", "-o", PICTURE}},
     {"first picture",
      "paint 1024x640",
-     {"paint", "Paris", "--paper", "1024x640", "--steps", "1", "-o", PICTURE}},
+     {"paint", "Paris", "--model=thesis", "--paper", "1024x640", "--steps", "1", "-o",
+      PICTURE}},
     {"first picture", "script 600x400", {"run", SCRIPT, "-q", "-o", FOLDER}},
 };
 

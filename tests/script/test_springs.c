@@ -49,7 +49,7 @@ static void events_are_told_and_listed(void **state)
         "end)\n"
         "n:step(240) print(#heard > 0, heard[1]) n:on(nil) n:tack(m)\n"
         "local e = n:events() print(#e, e[1].kind, e[1].mass) print(#n:events())",
-        "true\tclank 1 53\n1\tclick\t1\n0\n");
+        "true\tclank 1 52\n1\tclick\t1\n0\n");
     fails(
         "local n = spring.network() n:mass{y = 0.01, vy = -5} n:on(function() error('no') end) "
         "n:step(9)",
