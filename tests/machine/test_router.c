@@ -43,7 +43,7 @@ static struct set set_make(int rank, enum machine_order order)
 
 static uint64_t address_of(const struct set *s, uint64_t n)
 {
-    return machine_send_address(machine, s->id, n); /* test_layout.c holds it to the rule */
+    return machine_send_address(machine, s->id, n); /* test_subgrids.c holds it to the rule */
 }
 
 static void arrange(int set, const int *lengths, int rank, enum machine_order order)
