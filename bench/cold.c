@@ -23,6 +23,11 @@ static int entry_remove(const char *path, const struct stat *status, int kind,
     return remove(path);
 }
 
+void cold_folder_remove(const char *folder)
+{
+    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+}
+
 /* The environment, but with caches in that folder; LUTETIA_BACKGROUND as anybody's. The caller's to free. */
 static char **environment_of(char *cache, char *driver)
 {
@@ -81,6 +86,6 @@ bool cold_measure(const char *bench, const char *what, struct cold *out)
     if (file)
         fclose(file);
     free(environment);
-    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    cold_folder_remove(folder);
     return ok;
 }

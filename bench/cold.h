@@ -18,5 +18,7 @@ struct cold {
 /* Errors: false. */
 bool cold_measure(const char *bench, const char *what, struct cold *out);
 bool cold_tell(const char *path, const struct cold *c);
+/* Removes a folder of caches with all that is in it. */
+void cold_folder_remove(const char *folder);
 
 #endif

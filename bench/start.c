@@ -11,7 +11,6 @@
  * steps, which need kernels at once, do not count.
  */
 #include <fcntl.h>
-#include <ftw.h>
 #include <spawn.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -23,6 +22,7 @@
 #include <unistd.h>
 
 #include "bench.h"
+#include "cold.h"
 #include "listing.h"
 #include "of_machine.h"
 #include "paris_internal.h"
@@ -184,15 +184,6 @@ static bool steps_run(const char *path)
     return file && fclose(file) == 0 && ok;
 }
 
-static int entry_remove(const char *path, const struct stat *status, int kind,
-                        struct FTW *where)
-{
-    (void)status;
-    (void)kind;
-    (void)where;
-    return remove(path);
-}
-
 static void variable_put(const char *name, char *value)
 {
     if (value)
@@ -229,7 +220,7 @@ static bool steps_of(struct place *place, const char *background, double out[2])
     bool ok = command_run(words, place, &ignored, &ignored);
     for (int i = 0; i < NAMES; i++)
         variable_put(names[i], kept[i]);
-    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    cold_folder_remove(folder);
     FILE *file = ok ? fopen(place->picture, "r") : NULL;
     if (ok && !(file && fscanf(file, "%lf %lf", &out[0], &out[1]) == 2))
         ok = bench_fail("%s: no times are in it", place->picture);

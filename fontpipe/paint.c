@@ -414,25 +414,38 @@ static enum font_status outline_draw(struct font_painter *p, const struct font_l
     return status;
 }
 
+/* A glyph's coloured layers, and a layout in which each in turn takes its place. */
+struct layers {
+    struct font_colour_layer of[FONT_COLOUR_LAYERS_MAX];
+    int count;
+    struct font_placed glyph;
+    struct font_layout layout;
+};
+
+static void layers_take(struct layers *l, const struct font_layout *layout, int i)
+{
+    l->glyph = layout->glyphs[i];
+    l->count = font_colour_layers(l->glyph.face, l->glyph.glyph, l->of);
+    l->layout = *layout;
+    l->layout.glyphs = &l->glyph;
+    l->layout.glyphs_count = 1;
+}
+
 /* Its layers, the first below all, each a glyph in a colour of its own or in the ink. */
 static enum font_status layers_draw(struct font_painter *p, const struct font_layout *layout,
                                     int i, const struct font_map *map, double x_px, double y_px,
                                     const struct font_ink *ink, struct font_picture *picture)
 {
-    struct font_colour_layer layers[FONT_COLOUR_LAYERS_MAX];
-    struct font_placed one = layout->glyphs[i];
-    struct font_layout alone = *layout;
+    struct layers l;
     enum font_status status = FONT_OK;
-    int count = font_colour_layers(one.face, one.glyph, layers);
-    alone.glyphs = &one;
-    alone.glyphs_count = 1;
-    for (int k = 0; k < count && status == FONT_OK; k++) {
-        const double *c = layers[k].rgba;
+    layers_take(&l, layout, i);
+    for (int k = 0; k < l.count && status == FONT_OK; k++) {
+        const double *c = l.of[k].rgba;
         double left = ink->kind == FONT_INK_PLAIN ? ink->rgba[3] : 1;
         struct font_ink own = font_ink_plain(c[0], c[1], c[2], c[3] * left);
-        one.glyph = layers[k].glyph;
+        l.glyph.glyph = l.of[k].glyph;
         status =
-            outline_draw(p, &alone, 0, map, x_px, y_px, layers[k].own ? &own : ink, picture);
+            outline_draw(p, &l.layout, 0, map, x_px, y_px, l.of[k].own ? &own : ink, picture);
     }
     return status;
 }
@@ -546,17 +559,13 @@ static enum font_status layers_measure(struct font_painter *p, const struct font
                                        int i, const struct font_map *map, double x_px,
                                        double y_px, struct font_box *box)
 {
-    struct font_colour_layer layers[FONT_COLOUR_LAYERS_MAX];
-    struct font_placed one = layout->glyphs[i];
-    struct font_layout alone = *layout;
+    struct layers l;
     enum font_status status = FONT_OK;
-    int count = font_colour_layers(one.face, one.glyph, layers);
-    alone.glyphs = &one;
-    alone.glyphs_count = 1;
-    for (int k = 0; k < count && status == FONT_OK; k++) {
+    layers_take(&l, layout, i);
+    for (int k = 0; k < l.count && status == FONT_OK; k++) {
         struct font_box more = {1, 1, -1, -1};
-        one.glyph = layers[k].glyph;
-        status = outline_measure(p, &alone, 0, map, x_px, y_px, &more);
+        l.glyph.glyph = l.of[k].glyph;
+        status = outline_measure(p, &l.layout, 0, map, x_px, y_px, &more);
         if (more.x0 <= more.x1)
             box_add(box, &more);
     }

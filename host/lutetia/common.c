@@ -204,21 +204,24 @@ int machine_prepare(const char *verb, int width, int height, double bytes)
     return EXIT_SUCCESS;
 }
 
+int picture_finish(const char *verb, int status, const char *path, struct display_image *image)
+{
+    if (interrupted())
+        status = EXIT_INTERRUPTED;
+    else if (status == EXIT_SUCCESS && display_png_write(path, image) != DISPLAY_OK)
+        status = fail(verb, "%s", display_error());
+    display_image_destroy(image);
+    return status;
+}
+
 int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, const char *path)
 {
     struct display_image image = {
         .width_px = paper_width(sheet), .height_px = paper_height(sheet), .channels = 3};
     if (display_image_create(&image) != DISPLAY_OK)
         return fail(verb, "%s", display_error());
-    int status = EXIT_SUCCESS;
-    if (paper_view_read(sheet, view, image.pixels) != PAPER_OK)
-        status = fail_paper(verb);
-    if (interrupted())
-        status = EXIT_INTERRUPTED;
-    else if (status == EXIT_SUCCESS && display_png_write(path, &image) != DISPLAY_OK)
-        status = fail(verb, "%s", display_error());
-    display_image_destroy(&image);
-    return status;
+    const bool read = paper_view_read(sheet, view, image.pixels) == PAPER_OK;
+    return picture_finish(verb, read ? EXIT_SUCCESS : fail_paper(verb), path, &image);
 }
 
 int folder_make(const char *verb, const char *path)

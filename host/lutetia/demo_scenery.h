@@ -3,7 +3,7 @@
  *     struct demo_mask mask = {.width_px = 1600, .height_px = 1200, .waterline_px = 640};
  *     struct paper_screen water;
  *     if (demo_mask_screen(&mask, DEMO_WATER, &water))
- *         paper_screen_ink(sheet, &water, 0, 0, &ink);
+ *         paper_sheet_put(sheet, &water, 0, 0, amount);
  */
 #ifndef LUTETIA_DEMO_SCENERY_H
 #define LUTETIA_DEMO_SCENERY_H

@@ -89,6 +89,10 @@ double page_bytes(int width, int height);
  * small, so that the plan compiles soon. */
 enum { STEPS_AT_ONCE = 2 };
 
+/* Writes a picture that was made, unless there was an interruption or making it ended with a
+ * status, and destroys it. Returns the status. */
+struct display_image;
+int picture_finish(const char *verb, int status, const char *path, struct display_image *image);
 /* Reads the sheet and writes it as PNG. EXIT_SUCCESS, or prints why not. */
 int sheet_write(const char *verb, struct paper *sheet, enum paper_view view, const char *path);
 

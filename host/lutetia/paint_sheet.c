@@ -37,7 +37,7 @@ static int pigments_add(const struct paint *paint, struct paper_sheet_config *co
                         double *amount)
 {
     static const char *const inks[] = {"cyan", "magenta", "yellow"};
-    static const char usual[] = "french ultramarine=1.2";
+    static const char usual[] = PAPER_PIGMENT_USUAL "=1.2";
     int status = EXIT_SUCCESS;
     for (int i = 0; i < 3 && !isnan(paint->ink[0]) && status == EXIT_SUCCESS; i++) {
         status = pigment_add(inks[i], config, amount);
@@ -149,8 +149,9 @@ int paint_sheet(const struct paint *paint)
     double amount[1 + PAPER_PIGMENTS_MAX];
     int status = paint_sheet_config(paint, &config, amount);
     if (status == EXIT_SUCCESS)
-        status =
-            machine_prepare("paint", config.width, config.height, paper_sheet_bytes(&config));
+        status = machine_prepare(
+            "paint", config.width, config.height,
+            paper_sheet_bytes(config.width, config.height, config.pigments_count));
     if (status == EXIT_SUCCESS)
         status = paper_sheet_create(&config, &sheet) == PAPER_OK
                      ? sheet_run(paint, sheet, amount)

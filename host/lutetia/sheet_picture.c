@@ -29,11 +29,6 @@ int sheet_picture_write(const char *verb, struct paper_sheet *sheet,
         .width_px = config->width, .height_px = config->height, .channels = 3};
     if (display_image_create(&image) != DISPLAY_OK)
         return fail(verb, "%s", display_error());
-    int status = sheet_picture_read(verb, sheet, view, &image);
-    if (interrupted())
-        status = EXIT_INTERRUPTED;
-    else if (status == EXIT_SUCCESS && display_png_write(path, &image) != DISPLAY_OK)
-        status = fail(verb, "%s", display_error());
-    display_image_destroy(&image);
-    return status;
+    const int status = sheet_picture_read(verb, sheet, view, &image);
+    return picture_finish(verb, status, path, &image);
 }

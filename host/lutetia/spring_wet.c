@@ -36,7 +36,7 @@ struct spring_wet {
 struct spring_wet_def spring_wet_def_default(void)
 {
     return (struct spring_wet_def){
-        .pigment = "french ultramarine", .every_s = 0.1, .water = 0.3, .ink = 0.25};
+        .pigment = PAPER_PIGMENT_USUAL, .every_s = 0.1, .water = 0.3, .ink = 0.25};
 }
 
 static int pigment_unknown(const char *name)
@@ -56,7 +56,8 @@ static int sheet_make(struct spring_wet *w)
     config.height = w->def.height;
     config.pigments[config.pigments_count++] = *pigment;
     int status =
-        machine_prepare("spring", config.width, config.height, paper_sheet_bytes(&config));
+        machine_prepare("spring", config.width, config.height,
+                        paper_sheet_bytes(config.width, config.height, config.pigments_count));
     if (status != EXIT_SUCCESS)
         return status;
     return paper_sheet_create(&config, &w->sheet) == PAPER_OK ? EXIT_SUCCESS

@@ -110,7 +110,9 @@ static int demo_prepare(struct demo *demo)
     if (demo_page_create(&demo->page) != PAPER_OK)
         return fail_paper("demo");
     struct paper_sheet_config config = demo_page_config();
-    status = machine_prepare("demo", config.width, config.height, paper_sheet_bytes(&config));
+    status =
+        machine_prepare("demo", config.width, config.height,
+                        paper_sheet_bytes(config.width, config.height, config.pigments_count));
     if (status != EXIT_SUCCESS)
         return status;
     if (paper_sheet_create(&config, &demo->sheet) != PAPER_OK)

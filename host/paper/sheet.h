@@ -43,6 +43,7 @@ struct paper_pigment {
  * or by number from 0; NULL: none. */
 const struct paper_pigment *paper_pigment_find(const char *name);
 const struct paper_pigment *paper_pigment_number(int number);
+#define PAPER_PIGMENT_USUAL "french ultramarine" /* of what is painted without naming one */
 /* Their names, "quinacridone rose, indian red, ...". */
 void paper_pigment_names(char *text, size_t room);
 
@@ -133,10 +134,10 @@ struct paper_sheet_config {
     struct paper_pigment pigments[PAPER_PIGMENTS_MAX];
 };
 struct paper_sheet_config paper_sheet_config_default(void);
-/* Memory that such a sheet takes of the device, bytes: each field, its replacement, and
+/* Memory that a sheet of that size takes of the device, bytes: each field, its replacement, and
  * temporaries between steps. A little above what was measured of 4096x4096 fibers with three
  * pigments (64 float arrays) and with six (89). */
-double paper_sheet_bytes(const struct paper_sheet_config *config);
+double paper_sheet_bytes(double width, double height, int pigments);
 
 struct paper_sheet;
 

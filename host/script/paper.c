@@ -23,32 +23,28 @@ static const struct paper_sheet_config *config_of(const struct script_paper *pap
 
 /* ---- making ---- */
 
-enum { KNOWN_MAX = 63 };
+enum { NAMES_ROOM = 1000 };
 
 static const struct paper_pigment *pigment_find(lua_State *L, const char *name)
 {
-    const struct paper_pigment *known = paper_pigment_find(name), *other;
-    const char *names[KNOWN_MAX + 1] = {NULL};
-    if (known)
-        return known;
-    for (int i = 0; i < KNOWN_MAX && (other = paper_pigment_number(i)) != NULL; i++)
-        names[i] = other->name;
-    script_names_push(L, names);
-    luaL_error(L, "there is no pigment '%s'; there are %s", name, lua_tostring(L, -1));
-    return NULL;
+    const struct paper_pigment *pigment = paper_pigment_find(name);
+    char known[NAMES_ROOM];
+    if (!pigment) {
+        paper_pigment_names(known, sizeof known);
+        luaL_error(L, "there is no pigment '%s'; there are %s", name, known);
+    }
+    return pigment;
 }
 
 static const struct paper_stock *stock_find(lua_State *L, const char *name)
 {
-    const struct paper_stock *known = paper_stock_find(name), *other;
-    const char *names[KNOWN_MAX + 1] = {NULL};
-    if (known)
-        return known;
-    for (int i = 0; i < KNOWN_MAX && (other = paper_stock_number(i)) != NULL; i++)
-        names[i] = other->name;
-    script_names_push(L, names);
-    luaL_error(L, "there is no paper stock '%s'; there are %s", name, lua_tostring(L, -1));
-    return NULL;
+    const struct paper_stock *stock = paper_stock_find(name);
+    char known[NAMES_ROOM];
+    if (!stock) {
+        paper_stock_names(known, sizeof known);
+        luaL_error(L, "there is no paper stock '%s'; there are %s", name, known);
+    }
+    return stock;
 }
 
 /* Reads a pigment from the text or table on the top, and pops it. */
@@ -87,9 +83,6 @@ static void pigment_read(lua_State *L, struct paper_pigment *pigment)
     lua_pop(L, 1);
 }
 
-/* Of papers that name none. */
-#define PIGMENT_USUAL "french ultramarine"
-
 static void pigments_read(lua_State *L, struct paper_sheet_config *config)
 {
     lua_pushliteral(L, "pigments");
@@ -97,7 +90,8 @@ static void pigments_read(lua_State *L, struct paper_sheet_config *config)
     if (type == LUA_TNIL) {
         lua_pop(L, 1);
         if (config->parts) /* the thesis's paper has none of itself */
-            config->pigments[config->pigments_count++] = *paper_pigment_find(PIGMENT_USUAL);
+            config->pigments[config->pigments_count++] =
+                *paper_pigment_find(PAPER_PIGMENT_USUAL);
         return;
     }
     if (type != LUA_TTABLE || lua_rawlen(L, -1) > PAPER_PIGMENTS_MAX)

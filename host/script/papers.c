@@ -42,17 +42,10 @@ struct script_paper *script_paper_new(lua_State *L)
     return paper;
 }
 
-/* Memory for each field, its replacement, and temporaries between steps: slightly above the
- * measured use of 4096x4096 fibers with three pigments (64 float arrays) and with six (89). */
-static double bytes_needed(double width, double height, int pigments)
-{
-    return 4 * (42 + 8.5 * pigments) * width * height;
-}
-
 void script_paper_room_take(lua_State *L, struct script_paper *paper, double width,
                             double height, int pigments)
 {
-    double bytes = bytes_needed(width, height, pigments);
+    double bytes = paper_sheet_bytes(width, height, pigments);
     double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     if (bytes > there) {
         char text[128];
@@ -168,22 +161,38 @@ enum paper_status script_paper_resumed(struct script_paper *paper,
 
 /* ---- substances ---- */
 
+/* The sheet's pigment of that name; -1: it has none. */
+static int pigment_number(const struct paper_sheet_config *config, const char *name)
+{
+    for (int i = 0; i < config->pigments_count; i++)
+        if (strcmp(config->pigments[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+/* Pushes the names of the sheet's pigments, behind `first` unless that is NULL. */
+static void pigments_push(lua_State *L, const struct paper_sheet_config *config,
+                          const char *first)
+{
+    const char *names[1 + PAPER_PIGMENTS_MAX + 1] = {first};
+    for (int i = 0; i < config->pigments_count; i++)
+        names[(first != NULL) + i] = config->pigments[i].name;
+    script_names_push(L, names);
+}
+
 int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet,
                                    const char *name)
 {
     const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
-    for (int i = 0; i < config->pigments_count; i++)
-        if (strcmp(config->pigments[i].name, name) == 0)
-            return i;
-    const char *names[PAPER_PIGMENTS_MAX + 1] = {NULL};
-    for (int i = 0; i < config->pigments_count; i++)
-        names[i] = config->pigments[i].name;
-    if (!names[0])
+    int number = pigment_number(config, name);
+    if (number >= 0)
+        return number;
+    if (!config->pigments_count)
         return luaL_error(L,
                           "this paper has no pigment '%s', and no other: its pigments are "
                           "named where it is made",
                           name);
-    script_names_push(L, names);
+    pigments_push(L, config, NULL);
     return luaL_error(L, "this paper has no pigment '%s'; it has %s", name,
                       lua_tostring(L, -1));
 }
@@ -193,6 +202,7 @@ int script_paper_pigment_number_of(lua_State *L, const struct paper_sheet *sheet
 void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *sheet,
                           double *amount)
 {
+    const struct paper_sheet_config *config = paper_sheet_get_config(sheet);
     luaL_checktype(L, index, LUA_TTABLE);
     memset(amount, 0, sizeof(double) * (1 + PAPER_PIGMENTS_MAX));
     lua_pushnil(L);
@@ -200,8 +210,12 @@ void script_paper_amounts(lua_State *L, int index, const struct paper_sheet *she
         if (lua_type(L, -2) != LUA_TSTRING)
             luaL_error(L, "amounts are written name = number, ink[\"phthalo green\"] = 0.5");
         const char *name = lua_tostring(L, -2);
-        int i =
-            strcmp(name, "water") == 0 ? 0 : 1 + script_paper_pigment_number_of(L, sheet, name);
+        int i = strcmp(name, "water") == 0 ? 0 : 1 + pigment_number(config, name);
+        if (i == 0 && strcmp(name, "water") != 0) {
+            pigments_push(L, config, "water");
+            luaL_error(L, "this paper has no pigment '%s'; it takes %s", name,
+                       lua_tostring(L, -1));
+        }
         lua_pushvalue(L, -1);
         amount[i] = script_arg_at(L, -1, name, -4, 4);
         lua_pop(L, 2);

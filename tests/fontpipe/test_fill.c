@@ -1,5 +1,6 @@
 /* test_fill.c - what is covered twice is found from the curves (fill_quick.c) as by strips (fill.c): all glyphs of
  * several fonts, and random tangles. */
+#include "outline_area.h"
 #include "support.h"
 
 #include <fill_internal.h>
@@ -7,21 +8,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-
-/* The ink: half the sum of cross products, of curves by parts. */
-static double area(const struct font_outline *o)
-{
-    double sum = 0;
-    for (int i = 0; i < o->segments_count; i++) {
-        struct font_point a = o->segments[i].p[0];
-        for (int k = 1; k <= 64; k++) {
-            struct font_point b = font_segment_at(&o->segments[i], k / 64.0, NULL);
-            sum += a.x * b.y - b.x * a.y;
-            a = b;
-        }
-    }
-    return -0.5 * sum * o->turn;
-}
 
 static void work_free(struct fill_work *w)
 {
@@ -48,8 +34,8 @@ static bool alike(struct font_outline *o, enum font_fill rule, double tolerance,
     assert_font(font_outline_prepare_by_strips(&strips, rule));
     *rebuilt = o->rebuilt;
     assert_false(*seen && o->rebuilt != fill_twice(least, most));
-    bool same =
-        fabs(area(o) - area(&strips)) <= tolerance && (o->rebuilt || o->turn == strips.turn);
+    bool same = fabs(outline_area(o) - outline_area(&strips)) <= tolerance &&
+                (o->rebuilt || o->turn == strips.turn);
     font_outline_finish(o);
     font_outline_finish(&strips);
     return same;

@@ -1,4 +1,5 @@
 /* test_outline.c - outlines: curves, what is covered twice, emboldening, fonts of each kind. */
+#include "outline_area.h"
 #include "support.h"
 
 #include <gray.h>
@@ -15,21 +16,6 @@ static void square(struct font_outline *o, double x, double y, double side, bool
     assert_font(font_outline_line(o, x + side, y + side));
     assert_font(font_outline_line(o, clockwise ? x + side : x, clockwise ? y : y + side));
     assert_font(font_outline_close(o));
-}
-
-/* The ink of an outline, in its own units, by its segments: half the sum of cross products, curves by parts. */
-static double area(const struct font_outline *o)
-{
-    double sum = 0;
-    for (int i = 0; i < o->segments_count; i++) {
-        struct font_point a = o->segments[i].p[0];
-        for (int k = 1; k <= 64; k++) {
-            struct font_point b = font_segment_at(&o->segments[i], k / 64.0, NULL);
-            sum += a.x * b.y - b.x * a.y;
-            a = b;
-        }
-    }
-    return -0.5 * sum * o->turn;
 }
 
 /* How far the segments are from closed contours: each point must be the end of as many segments
@@ -58,7 +44,7 @@ static void simple_shapes_stay_as_they_are(void **state)
         assert_font(font_outline_prepare(&o, FONT_NONZERO));
         assert_false(o.rebuilt);
         assert_int_equal(o.turn, clockwise ? 1 : -1);
-        assert_true(fabs(area(&o) - 9100) < 1e-6);
+        assert_true(fabs(outline_area(&o) - 9100) < 1e-6);
         font_outline_finish(&o);
     }
 }
@@ -78,8 +64,9 @@ static void overlaps_are_covered_once(void **state)
             assert_true(closed(&o));
             /* Under non-zero the shared part of squares that turn against each other is a hole. */
             double expected = rule == FONT_EVEN_ODD || apart ? 15000 : 17500;
-            if (fabs(area(&o) - expected) > 1e-6)
-                fail_msg("turns %d, rule %d: %g, not %g", turns, rule, area(&o), expected);
+            if (fabs(outline_area(&o) - expected) > 1e-6)
+                fail_msg("turns %d, rule %d: %g, not %g", turns, rule, outline_area(&o),
+                         expected);
             font_outline_finish(&o);
         }
 }
@@ -93,7 +80,8 @@ static void nested_contours_of_one_turn_are_one(void **state)
     square(&o, 0, 0, 100, true); /* and the same again */
     assert_font(font_outline_prepare(&o, FONT_NONZERO));
     assert_true(o.rebuilt);
-    assert_true(fabs(area(&o) - 10000) < 1e-2); /* what coincides is moved by some 10^-8 */
+    assert_true(fabs(outline_area(&o) - 10000) <
+                1e-2); /* what coincides is moved by some 10^-8 */
     font_outline_finish(&o);
 }
 
@@ -225,7 +213,7 @@ static void bold_is_bolder_by_as_much(void **state)
         assert_font(font_outline_embolden(&o, 10, 4));
         assert_font(font_outline_prepare(&o, FONT_NONZERO));
         /* Outside 110 by 104, the hole 50 by 56. */
-        assert_true(fabs(area(&o) - (110 * 104 - 50 * 56)) < 1e-6);
+        assert_true(fabs(outline_area(&o) - (110 * 104 - 50 * 56)) < 1e-6);
         font_outline_finish(&o);
     }
 }

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "../sample.h"
 #include "paris_internal.h"
 #include <cm/paris.h>
 
@@ -20,10 +21,7 @@ static uint64_t state;
 
 static unsigned int below(unsigned int n)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (unsigned int)(state >> 33) % n;
+    return (unsigned int)(sample_shifted(&state) >> 33) % n;
 }
 
 /* ---- the model ---- */

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "../sample.h"
 #include "paris_internal.h"
 #include <cm/paris.h>
 
@@ -32,10 +33,7 @@ static uint64_t state;
 
 static unsigned int below(unsigned int n)
 {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (unsigned int)(state >> 33) % n;
+    return (unsigned int)(sample_shifted(&state) >> 33) % n;
 }
 
 static struct {

@@ -17,10 +17,9 @@ struct paper_sheet_config paper_sheet_config_default(void)
     return config;
 }
 
-double paper_sheet_bytes(const struct paper_sheet_config *config)
+double paper_sheet_bytes(double width, double height, int pigments)
 {
-    double arrays = 42 + 8.5 * config->pigments_count;
-    return (double)sizeof(float) * arrays * config->width * config->height;
+    return (double)sizeof(float) * (42 + 8.5 * pigments) * width * height;
 }
 
 /* ---- checking ---- */
