@@ -69,6 +69,19 @@ static void lanes_same(const struct lanes *a, const struct lanes *b, struct mach
     }
 }
 
+/* What shifts are by: -128 to 128, all of the width's own among them; of rotations below the width. All by the k-th of these, or
+ * (0) each by its own. */
+static void counts_fill(struct lanes *l, bool below_width, int width, int k)
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        int i = k ? k - 1 : lane;
+        int32_t n = i < 20 ? (i % 4 - 1) * width + i / 4 - 2 : (i * 37) % 257 - 128;
+        n = n < -128 ? -128 : n > 128 ? 128 : n;
+        n = below_width ? (n + 2 * 128 * width) % width : n;
+        memcpy(l->bytes + 4 * lane, &n, sizeof n);
+    }
+}
+
 static int steps_tried;
 
 static void step_try(const struct tables *t, struct lanes_step s, lanes_function *const *loops,
@@ -83,7 +96,13 @@ static void step_try(const struct tables *t, struct lanes_step s, lanes_function
     s.to = 3;
     lanes_fill(&in[0], selects ? MACHINE_BIT : s.from, 1);
     lanes_fill(&in[1], selects ? s.type : second, 2);
+    for (uint64_t i = 0; i < LANES && op_is_integer(s.op);
+         i += 3) /* quotients of more than 0, and of nothing */
+        support_element_set(in[1].bytes, second, i,
+                            support_word(MACHINE_UINT(3), 4, i) & ones(second.width));
     lanes_fill(&in[2], s.type, 3);
+    if (node_ops[s.op].fold == FOLD_SHIFT)
+        counts_fill(&in[1], s.op == MACHINE_ROTATE, s.from.width, s.detail);
     memset(&out[1], 0x55, sizeof out[1]);
     at[3] = out[1].bytes;
     lane_each(&s, at, LANES);
@@ -123,6 +142,11 @@ static void each_loop_gives_what_lane_by_lane_gives(void **state)
                                          .type = node_ops[op].gives == GIVES_BIT ? MACHINE_BIT
                                                                                  : type},
                      loops, type);
+            for (int k = 1; k <= LANES && node_ops[op].fold == FOLD_SHIFT; k++)
+                step_try(&t,
+                         (struct lanes_step){
+                             .op = (uint16_t)op, .from = type, .type = type, .detail = k},
+                         loops, type);
         }
     assert_true(steps_tried > 200);
 }

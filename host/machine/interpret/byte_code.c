@@ -193,9 +193,12 @@ static struct lanes_step *step_add(struct making *k, lanes_function *run, int op
     if (p->failed)
         return &none;
     struct lanes_step *s = &p->steps[p->steps_count++];
-    p->lane_s += 1e-9 * (run != lane_each                       ? 0.04
-                         : op < NODE_OP_COUNT && op_is_math(op) ? 15
-                                                                : 8);
+    bool is_node = op < NODE_OP_COUNT;
+    p->lane_s +=
+        1e-9 * (run != lane_each
+                    ? 0.04 + (is_node && op_is_integer(op) ? 0.01 * node_ops[op].cost : 0)
+                : is_node && op_is_math(op) ? 15
+                                            : 8);
     *s = (struct lanes_step){
         .run = run, .op = (uint16_t)op, .to = (uint16_t)to, .mask = ~(lanes_wide)0};
     return s;
@@ -369,6 +372,8 @@ static void step_operation(struct making *k, const struct plan_node *n, int to, 
     s->from = from;
     s->type = n->type;
     s->detail = n->op == NODE_EXTRACT ? n->detail : 0;
+    if (node_ops[n->op].fold == FOLD_SHIFT) /* all by one number? */
+        s->detail = k->g->nodes[n->in[1]].constant;
     s->mask = mask_of(n->type);
     if (rounds(n))
         step_one(k, is_short(n->type) ? lanes_find(LANES_FIT, c) : NULL, LANES_FIT, to, n->type,

@@ -210,6 +210,13 @@ static struct machine_value *small(struct machine *m, int width, int64_t x)
 static struct machine_value *count_bounded(struct machine *m, struct machine_value *count)
 {
     int width = count->type.width;
+    if (count->op == NODE_CONSTANT) {
+        number n = number_of(count), most = 128;
+        bool negative = is_negative(n, width);
+        n = negative ? negated(n, width) : n;
+        n = n < most ? n : most;
+        return small(m, 32, negative ? -(int64_t)n : (int64_t)n);
+    }
     if (width > 8) {
         struct machine_type type = count->type;
         count = make_operation(m, MACHINE_SMIN, type, count, small(m, width, 128));
