@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "interpret/lanes.h"
+#include "values/graph.h"
 
 enum { LANES = 67 };
 
@@ -422,6 +423,37 @@ static void a_plan_that_costs_more_than_compiling_is_compiled(void **state)
     free(out[1]);
 }
 
+/* A test of coordinates that byte code needs in a second stage, or of a neighbour, is not found in memory afterwards: kernels
+ * that come later see which rows it concerns. */
+static void tests_of_coordinates_keep_their_definition(void **state)
+{
+    enum { SIDE = 40 };
+    (void)state;
+    for (int shifted = 0; shifted < 2; shifted++) {
+        struct machine *m = interpreting("2");
+        assert_true(support_set(m, 2, SIDE, SIDE) > 0);
+        uint32_t f = support_field(m, MACHINE_F32, 1);
+        struct machine_value *x = support_value(m, f, MACHINE_F32),
+                             *edge = machine_binary(
+                                 m, MACHINE_ULT, machine_coordinate(m, 0, 8),
+                                 machine_constant(m, MACHINE_UINT(8),
+                                                  (struct machine_scalar){17, 0}));
+        struct machine_value *negative = machine_unary(m, MACHINE_FNEG, x),
+                             *where = shifted ? machine_shift(m, edge, 0, 1) : edge;
+        x = machine_select(m, edge, negative, x); /* the first stage */
+        x = machine_select(m, where, machine_shift(m, x, 0, 1), x);
+        graph_ref(edge);
+        assert_ok(machine_field_store(m, f, x, MACHINE_EVERYWHERE), m);
+        machine_begin(m);
+        assert_ok(machine_flush(m), m);
+        assert_true(interpreted(m) > 0);
+        assert_null(edge->buffer);
+        assert_int_equal(edge->op, MACHINE_ULT);
+        graph_unref(m, edge);
+        support_machine_destroy(m);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -430,6 +462,7 @@ int main(void)
         cmocka_unit_test(what_is_fetched_is_in_the_array),
         cmocka_unit_test(short_formats_round_as_whole_numbers_do),
         cmocka_unit_test(blocks_find_their_neighbours),
+        cmocka_unit_test(tests_of_coordinates_keep_their_definition),
         cmocka_unit_test(a_small_plan_is_never_compiled),
         cmocka_unit_test(a_plan_that_costs_more_than_compiling_is_compiled),
     };

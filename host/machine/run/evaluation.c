@@ -204,6 +204,18 @@ static void tell_computed(struct machine *m, const struct evaluation *e)
     watch_computed(m, computed, stored);
 }
 
+/* Byte code stores a cheap function of coordinates where it needs its neighbours. Only the value's definition tells later
+ * kernels which rows a test of coordinates concerns. So such an array is given back, unless somebody asked for the value. */
+static bool is_kept(const struct evaluation *e, const struct machine_value *v)
+{
+    if (!node_is_cheap(v))
+        return true;
+    for (int i = 0; i < e->targets.count; i++)
+        if (e->targets.values[i] == v)
+            return true;
+    return false;
+}
+
 static enum machine_status second_half(struct machine *m, struct evaluation *e)
 {
     int count;
@@ -219,10 +231,12 @@ static enum machine_status second_half(struct machine *m, struct evaluation *e)
     /* Users first: a node whose inputs are released may hold their last references. */
     for (int i = count - 1; i >= 0; i--) {
         graph_ref(nodes[stored[i]]);
-        device_buffer_ref(buffers[stored[i]]);
+        if (is_kept(e, nodes[stored[i]]))
+            device_buffer_ref(buffers[stored[i]]);
     }
     for (int i = count - 1; i >= 0; i--)
-        graph_materialised(m, nodes[stored[i]], buffers[stored[i]]);
+        if (is_kept(e, nodes[stored[i]]))
+            graph_materialised(m, nodes[stored[i]], buffers[stored[i]]);
     for (int i = count - 1; i >= 0; i--)
         graph_unref(m, nodes[stored[i]]);
     m->values->epoch++;
