@@ -2,7 +2,8 @@
  *
  * The programs need different plans: values that are cheap or expensive to compute again at
  * a neighbour, wide and narrow values, neighbours across rows, along rows, or both, and
- * chains of neighbours.
+ * chains of neighbours. They begin with random values: the engine folds what is the same
+ * everywhere, and would have nothing to measure.
  */
 #include "model.h"
 
@@ -40,6 +41,11 @@ static void listing_begin(struct program *p, int width, int height)
     p->listing = (struct listing){
         .width = width, .height = height, .gravity = 1.1, .molecular_weight = {0.9, 0.7, 0.5}};
     listing_allocate(&p->listing);
+    const CM_field_id_t floats[] = {p->listing.water, p->listing.absorbency,
+                                    p->listing.pigment[0], p->listing.pigment[1],
+                                    p->listing.pigment[2]};
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
+        CM_f_random_1L(floats[i], SIGNIFICAND, EXPONENT);
 }
 
 static void listing_go(const void *p)
@@ -50,6 +56,7 @@ static void listing_go(const void *p)
 static void life_begin(struct program *p, int width, int height)
 {
     life_paris_allocate(&p->life, width, height);
+    CM_u_random_1L(p->life.alive, 1, 2);
 }
 
 static void life_go(const void *p)
@@ -60,6 +67,7 @@ static void life_go(const void *p)
 static void heat_begin(struct program *p, int width, int height)
 {
     heat_paris_allocate(&p->heat, width, height);
+    CM_f_random_1L(p->heat.heat, SIGNIFICAND, EXPONENT);
 }
 
 static void heat_go(const void *p)
@@ -75,7 +83,7 @@ static void floats_begin(struct program *p, int width, int height)
     p->a = CM_allocate_heap_field(FLOAT);
     p->b = CM_allocate_heap_field(FLOAT);
     p->c = CM_allocate_heap_field(FLOAT);
-    CM_f_move_constant_1L(p->a, 0.5, SIGNIFICAND, EXPONENT);
+    CM_f_random_1L(p->a, SIGNIFICAND, EXPONENT);
 }
 
 /* The mean of three neighbours, along both axes: cheap to compute again. */
