@@ -137,10 +137,10 @@ static void short_work_is_not_shared_out(void **unused)
 {
     (void)unused;
     struct crew *crew = crew_create(2);
-    assert_int_equal(crew_parts(crew, 1e-6), 1);
-    assert_int_equal(crew_parts(NULL, 1), 1);
-    assert_true(crew_parts(crew, 1) > 1);
-    assert_true(crew_parts(crew, 1) <= 100);
+    assert_int_equal(crew_parts(crew, 99, 100, 10), 1);
+    assert_int_equal(crew_parts(NULL, 1e9, 100, 10), 1);
+    assert_int_equal(crew_parts(crew, 100, 100, 10), 10);
+    assert_true(crew_parts(crew, 1e9, 100, 10) <= 100);
     crew_destroy(crew);
 }
 

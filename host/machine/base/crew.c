@@ -17,11 +17,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { LOOKS = 4000 }; /* before a thread sleeps: some 20 us */
-/* To wake a thread takes some microseconds, and where other programs are at work, it may not run at once. So long is what is shared
- * out, and a part, at least; there are so many for each thread at most. */
-static const double worth_s = 150e-6, part_s = 40e-6;
-enum { PARTS_EACH = 8 };
+enum { LOOKS = 4000 };   /* before a thread sleeps: some 20 us */
+enum { PARTS_EACH = 8 }; /* for each thread, at most */
 
 struct worker {
     struct crew *crew;
@@ -151,11 +148,11 @@ void crew_run(struct crew *c, int parts, crew_part *function, void *context)
             sched_yield();
 }
 
-int crew_parts(const struct crew *c, double seconds)
+int crew_parts(const struct crew *c, double work, double least, double part)
 {
-    if (!c || seconds < worth_s)
+    if (!c || work < least)
         return 1;
-    double parts = seconds / part_s, most = (double)(PARTS_EACH * c->size);
+    double parts = work / part, most = (double)(PARTS_EACH * c->size);
     return (int)(parts < most ? parts : most);
 }
 

@@ -19,8 +19,9 @@ typedef void crew_part(void *context, int part, int worker);
 
 /* For so many threads, the caller among them; none begins before there is work. NULL: no memory, or only one. */
 struct crew *crew_create(int threads);
-/* How many parts to make of work that takes one thread so long; 1: none. */
-int crew_parts(const struct crew *crew, double seconds);
+/* How many parts to make of work that takes one thread so long, where work is shared out from least on, and a part takes part or
+ * more, all in one unit of time; 1: none. */
+int crew_parts(const struct crew *crew, double work, double least, double part);
 /* crew NULL: the caller does all. Returns when all parts are done. One caller at a time. */
 void crew_run(struct crew *crew, int parts, crew_part *function, void *context);
 /* How many may be at work. */

@@ -46,10 +46,10 @@ static bool launch_add(struct machine *m, struct plan *p, const struct plan_grap
 {
     int set_id = g->nodes[stores[0]].set;
     const struct vpset *set = &m->values->sets[set_id];
-    struct byte_code *program =
-        plan_launches_grow(p)
-            ? byte_code_make(g, stores, count, set, m->values->processors_log2)
-            : NULL;
+    struct byte_code *program = plan_launches_grow(p)
+                                    ? byte_code_make(&m->device->shape, g, stores, count, set,
+                                                     m->values->processors_log2)
+                                    : NULL;
     if (!program)
         return false;
     struct kernel_text said = {.arguments = program->arguments,

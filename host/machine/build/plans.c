@@ -12,9 +12,6 @@
 #include "base/errors.h"
 #include "build/background.h"
 
-/* Seconds. */
-static const double short_s = 10e-6;
-
 void plans_finish(struct machine *m)
 {
     for (int i = 0; i < m->plans->table_size; i++)
@@ -53,9 +50,9 @@ bool plan_saves_nothing(const struct plan *p, int turns)
     return p->quality == BOXED && p->launches_count >= turns * sets;
 }
 
-bool plan_is_short(const struct plan *p)
+bool plan_is_short(const struct machine *m, const struct plan *p)
 {
-    return p->quality == INTERPRETED && p->predicted_s < short_s;
+    return p->quality == INTERPRETED && 1e9 * p->predicted_s < m->device->shape.short_ns;
 }
 
 bool plan_is_hopeless(const struct plan *p)

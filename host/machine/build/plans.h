@@ -132,7 +132,7 @@ bool plan_waits(const struct machine *m, const struct plan *p);
  * each turn. */
 bool plan_saves_nothing(const struct plan *p, int turns);
 /* Whether it is interpreted, and done in some microseconds. */
-bool plan_is_short(const struct plan *p);
+bool plan_is_short(const struct machine *m, const struct plan *p);
 /* Whether it is of many turns that do not fit one kernel. */
 bool plan_is_hopeless(const struct plan *p);
 /* Called between evaluations: a plan whose better kernels are all compiled gets them. Loads

@@ -29,7 +29,10 @@ int device_parts(const struct machine *m, double seconds)
 {
     if (m->settings.near > 1)
         return PARTS_FORCED;
-    return m->settings.near ? crew_parts(m->device->crew, seconds) : 1;
+    const struct device_shape *shape = &m->device->shape;
+    return m->settings.near
+               ? crew_parts(m->device->crew, 1e9 * seconds, shape->share_ns, shape->part_ns)
+               : 1;
 }
 
 /* Bytes copied, or all filled with a pattern. */

@@ -54,11 +54,22 @@ struct device_shape {
     int scatter_units; /* with so many or fewer, sends go from senders, not from destinations */
     int scan_run;      /* elements of a line for each; 0: as units have use for */
     int fill_run;      /* ... where a scan is carried on */
+    int scan_run_least; /* ... at least, where units have use for shorter ones */
     int sort_chunk; /* elements of a line that are sorted together; 0: as units have use for */
+    int sort_short,
+        sort_long; /* lines up to here are sorted by digits of 4 bits, from here by 11, others by 8 */
     /* The queue: kernels in it, and while better ones are built. */
     int kernels_ahead, kernels_ahead_building;
     /* The front end's own threads, in nanoseconds: for a byte that is moved, and for an element. */
     double move_ns, reduce_ns, rank_ns, send_ns, scan_ns, fill_ns;
+    int near_rank_most; /* longer lines are ranked by the device, which shares one line out */
+    double share_ns,
+        part_ns; /* the least work that threads share out, and the least part of it */
+    /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
+     * top; a step lane by lane, of floats' functions and of all else. */
+    double loop_ns, loop_cost_ns, gather_ns, each_math_ns, each_ns;
+    double
+        short_ns; /* what the front end interprets in less time is as soon done as noted: run/record.c */
     /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of the search for a plan and its
      * text, of a compiler for a kernel and for each operation in it; the part that a kernel takes of the interpreter's
      * time; the least time of a plan of which many turns can be one kernel. */
@@ -68,6 +79,9 @@ struct device_shape {
 
 /* What is usual on a GPU, but for what the device tells. */
 struct device_shape shape_gpu(void);
+
+/* Bits of a digit that lines of that length are sorted by; at most 11. */
+int shape_sort_digit(const struct device_shape *shape, int length);
 
 /* A cost in the terms of struct machine_tuning. */
 double shape_cost_ns(const struct device_shape *shape, enum machine_cost cost);

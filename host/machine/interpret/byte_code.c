@@ -6,15 +6,14 @@
 
 #include "base/arrays.h"
 #include "base/scalar.h"
+#include "device/shape.h"
 
 enum { NO_PLACE = -1 };
-
-/* Seconds for what comes from anywhere in memory, beside the step. */
-static const double fetch_s = 0.5e-9;
 
 /* While a program is made. */
 struct making {
     struct byte_code *p;
+    const struct device_shape *shape;
     const struct plan_graph *g;
     const struct vpset *set;
     int stage, processors_log2;
@@ -184,6 +183,15 @@ static int place_given(struct making *k, int node)
 
 /* ---- steps ---- */
 
+static double step_ns(const struct device_shape *shape, lanes_function *run, int op)
+{
+    bool is_node = op < NODE_OP_COUNT;
+    if (run == lane_each)
+        return is_node && op_is_math(op) ? shape->each_math_ns : shape->each_ns;
+    return shape->loop_ns +
+           (is_node && op_is_integer(op) ? shape->loop_cost_ns * node_ops[op].cost : 0);
+}
+
 static struct lanes_step *step_add(struct making *k, lanes_function *run, int op, int to)
 {
     static struct lanes_step none;
@@ -193,12 +201,7 @@ static struct lanes_step *step_add(struct making *k, lanes_function *run, int op
     if (p->failed)
         return &none;
     struct lanes_step *s = &p->steps[p->steps_count++];
-    bool is_node = op < NODE_OP_COUNT;
-    p->lane_s +=
-        1e-9 * (run != lane_each
-                    ? 0.04 + (is_node && op_is_integer(op) ? 0.01 * node_ops[op].cost : 0)
-                : is_node && op_is_math(op) ? 15
-                                            : 8);
+    p->lane_s += 1e-9 * step_ns(k->shape, run, op);
     *s = (struct lanes_step){
         .run = run, .op = (uint16_t)op, .to = (uint16_t)to, .mask = ~(lanes_wide)0};
     return s;
@@ -354,7 +357,7 @@ static void step_fetched(struct making *k, const struct plan_node *n, int to, co
     s->in[2] = (uint16_t)in[2];
     s->from = MACHINE_UINT(32);
     s->type = n->type;
-    k->p->lane_s += fetch_s;
+    k->p->lane_s += 1e-9 * k->shape->gather_ns;
 }
 
 static void step_operation(struct making *k, const struct plan_node *n, int to, const int in[3])
@@ -488,12 +491,14 @@ void byte_code_free(struct byte_code *p)
     free(p);
 }
 
-struct byte_code *byte_code_make(const struct plan_graph *g, const int *stores, int count,
-                                 const struct vpset *set, int processors_log2)
+struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
+                                 const int *stores, int count, const struct vpset *set,
+                                 int processors_log2)
 {
     size_t nodes = (size_t)g->count;
     struct byte_code *p = calloc(1, sizeof *p);
     struct making k = {.p = p,
+                       .shape = shape,
                        .g = g,
                        .set = set,
                        .stage = g->nodes[stores[0]].stage,

@@ -51,9 +51,10 @@ struct byte_code {
 
 /* Decides what is stored and in which stage (plan_node.stage, stored): what neighbours look at, and what a later stage does. */
 void byte_code_stages(struct plan_graph *g);
-/* What stores those nodes, all of that stage and set. NULL: no memory. */
-struct byte_code *byte_code_make(const struct plan_graph *g, const int *stores, int count,
-                                 const struct vpset *set, int processors_log2);
+/* What stores those nodes, all of that stage and set. shape: what steps cost. NULL: no memory. */
+struct byte_code *byte_code_make(const struct device_shape *shape, const struct plan_graph *g,
+                                 const int *stores, int count, const struct vpset *set,
+                                 int processors_log2);
 void byte_code_free(struct byte_code *p);
 
 #endif

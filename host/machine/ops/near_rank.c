@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "device/device.h"
 #include "ops/near_lines.h"
 
-enum { DIGIT_MOST = 11, SHORT = 64, LONG = 1 << 15 };
+enum { DIGIT_MOST = 11 };
 
 /* A key's word above, its place in the line below. */
 typedef uint64_t pair;
@@ -73,23 +74,21 @@ static void part_rank(void *of, int part, int worker)
         line_rank(g, near_lines_row(g->l, i / columns) + i % columns, g->pairs[worker]);
 }
 
-bool near_rank(struct crew *crew, int parts, const struct lines *l,
+bool near_rank(const struct device *d, int parts, const struct lines *l,
                const struct near_word *words, int count, struct device_buffer *out)
 {
     struct ranking g = {.l = l,
                         .words = words,
                         .count = count,
                         .parts = parts,
-                        .digit = l->length <= SHORT ? 4
-                                 : l->length < LONG ? 8
-                                                    : DIGIT_MOST,
+                        .digit = shape_sort_digit(&d->shape, l->length),
                         .lines = lines_count(l),
                         .ranks = out->host};
     bool good = true;
-    for (int i = 0; i < crew_size(crew) && good && (i == 0 || parts > 1); i++)
+    for (int i = 0; i < crew_size(d->crew) && good && (i == 0 || parts > 1); i++)
         good = (g.pairs[i] = malloc(2 * (size_t)l->length * sizeof(pair))) != NULL;
     if (good) {
-        crew_run(crew, parts, part_rank, &g);
+        crew_run(d->crew, parts, part_rank, &g);
         near_lines_repeat(l, out->host, sizeof *g.ranks);
     }
     for (int i = 0; i < CREW_MOST; i++)

@@ -11,8 +11,8 @@ struct near_word {
 };
 
 /* Each line's processors in order, the last word counting most, and equal ones as they are in the line: to out, where in that order
- * each is. In so many parts, shared out among the crew. False: no memory. */
-bool near_rank(struct crew *crew, int parts, const struct lines *l,
+ * each is. In so many parts, shared out among the device's crew. False: no memory. */
+bool near_rank(const struct device *d, int parts, const struct lines *l,
                const struct near_word *words, int count, struct device_buffer *out);
 
 #endif

@@ -17,7 +17,7 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
-enum { WORDS_MAX = 6, LONG = 1 << 15, SHORT = 64 };
+enum { WORDS_MAX = 6 };
 
 enum { WORD, PAIR, GATHER }; /* as in kernels/sort.cl */
 
@@ -115,11 +115,11 @@ static struct sort sort_of(const struct machine *m, const struct vpset *s, int a
 {
     struct sort t = {.lines = lines_of(s, axis, false), .set = s, .chunks = 1};
     int length = t.lines.length, chunk = m->device->shape.sort_chunk;
-    t.digit = length <= SHORT ? 4 : length < LONG || !m->device->is_cpu ? 8 : 11;
+    t.digit = shape_sort_digit(&m->device->shape, length);
     t.chunk = length;
     if (chunk && length > chunk) {
         t.chunk = chunk;
-    } else if (m->device->is_cpu && length >= LONG) {
+    } else if (length >= m->device->shape.sort_long) {
         int wanted = 2 * m->device->units;
         t.chunk = (length - 1) / wanted + 1;
     }
@@ -211,23 +211,19 @@ static struct device_buffer *ranks_far(struct machine *m, const struct vpset *s,
     return status ? NULL : t.ranks;
 }
 
-/* A line that is longer is sorted in chunks by the device's units: the front end has a thread for each line only. */
-enum { NEAR_LINE_MOST = 1 << 17 };
-
 /* By the front end; else by the device. NULL: error set. */
 static struct device_buffer *ranks_of(struct machine *m, const struct vpset *s, int axis,
                                       const struct words *w)
 {
     const struct lines l = lines_of(s, axis, false);
     struct near_word words[WORDS_MAX];
-    bool is_long = l.length > NEAR_LINE_MOST && m->settings.near < 2;
+    bool is_long = l.length > m->device->shape.near_rank_most && m->settings.near < 2;
     double start, seconds = 1e-9 * m->device->shape.rank_ns * (double)s->count * w->count;
     struct device_buffer *ranks = device_rows_get(m, geometry_rows(s, MACHINE_UINT(32)));
     for (int i = 0; i < w->count; i++)
         words[i] = (struct near_word){.word = w->values[i]->buffer->host, .bits = w->bits[i]};
-    bool good =
-        !is_long && near_begin(m, ranks, &start) &&
-        near_rank(m->device->crew, device_parts(m, seconds), &l, words, w->count, ranks);
+    bool good = !is_long && near_begin(m, ranks, &start) &&
+                near_rank(m->device, device_parts(m, seconds), &l, words, w->count, ranks);
     if (good)
         near_end(m, "sorting", start);
     if (good || !ranks)

@@ -23,7 +23,7 @@
 #include "run/materialise.h"
 #include "values/graph.h"
 
-enum { RUN_FLOATS = 512, RUN_LEAST = 65536, LANES = 16 };
+enum { RUN_FLOATS = 512, LANES = 16 };
 
 enum { JOINS, FINISHES, FILLS };
 
@@ -98,8 +98,9 @@ static int run_of(const struct machine *m, const struct lines *l, const struct e
         return RUN_FLOATS;
     if (m->device->shape.scan_run)
         return m->device->shape.scan_run;
-    int runs = 4 * m->device->units, run = (l->length - 1) / runs + 1;
-    return run < RUN_LEAST ? RUN_LEAST : run;
+    int runs = 4 * m->device->units, run = (l->length - 1) / runs + 1,
+        least = m->device->shape.scan_run_least;
+    return run < least ? least : run;
 }
 
 static enum machine_status scan_runs(struct machine *m, const struct lines *l,

@@ -123,7 +123,7 @@ void record_evaluates(struct machine *m, struct plan *plan, struct machine_value
     if (!p)
         return;
     p->forgets = history_evaluates(m, plan, due);
-    p->is_short = plan_is_short(plan);
+    p->is_short = plan_is_short(m, plan);
     if (p->depth || p->forgets)
         states_from_forget(m);
     if (p->from < 0)
