@@ -134,13 +134,20 @@ static void drying_own(const struct paper_openmp *o, int y)
     }
 }
 
+/* As model/soak.c has it. */
+static double edge_length(const struct paper_openmp *o)
+{
+    const double width = o->config.air.edge_width;
+    return o->config.model > 2 ? fmax(1, 1.25 * width - 3) : 0.75 * width;
+}
+
 static void around_own(const struct paper_openmp *o, int y)
 {
     const struct paper_air *air = &o->config.air;
     const int width = o->config.width, reach = air->edge_width <= 10   ? 1
                                                : air->edge_width <= 20 ? 2
                                                                        : 4;
-    const double wide = 0.75 * air->edge_width, spread = (1 + reach * reach) / 8.0,
+    const double wide = edge_length(o), spread = (1 + reach * reach) / 8.0,
                  relax = spread / (wide * wide + spread);
     const float *here = field_row(o, o->around_now, y),
                 *up = field_row(o, o->around_now, y + 1),
@@ -273,6 +280,16 @@ static void corners_make(const struct paper_openmp *o, int y, float *q)
         q[x] = least(least(here[x], here[x + 1]), least(next[x], next[x + 1])) * swirl[x];
 }
 
+/* As model/film.c has it. */
+static double edge_pull(const struct paper_openmp *o)
+{
+    const struct paper_air *air = &o->config.air;
+    const double length = edge_length(o);
+    return o->config.model > 2
+               ? air->edge * (0.05 * air->humidity * length * length + 0.004 * sqrt(length))
+               : air->edge * 0.005 * (air->edge_width + 8);
+}
+
 /* Over the faces of an axis (0: x) of row y; step fibers lie between both sides. */
 INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const float *eddies)
 {
@@ -295,8 +312,8 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
           *pigment_out = term_row(o, T_FACES + 6 * axis + 2, y),
           *pigment_in = term_row(o, T_FACES + 6 * axis + 3, y);
     const float gravity = (float)air->gravity[axis], pull = 0.3f,
-                spread = (float)(2.0 * air->spread),
-                edge = (float)(air->edge * 0.005 * (air->edge_width + 8));
+                spread = (float)(2.0 * air->spread), edge = (float)edge_pull(o),
+                bent = o->config.model > 2 ? 12.0f : 0.0f;
 #pragma omp simd
     for (int x = 0; x < o->config.width; x++) {
         float drive = (level[x] - level2[x] + gravity) * pull;
@@ -314,8 +331,9 @@ INLINE void film_faces(const struct paper_openmp *o, int y, int axis, const floa
         water_in[x] = in;
         float net = out * depth[x] + in * depth2[x] + eddies[x];
         float both = least(depth[x], depth2[x]) * least(face[x] * 1e6f, 1.0f);
-        net += (around[x] - around2[x]) * edge *
-               greatest(around[x] + around2[x] + -1.0f, 0.0f) * both;
+        float within_edge = greatest(around[x] + around2[x] + -1.0f, 0.0f);
+        net += (around[x] - around2[x]) * edge * within_edge *
+               (within_edge * within_edge * bent + 1.0f) * both;
         float mixed = both * 0.06f;
         pigment_out[x] = least((greatest(net, 0.0f) + mixed) * inverse[x], 0.2f) * room2[x];
         pigment_in[x] = greatest((least(net, 0.0f) - mixed) * inverse2[x], -0.2f) * room[x];

@@ -119,7 +119,7 @@ struct paper_air paper_air_default(void);
 
 /* Versions of the model. No version ever changes, to the bit: a change that would give other
  * bits is a new version. The default version, and the latest: */
-enum { PAPER_MODEL_USUAL = 2, PAPER_MODEL_VERSION = 2 };
+enum { PAPER_MODEL_USUAL = 2, PAPER_MODEL_VERSION = 3 };
 
 struct paper_sheet_config {
     int width, height; /* fibers, PAPER_SIDE_MIN..PAPER_SIDE_MAX */
@@ -167,7 +167,7 @@ enum paper_layer {
     PAPER_LAYER_SURFACE_PIGMENT, /* one for each */
     PAPER_LAYER_INFUSED_PIGMENT,
     PAPER_LAYER_FIXED_PIGMENT,
-    /* In version 2, which has flowing water: resistance of fibers to wetting, 0.01..100,
+    /* From version 2 on, which has flowing water: resistance of fibers to wetting, 0.01..100,
      * about 1; eddies, -10..10; wet part of each fiber, 0..1 */
     PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT,

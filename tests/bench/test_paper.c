@@ -43,7 +43,7 @@ static void steps_agree_with_openmp(void **state)
 {
     (void)state;
     struct paper_air air = air_that_pulls();
-    for (int model = 1; model <= 2; model++)
+    for (int model = 1; model <= PAPER_MODEL_VERSION; model++)
         for (int torus = 0; torus < 2; torus++) {
             struct paper_scene s;
             check(paper_scene_init(&s, model, WIDTH, HEIGHT, PIGMENTS, torus, &air));

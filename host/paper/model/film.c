@@ -41,6 +41,9 @@
 #define EDDIES 0.7
 #define EDGE_FLOW 0.005
 #define EDGE_WIDTH_LEAST 8.0
+#define EDGE_DRIES 0.05 /* version 3; see edge_flow_make() */
+#define EDGE_BALANCE 0.004
+#define EDGE_PLATEAU 12.0
 #define OPEN_SCALE 1e6 /* see step.c */
 
 /* ---- what does not change from step to step ---- */
@@ -147,6 +150,39 @@ static void eddies_make(CM_field_id_t d, CM_field_id_t q, unsigned axis)
         kit_f_sub(d, d, q);
 }
 
+/* d = how fast pigments go to the edge over the faces of the axis. Uses t[8], t[11].
+ *
+ * With s the distance from the edge over L = sheet_edge_length(), wet_around is 1 - exp (-s) / 2 inside; so u = wet_around +
+ * wet_around' - 1 is 1 - exp (-s), and the slope is (1 - u) / (2 L). Version 2 has the speed slope u, greatest at s = 0.7 and nearly
+ * the same for all L: against mixing that makes bands as wide as the root of L. Version 3 has
+ *
+ *     (dries L + balance / root of L) u (1 - u) (1 + 12 u^2)          which grows in line with s up to about s = 1
+ *
+ * A speed that falls to 0 in line towards the edge keeps an even band even. One that grows with L moves wide and narrow bands
+ * alike in the same time; it goes with humidity, as what dries is what draws. The last part keeps narrow bands against mixing. */
+static void edge_flow_make(struct paper_sheet *p, unsigned axis, CM_field_id_t d)
+{
+    CM_field_id_t other = p->t[8], bent = p->t[11];
+    const double width = sheet_edge_length(p);
+    double flow = p->air.edge * EDGE_FLOW * (p->air.edge_width + EDGE_WIDTH_LEAST);
+    if (sheet_of_version_3(p))
+        flow = p->air.edge *
+               (EDGE_DRIES * p->air.humidity * width * width + EDGE_BALANCE * sqrt(width));
+    kit_f_next(other, p->wet_around, axis);
+    kit_f_sub(d, p->wet_around, other);
+    kit_f_times(d, d, flow);
+    kit_f_add(other, p->wet_around, other);
+    kit_f_plus(other, other, -1.0);
+    kit_f_least(other, other, 0.0);
+    kit_f_mul(d, d, other);
+    if (!sheet_of_version_3(p))
+        return;
+    kit_f_mul(bent, other, other);
+    kit_f_times(bent, bent, EDGE_PLATEAU);
+    kit_f_plus(bent, bent, 1.0);
+    kit_f_mul(d, d, bent);
+}
+
 /* The parts of pigments that pass the faces of the axis, from the parts of water, before the
  * receiver's room limits them. Uses t[7..15]. */
 static void pigment_faces_make(struct paper_sheet *p, const struct sheet_terms *terms,
@@ -166,14 +202,7 @@ static void pigment_faces_make(struct paper_sheet *p, const struct sheet_terms *
     kit_f_most(part, part, 1.0);
     kit_f_mul(both, both, part);
     if (sheet_has(p, PAPER_PART_EDGE)) {
-        const double flow = p->air.edge * EDGE_FLOW * (p->air.edge_width + EDGE_WIDTH_LEAST);
-        kit_f_next(other, p->wet_around, axis);
-        kit_f_sub(part, p->wet_around, other);
-        kit_f_times(part, part, flow);
-        kit_f_add(other, p->wet_around, other);
-        kit_f_plus(other, other, -1.0);
-        kit_f_least(other, other, 0.0);
-        kit_f_mul(part, part, other);
+        edge_flow_make(p, axis, part);
         kit_f_mul(part, part, both);
         kit_f_add(net, net, part);
     }

@@ -144,6 +144,12 @@ static inline bool sheet_flows(const struct paper_sheet *p)
     return p->config.model >= 2;
 }
 
+/* What version 3 does otherwise than version 2. */
+static inline bool sheet_of_version_3(const struct paper_sheet *p)
+{
+    return p->config.model >= 3;
+}
+
 /* Sizing and currents from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_sizing_make(struct paper_sheet *p);
 /* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */
@@ -160,6 +166,8 @@ struct sheet_terms {
     CM_field_id_t inverse; /* 1 / depth */
     CM_field_id_t swirled; /* depth that eddies move: none at the edge of what is wet */
 };
+/* Fibers over which the nearness of an edge falls to 1/e. */
+double sheet_edge_length(const struct paper_sheet *p);
 /* Uses t[7..15]; terms are t[0..6]. */
 void sheet_soak(struct paper_sheet *p, struct sheet_terms *terms);
 /* Uses t[7..15], t[32..44]. */

@@ -39,7 +39,10 @@
 #define DRIED_LEAST 4.0    /* grains */
 #define AROUND_LEAST 0.01  /* of what it relaxes by */
 #define EDGE_SHARE 0.75    /* of edge_width, over which the nearness of an edge falls to 1/e */
-#define ROOM_FROM 13.0     /* units that may be taken in before a fiber is full */
+#define EDGE_SLOPE 1.25
+#define EDGE_BLUR 3.0 /* fibers by which mixing widens a band */
+#define EDGE_LEAST 1.0
+#define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
 
 /* Surface water sinks in where it wets the fiber, pigments with it by their weight. Uses t[8..11]. */
 static void sink_in(struct paper_sheet *p)
@@ -213,12 +216,18 @@ static void both_sides_make(struct paper_sheet *p, CM_field_id_t d, CM_field_id_
     kit_f_add(d, d, far);
 }
 
+double sheet_edge_length(const struct paper_sheet *p)
+{
+    return sheet_of_version_3(p) ? fmax(EDGE_LEAST, EDGE_SLOPE * p->air.edge_width - EDGE_BLUR)
+                                 : EDGE_SHARE * p->air.edge_width;
+}
+
 /* wet_around follows the wet part and spreads, to the neighbours and to those at `reach`: in the long run it is 1 well inside, 1/2 at
  * a straight edge and 0 outside, over a distance that goes with edge_width. Uses t[8..12]. */
 static void around_follow(struct paper_sheet *p)
 {
     CM_field_id_t sum = p->t[8], along_y = p->t[9], along_x = p->t[10], near = p->t[12];
-    const double width = EDGE_SHARE * p->air.edge_width;
+    const double width = sheet_edge_length(p);
     const int reach = around_reach(p->air.edge_width);
     const double spread = (1 + reach * reach) / 8.0, relax = spread / (width * width + spread);
     for (int from = 1;; from = reach) {
