@@ -18,6 +18,7 @@
  * whole numbers below 2^24 are exact in any order.
  */
 #include "paper_openmp.h"
+#include "paper_openmp_rounding.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,31 +50,6 @@ struct band {
 static float *row_of(const struct paper_openmp *o, float *rows, int number)
 {
     return rows + (size_t)number * o->pitch + MARGIN;
-}
-
-/* ---- arithmetic; all becomes vectors ---- */
-
-#define INLINE static inline __attribute__((always_inline))
-#define WHOLE 12582912.0f /* see host/paris_kit/kit_float.h */
-
-INLINE float least(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-INLINE float greatest(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-INLINE float whole(float x)
-{
-    return (x + WHOLE) - WHOLE;
-}
-
-INLINE float whole_of(float x, float q)
-{
-    return least(whole(x), q);
 }
 
 /* ---- a fiber's own part ---- */

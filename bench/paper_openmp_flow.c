@@ -6,40 +6,14 @@
  *
  * The operations are those of host/paper/model/{soak,film,capillary}.c in the same order; all rows become vectors. */
 #include "paper_openmp.h"
+#include "paper_openmp_rounding.h"
 
 #include <math.h>
 #include <string.h>
 
-#define INLINE static inline __attribute__((always_inline))
-#define WHOLE 12582912.0f
 #define UNIT ((double)PAPER_GRAINS)
 
 enum { FAR = 4 }; /* as far as anything looks along x */
-
-INLINE float least(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-INLINE float greatest(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-INLINE float within(float a, float low, float high)
-{
-    return least(greatest(a, low), high);
-}
-
-INLINE float whole(float x)
-{
-    return (x + WHOLE) - WHOLE;
-}
-
-INLINE float whole_of(float x, float q)
-{
-    return least(whole(x), q);
-}
 
 /* ---- own parts ---- */
 

@@ -43,7 +43,7 @@ enum font_filter_way {
     FONT_BY_PATCHES /* nodes by patches, lines by tables */
 };
 
-/* A kind of filter: a row of the table in filter_kinds.c is all there is of it. */
+/* A kind of filter: a row of the table in filters_by_name.c is all there is of it. */
 struct font_filter_kind {
     const char *name;
     enum { FONT_TAKES_RADIUS, FONT_TAKES_SIGMA_RADIUS, FONT_TAKES_SAMPLES } takes;

@@ -54,6 +54,9 @@ HEAVY VL square_root_L(VL a)
     return r;
 }
 
+#define population_U popcount
+#define population_L popcount
+
 /* ---- the same text for both containers ---- */
 
 /* X, vector, signed vector, suffix of numbers, bits; conversions to these from VU */

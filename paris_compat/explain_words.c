@@ -22,10 +22,9 @@ const char *explain_why(enum machine_cut why)
 const char *explain_way(enum machine_plan_way way)
 {
     static const char *const names[MACHINE_PLAN_WAYS] = {
-        [MACHINE_PLAN_STORED] = "all stored first for neighbours",
-        [MACHINE_PLAN_ROWS] = "in rows",
-        [MACHINE_PLAN_STRIPS] = "in strips",
-        [MACHINE_PLAN_TILES] = "in tiles",
+#define PLAN_WAY(way, name) name,
+#include "plan_way.tab"
+#undef PLAN_WAY
     };
     return names[way];
 }

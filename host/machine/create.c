@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "build/background.h"
 #include "build/plans.h"
-#include "explain/copies.h"
+#include "measure/copies.h"
 #include "memory/memory.h"
 #include "run/evaluate.h"
 #include "run/replay.h"

@@ -35,12 +35,11 @@ struct machine_explained_store {
     char where[40]; /* the field or flag that held it when the kernel was made; else "" */
 };
 
-/* The ways of computing what an evaluation wants that the planner compares. */
+/* The ways of computing what an evaluation wants that the planner compares: plan_way.tab. */
 enum machine_plan_way {
-    MACHINE_PLAN_STORED, /* in rows; all that neighbours look at is stored first */
-    MACHINE_PLAN_ROWS,   /* in rows; what costs less so is computed again for neighbours */
-    MACHINE_PLAN_STRIPS, /* in one kernel of strips, or of tiles */
-    MACHINE_PLAN_TILES,
+#define PLAN_WAY(way, name) way,
+#include "plan_way.tab"
+#undef PLAN_WAY
     MACHINE_PLAN_WAYS
 };
 

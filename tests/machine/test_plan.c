@@ -12,7 +12,7 @@
 
 #include "base/node_ops.h"
 #include "hand_graph.h"
-#include "plan/cost.h"
+#include "plan/search_cost.h"
 #include "plan/substitutes.h"
 
 enum { GRAPHS = 300, HEIGHT = 5, WIDTH = 7, CELLS = HEIGHT * WIDTH, STAGES_MOST = 64 };

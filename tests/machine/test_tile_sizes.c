@@ -22,7 +22,7 @@ static int below(int n)
 
 static struct device_shape shape_with(int local_bytes)
 {
-    struct device_shape shape = shape_gpu();
+    struct device_shape shape = shape_by_driver(false, "");
     shape.group = 64;
     shape.units = 4;
     shape.local_bytes = local_bytes;

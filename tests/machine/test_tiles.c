@@ -116,7 +116,7 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     struct machine *m = support_machine(0);
     unsetenv("LUTETIA_BOX_AFTER");
     struct device_shape forced = m->device->shape;
-    m->device->shape = shape_gpu();
+    m->device->shape = shape_by_driver(false, "");
     m->device->shape.group = forced.group;
     m->device->shape.local_bytes = forced.local_bytes;
     m->device->shape.units = 8;

@@ -148,6 +148,25 @@ void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, co
     }
 }
 
+void spell_integer(char *out, size_t size, int op, struct machine_type t, const char *a,
+                   const char *b)
+{
+    const struct node_words *words = &node_words[op];
+    char raw[300], second[64] = "", width[16] = "", how[40] = "";
+    char c = spell_letter(t);
+    if (node_ops[op].inputs == 2)
+        snprintf(second, sizeof second, ", %s", b);
+    if (op_has(op, OP_WIDTH))
+        snprintf(width, sizeof width, ", %d", t.width);
+    if (words->second)
+        snprintf(how, sizeof how, ", %s", words->second);
+    snprintf(raw, sizeof raw, "%s_%c(%s%s%s%s)", words->word, c, a, second, width, how);
+    if (op_has(op, OP_CUTS))
+        spell_cut(out, size, raw, t.width);
+    else
+        snprintf(out, size, "%s", raw);
+}
+
 void spell_float(char *out, size_t size, int op, struct machine_type t, const char *a,
                  const char *b)
 {

@@ -18,7 +18,7 @@ void spell_cut(char *out, size_t size, const char *from, int width);
 /* MACHINE_AND .. MACHINE_SLE on two operands of type t. */
 void spell_bits_binary(char *out, size_t size, int op, struct machine_type t, const char *a,
                        const char *b);
-/* MACHINE_UDIV .. MACHINE_ISQRT on operands of 2 bits or more: spell_integers.c. */
+/* Integers' operations on operands of 2 bits or more, in the words of kernels/integers.cl. */
 void spell_integer(char *out, size_t size, int op, struct machine_type t, const char *a,
                    const char *b);
 /* MACHINE_FNEG .. MACHINE_FGE. */

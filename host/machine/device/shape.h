@@ -1,7 +1,7 @@
 /* shape.h - what generated code should look like on a device, and what things cost there.
  *
- * All numbers about hardware are here: shape.c has a row of them for each kind of device and driver, and says where each row
- * comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
+ * All numbers about hardware are here: costs_by_driver.c has a row of them for each kind of device and driver, and says
+ * where each row comes from. Some of them `lutetia tune` chooses by measuring (enum machine_knob), some the device tells. `lutetia bench
  * model` measures programs beside what follows from the costs. */
 #ifndef LUTETIA_MACHINE_SHAPE_H
 #define LUTETIA_MACHINE_SHAPE_H
@@ -31,7 +31,7 @@ struct device_shape {
     int near_bytes;    /* of a cache, which rings should not fill */
     int pass_cost; /* of the stages in one loop: with more there are too few registers, and nothing is won */
     int turns;                     /* of a loop at once */
-    bool no_strips, always_strips; /* or tiles: see plan.c; for tests */
+    bool no_strips, always_strips; /* or tiles: see choose.c; for tests */
     /* Tiles. */
     int group;                   /* work-items; 0: there are no tiles */
     int local_bytes;             /* of local memory, for a work-group */
@@ -77,8 +77,9 @@ struct device_shape {
     const char *from; /* where these numbers come from */
 };
 
-/* What is usual on a GPU, but for what the device tells. */
-struct device_shape shape_gpu(void);
+/* What is usual for a driver, by the name of its OpenCL platform, but for what the device tells. A CPU's op_ns is that of an
+ * instruction, of however many lanes: costs_by_driver.c. */
+struct device_shape shape_by_driver(bool is_cpu, const char *platform);
 
 /* Bits of a digit that lines of that length are sorted by; at most 11. */
 int shape_sort_digit(const struct device_shape *shape, int length);

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "build/plans.h"
-#include "explain/copies.h"
+#include "measure/copies.h"
 #include "run/run.h"
 
 /* ---- the whole ---- */

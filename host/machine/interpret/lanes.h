@@ -6,8 +6,8 @@
  *     lanes_function *add = lanes_find(MACHINE_ADD, LANES_U32);
  *     add(&step, at, n);          at[step.to][i] = at[step.in[0]][i] + at[step.in[1]][i], for n lanes
  *
- * lanes_kernel.h has the loops; it is compiled once for each instruction set. What has no loop there is done lane by lane
- * (lane.c). Both give the same bits as generated kernels. */
+ * fast_loops.h has the loops; it is compiled once for each instruction set. What has no loop there is done lane by lane
+ * (slow_lane.c). Both give the same bits as generated kernels. */
 #ifndef LUTETIA_MACHINE_LANES_H
 #define LUTETIA_MACHINE_LANES_H
 
@@ -63,7 +63,7 @@ lanes_function *lanes_find(int op, enum lanes_class c);
 /* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S, F_TO_F. */
 lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_class to);
 
-/* Lane by lane, any operation: the slow twin of all loops. lane.c */
+/* Lane by lane, any operation: the slow twin of all loops. slow_lane.c */
 lanes_function lane_each;
 
 /* The tables of one instruction set. */

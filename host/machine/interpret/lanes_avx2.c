@@ -1,4 +1,4 @@
-/* lanes_avx2.c - see lanes_kernel.h. */
+/* lanes_avx2.c - see fast_loops.h. */
 #define TABLE lanes_table_avx2
 #define LANES_X86
-#include "interpret/lanes_kernel.h"
+#include "interpret/fast_loops.h"

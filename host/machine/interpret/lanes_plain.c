@@ -1,3 +1,3 @@
-/* lanes_plain.c - see lanes_kernel.h. */
+/* lanes_plain.c - see fast_loops.h. */
 #define TABLE lanes_table_plain
-#include "interpret/lanes_kernel.h"
+#include "interpret/fast_loops.h"

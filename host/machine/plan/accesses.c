@@ -211,7 +211,7 @@ static void operate(struct accesses *a, const struct plan_node *n, int row, int 
 {
     uint32_t in[3] = {0};
     int inputs = node_ops[n->op].inputs;
-    INVARIANT(n->op != NODE_GATHER); /* plan.c: kernels that are asked about have none */
+    INVARIANT(n->op != NODE_GATHER); /* choose.c: kernels that are asked about have none */
     for (int k = 0; k < inputs; k++) {
         bool want = n->op == NODE_SELECT ? canonical : n->op == NODE_REINTERPRET;
         in[k] = walk(a, plan_input(a->g, n, k, a->stage), row, dx, want);

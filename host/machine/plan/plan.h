@@ -1,4 +1,4 @@
-/* plan.h - what a plan decides: see plan.c. */
+/* plan.h - what a plan decides: see choose.c. */
 #ifndef LUTETIA_MACHINE_PLAN_H
 #define LUTETIA_MACHINE_PLAN_H
 

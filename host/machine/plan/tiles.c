@@ -1,6 +1,6 @@
 /* tiles.c - how large tiles are, where in local memory each array is, and how many turns of a loop pay. See tiles.h.
  *
- * The time of a kernel of tiles is estimated as that of any other (plan.c),
+ * The time of a kernel of tiles is estimated as that of any other (choose.c),
  *
  *     N * fill * (max(c, b) + min(c, b)/4) + launch
  *

@@ -4,13 +4,6 @@
 
 #include "run/run.h"
 
-/* When an evaluation becomes due. */
-enum {
-    PENDING_MANY = 384,  /* pending values; LUTETIA_FLUSH_AFTER sets another number */
-    PENDING_MOST = 4096, /* pending values: also in a loop whose turns are being collected */
-    PENDING_LOOP = 16384 /* pending values: also while a loop over slices is not at its end */
-};
-
 /* Evaluates the values (possibly none) and other targets; all: everything that is live. */
 enum machine_status evaluate_values(struct machine *m, struct machine_value **targets,
                                     int count, bool all);

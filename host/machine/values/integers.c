@@ -192,6 +192,7 @@ struct machine_value *integer_value(struct machine *m, enum machine_op op,
         struct machine_value *even = rules_not(m, b);
         return keeps_sign ? even : machine_constant(m, type, (struct machine_scalar){0, 0});
     }
+    /* One bit is done as two, for operations whose low bit does not depend on the width. */
     a = machine_resize(m, a, 2, keeps_sign);
     if (b && node_ops[op].fold != FOLD_SHIFT)
         b = machine_resize(m, b, 2, keeps_sign);

@@ -17,22 +17,6 @@ void sheet_room_make(struct paper_sheet *p, CM_field_id_t room)
     kit_f_most(room, room, 1.0);
 }
 
-/* ---- rounding: all flows are rounded here ---- */
-
-void sheet_flow_round(CM_field_id_t flow)
-{
-    kit_f_whole(flow);
-}
-
-void sheet_flow_sum(CM_field_id_t flow, CM_field_id_t out, CM_field_id_t lower,
-                    CM_field_id_t in, CM_field_id_t upper, CM_field_id_t part)
-{
-    kit_f_mul(part, upper, in);
-    kit_f_mul(flow, lower, out);
-    kit_f_add(flow, flow, part);
-    kit_f_plus(flow, flow, KIT_WHOLE);
-}
-
 /* ---- through the faces of an axis ---- */
 
 void sheet_flow_make(struct paper_sheet *p, CM_field_id_t flow, CM_field_id_t up,

@@ -115,7 +115,7 @@ enum paper_status sheet_stock_make(struct paper_sheet *p);
 /* Faces from absorbency, resist and the edges; call it when these change. */
 void sheet_faces_make(struct paper_sheet *p);
 
-/* ---- amounts (share.c) ---- */
+/* ---- amounts (put_and_take.c) ---- */
 
 /* Errors: BAD_ARGUMENT (a screen of nothing). */
 enum paper_status sheet_place_check(const struct paper_place *place);
@@ -185,7 +185,7 @@ void sheet_flow_through(struct paper_sheet *p, CM_field_id_t q, const struct she
 /* A step of a sheet whose water flows. Between paper_enter() and paper_leave(). */
 void sheet_film_step(struct paper_sheet *p);
 
-/* ---- flows (flow.c) ---- */
+/* ---- flows (flow.c, flow_rounding.c) ---- */
 
 /* room = 1 to 0 as a fiber fills up; see model/step.c. */
 void sheet_room_make(struct paper_sheet *p, CM_field_id_t room);

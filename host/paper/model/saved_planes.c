@@ -2,6 +2,7 @@
 #include "history.h" /* what a plane is */
 #include "model/model.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,7 @@ struct place {
 static void plane_add(struct paper_plane *planes, struct place *places, int *count,
                       const char *name, struct place place)
 {
+    assert(*count < PAPER_PLANES_MAX);
     struct paper_plane *plane = &planes[*count];
     int pigment = place.pigment;
     places[(*count)++] = place;

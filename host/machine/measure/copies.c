@@ -4,7 +4,7 @@
  * explanation is requested. So small arrays stay in the caches, and the copy's time includes
  * a launch, as the kernel's does.
  */
-#include "explain/copies.h"
+#include "measure/copies.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* share.c - what every operation on a place needs: the part of each fiber that a screen covers, and amounts that come and go. */
+/* put_and_take.c - what every operation on a place needs: the part of each fiber that a screen covers, and amounts that come and go. */
 #include "model/model.h"
 
 #include <stdlib.h>

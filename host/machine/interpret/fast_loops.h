@@ -1,4 +1,4 @@
-/* lanes_kernel.h - the loops of lanes.h, included by lanes_plain.c, lanes_avx2.c and lanes_avx512.c with
+/* fast_loops.h - the loops of lanes.h, included by lanes_plain.c, lanes_avx2.c and lanes_avx512.c with
  *     TABLE    the table's name
  *
  * The result of a loop is in no place of its operands. */
@@ -150,7 +150,7 @@ typedef double f64;
         memcpy(at[s->to], at[s->in[0]], (size_t)n * sizeof(T));                                \
     }
 
-#include "interpret/lanes_integers.h"
+#include "interpret/fast_integers.h"
 
 /* clang-format off */
 INTEGERS(u8, i8) INTEGERS(u16, i16) INTEGERS(u32, i32) INTEGERS(u64, i64) INTEGERS(u128, i128)
@@ -330,7 +330,7 @@ static inline f64 double_of(u64 bits)
 }
 
 /* x rounded to nearest even to a short format (s <= 24, e <= 9): by adding, and taking away again, a number so great that the
- * sum's last place is the result's. Longer ones: lane.c. */
+ * sum's last place is the result's. Longer ones: slow_lane.c. */
 LOOP(fit, f64)
 {
     f64 *d = at[s->to];

@@ -1,4 +1,4 @@
-/* cost.h - the search for a plan, and the cost of a choice: see plan.c. */
+/* search_cost.h - the search for a plan, and the cost of a choice: see choose.c. */
 #ifndef LUTETIA_MACHINE_COST_H
 #define LUTETIA_MACHINE_COST_H
 

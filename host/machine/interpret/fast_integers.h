@@ -1,4 +1,4 @@
-/* lanes_integers.h - quotients, powers, shifts and counts as loops: a part of lanes_kernel.h, whose macros it uses. What they come to
+/* fast_integers.h - quotients, powers, shifts and counts as loops: a part of fast_loops.h, whose macros it uses. What they come to
  * is said in machine_op.tab; the slow twin is integer_fold().
  *
  * An operand's bits above its width are 0. Signed numbers are divided as magnitudes. */

@@ -1,6 +1,6 @@
-/* costs.c - measures the numbers of the cost model on the machine's device.
+/* device_costs.c - measures the numbers of the cost model on the machine's device.
  *
- * A program of one kernel runs at several sizes and lengths. What it takes is what cost.c predicts:
+ * A program of one kernel runs at several sizes and lengths. What it takes is what plan/search_cost.c predicts:
  *
  *     launch + processors * (operations + bytes)
  *

@@ -1,5 +1,5 @@
-/* cost.c - the cost of a choice of barriers: see plan.c. */
-#include "plan/cost.h"
+/* search_cost.c - the cost of a choice of barriers: see choose.c. */
+#include "plan/search_cost.h"
 
 #include <math.h>
 #include <stdlib.h>

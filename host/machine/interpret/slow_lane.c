@@ -1,4 +1,4 @@
-/* lane.c - any operation, lane by lane: the slow twin of the loops in lanes_kernel.h, and the only way for what is rare there.
+/* slow_lane.c - any operation, lane by lane: the slow twin of the loops in fast_loops.h, and the only way for what is rare there.
  *
  * A lane is its bits, zero-extended to 128. Numbers' operations are those that fold constants (values/integers.c, math_ops.c)
  * and kernels/soft.cl. */

@@ -1,4 +1,4 @@
-/* plan.c - chooses which values are stored in memory, and which are computed again for
+/* choose.c - chooses which values are stored in memory, and which are computed again for
  * neighbours.
  *
  * Input: the values to evaluate and all they need, down to what is in memory. Between a value
@@ -17,7 +17,7 @@
  * with operations counted for each (node, offset) pair that the kernel evaluates (op_ns is
  * less where lanes are narrow), and bytes for each array that it reads or writes. The search
  * begins with a barrier at every shift of a computed value, and removes one after the other
- * if that is cheaper. Measured constants: device/shape.c. All stages may be one kernel of
+ * if that is cheaper. Measured constants: device/costs_by_driver.c. All stages may be one kernel of
  * strips, or of tiles, whose time is that of tiles.c.
  */
 #include <math.h>
@@ -26,7 +26,7 @@
 
 #include "base/errors.h"
 #include "base/node_ops.h"
-#include "plan/cost.h"
+#include "plan/search_cost.h"
 #include "plan/substitutes.h"
 
 struct gain {
