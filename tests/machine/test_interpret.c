@@ -454,12 +454,104 @@ static void tests_of_coordinates_keep_their_definition(void **state)
     }
 }
 
+/* ---- lines and messages ---- */
+
+static uint32_t joined(int op, uint32_t a, uint32_t b)
+{
+    return op == MACHINE_ADD    ? a + b
+           : op == MACHINE_UMIN ? (b < a ? b : a)
+           : op == MACHINE_OR   ? a | b
+                                : a ^ b;
+}
+
+static void scan_try(lanes_scan_function *scan, struct lanes_scan s, int n)
+{
+    uint32_t acc = 12345, out[LANES] = {0};
+    s.out = out;
+    uint32_t total = scan(&s, (size_t)n, acc);
+    for (int i = 0; i < n; i++) {
+        const bool active = !s.context || s.context[i],
+                   begins = s.bits && s.bits[i] && (active || !s.starts);
+        const uint32_t old = begins ? s.none : acc;
+        acc = joined(s.op, old, active ? s.in[i] ^ s.flip : s.none);
+        if (out[i] != (((s.exclusive ? old : acc) & s.cut) ^ s.flip))
+            fail_msg("operation %d of %d numbers: lane %d is %x", s.op, n, i, out[i]);
+    }
+    assert_int_equal(total, acc);
+}
+
+static void scans_by_vectors_give_what_a_loop_gives(void **state)
+{
+    static const int ops[] = {MACHINE_ADD, MACHINE_UMIN, MACHINE_OR, MACHINE_XOR};
+    static struct lanes in, context, bits;
+    struct tables t = tables_here();
+    (void)state;
+    lanes_fill(&in, MACHINE_UINT(32), 1);
+    for (int k = 0; k < 4 * 16 * LANES; k++) {
+        const int op = ops[k % 4], flags = k / 4 % 16, n = k / 64 + 1;
+        lanes_fill(&context, MACHINE_BIT, (uint64_t)k);
+        for (uint64_t i = 0; i < LANES; i++)
+            bits.bytes[i] =
+                (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)k, i) % (uint32_t)n == 0;
+        for (int i = 0; i < t.count; i++)
+            if (t.of[i]->scan)
+                scan_try(t.of[i]->scan,
+                         (struct lanes_scan){
+                             .in = (const uint32_t *)(const void *)in.bytes,
+                             .context = flags & 1 ? context.bytes : NULL,
+                             .bits = flags & 2 ? bits.bytes : NULL,
+                             .op = op,
+                             .exclusive = flags & 4,
+                             .starts = flags & 8,
+                             .none = op == MACHINE_UMIN ? UINT32_MAX : 0,
+                             .flip = op == MACHINE_OR || op == MACHINE_UMIN ? UINT32_MAX : 0,
+                             .cut = n % 3 ? UINT32_MAX : 0xfffff},
+                         n);
+    }
+}
+
+static void messages_are_picked_alike(void **state)
+{
+    enum { MOST = 512 };
+    static uint32_t index[MOST], place[MOST + 16];
+    static uint16_t lane[MOST + 16];
+    static uint8_t context[MOST];
+    const struct lanes_pick p = {index, 70, 9000};
+    const struct lanes_rows rows = {37, 16, 91};
+    struct tables t = tables_here();
+    (void)state;
+    for (int n = 0; n <= MOST; n += n < 40 ? 1 : 59)
+        for (int k = 0; k < 2 * t.count; k++) {
+            const bool masked = k % 2;
+            size_t expected = 0;
+            for (int i = 0; i < n; i++) {
+                const uint32_t x =
+                    (uint32_t)support_word(MACHINE_UINT(32), (uint64_t)n, (uint64_t)i);
+                index[i] = x % 9 ? x % 10000 : x;
+                context[i] = x >> 20 & 1;
+            }
+            size_t picked = t.of[k / 2]->pick(&p, masked ? context : NULL, n, place, lane);
+            t.of[k / 2]->places(place, picked, &rows);
+            for (int i = 0; i < n; i++) {
+                const uint32_t x = index[i];
+                if (x < 70 || x - 70 >= 9000 || (masked && !context[i]))
+                    continue;
+                assert_true(expected < picked);
+                assert_int_equal(lane[expected], i);
+                assert_int_equal(place[expected++], x / 37 * (37 + 91) + x % 37 + 16);
+            }
+            assert_int_equal(picked, expected);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_loop_gives_what_lane_by_lane_gives),
         cmocka_unit_test(each_conversion_gives_what_lane_by_lane_gives),
         cmocka_unit_test(what_is_fetched_is_in_the_array),
+        cmocka_unit_test(scans_by_vectors_give_what_a_loop_gives),
+        cmocka_unit_test(messages_are_picked_alike),
         cmocka_unit_test(short_formats_round_as_whole_numbers_do),
         cmocka_unit_test(blocks_find_their_neighbours),
         cmocka_unit_test(tests_of_coordinates_keep_their_definition),

@@ -4,6 +4,9 @@
  * The result of a loop is in no place of its operands. */
 #include "interpret/lanes.h"
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 #include <math.h>
 #include <string.h>
 
@@ -387,6 +390,8 @@ LOOP(draw, u32)
             (u64)(((u128)mixed(a[i] * UINT64_C(0x9e3779b97f4a7c15) + key) * limit) >> 64);
 }
 
+#include "interpret/lanes_lines.h"
+
 /* ---- the table ---- */
 
 #define OF_INTEGERS(NAME)                                                                      \
@@ -425,7 +430,10 @@ LOOP(draw, u32)
     }
 
 const struct lanes_table TABLE =
-    {.of =
+    {.pick = pick,
+     .places = places,
+     .scan = SCAN,
+     .of =
          {
              [MACHINE_NOT] = OF_INTEGERS(not ),
              [MACHINE_NEG] = OF_INTEGERS(neg),

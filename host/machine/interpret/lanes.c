@@ -32,8 +32,7 @@ size_t lanes_bytes(enum lanes_class c)
     return bytes[c];
 }
 
-/* The widest that this processor has. */
-static const struct lanes_table *lanes_table(void)
+const struct lanes_table *lanes_table(void)
 {
 #ifdef LANES_X86
     static const struct lanes_table *chosen;

@@ -66,11 +66,41 @@ lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_
 /* Lane by lane, any operation: the slow twin of all loops. slow_lane.c */
 lanes_function lane_each;
 
+/* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`
+ * become their indices and their lanes, one after the other. n is 512 at most; both have room for 16 more. Returns how many. */
+struct lanes_pick {
+    const uint32_t *index;
+    uint32_t first, count;
+};
+typedef size_t lanes_pick_function(const struct lanes_pick *p, const uint8_t *context, int n,
+                                   uint32_t *place, uint16_t *lane);
+/* n indices below 2^31 become places in an array of such rows, halos between them. */
+struct lanes_rows {
+    uint32_t width, halo, further;
+};
+typedef void lanes_places_function(uint32_t *place, size_t n, const struct lanes_rows *r);
+/* A part of a line of numbers of 32 bits: see near_loops.h. op: MACHINE_ADD, UMIN, OR, XOR. before: what the numbers before come to;
+ * returns that of all, neither cut nor flipped. */
+struct lanes_scan {
+    const uint32_t *in;
+    uint32_t *out;
+    const uint8_t *context, *bits; /* NULL: all are active; no segments */
+    int op;
+    bool exclusive, starts;
+    uint32_t none, flip, cut;
+};
+typedef uint32_t lanes_scan_function(const struct lanes_scan *s, size_t n, uint32_t before);
+
 /* The tables of one instruction set. */
 struct lanes_table {
     lanes_function *of[LANES_OP_COUNT][LANES_CLASSES];
     lanes_function *convert[NODE_OP_COUNT][LANES_CLASSES][LANES_CLASSES];
+    lanes_pick_function *pick;
+    lanes_places_function *places;
+    lanes_scan_function *scan; /* NULL: none by vectors */
 };
+/* The widest that this processor has. */
+const struct lanes_table *lanes_table(void);
 extern const struct lanes_table lanes_table_plain;
 #ifdef LANES_X86
 extern const struct lanes_table lanes_table_avx2, lanes_table_avx512;

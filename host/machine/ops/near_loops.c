@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/scalar.h"
+#include "interpret/lanes.h"
 
 typedef uint32_t u32;
 typedef uint64_t u64;
@@ -189,6 +190,44 @@ SUMS_OF(u32)
 SUMS_OF(u64)
 SUMS_OF(u128)
 
+/* Forwards along a row: sixteen at a time, where there is a loop for that. */
+static bool vectors_u32(const struct stretch *s, u32 *acc)
+{
+    static const int ops[] = {[LINES_ADD] = MACHINE_ADD,
+                              [LINES_MIN] = MACHINE_UMIN,
+                              [LINES_OR] = MACHINE_OR,
+                              [LINES_XOR] = MACHINE_XOR};
+    const struct line_scan *j = s->j;
+    lanes_scan_function *scan = lanes_table()->scan;
+    if (!scan || j->backward || s->step != 1 || j->op == LINES_COPY)
+        return false;
+    const struct lanes_scan v = {
+        .in = (const u32 *)j->in->host + s->at,
+        .out = (u32 *)j->out->host + s->at,
+        .context = j->context ? (const uint8_t *)j->context->host + s->at : NULL,
+        .bits = j->bits ? (const uint8_t *)j->bits->host + s->at : NULL,
+        .op = ops[j->op],
+        .exclusive = j->exclusive,
+        .starts = j->starts,
+        .none = (u32)j->identity.lo,
+        .flip = (u32)j->flip.lo,
+        .cut = (u32)j->cut.lo};
+    *acc = scan(&v, (size_t)(s->end - s->begin), *acc);
+    return true;
+}
+
+ALWAYS bool vectors_u64(const struct stretch *s, u64 *acc)
+{
+    (void)s, (void)acc;
+    return false;
+}
+
+ALWAYS bool vectors_u128(const struct stretch *s, u128 *acc)
+{
+    (void)s, (void)acc;
+    return false;
+}
+
 #define SUMS_BY_FLAGS(T)                                                                       \
     if (j->bits)                                                                               \
         j->exclusive ? sums_##T(s, true, true, acc) : sums_##T(s, true, false, acc);           \
@@ -246,7 +285,7 @@ SUMS_OF(u128)
         }                                                                                      \
         if (j->sums)                                                                           \
             INTEGERS_BY_OP(T, N, false)                                                        \
-        else                                                                                   \
+        else if (N > 1 || !vectors_##T(s, acc))                                                \
             INTEGERS_BY_OP(T, N, true)                                                         \
         for (int i = 0; i < N && j->sums; i++)                                                 \
             ((T *)j->sums->host)[line + (size_t)i] = show_##T(acc[i], flip, cut);              \
@@ -348,7 +387,8 @@ static struct stretch segment_last(const struct stretch *s)
         bool has[1] = {c->carry_has};                                                          \
         int first[1] = {INT32_MAX};                                                            \
         (void)in, (void)out, (void)none;                                                       \
-        INTEGERS_BY_OP(T, 1, true)                                                             \
+        if (!vectors_##T(s, acc))                                                              \
+            INTEGERS_BY_OP(T, 1, true)                                                         \
     }
 
 INTEGERS_CHUNKS(u32)

@@ -8,8 +8,10 @@
  *     hops           place 5, lane 0 | place 1, lane 1 | place 7, lane 3 */
 #include "ops/near_router.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/arrays.h"
 #include "base/scalar.h"
 #include "base/types.h"
 #include "values/geometry.h"
@@ -25,32 +27,9 @@ struct range {
 
 struct hops {
     size_t count;
-    uint32_t place[BLOCK]; /* in the other set's array */
-    uint16_t lane[BLOCK];  /* in the block */
-    uint64_t wrong;        /* active, and to a processor that does not exist */
-    bool whole;            /* lane[i] is i */
+    uint32_t place[BLOCK + 16]; /* in the other set's array */
+    uint16_t lane[BLOCK + 16];  /* in the block */
 };
-
-/* Divides by a number that stays the same, up to 2^31: see kernels/router.cl. */
-struct divisor {
-    uint64_t factor;
-    unsigned shift;
-    uint32_t by;
-};
-
-static struct divisor divisor_of(uint64_t by)
-{
-    struct divisor d = {.by = (uint32_t)by, .shift = 31};
-    while (UINT64_C(1) << (d.shift - 31) < by)
-        d.shift++;
-    d.factor = (UINT64_C(1) << d.shift) / by + 1;
-    return d;
-}
-
-static inline uint32_t over(uint32_t n, struct divisor d)
-{
-    return (uint32_t)(n * d.factor >> d.shift);
-}
 
 /* ---- addresses ---- */
 
@@ -80,47 +59,22 @@ static void addresses_read(const struct near_route *r, size_t at, int n, uint32_
     }
 }
 
-/* The active ones whose processor exists, one after the other. */
-static void hops_pick(const struct near_route *r, const struct range *to, size_t at, int n,
-                      const uint32_t *index, struct hops *h)
-{
-    const unsigned char *context = r->context ? r->context->host : NULL;
-    const uint32_t first = (uint32_t)to->first, count = (uint32_t)(to->end - to->first);
-    size_t picked = 0, active = 0;
-    for (int i = 0; i < n; i++) {
-        const bool on = !context || context[at + (size_t)i];
-        h->place[picked] = index[i];
-        h->lane[picked] = (uint16_t)i;
-        active += on;
-        picked += on & (index[i] - first < count);
-    }
-    h->count = picked;
-    h->wrong = active - picked;
-    h->whole = picked == (size_t)n;
-}
-
-static void places_find(const struct vpset *s, struct hops *h)
-{
-    const uint32_t halo = (uint32_t)s->halo, further = (uint32_t)(s->pitch - (size_t)s->width);
-    if (s->rows == 1) {
-        for (size_t i = 0; i < h->count; i++)
-            h->place[i] += halo;
-        return;
-    }
-    const struct divisor d = divisor_of((uint64_t)s->width);
-    for (size_t i = 0; i < h->count; i++) {
-        h->place[i] += halo + over(h->place[i], d) * further;
-    }
-}
-
 /* Of n senders from that element on. */
 static void hops_find(const struct near_route *r, const struct range *to, size_t at, int n,
                       struct hops *h)
 {
     uint32_t index[BLOCK];
+    const struct vpset *s = r->to;
+    const unsigned char *context = r->context ? r->context->host : NULL;
+    const struct lanes_pick p = {index, (uint32_t)to->first, (uint32_t)(to->end - to->first)};
     addresses_read(r, at, n, index);
-    hops_pick(r, to, at, n, index, h);
-    places_find(r->to, h);
+    h->count = r->lanes->pick(&p, context ? context + at : NULL, n, h->place, h->lane);
+    if (s->rows > 1)
+        r->lanes->places(h->place, h->count,
+                         &(struct lanes_rows){(uint32_t)s->width, (uint32_t)s->halo,
+                                              (uint32_t)(s->pitch - (size_t)s->width)});
+    for (size_t i = 0; i < h->count && s->rows == 1; i++)
+        h->place[i] += (uint32_t)s->halo;
 }
 
 /* Blocks of the senders' rows, one after the other. All zero: before the first. */
@@ -141,6 +95,16 @@ static bool block_next(const struct near_route *r, struct block *b)
     b->n = s->width - b->x < BLOCK ? s->width - b->x : BLOCK;
     b->at = (size_t)b->row * s->pitch + (size_t)s->halo + (size_t)b->x;
     return b->row < s->rows;
+}
+
+/* The blocks of a part: every parts-th, from that one on. */
+static bool block_of_part(const struct near_route *r, struct block *b, int part)
+{
+    int before = b->n ? r->parts : part + 1;
+    while (before--)
+        if (!block_next(r, b))
+            return false;
+    return true;
 }
 
 /* The other end of each row, on both sides. */
@@ -316,7 +280,7 @@ static bool messages_move_all(const struct near_route *r, const struct block *b,
     return true;
 }
 
-/* One part of a send, of a get, or of a count. */
+/* One part of a send, of a get, or of a count. own: arrays of the parts of a send to few processors, but the first's, which is out. */
 struct routing {
     const struct near_route *r;
     int combiner;
@@ -324,9 +288,78 @@ struct routing {
     size_t bytes;
     const void *source;
     void *out;
+    char *own;
+    size_t own_bytes; /* of each */
     unsigned char *arrived;
     uint64_t wrong[CREW_MOST]; /* for each thread */
 };
+
+/* Some senders, to all processors. */
+static void part_combine(void *of, int part, int worker)
+{
+    const struct routing *g = of;
+    const struct near_route *r = g->r;
+    const struct range all = {0, r->to->count};
+    void *out = part ? g->own + (size_t)(part - 1) * g->own_bytes : g->out;
+    struct hops h;
+    (void)worker;
+    for (struct block b = {0}; block_of_part(r, &b, part);) {
+        hops_find(r, &all, b.at, b.n, &h);
+        integers_join(&h, g->combiner, g->type, g->source, b.at, out);
+    }
+}
+
+/* What sends change nothing. */
+static struct machine_scalar identity_of(int combiner, int width)
+{
+    const struct machine_scalar zero = {0, 0}, ones = scalar_ones(width),
+                                sign = scalar_sign(width);
+    switch (combiner) {
+    case MACHINE_COMBINE_AND:
+    case MACHINE_COMBINE_UMIN:
+        return ones;
+    case MACHINE_COMBINE_SMIN:
+        return (struct machine_scalar){ones.lo ^ sign.lo, ones.hi ^ sign.hi};
+    case MACHINE_COMBINE_SMAX:
+        return sign;
+    default:
+        return zero;
+    }
+}
+
+/* Combines whole numbers sent to few processors: each part has an array of its own, and these are combined at the end, in which order
+ * makes no difference. False: nothing has been done. */
+static bool send_to_few(struct routing *g)
+{
+    const struct near_route *r = g->r;
+    const size_t places = (size_t)r->to->rows * r->to->pitch, most = 32 << 10;
+    struct machine_scalar none = identity_of(g->combiner, g->type.width);
+    if (r->parts < 2 || g->arrived || g->combiner == MACHINE_COMBINE_OVERWRITE ||
+        g->type.kind == MACHINE_FLOAT || places * g->bytes > most ||
+        places * 16 > r->from->count)
+        return false;
+    g->own_bytes = (places * g->bytes + 63) / 64 * 64;
+    g->own = malloc((size_t)(r->parts - 1) * g->own_bytes);
+    if (!g->own)
+        return false;
+    for (int i = 0; i < r->parts - 1; i++)
+        array_fill(g->own + (size_t)i * g->own_bytes, (const uint64_t[2]){none.lo, none.hi},
+                   g->bytes, places);
+    crew_run(r->crew, r->parts, part_combine, g);
+    struct hops h;
+    for (size_t at = 0; at < places; at += h.count) {
+        h.count = places - at < BLOCK ? places - at : BLOCK;
+        for (size_t i = 0; i < h.count; i++) {
+            h.place[i] = (uint32_t)(at + i);
+            h.lane[i] = (uint16_t)i;
+        }
+        for (int i = 0; i < r->parts - 1; i++)
+            integers_join(&h, g->combiner, g->type, g->own + (size_t)i * g->own_bytes, at,
+                          g->out);
+    }
+    free(g->own);
+    return true;
+}
 
 static void part_send(void *of, int part, int worker)
 {
@@ -365,7 +398,8 @@ void near_send(const struct near_route *r, int combiner, struct machine_type typ
                         .source = source->host,
                         .out = out->host,
                         .arrived = arrived ? arrived->host : NULL};
-    crew_run(r->crew, r->parts, part_send, &g);
+    if (!send_to_few(&g))
+        crew_run(r->crew, r->parts, part_send, &g);
     rows_repeat(r->to, g.bytes, out);
     if (arrived)
         rows_repeat(r->to, 1, arrived);
@@ -401,16 +435,6 @@ static void messages_fetch(const struct hops *h, size_t bytes, const void *from,
     }
 }
 
-/* The blocks of a part: every parts-th, from that one on. */
-static bool block_of_part(const struct near_route *r, struct block *b, int part)
-{
-    int before = b->n ? r->parts : part + 1;
-    while (before--)
-        if (!block_next(r, b))
-            return false;
-    return true;
-}
-
 static void part_get(void *of, int part, int worker)
 {
     const struct routing *g = of;
@@ -419,7 +443,7 @@ static void part_get(void *of, int part, int worker)
     (void)worker;
     for (struct block b = {0}; block_of_part(g->r, &b, part);) {
         hops_find(g->r, &all, b.at, b.n, &h);
-        if (!h.whole)
+        if (h.count < (size_t)b.n)
             memset((char *)g->out + b.at * g->bytes, 0, (size_t)b.n * g->bytes);
         messages_fetch(&h, g->bytes, g->source, b.at, g->out);
     }
@@ -436,11 +460,15 @@ void near_get(const struct near_route *r, size_t bytes, const struct device_buff
 static void part_count(void *of, int part, int worker)
 {
     struct routing *g = of;
+    const unsigned char *context = g->r->context ? g->r->context->host : NULL;
     const struct range all = {0, g->r->to->count};
     struct hops h;
     for (struct block b = {0}; block_of_part(g->r, &b, part);) {
         hops_find(g->r, &all, b.at, b.n, &h);
-        g->wrong[worker] += h.wrong;
+        uint64_t active = context ? 0 : (uint64_t)b.n;
+        for (int i = 0; context && i < b.n; i++)
+            active += context[b.at + (size_t)i] != 0;
+        g->wrong[worker] += active - h.count;
     }
 }
 

@@ -3,6 +3,7 @@
 #define LUTETIA_MACHINE_NEAR_ROUTER_H
 
 #include "base/crew.h"
+#include "interpret/lanes.h"
 #include "values/values.h"
 
 /* Where messages go, or come from: senders, and the row-major indices of the processors they address. The arrays are the front end's,
@@ -14,6 +15,7 @@ struct near_route {
     uint32_t mask;                                 /* the bits of an address that count */
     struct crew *crew;                             /* which does it in so many parts */
     int parts;
+    const struct lanes_table *lanes;
 };
 
 /* out holds the old dest. arrived: bits, all 0; NULL: nobody wants to know. combiner: MACHINE_COMBINE_. */

@@ -298,6 +298,7 @@ static struct near_route route_of(const struct machine *m, const struct message 
                                .context = g->all ? NULL : g->context->buffer,
                                .address_bytes = type_bytes(g->address->type),
                                .mask = g->mask,
+                               .lanes = lanes_table(),
                                .crew = m->device->crew,
                                .parts = shares && parts > size ? size : parts};
 }

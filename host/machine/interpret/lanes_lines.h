@@ -1,0 +1,146 @@
+/* lanes_lines.h - lines and messages as vectors: a part of lanes_kernel.h. The slow twins are the loops of ops/near_loops.c, and
+ * the tables without vectors of 16 numbers. */
+
+/* ---- messages ---- */
+
+static size_t pick(const struct lanes_pick *p, const u8 *context, int n, u32 *place, u16 *lane)
+{
+    const u32 *index = p->index, first = p->first, count = p->count;
+    size_t picked = 0;
+    int i = 0;
+#ifdef __AVX512F__
+    __m512i lanes = _mm512_set_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    for (; i + 16 <= n; i += 16) {
+        const __m512i x = _mm512_loadu_si512(index + i);
+        __mmask16 on = _mm512_cmplt_epu32_mask(
+            _mm512_sub_epi32(x, _mm512_set1_epi32((i32)first)), _mm512_set1_epi32((i32)count));
+        if (context) {
+            const __m128i c = _mm_loadu_si128((const __m128i *)(const void *)(context + i));
+            on &= _mm_test_epi8_mask(c, c);
+        }
+        _mm512_storeu_si512(place + picked, _mm512_maskz_compress_epi32(on, x));
+        _mm256_storeu_si256((__m256i *)(void *)(lane + picked),
+                            _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(on, lanes)));
+        lanes = _mm512_add_epi32(lanes, _mm512_set1_epi32(16));
+        picked += (size_t)__builtin_popcount(on);
+    }
+#endif
+    for (; i < n; i++) {
+        const bool on = !context || context[i];
+        place[picked] = index[i];
+        lane[picked] = (u16)i;
+        picked += on & (index[i] - first < count);
+    }
+    return picked;
+}
+
+/* An index becomes a place: a row's halos lie between it and the next row. */
+static void places(u32 *place, size_t n, const struct lanes_rows *r)
+{
+    const u32 halo = r->halo, further = r->further, width = r->width;
+    const f64 by = 1.0 / (f64)width;
+    for (size_t i = 0; i < n; i++) {
+        const u32 x = place[i];
+        u32 row =
+            (u32)(i32)((f64)(i32)x * by); /* too little by one, or right, or too great by one */
+        const i32 rest = (i32)(x - row * width);
+        row += (u32)(rest >= (i32)width) - (u32)(rest < 0);
+        place[i] = x + halo + row * further;
+    }
+}
+
+/* ---- scans ---- */
+
+#ifdef __AVX512F__
+
+enum { SCAN_ADD, SCAN_MIN, SCAN_OR, SCAN_XOR };
+#define SCANNED static inline __attribute__((always_inline))
+
+SCANNED __m512i scan_join(const int op, __m512i a, __m512i b)
+{
+    return op == SCAN_ADD   ? _mm512_add_epi32(a, b)
+           : op == SCAN_MIN ? _mm512_min_epu32(a, b)
+           : op == SCAN_OR  ? _mm512_or_si512(a, b)
+                            : _mm512_xor_si512(a, b);
+}
+
+/* v joined with what is k lanes before, but not across a lane where a segment begins; begins: such lanes, or lanes that are joined
+ * with all since one. */
+#define SCAN_JOIN_BEFORE(k)                                                                    \
+    v = _mm512_mask_mov_epi32(scan_join(op, v, _mm512_alignr_epi32(v, none, 16 - (k))),        \
+                              segmented ? (__mmask16)begins : (__mmask16)0, v);                \
+    begins = segmented ? begins | begins << (k) : 0
+
+/* Sixteen of them; carry: all lanes the number before. */
+SCANNED __m512i scan_sixteen(const struct lanes_scan *s, const int op, const bool masked,
+                             const bool segmented, size_t at, __mmask16 there, __m512i *carry)
+{
+    const __m512i none = _mm512_set1_epi32((i32)s->none),
+                  flip = _mm512_set1_epi32((i32)s->flip), cut = _mm512_set1_epi32((i32)s->cut),
+                  before = *carry;
+    __mmask16 active = there;
+    u32 begins = 0;
+    if (masked) {
+        const __m128i c = _mm_maskz_loadu_epi8(there, s->context + at);
+        active = _mm_test_epi8_mask(c, c);
+    }
+    if (segmented) {
+        const __m128i c = _mm_maskz_loadu_epi8(there, s->bits + at);
+        begins = _mm_test_epi8_mask(c, c) & (s->starts ? active : (__mmask16)~0);
+    }
+    const __mmask16 first = (__mmask16)begins;
+    __m512i v = _mm512_xor_si512(_mm512_maskz_loadu_epi32(there, s->in + at), flip);
+    v = _mm512_mask_mov_epi32(none, active, v);
+    SCAN_JOIN_BEFORE(1);
+    SCAN_JOIN_BEFORE(2);
+    SCAN_JOIN_BEFORE(4);
+    SCAN_JOIN_BEFORE(8);
+    v = _mm512_mask_mov_epi32(scan_join(op, v, before), (__mmask16)begins, v);
+    *carry = _mm512_permutexvar_epi32(_mm512_set1_epi32(15), v);
+    if (s->exclusive) {
+        v = _mm512_alignr_epi32(v, before, 15);
+        v = _mm512_mask_mov_epi32(v, first, none);
+    }
+    return _mm512_xor_si512(_mm512_and_si512(v, cut), flip);
+}
+
+SCANNED u32 scan_by(const struct lanes_scan *s, const int op, const bool masked,
+                    const bool segmented, size_t n, u32 before)
+{
+    __m512i carry = _mm512_set1_epi32((i32)before);
+    size_t i = 0;
+    for (; i + 16 <= n; i += 16)
+        _mm512_storeu_si512(s->out + i,
+                            scan_sixteen(s, op, masked, segmented, i, (__mmask16)~0, &carry));
+    if (i < n) {
+        const __mmask16 there = (__mmask16)((1u << (n - i)) - 1);
+        _mm512_mask_storeu_epi32(s->out + i, there,
+                                 scan_sixteen(s, op, masked, segmented, i, there, &carry));
+    }
+    return (u32)_mm512_cvtsi512_si32(carry);
+}
+
+#define SCAN_BY_FLAGS(op)                                                                      \
+    return s->context ? s->bits ? scan_by(s, op, true, true, n, before)                        \
+                                : scan_by(s, op, true, false, n, before)                       \
+           : s->bits ? scan_by(s, op, false, true, n, before)                                  \
+                      : scan_by(s, op, false, false, n, before)
+
+static u32 scan(const struct lanes_scan *s, size_t n, u32 before)
+{
+    switch (s->op) {
+    case MACHINE_ADD:
+        SCAN_BY_FLAGS(SCAN_ADD);
+    case MACHINE_UMIN:
+        SCAN_BY_FLAGS(SCAN_MIN);
+    case MACHINE_OR:
+        SCAN_BY_FLAGS(SCAN_OR);
+    default:
+        SCAN_BY_FLAGS(SCAN_XOR);
+    }
+}
+
+#define SCAN scan
+#else
+#define SCAN NULL
+#endif
