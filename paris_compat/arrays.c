@@ -156,12 +156,17 @@ static void float_copy(size_t to_bytes, unsigned char *to, size_t from_bytes,
     }
 }
 
+/* Whether both sides have the same bits; else unused bits must be cleared or filled. */
+static bool elements_same(struct element to, struct element from)
+{
+    return to.bytes == from.bytes && (to.letter == 'f' || to.width == from.width);
+}
+
 /* Copies `count` elements; steps in bytes. */
 static void row_copy(struct element to, unsigned char *t, size_t to_step, struct element from,
                      const unsigned char *f, size_t from_step, uint64_t count)
 {
-    /* whether both sides have the same bits; else unused bits must be cleared or filled */
-    bool same = to.bytes == from.bytes && (to.letter == 'f' || to.width == from.width);
+    bool same = elements_same(to, from);
     if (same && to_step == to.bytes && from_step == from.bytes) {
         memcpy(t, f, count * to.bytes);
         return;
@@ -221,10 +226,21 @@ struct transfer {
     struct element array, processor;
     struct walk walk;
     uint64_t processors_count;
+    bool direct; /* the block is all processors in their order, element by element */
     unsigned char *processors;
 };
 
-/* Checks all and allocates the dense array of the processors' elements. */
+static bool is_direct(const struct transfer *t)
+{
+    const struct walk *w = &t->walk;
+    bool same = w->count == t->processors_count && elements_same(t->processor, t->array);
+    uint64_t step = 1;
+    for (unsigned int j = w->rank; same && j-- > 0; step *= w->extent[j])
+        same = w->array_step[j] == step && w->processor_step[j] == step;
+    return same;
+}
+
+/* Checks all and allocates, unless it is direct, the dense array of the processors' elements. */
 static bool transfer_begin(struct transfer *t, const struct paris_instruction *self,
                            const void *array, struct paris_block block,
                            struct paris_operand field, const char *role)
@@ -249,6 +265,10 @@ static bool transfer_begin(struct transfer *t, const struct paris_instruction *s
     t->processor =
         (struct element){machine_element_bytes(t->type), field.letter, t->type.width};
     t->processors_count = g->count;
+    t->processors = NULL;
+    t->direct = is_direct(t);
+    if (t->direct)
+        return true;
     t->processors = malloc(g->count * t->processor.bytes);
     if (!t->processors)
         paris_fail_memory("not enough memory for an array of %llu elements",
@@ -267,7 +287,13 @@ void paris_array_write(const struct paris_instruction *self, const void *array,
         const void *in;
         unsigned char *bytes; /* block_copy() only reads it */
     } source = {.in = array};
-    if (!all && machine_field_download(t.m, dest.field, t.type, t.processors) != MACHINE_OK) {
+    if (t.direct) {
+        if (machine_field_upload(t.m, dest.field, t.type,
+                                 source.bytes + t.walk.array_first * t.array.bytes) !=
+            MACHINE_OK)
+            paris_fail_machine();
+    } else if (!all &&
+               machine_field_download(t.m, dest.field, t.type, t.processors) != MACHINE_OK) {
         paris_fail_machine();
     } else if (t.walk.count) {
         block_copy(&t.walk, t.array, source.bytes, t.processor, t.processors, false);
@@ -283,9 +309,11 @@ void paris_array_read(const struct paris_instruction *self, void *array,
     struct transfer t;
     if (!transfer_begin(&t, self, array, block, source, "source"))
         return;
-    if (machine_field_download(t.m, source.field, t.type, t.processors) != MACHINE_OK)
+    unsigned char *to =
+        t.direct ? (unsigned char *)array + t.walk.array_first * t.array.bytes : t.processors;
+    if (machine_field_download(t.m, source.field, t.type, to) != MACHINE_OK)
         paris_fail_machine();
-    else
+    else if (!t.direct)
         block_copy(&t.walk, t.array, array, t.processor, t.processors, true);
     free(t.processors);
 }

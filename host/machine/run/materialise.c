@@ -9,6 +9,7 @@
 #include "base/types.h"
 #include "run/evaluate.h"
 #include "values/graph.h"
+#include "watch/watch.h"
 
 bool materialise_has_strange_nan(struct machine_type type, const void *in, uint64_t count)
 {
@@ -27,10 +28,16 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
 {
     const struct vpset *s = &m->values->sets[set];
     size_t element = type_bytes(type), bytes = geometry_bytes(s, type);
-    unsigned char *image = calloc(1, bytes);
-    struct device_buffer *b = image ? device_rows_get(m, geometry_rows(s, type)) : NULL;
-    if (!b) {
-        free(image);
+    struct device_buffer *b = device_rows_get(m, geometry_rows(s, type));
+    bool near = b && b->host && m->settings.near;
+    if (near && device_settle_for(m, "writing a field")) {
+        device_buffer_unref(m, b);
+        return NULL;
+    }
+    unsigned char *copy = !b || near ? NULL : calloc(1, bytes), *image = near ? b->host : copy;
+    if (!image) {
+        if (b)
+            device_buffer_unref(m, b);
         if (!m->status)
             machine_fail(m, MACHINE_NO_MEMORY,
                          "not enough memory to write a field of %zu bytes", bytes);
@@ -43,8 +50,11 @@ struct machine_value *materialise_upload(struct machine *m, int set, struct mach
         memcpy(to - halo, to + width - halo, halo);
         memcpy(to + width, to, halo);
     }
-    enum machine_status status = device_write(m, b, 0, image, bytes, "writing a field");
-    free(image);
+    if (near && m->watch)
+        watch_bytes(m, bytes);
+    enum machine_status status =
+        near ? MACHINE_OK : device_write(m, b, 0, image, bytes, "writing a field");
+    free(copy);
     if (status) {
         device_buffer_unref(m, b);
         return NULL;
