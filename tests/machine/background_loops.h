@@ -1,4 +1,4 @@
-/* background_loops.h - loops whose kernels are worth improving, for the tests of what compiles them. */
+/* background_loops.h - loops whose kernels are worth optimising, for the tests of background compilation. */
 #ifndef LUTETIA_TESTS_BACKGROUND_LOOPS_H
 #define LUTETIA_TESTS_BACKGROUND_LOOPS_H
 
@@ -12,7 +12,8 @@ struct sheet {
     struct machine *m;
     uint32_t a, b;
     const struct looped *loop;
-    uint64_t variant; /* 0: the usual; else one of many texts, that no cache has, most likely */
+    uint64_t
+        variant; /* 0: the usual kernels; else its bits choose operations, so that no cache is likely to hold them */
 };
 
 struct looped {
@@ -20,7 +21,8 @@ struct looped {
     struct machine_type type;
     int height, width;
     struct machine_value *(*next)(const struct sheet *s);
-    bool looks; /* after every turn; else many of them can be evaluated at once */
+    bool
+        looks; /* the loop looks at a value after every turn; else many turns can be evaluated at once */
     bool tiles; /* on scalar work-items */
 };
 
@@ -34,7 +36,7 @@ static struct machine_value *beside(const struct sheet *s, int axis, int distanc
     return machine_shift(s->m, of(s, s->a), axis, distance);
 }
 
-/* Inside a box that leaves the rim alone. */
+/* Selects the value inside a box; the rim keeps its old value. */
 static struct machine_value *inside(const struct sheet *s, struct machine_value *value)
 {
     struct machine *m = s->m;
@@ -87,7 +89,7 @@ static const struct looped loops[] = {
     {"words, many turns at once", {MACHINE_BITS, 32, 0, 0}, 96, 64, words, false, false},
     {"words, many turns in tiles", {MACHINE_BITS, 32, 0, 0}, 50, 40, words, false, true},
 };
-/* Of many texts. */
+/* Loops whose kernels depend on the variant. */
 static const struct looped new_loop = {"bytes", {MACHINE_BITS, 8, 0, 0}, 48, 130, bytes, true,
                                        false};
 

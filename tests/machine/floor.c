@@ -1,4 +1,4 @@
-/* floor.c - a program of one floor of the machine and those below it: that it can be linked is the test. */
+/* floor.c - a program that links one floor of the machine and the floors below it. The test is that it links. */
 int main(void)
 {
     return 0;

@@ -1,8 +1,8 @@
-/* fuzz_tuning.c - the file that `lutetia tune` keeps, damaged: what is read from it is what was written, or nothing.
+/* fuzz_tuning.c - reads damaged copies of the file that `lutetia tune` keeps. The reader returns what was written, or nothing.
  *
- *     fuzz_tuning [SEEDS]      a good file with bytes changed, cut, moved, by chance; and bytes by chance
+ *     fuzz_tuning [SEEDS]      a good file with random bytes changed, cut and moved; and files of random bytes
  *
- * With -Dfuzz=true, fuzz_tuning_libfuzzer is the same for libFuzzer. */
+ * With -Dfuzz=true, fuzz_tuning_libfuzzer does the same with libFuzzer's inputs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

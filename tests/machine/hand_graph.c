@@ -84,7 +84,7 @@ static struct machine_type type_by_chance(struct hand_graph *h)
         {MACHINE_BITS, 40, 0, 0},   {MACHINE_BITS, 64, 0, 0},   {MACHINE_BITS, 100, 0, 0},
         {MACHINE_FLOAT, 32, 0, 0},  {MACHINE_FLOAT, 32, 0, 0},  {MACHINE_FLOAT, 64, 0, 0},
         {MACHINE_FLOAT, 64, 20, 8}, {MACHINE_FLOAT, 64, 40, 10}};
-    /* few in one graph, so that much is made of much */
+    /* one graph has few types, so that most nodes can be operands of each other */
     return types[(h->kind + 5 * hand_below(h, 3)) % (int)(sizeof types / sizeof *types)];
 }
 
@@ -93,7 +93,7 @@ static bool same_type(struct machine_type a, struct machine_type b)
     return a.kind == b.kind && a.width == b.width && a.s == b.s && a.e == b.e;
 }
 
-/* A node of that type, a late one rather than an early one; one of the two is made where there is none. */
+/* Chooses a node of the type, mostly a recent one. Makes a leaf or a number where it finds none. */
 static int of_type(struct hand_graph *h, struct machine_type type)
 {
     for (int tries = 0; tries < 12 && h->g.count; tries++) {
@@ -230,7 +230,7 @@ void hand_prune(struct hand_graph *h)
     h->g.count = count;
 }
 
-/* ---- what a graph is planned for ---- */
+/* ---- the VP set and the device that a graph is planned for ---- */
 
 struct vpset hand_set(int rank, const int *dimensions, int halo)
 {

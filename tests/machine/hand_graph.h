@@ -1,4 +1,4 @@
-/* hand_graph.h - graphs for planner and codegen that no program has made: by chance, or node by node. */
+/* hand_graph.h - graphs for tests of planner and codegen, made at random or node by node, without a program. */
 #ifndef LUTETIA_TESTS_HAND_GRAPH_H
 #define LUTETIA_TESTS_HAND_GRAPH_H
 
@@ -13,7 +13,7 @@ struct hand_graph {
     int kind; /* which types there are */
 };
 
-/* What the next number is drawn from 0 .. n - 1. */
+/* Draws the next random number, 0 .. n - 1. */
 int hand_below(struct hand_graph *h, int n);
 void hand_begin(struct hand_graph *h, uint32_t seed);
 /* Each returns the node's number. */
@@ -22,10 +22,9 @@ int hand_number(struct hand_graph *h, struct machine_type type);
 int hand_coordinate(struct hand_graph *h, int axis, int width);
 int hand_node(struct hand_graph *h, int op, struct machine_type type, int a, int b, int c);
 int hand_shift(struct hand_graph *h, int a, int axis, int distance);
-/* So many nodes more by chance, of all operations and many types, on a set with so many axes; the last ones are targets. */
+/* Adds count random nodes, of all operations and many types, on a VP set of that rank. The last ones are targets. */
 void hand_by_chance(struct hand_graph *h, int count, int rank);
-/* Nodes that no target needs are removed, because planner and codegen are never given such
- * nodes. */
+/* Removes the nodes that no target needs: planner and codegen are never given any. */
 void hand_prune(struct hand_graph *h);
 
 struct vpset hand_set(int rank, const int *dimensions, int halo);

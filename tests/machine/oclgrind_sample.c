@@ -1,5 +1,5 @@
-/* oclgrind_sample.c - a little of everything, on small grids, for a checker of memory accesses to watch; the values
- * are compared too. Run by oclgrind.sh. */
+/* oclgrind_sample.c - runs a few instructions of each kind on small grids, under a checker of memory accesses, and
+ * compares their values. Run by oclgrind.sh. */
 #include "support.h"
 
 struct sample {

@@ -89,7 +89,7 @@ static uint64_t finished(struct soft_format f, mpfr_t r, int inexact)
     return encoded(f, x);
 }
 
-/* Takes exact, which was made with all of MPFR's range. */
+/* Rounds exact, which was computed with the whole range of MPFR's exponents, to the format, and clears it. */
 static uint64_t rounded(struct soft_format f, mpfr_t exact)
 {
     mpfr_t r;
@@ -198,7 +198,7 @@ uint64_t oracle_soft_sample(struct soft_format f, uint64_t which)
     switch (r % 4) {
     case 0:
         return (edges[(r >> 8) % (sizeof edges / sizeof *edges)] | sign) & mask;
-    case 1: { /* near 1, or near the ends: sums cancel, products are subnormal */
+    case 1: { /* numbers near 1 or near the range's ends: sums cancel, products are subnormal */
         uint64_t near = (r >> 3 & 3) == 0 ? ones : (r >> 3 & 3) == 1 ? infinite / 2 + 1 : one;
         near += (sample_of(r) & (3 * ones)) - ones;
         return ((near & (infinite | ones)) | sign) & mask;

@@ -1,5 +1,5 @@
-/* oracle_soft.h - floats of any format by MPFR: s bits of significand, e of exponent, their
- * bits as a field holds them. Knows nothing of the machine. */
+/* oracle_soft.h - computes with floats of s bits of significand and e bits of exponent by MPFR. Results are bits as a
+ * field holds them. Knows nothing of the machine. */
 #ifndef LUTETIA_TESTS_ORACLE_SOFT_H
 #define LUTETIA_TESTS_ORACLE_SOFT_H
 
@@ -23,7 +23,7 @@ uint64_t oracle_soft_arithmetic(struct soft_format f, char op, uint64_t a, uint6
 /* The sine, exponential or logarithm (s e l) of a. */
 uint64_t oracle_soft_function(struct soft_format f, char op, uint64_t a);
 
-/* Bits of the format: edges, and random ones. which chooses. */
+/* Sample number `which` of the format: an edge case or random bits. */
 uint64_t oracle_soft_sample(struct soft_format f, uint64_t which);
 
 #endif

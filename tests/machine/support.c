@@ -239,7 +239,7 @@ void support_check(struct machine *m)
 {
     int count = later_count;
 
-    later_count = 0; /* a failure below leaves the rest alone */
+    later_count = 0; /* after a failure below no check is left over for the next test */
     assert_ok(machine_finish(m), m);
     for (int k = 0; k < count; k++) {
         support_expect_field(m, later[k].field, later[k].type, later[k].expected, later[k].data,
@@ -282,7 +282,7 @@ void support_cache_leave(void)
         unsetenv("XDG_CACHE_HOME");
 }
 
-/* With what the driver keeps there, too. */
+/* Removes the folder with all that is in it, the driver's files too. */
 int support_cache_remove(void **state)
 {
     char command[400];

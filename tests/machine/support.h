@@ -29,20 +29,21 @@
             fail_msg("%s:%d: %s", __FILE__, __LINE__, machine_error(m));                       \
     } while (0)
 
-/* The machine's last call failed with the status, and it says so in one line, with that word; it is forgotten then. */
+/* Checks that the machine's last call failed with this status and that its message is one line with this word. Clears the
+ * error. */
 void support_failed(struct machine *m, enum machine_status status, const char *word);
 
 /* 16 processors, so that VP ratios above 1 occur. eager: 0 or 1. */
 struct machine *support_machine(int eager);
-/* Where LUTETIA_TEST_STATS is set, tells of its kernels first. */
+/* Where LUTETIA_TEST_STATS is set, prints the machine's kernels first. */
 void support_machine_destroy(struct machine *m);
 /* Makes and selects a VP set of the given axes. */
 int support_set(struct machine *m, int rank, ...);
 
-/* What an operation on bits or integers of that width makes of a and b, in plain C. */
+/* The result of an operation on bits or integers a and b of that width, in plain C. */
 wide support_integer(enum machine_op op, int width, wide a, wide b);
 
-/* Ordinary and awkward numbers: ends of the range, zeros, NaN. */
+/* Word n of a sequence of ordinary and awkward numbers: ends of the range, zeros, NaN. */
 wide support_word(struct machine_type type, uint64_t seed, uint64_t n);
 /* A heap field of the current set with support_word(type, seed, n) in element n. */
 uint32_t support_field(struct machine *m, struct machine_type type, uint64_t seed);
@@ -57,8 +58,8 @@ void support_element_set(void *array, struct machine_type type, uint64_t n, wide
 typedef wide (*support_expected)(const void *data, uint64_t n);
 void support_expect(struct machine *m, struct machine_value *value, support_expected expected,
                     const void *data, const char *what);
-/* The same, but only at the next support_check(): one evaluation, so few kernels to compile. data_bytes of data are
- * copied, at most 64. */
+/* As support_expect(), but compares at the next support_check(). All values are then one evaluation with few kernels to
+ * compile. Copies data_bytes of data, at most 64. */
 void support_later(struct machine *m, struct machine_value *value, support_expected expected,
                    const void *data, size_t data_bytes, const char *what);
 void support_check(struct machine *m);
@@ -66,8 +67,8 @@ void support_check(struct machine *m);
 void support_expect_field(struct machine *m, uint32_t field, struct machine_type type,
                           support_expected expected, const void *data, const char *what);
 
-/* A folder of the program's own for caches: a group's set-up and tear-down. It is XDG_CACHE_HOME from its making on;
- * support_cache_leave() gives that back what it was before. */
+/* A folder for caches that only this program uses: a group's set-up and tear-down. support_cache_make() sets XDG_CACHE_HOME
+ * to it, and support_cache_leave() restores the old XDG_CACHE_HOME. */
 extern char support_cache[];
 int support_cache_make(void **state);
 void support_cache_leave(void);

@@ -1,5 +1,5 @@
-/* Compares what a stage looks at, as the walk of the graph finds it, with the text that codegen
- * writes, for random graphs that are planned in rows and in strips. No device is needed. */
+/* Compares the accesses that the walk of the graph finds for each stage with the accesses in codegen's text, for random
+ * graphs in rows and in strips. Needs no device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 enum { GRAPHS = 400 };
 
-/* ---- the two agree ---- */
+/* ---- the walk and the text agree ---- */
 
 static void written(struct emitter *e, const struct plan_graph *g, const struct vpset *set,
                     int stage)
@@ -114,7 +114,7 @@ static void what_is_walked_is_what_is_written(void **state)
 
 /* ---- turns ---- */
 
-/* A turn of a loop: the average of two neighbours, of what the turn before has stored. */
+/* One turn of a loop: the sum (or the difference) of two neighbours' values that the turn before stored. */
 static int turn(struct hand_graph *h, int before, bool other)
 {
     int west = hand_shift(h, before, 1, -1), north = hand_shift(h, before, 0, 1);

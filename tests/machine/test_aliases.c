@@ -11,7 +11,7 @@ enum { PROCESSORS = 16, BITS_MOST = 1 << 14, SETS = 12, VIEWS_MOST = 8 };
 struct view {
     uint32_t id, bits;
     int set;
-    /* VP r's bit b is at [r / parts * outer + r % parts * inner + start + b] of its processor. */
+    /* Bit b of VP r is bit r / parts * outer + r % parts * inner + start + b of its physical processor's memory. */
     uint64_t start, parts, outer, inner;
 };
 
@@ -86,7 +86,7 @@ static struct view root_make(int set, uint32_t bits)
     return v;
 }
 
-/* Of a whole field, or of a part of one that is a root. */
+/* Makes an alias of a whole field, or of a part of a field that is no alias itself. */
 static struct view alias_make(const struct view *of, uint32_t offset, int set)
 {
     uint64_t from = ratio_of(of->set), to = ratio_of(set);
@@ -112,7 +112,7 @@ static struct view alias_make(const struct view *of, uint32_t offset, int set)
     return v;
 }
 
-/* Few types, so that few kernels have to be compiled. */
+/* Chooses among few types, so that few kernels have to be compiled. */
 static struct machine_type some_type(uint32_t most)
 {
     uint64_t pick = next(6);
@@ -200,8 +200,8 @@ static void stores_are_seen_from_all_sides(void **unused)
     }
 }
 
-/* Elements are stored one after the other by a loop in the set of ratio 1, computed with in the set of ratio R,
- * and fetched by a loop again. */
+/* A loop in the set of ratio 1 stores elements one after the other. The set of ratio R computes with them, and a second
+ * loop fetches them. */
 static void loops_over_elements_agree(int log_ratio, bool computes)
 {
     int r = 1 << log_ratio, length = PROCESSORS * r;
@@ -277,7 +277,7 @@ static void elements_go_out_and_come_back_for_every_ratio(void **unused)
         loops_over_elements_agree(log_ratio, log_ratio <= 3);
 }
 
-/* A mask of the first n elements, made as words of bits in the set of ratio 1. */
+/* Words that are written in the set of ratio 1 are read as single bits in the set of ratio r. */
 static void words_become_bits_for_every_ratio(void **unused)
 {
     (void)unused;
@@ -319,7 +319,7 @@ static void words_become_bits_for_every_ratio(void **unused)
     }
 }
 
-/* Whatever can be, is the same value again: no kernel runs to copy and reshape. */
+/* Slices that are copied through an alias share the old values: no kernel runs to copy or reshape them. */
 static void copies_of_slices_cost_nothing(void **unused)
 {
     (void)unused;
@@ -347,7 +347,7 @@ static void copies_of_slices_cost_nothing(void **unused)
     check_all(&v, 0, MACHINE_UINT(32), "copy");
     machine_stats_get(machine, &after);
     assert_int_equal(before.kernels_run, after.kernels_run);
-    /* Its VP set goes, and the memory stays. */
+    /* The alias's VP set is destroyed; the memory keeps its contents. */
     machine_begin(machine);
     assert_ok(machine_vpset_destroy(machine, fine), machine);
     assert_false(machine_field_lookup(machine, alias, &(struct machine_field_info){0}));

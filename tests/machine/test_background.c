@@ -1,5 +1,6 @@
-/* test_background.c - better kernels that a process compiles while others run: whenever they come, the bits are those of a
- * machine that waits for them; where it cannot, the machine does wait; and machines and programs end in the middle of it. */
+/* test_background.c - a background process compiles optimised kernels while others run. Whenever they arrive, the bits are
+ * those of a machine that waits for its kernels. Where there is no such process, the machine waits. Machines and programs
+ * may end while it compiles. */
 #include "machine_explained.h"
 #include "support.h"
 
@@ -21,7 +22,7 @@
 
 enum { TURNS = 150, WAIT_EVERY = 25, CELLS_MOST = 8192 };
 
-static bool keeps; /* what is compiled is noted on disk, and looked for */
+static bool keeps; /* compiled kernels are recorded on disk and looked up there */
 
 static void forced(const char *background, const struct looped *p)
 {
@@ -77,7 +78,7 @@ static void look(const struct sheet *s, void *out)
     assert_ok(machine_field_download(s->m, s->a, s->loop->type, out), s->m);
 }
 
-/* So many turns; what was built meanwhile is waited for every now and then. */
+/* Runs count turns, and waits for the background's kernels after every WAIT_EVERY of them. */
 static void run(struct sheet *s, int count)
 {
     for (int done = 0; done < count; done += WAIT_EVERY) {
@@ -86,7 +87,7 @@ static void run(struct sheet *s, int count)
     }
 }
 
-/* Its kernels, by how they were made, that ran. */
+/* The number of kernels that ran and were made in this way. */
 static int kernels_made(const struct sheet *s, const char *made)
 {
     const struct machine_explained *x = machine_explain(s->m, false);
@@ -132,7 +133,7 @@ static void bits_are_the_same_whenever_kernels_come(void **state)
     }
 }
 
-/* They are rehearsed, which nobody can tell, and run when their kernel is there. */
+/* The kernel of many turns is compiled in the background; single turns run until it is there. */
 static void many_turns_at_once_do_not_wait(void **state)
 {
     struct sheet s;
@@ -150,7 +151,7 @@ static void many_turns_at_once_do_not_wait(void **state)
     machine_destroy(s.m);
 }
 
-/* ---- compilers that are not as they should be ---- */
+/* ---- compilers that fail ---- */
 
 static char pretender[64], log_path[64];
 
@@ -162,7 +163,7 @@ static int folder_make(void **state)
     return status;
 }
 
-/* It takes note of each start: of the process, which is its session's first. */
+/* Makes a compiler of this shell script. It writes the id of each process that starts it, a session leader, to the log. */
 static void compiler_is(const char *does)
 {
     unlink(log_path);
@@ -204,7 +205,7 @@ static int starts(void)
     return count;
 }
 
-/* Processes that belong to the one that was started first. */
+/* The number of processes in the session of the first compiler that was started. */
 static int processes(void)
 {
     int count = 0, leader = 0;
@@ -228,7 +229,7 @@ static int processes(void)
     return count;
 }
 
-/* They do not wait for anything; but a disk may make them. */
+/* Waits until the compiler's processes have ended; only a slow disk delays them. */
 static void all_end(void)
 {
     double start = clock_s();
@@ -238,7 +239,8 @@ static void all_end(void)
     }
 }
 
-/* The same bits as of a machine that waits, and the same kernels; none came from the background. */
+/* Checks that with this compiler the bits and the kernels are those of a machine that waits, and that no kernel came from the
+ * background. */
 static void done_without(const char *compiler, int started)
 {
     static uint32_t with[CELLS_MOST], without[CELLS_MOST];
@@ -270,10 +272,9 @@ static void done_without(const char *compiler, int started)
 static void one_that_does_not_is_done_without(void **state)
 {
     (void)state;
-    done_without("exit 1", 1);                       /* and is not tried again */
-    done_without("printf Z >&0; exec sleep 100", 1); /* of another version */
-    done_without("printf A >&0; head -c 1; exit 1",
-                 1); /* as if the kernel were too much for it */
+    done_without("exit 1", 1);                          /* and is not tried again */
+    done_without("printf Z >&0; exec sleep 100", 1);    /* of another version */
+    done_without("printf A >&0; head -c 1; exit 1", 1); /* as if the kernel had crashed it */
     done_without("printf A >&0; head -c 1; printf n >&0; exec sleep 100", 1);
     setenv("POCL_KERNEL_CACHE", "0", 1); /* what it did would be for nobody */
     done_without("printf A >&0; exec sleep 100", 0);
@@ -298,7 +299,7 @@ static void one_that_hangs_is_not_waited_for(void **state)
     all_end();
 }
 
-/* What the driver has is noted on disk: the next program that wants it needs no process. */
+/* The disk's records tell which kernels the driver's cache holds: a second program starts no compiler for them. */
 static void what_was_compiled_is_loaded_at_once(void **state)
 {
     struct sheet s;
@@ -375,7 +376,7 @@ static int program(const char *how)
     turns(&s, 1);
     if (!strcmp(how, "killed"))
         raise(SIGKILL);
-    if (fork() == 0) { /* and has all files that are open, until the test is over */
+    if (fork() == 0) { /* the child keeps all open files until the test is over */
         fclose(stdout);
         fclose(stderr);
         for (int i = 0; i < 1000 && access(log_path, F_OK) == 0; i++)
@@ -444,7 +445,8 @@ static void kernel_that_does_not_compile_is_no_error(void **state)
 
 /* ---- the compiler by itself ---- */
 
-/* What it answers to a request whose strings say that they have so many bytes, of which `given` come; 0: nothing. */
+/* The compiler's answer to a request that announces strings of these lengths, of whose bytes only `given` are sent; 0: no
+ * answer. */
 static char answer_to(int to, const uint32_t bytes[COMPILER_STRINGS], size_t given, char fill)
 {
     struct compiler_request request = {.dimensions = 2, .widest = 1};
@@ -535,7 +537,7 @@ static void trace_has_them_on_a_track_of_their_own(void **state)
     assert_int_equal(titles, 1);
 }
 
-/* Where PoCL's cache is, whatever becomes of XDG_CACHE_HOME. */
+/* Sets PoCL's cache folder to its present place, so that later changes of XDG_CACHE_HOME do not move it. */
 static void driver_cache_said(void)
 {
     const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");

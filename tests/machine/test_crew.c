@@ -1,5 +1,5 @@
-/* Threads that share out one piece of work: each part is done once, by whoever is free; in a child after fork() the caller does
- * all; without threads, too. */
+/* Tests base/crew.h: threads share the parts of one job, and each part is done once, by a thread that is free. In a child
+ * after fork(), and without threads, the caller does all parts. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -37,7 +37,7 @@ static void part(void *of, int number, int worker)
     atomic_fetch_add(&j->done[number], 1);
 }
 
-/* Whether each part was done once, and the sum is right. */
+/* Runs a job; true if each part was done once and the sum is right. */
 static bool job_is_done(struct crew *crew, int parts, int of_a_part)
 {
     static struct job j;

@@ -1,5 +1,4 @@
-/* test_errors.c - wrong calls give a status and one clear line, and the machine goes on as if
- * they had not been made. */
+/* test_errors.c - a wrong call gives a status and one clear line, and changes nothing in the machine. */
 #include "support.h"
 
 static struct machine *machine;
@@ -21,7 +20,7 @@ static wide expected_untouched(const void *data, uint64_t n)
     return support_word(MACHINE_UINT(32), 1, n);
 }
 
-/* Whatever was tried, the field holds what it held, and the machine computes. */
+/* After the failed calls the field holds its old contents and the machine still computes. */
 static int teardown(void **state)
 {
     (void)state;
@@ -170,7 +169,7 @@ static void field_that_is_gone_is_refused(void **state)
     assert_int_equal(machine_field_read(machine, gone, MACHINE_UINT(32), 0, &ignored),
                      MACHINE_BAD_ARGUMENT);
     support_failed(machine, MACHINE_BAD_ARGUMENT, "");
-    /* a stack field is not given back as a heap field, nor a part as the whole */
+    /* a part of a field is not deallocated as the whole, nor a heap field as a stack field */
     assert_int_equal(machine_field_deallocate(machine, field + 8), MACHINE_BAD_ARGUMENT);
     support_failed(machine, MACHINE_BAD_ARGUMENT, "");
     assert_int_equal(machine_field_deallocate_through(machine, field), MACHINE_BAD_ARGUMENT);

@@ -1,4 +1,4 @@
-/* test_explain.c - machine_explain(): what it tells of programs whose kernels, bytes and vanished values are known by
+/* test_explain.c - machine_explain() on programs whose kernels, bytes and values that are never stored are known by
  * hand. */
 #include "machine_explained.h"
 #include "support.h"
@@ -56,7 +56,7 @@ static const struct machine_explained *explained(void)
     return x;
 }
 
-/* A field with numbers in it that cannot be a NaN's. */
+/* Makes a field of floats first .. first + 1, none of them a NaN. */
 static uint32_t field_of(float first)
 {
     uint32_t field = machine_field_allocate(machine, set, 32, MACHINE_HEAP);
@@ -174,7 +174,7 @@ static void overwritten_value_has_vanished(void **state)
     assert_int_equal(count_of(x->evaluations, x->evaluations_count, "somebody looked"), 1);
 }
 
-/* Three logarithms of a sum are dearer than to store it once; a sum alone is not. */
+/* Three transcendental functions cost more to compute again for each neighbour than to store once. */
 static void dear_value_is_stored_for_its_neighbours(void **state)
 {
     uint32_t a = field_of(1), c = field_of(3);
@@ -231,7 +231,7 @@ static void dear_value_is_stored_for_its_neighbours(void **state)
     assert_int_equal(found, 1);
 }
 
-/* How the sum of v's neighbours is computed, v being dear: in one kernel. */
+/* The one kernel that computes the sum of v's neighbours, where v is costly. */
 static const struct machine_explained_kernel *neighbours_of(struct machine_value *v)
 {
     uint32_t c = field_of(3);
@@ -245,7 +245,7 @@ static const struct machine_explained_kernel *neighbours_of(struct machine_value
     return &x->kernels[0];
 }
 
-/* v, of 3 operations, is in no array. */
+/* The kernel keeps v, of 3 operations, in a ring and stores it in no array. */
 static void assert_is_kept_near(const struct machine_explained_kernel *k)
 {
     assert_int_equal(k->stages, 2);
@@ -257,7 +257,7 @@ static void assert_is_kept_near(const struct machine_explained_kernel *k)
     assert_int_equal(k->bytes_written, 4);
 }
 
-/* The same in strips: a row of the dear value is used while it is still near. */
+/* In strips a row of the costly value is used while it is still in the cache. */
 static void strips_keep_rows_in_no_array(void **state)
 {
     struct machine_value *v = value(field_of(1));
@@ -280,8 +280,7 @@ static void strips_keep_rows_in_no_array(void **state)
     assert_non_null(strstr(k->name, "FADD"));
 }
 
-/* The same in tiles, which are cheaper to compile. Values that are stored in no array are kept
- * in tiles. */
+/* In tiles, whose kernels compile faster, the costly value is kept in local memory and stored in no array. */
 static void tiles_are_kept_in_no_array(void **state)
 {
     struct machine_value *v = value(field_of(1));
@@ -387,7 +386,7 @@ static void bound_is_measured_when_asked_for(void **state)
     assert_true(x->copy_bytes_per_s > 1e6 && x->copy_bytes_per_s < 1e13);
 }
 
-/* Others wait until they have run on millions. */
+/* Kernels with functions on many processors are optimised at once; others only after millions of elements. */
 static void functions_of_many_are_optimised_at_once(void **state)
 {
     enum { SIDE = 192 }; /* 36864 processors */

@@ -1,5 +1,4 @@
-/* test_fields.c - VP sets, fields, flags, context: where a store goes, and what a later read
- * returns. */
+/* test_fields.c - VP sets, fields, flags and context: which bits a store changes, and what a later read returns. */
 #include "support.h"
 
 static struct machine *machine;
@@ -62,7 +61,7 @@ static void vpset_addresses_go_there_and_back(void **state)
         assert_int_equal(machine_send_address(machine, set, n), n % 16 * ratio + n / 16);
         assert_int_equal(machine_index(machine, set, machine_send_address(machine, set, n)), n);
     }
-    /* 123 of 128: the last five processors have no eighth VP */
+    /* 123 of 128 places are used: the last five processors have no eighth VP */
     assert_true(machine_index(machine, set, 15 * ratio + 7) == UINT64_MAX);
     assert_true(machine_index(machine, set, 16 * ratio) == UINT64_MAX);
 }
@@ -135,7 +134,7 @@ static void field_deallocate_through_takes_the_stack_above(void **state)
     assert_true(machine_field_lookup(machine, heap, &info));
 }
 
-/* Three channels of a pixel: written whole, changed in part, read across. */
+/* A pixel of three channels is written whole, one channel is changed, and a read crosses the channels' borders. */
 static wide expected_pixel(const void *data, uint64_t n)
 {
     wide whole = support_word(MACHINE_UINT(24), 9, n);
@@ -246,7 +245,7 @@ static wide expected_doubled_and_written(const void *data, uint64_t n)
     return n == 5 ? 0x21 : expected_doubled(data, n);
 }
 
-/* Another field may hold the very value that a part of this one reads as. */
+/* A second field may share the value of a part of this field: a write to the part leaves the second field alone. */
 static void write_to_a_part_leaves_its_copies_alone(void **state)
 {
     (void)state;

@@ -91,7 +91,7 @@ static void shift_takes_the_neighbour_and_wraps(void **state)
     }
 }
 
-/* A shift of something computed, of a shift, and of a shift under a context. */
+/* Shifts of a computed value, of a shift, and of a shift under a context: their sum. */
 static wide expected_laplacian(const void *data, uint64_t n)
 {
     const struct grid *g = data;

@@ -1,6 +1,6 @@
-/* test_interpret.c - byte code: each loop gives what lane by lane gives, whatever the instruction set; blocks find their
- * neighbours, over rows that are shorter and longer than a block; a plan is interpreted until kernels pay, and never where
- * they cannot. */
+/* test_interpret.c - the interpreter of byte code. Under every instruction set each loop gives the bits of the loop that goes
+ * lane by lane. Blocks find their neighbours, in rows shorter and longer than a block. A plan is interpreted until
+ * compiling its kernels pays. */
 #include "support.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ static bool is_nan(struct machine_type type, wide x)
                             : (x & INT64_MAX) > UINT64_C(0x7ff0000000000000);
 }
 
-/* NaNs are made alike by a step of its own. */
+/* Two NaNs count as equal here, because a step of its own gives all NaNs the same bits. */
 static void lanes_same(const struct lanes *a, const struct lanes *b, struct machine_type type,
                        const struct lanes_step *s, int table)
 {
@@ -70,8 +70,8 @@ static void lanes_same(const struct lanes *a, const struct lanes *b, struct mach
     }
 }
 
-/* What shifts are by: -128 to 128, all of the width's own among them; of rotations below the width. All by the k-th of these, or
- * (0) each by its own. */
+/* Fills in counts of shifts: -128 to 128, with those near multiples of the width among them; counts of rotations are below the
+ * width. All lanes get count k; where k is 0, each lane gets another count. */
 static void counts_fill(struct lanes *l, bool below_width, int width, int k)
 {
     for (int lane = 0; lane < LANES; lane++) {
@@ -98,7 +98,7 @@ static void step_try(const struct tables *t, struct lanes_step s, lanes_function
     lanes_fill(&in[0], selects ? MACHINE_BIT : s.from, 1);
     lanes_fill(&in[1], selects ? s.type : second, 2);
     for (uint64_t i = 0; i < LANES && op_is_integer(s.op);
-         i += 3) /* quotients of more than 0, and of nothing */
+         i += 3) /* small divisors: quotients above 0, and divisions by 0 */
         support_element_set(in[1].bytes, second, i,
                             support_word(MACHINE_UINT(3), 4, i) & ones(second.width));
     lanes_fill(&in[2], s.type, 3);
@@ -152,7 +152,7 @@ static void each_loop_gives_what_lane_by_lane_gives(void **state)
     assert_true(steps_tried > 200);
 }
 
-/* Of places that there are and such as there are not, in arrays of every kind. */
+/* Fetches from places inside and outside an array, of every class of lanes. */
 static void what_is_fetched_is_in_the_array(void **state)
 {
     const struct tables t = tables_here();
@@ -225,7 +225,7 @@ static void each_conversion_gives_what_lane_by_lane_gives(void **state)
     assert_true(steps_tried - before > 1000);
 }
 
-/* Short formats, by adding and taking away; the others are rounded by kernels/soft.cl alone. */
+/* Short formats are rounded by adding and subtracting a constant; all others by the code of kernels/soft.cl only. */
 static void short_formats_round_as_whole_numbers_do(void **state)
 {
     const struct tables t = tables_here();
@@ -300,7 +300,7 @@ static wide neighbour_is(const void *data, uint64_t n)
     return support_word(b->type, 7, neighbour_index(b, n));
 }
 
-/* A neighbour of what has to be computed first. */
+/* The neighbour's value of an expression that has to be computed first. */
 static wide neighbour_negated_is(const void *data, uint64_t n)
 {
     const struct neighbour *b = data;
@@ -423,8 +423,8 @@ static void a_plan_that_costs_more_than_compiling_is_compiled(void **state)
     free(out[1]);
 }
 
-/* A test of coordinates that byte code needs in a second stage, or of a neighbour, is not found in memory afterwards: kernels
- * that come later see which rows it concerns. */
+/* A comparison of coordinates stays a node of its own, even where byte code needs it in a second stage or from a neighbour. It
+ * is not replaced by an array, so that later kernels see which rows it selects. */
 static void tests_of_coordinates_keep_their_definition(void **state)
 {
     enum { SIDE = 40 };

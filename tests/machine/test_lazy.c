@@ -1,5 +1,5 @@
-/* test_lazy.c - what laziness promises: nobody pays for what nobody sees, a step seen before builds nothing, and the
- * graph does not grow. Measured by machine_stats_get(), checked against the eager machine's values. */
+/* test_lazy.c - the promises of lazy evaluation: a value that nobody reads is not computed, a step seen before builds no
+ * kernel, and the graph does not grow. Measured by machine_stats_get(); the values are compared with the eager machine's. */
 #include "support.h"
 
 enum { ROWS = 20, COLUMNS = 70, COUNT = ROWS * COLUMNS };
@@ -198,7 +198,7 @@ static void fields_allocated_each_step_do_not_leak(void **state)
     machine_destroy(s.m);
 }
 
-/* The same program observed at other times, and eagerly, gives the same bits. */
+/* A program gives the same bits whenever its values are observed, and on the eager machine. */
 static void when_it_is_observed_makes_no_difference(void **state)
 {
     enum { STEPS = 23 };
@@ -268,7 +268,7 @@ static void value_outlives_the_content_it_is_a_part_of(void **state)
     struct machine_value *product =
         machine_field_value(s.m, s.flow, word, MACHINE_WHERE_ACTIVE);
     assert_ok(machine_flush(s.m), s.m);
-    for (uint64_t i = 0; i < 8; i++) /* takes the memory that a node gave back */
+    for (uint64_t i = 0; i < 8; i++) /* new nodes reuse the memory of a freed node */
         machine_binary(s.m, MACHINE_XOR, support_value(s.m, s.water, word), constant(s.m, i));
     store(&s, s.scratch, product);
     assert_ok(machine_field_download(s.m, s.scratch, word, out), s.m);

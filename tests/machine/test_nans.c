@@ -1,5 +1,5 @@
-/* test_nans.c - every float operation's NaN is the same one, whatever NaNs its operands are and however many evaluations
- * ago they were made, or written; what only moves keeps its bits. With devices that keep NaNs (x86) and as if they did
+/* test_nans.c - the NaN of a float operation always has the same bits, whatever NaNs its operands are and whether they were
+ * computed or written. A move keeps a NaN's bits. Tested for devices whose operations keep NaNs (x86) and as if they did
  * not. */
 #include "support.h"
 
@@ -9,7 +9,8 @@ enum { ROWS = 8, COLUMNS = 50, COUNT = ROWS * COLUMNS, TURNS = 40, WRITTEN = 77,
 
 static struct machine *machine;
 
-/* Numbers, infinities, the operations' NaN, and NaNs of the program's own: signalling, positive, with payloads. */
+/* The n-th sample: numbers, infinities, the operations' NaN, and NaNs that a program writes (signalling, positive, with
+ * payloads). */
 static uint64_t bits_at(int width, uint64_t n)
 {
     static const uint32_t single[] = {0x3f800000, 0x7f800000, 0xff800000, 0x00000000,
@@ -51,7 +52,7 @@ static double number(int width, uint64_t x)
     return single;
 }
 
-/* Of an operation. */
+/* The NaN of an operation. */
 static uint64_t result(int width, double x)
 {
     float single = (float)x;
@@ -78,7 +79,7 @@ static struct machine_value *constant(struct machine_type type, double x)
     return machine_constant_float(machine, type, x);
 }
 
-/* Where the column is a multiple of that. */
+/* 1 where the column is a multiple of columns. */
 static struct machine_value *every(uint64_t columns)
 {
     return machine_binary(
@@ -127,7 +128,7 @@ static void expect(uint32_t field, struct machine_type type, expected wanted, co
     }
 }
 
-/* From the right, but where the column is a multiple of three. */
+/* The right neighbour's bits; the operations' NaN where the column is a multiple of three. */
 static uint64_t moved(int width, uint64_t n)
 {
     const uint64_t row = n / COLUMNS, column = n % COLUMNS;
@@ -192,7 +193,7 @@ static void check(int width)
     expect(twice, type, negative_twice, "what was negated twice, and doubled");
     expect(low, type, least, "a minimum");
     expect(resized, other, other_width, "what was resized");
-    /* of what is in memory now, and of what was bits */
+    /* operations on values that are in memory now, and on values that were bits */
     machine_begin(machine);
     const uint32_t again = store(machine_binary(machine, MACHINE_FSUB, constant(type, 0),
                                                 support_value(machine, turned, type)));
@@ -208,7 +209,7 @@ static void check(int width)
     expect(as_floats, type, plus, "a sum with what was bits");
 }
 
-/* A loop whose calls are foreseen, into which a NaN of the program's own is written. */
+/* Writes a NaN with other bits into a field of a loop whose calls are foreseen. */
 static void check_written(int width)
 {
     const struct machine_type type = float_of(width);
@@ -247,14 +248,14 @@ static uint64_t without_sign(int width, uint64_t x)
     return result(width, fabs(number(width, x)));
 }
 
-/* Where the column is a multiple of three without its sign, else as it is, with its bits. */
+/* The absolute value where the column is a multiple of three, else the sample's own bits. */
 static uint64_t kept(int width, uint64_t n)
 {
     const uint64_t x = bits_at(width, n);
     return n % COLUMNS % 3 ? x : without_sign(width, x);
 }
 
-/* So dear that neighbours do not compute it again. */
+/* A chain of so many square roots and divisions that no neighbour computes it again. */
 static uint64_t root_of(int width, uint64_t n, int roots)
 {
     uint64_t x = kept(width, n);
@@ -268,7 +269,7 @@ static uint64_t root(int width, uint64_t n)
     return root_of(width, n, ROOTS);
 }
 
-/* In even columns from the row below. */
+/* In even columns the root of the row below. */
 static uint64_t kept_or_moved(int width, uint64_t n)
 {
     return n % COLUMNS % 2 ? kept(width, n)
@@ -281,7 +282,7 @@ static uint64_t half_or_moved(int width, uint64_t n)
                            : without_sign(width, root(width, (n + COLUMNS) % COUNT));
 }
 
-/* In strips a stage computes with a value in one form, and keeps it for the next in the other. */
+/* In strips one stage uses a value with NaNs of any bits and keeps it, for the next stage, with the operations' NaN. */
 static void check_kept(void)
 {
     const struct machine_type type = MACHINE_F32;

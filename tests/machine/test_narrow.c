@@ -1,5 +1,5 @@
-/* test_narrow.c - kernels of short integers alone have lanes of 8 or 16 bits (plan/lanes.c): the same numbers as in plain C,
- * whatever the width of vectors, in rows and in strips, and at the ends of rows that are no whole vectors. */
+/* test_narrow.c - a kernel that computes with short integers only has lanes of 8 or 16 bits (plan/lanes.c). It gives the
+ * numbers of plain C with vectors of every width, in rows and in strips, also where a row ends with part of a vector. */
 #include "support.h"
 
 #include <dirent.h>
@@ -9,7 +9,7 @@ enum { ROWS = 12, COLUMNS = 150, COUNT = ROWS * COLUMNS, CASES_MOST = 200 };
 
 struct test_case {
     enum machine_op op;
-    int width, dy, dx; /* of the neighbour whose result it is */
+    int width, dy, dx; /* dy and dx: the neighbour whose result is compared */
 };
 
 static const enum machine_op ops[] = {
@@ -43,7 +43,8 @@ static wide of_neighbour(const struct test_case *c, uint64_t n)
     return support_integer(c->op, c->width, word(c->width, 0, n), word(c->width, 1, n));
 }
 
-/* What is made of it: a select, an extension, a part, a pair, and a sum that looks two ways along both axes. */
+/* How the result is used: as it is, in a select, extended, in part, as half of a pair, and in a sum of neighbours on both
+ * sides along both axes. */
 enum made { PLAIN, CHOSEN, EXTENDED, PART, PAIR, SUM, MADE };
 
 static wide made_of(const struct test_case *c, enum made made, int most, uint64_t n)
@@ -128,7 +129,7 @@ static uint32_t upload(int width, int which)
     return field;
 }
 
-/* All operations on numbers of those widths in one evaluation, and what is made of them. */
+/* Checks all operations on numbers of those widths, and all uses of their results, in one evaluation. */
 static void check(const int *widths, int widths_count, int most)
 {
     static struct {
@@ -188,7 +189,7 @@ static void check(const int *widths, int widths_count, int most)
     }
 }
 
-/* How many kernels in the folder have such lanes; they are removed. */
+/* Counts the folder's kernels that have lanes of this width, and removes all kernels. */
 static int kernels_of(const char *folder, const char *lane)
 {
     DIR *d = opendir(folder);
@@ -209,7 +210,7 @@ static int kernels_of(const char *folder, const char *lane)
     return count;
 }
 
-/* Sums and differences that do not fit. */
+/* Checks the overflow flags of sums and differences. */
 static void check_overflows(int width)
 {
     const uint32_t a = upload(width, 0), b = upload(width, 1);
@@ -250,8 +251,8 @@ static void check_overflows(int width)
     assert_ok(machine_field_deallocate(machine, b), machine);
 }
 
-/* Operations on 8 and (in rows) 16 bits agree with the oracle, as do their overflows, and a kernel with lanes of those bits was
- * made for them: in strips or in rows, with vectors of so many words. */
+/* Checks operations on 8 and (in rows) 16 bits, and their overflow flags, against the oracle: in strips or in rows, with vectors
+ * of that many words. Checks also that a kernel with lanes of that width was made. */
 static void agree(const char *vector, bool strips)
 {
     static const int bytes[] = {8, 5, 8, 1}, shorts[] = {16, 13};

@@ -1,5 +1,5 @@
-/* The table of operations: every row keeps what base/node_ops.h promises of it, and every row is spelt, in each type that it
- * takes. */
+/* Tests the table of operations: every row keeps the promises of base/node_ops.h, and codegen has text for every row in each
+ * type that it takes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -148,7 +148,7 @@ static void each_operation_is_spelt(void **state)
         }
 }
 
-/* Two operations have the same text only where they are the same. */
+/* Two different operations never have the same text. */
 static void no_two_are_spelt_alike(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void no_two_are_spelt_alike(void **state)
             }
 }
 
-/* What a row calls narrow has words in lanes of 8 and 16 bits. */
+/* An operation that its row calls narrow has text in lanes of 8 and 16 bits. */
 static void narrow_operations_are_spelt(void **state)
 {
     (void)state;

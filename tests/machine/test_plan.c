@@ -1,5 +1,5 @@
-/* The planner, on graphs that no program has made: a plan carried out stage by stage gives what the graph says. No device is
- * needed. */
+/* Tests the planner on hand-made graphs: a plan that is carried out stage by stage gives the values that the graph defines.
+ * Needs no device. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,15 +19,15 @@ enum { GRAPHS = 300, HEIGHT = 5, WIDTH = 7, CELLS = HEIGHT * WIDTH, STAGES_MOST 
 
 /* ---- what a graph says ---- */
 
-/* A small torus of processors, each with a number of at most 8 bits for each node. */
+/* Evaluates a graph on a small torus of processors; each has a number of at most 8 bits for each node. */
 struct evaluation {
     const struct plan_graph *g;
-    uint8_t memory[HAND_NODES_MOST][CELLS]; /* leaves, numbers, and what has been stored */
+    uint8_t memory[HAND_NODES_MOST][CELLS]; /* leaves, numbers, and stored nodes */
     bool stored[HAND_NODES_MOST];
     /* of the stage at hand */
     uint8_t computed[HAND_NODES_MOST][CELLS];
     bool known[HAND_NODES_MOST][CELLS];
-    int stage; /* -1: nothing is in memory, and nothing stands for anything */
+    int stage; /* -1: no node is in memory, and no node stands for another */
 };
 
 static int moved(int cell, int axis, int distance)
@@ -153,7 +153,7 @@ static void node_by_chance(struct hand_graph *h)
     }
 }
 
-/* A context: a is stored where it holds, and what is made of a is stored there, too. */
+/* Adds two stores under one context c: a is stored where c holds, and a value computed from a is stored there, too. */
 static void context_by_chance(struct hand_graph *h)
 {
     const struct machine_type byte = MACHINE_UINT(8);
@@ -166,7 +166,7 @@ static void context_by_chance(struct hand_graph *h)
     h->nodes[under].target = hand_below(h, 8) == 0;
 }
 
-/* dead: with nodes that no target wants, too. */
+/* Makes a random graph; dead: keeps nodes that no target needs. */
 static void graph(struct hand_graph *h, uint32_t seed, bool dead)
 {
     hand_begin(h, seed);
@@ -220,7 +220,7 @@ static void sensible(const struct plan_graph *g, int *stages)
         assert_true(p->forced || p->cost_s[way] <= 0 ||
                     p->cost_s[way] >= p->cost_s[p->chosen] * (1 - 1e-9));
     assert_int_equal(g->strips, p->chosen == MACHINE_PLAN_STRIPS);
-    double kernels_ns = 0; /* of one VP set, in rows: a kernel for each stage */
+    double kernels_ns = 0; /* in rows a plan of one VP set has one kernel for each stage */
     for (int stage = 0; stage < *stages && !g->strips; stage++)
         for (int i = 0, found = 0; i < g->count && !found; i++)
             if (g->nodes[i].stored && g->nodes[i].stage == stage) {
@@ -251,7 +251,7 @@ static void carried_out(struct evaluation *v, const struct evaluation *said, int
             assert_memory_equal(v->memory[i], said->memory[i], CELLS);
 }
 
-/* What targets are, in said->memory. */
+/* Evaluates the targets into said->memory. */
 static void say(struct evaluation *said)
 {
     for (int i = 0; i < said->g->count; i++)
@@ -317,9 +317,9 @@ static void the_same_graph_has_the_same_plan(void **state)
     free(again);
 }
 
-/* ---- values that stand for others ---- */
+/* ---- nodes that stand for others ---- */
 
-/* Whatever is in memory, targets are the same; also beside nodes that no target wants. */
+/* The targets' values do not change when every possible substitute is in memory, also beside nodes that no target needs. */
 static void substitutes_change_no_target(void **state)
 {
     (void)state;
@@ -333,7 +333,7 @@ static void substitutes_change_no_target(void **state)
         *said = *v;
         substitutes_find(&h->g);
         say(said);
-        /* In memory is what may stand for something. */
+        /* Every node that may stand for another is put into memory. */
         for (int i = 0; i < h->g.count; i++)
             for (int k = 0; k < 3; k++) {
                 int s = h->nodes[i].instead[k];
@@ -358,7 +358,7 @@ static void substitutes_change_no_target(void **state)
     free(said);
 }
 
-/* select (c, a, b) is in memory: a may be had there by who looks at it under c alone. */
+/* select(c, a, b), which is stored, may stand for a wherever a's value matters only under c. */
 static void a_select_stands_for_what_it_chose(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_programs.c - compiled programs on disk: kept once, loaded by the next machine, compiled again where they are damaged;
- * and those that need what functions.cl does not declare. (security.md 16) */
+/* test_programs.c - compiled programs on disk are kept once, loaded by the next machine, and compiled again where they are
+ * damaged. Programs that call a function which functions.cl does not declare get the whole header. (security.md 16) */
 #include "machine_explained.h"
 #include "support.h"
 
@@ -11,7 +11,7 @@
 
 enum { COMPILED = 1, LOADED = 2 };
 
-/* How many programs are kept; their files are removed, or cut to length bytes, where somebody says so. */
+/* Counts the programs on disk. LEAVE leaves their files alone, REMOVE removes them, a length cuts each to that many bytes. */
 enum { LEAVE = -1, REMOVE = -2 };
 
 static int kept(long length)
@@ -44,7 +44,7 @@ static wide expected_root(const void *data, uint64_t n)
     return number_real(__builtin_sqrt((double)(n % 41)), 64);
 }
 
-/* A machine of its own computes; how it came by its programs. */
+/* Runs a new machine and tells how it got its programs: COMPILED, LOADED or both. */
 static int programs_come(const char *keep)
 {
     int how = 0;
@@ -105,7 +105,7 @@ static void nothing_is_kept_where_nobody_wants_it(void **state)
     assert_int_equal(kept(LEAVE), 0);
 }
 
-/* As a kernel that uses a function for the first time does. */
+/* A kernel with a function that no kernel has used before is compiled with the whole header. */
 static void program_that_needs_the_header_gets_it(void **state)
 {
     static const char declared[] =

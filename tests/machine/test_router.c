@@ -43,7 +43,7 @@ static struct set set_make(int rank, enum machine_order order)
 
 static uint64_t address_of(const struct set *s, uint64_t n)
 {
-    return machine_send_address(machine, s->id, n); /* test_subgrids.c holds it to the rule */
+    return machine_send_address(machine, s->id, n); /* test_subgrids.c checks these addresses */
 }
 
 static void arrange(int set, const int *lengths, int rank, enum machine_order order)
@@ -54,7 +54,7 @@ static void arrange(int set, const int *lengths, int rank, enum machine_order or
     assert_ok(machine_vpset_arrange(machine, set, lengths, rank, &l), machine);
 }
 
-/* UINT64_MAX: nobody lives there. */
+/* UINT64_MAX: the address has no VP. */
 static uint64_t index_of(const struct set *s, uint64_t address)
 {
     for (uint64_t n = 0; n < s->count; n++)
@@ -263,7 +263,8 @@ static void messages_arrive_as_in_a_loop(void **unused)
     }
 }
 
-/* Gets that nobody has looked at yet: of what a get gave, of neighbours', and of sets that are no more what they were. */
+/* Gets that are recorded and not yet evaluated: their results are fetched again and shifted, and their sources are changed or
+ * destroyed before the evaluation. */
 static void gets_wait(void **unused)
 {
     (void)unused;
@@ -288,7 +289,7 @@ static void gets_wait(void **unused)
         struct machine_value *v = machine_get(machine, where, s, type);
         assert_non_null(v);
         assert_ok(machine_field_store(machine, d, v, MACHINE_EVERYWHERE), machine);
-        /* the neighbour's along the last axis, and one's own */
+        /* each processor combines its own result with its neighbour's along the last axis */
         machine_begin(machine);
         v = machine_field_value(machine, d, type, MACHINE_EVERYWHERE);
         struct machine_value *shifted =
@@ -319,7 +320,7 @@ static void gets_wait(void **unused)
     }
 }
 
-/* Each processor's successor's successor's ..., by gets of addresses: all in one field. */
+/* Pointer jumping: a field of addresses gets from itself, so each processor finds its successor's successor. */
 static void gets_of_gets(void **unused)
 {
     (void)unused;
@@ -361,7 +362,7 @@ static void gets_of_gets(void **unused)
     }
 }
 
-/* What has been recorded and not computed is sent, and numbers are. */
+/* Sends of values that are recorded but not computed, and of constants. */
 static void values_that_wait_are_sent(void **unused)
 {
     (void)unused;
@@ -480,7 +481,7 @@ int main(void)
     };
     int failed = 0;
 
-    /* Both ways of sending; gets by kernels of their own, and as operations, which eager machines have not. */
+    /* Both ways of sending. Gets as operations within kernels, and as kernels of their own; eager machines have only the latter. */
     for (int way = 0; way < 3; way++) {
         bool eager = way == 1;
         setenv("LUTETIA_SCATTER", eager ? "0" : "1", 1);

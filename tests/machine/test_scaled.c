@@ -1,6 +1,6 @@
-/* test_scaled.c - what is multiplied by g where it is above 0 and divided by g where it is below is the larger or the
- * smaller of product and quotient (scaled_by_sign() in values/rules.c): the same bits as the recorded operations, one by one
- * and in plain C, and only for factors that it holds for. */
+/* test_scaled.c - a value multiplied by g where it is above 0 and divided by g where it is below 0 equals the larger or the
+ * smaller of product and quotient. scaled_by_sign() in values/rules.c replaces it so, for the factors for which that holds.
+ * The bits are those of the recorded operations, one by one, and of plain C. */
 #include <math.h>
 
 #include "machine_explained.h"
@@ -82,7 +82,7 @@ static void store(struct machine *m, uint32_t field, struct machine_value *v)
     machine_begin(m);
 }
 
-/* field = field where that compares so with 0: field op factor. */
+/* Where the field compares so with 0: field = field op factor. */
 static void scale(struct machine *m, uint32_t field, struct machine_type type,
                   enum machine_op compare, enum machine_op op, double factor)
 {

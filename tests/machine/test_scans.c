@@ -1,5 +1,5 @@
-/* Scans, spreads and ranks as cuts: nothing waits, results go on like any value, what is wrong is
- * said. That they are right is for ../paris/test_scans.c. */
+/* Scans, spreads and ranks as cuts of the graph: no call waits for them, their results are used like any value, and wrong
+ * calls get a message. ../paris/test_scans.c checks their numbers. */
 #include "support.h"
 
 enum { ROWS = 6, COLUMNS = 40, COUNT = ROWS * COLUMNS };
@@ -46,7 +46,7 @@ static void results_go_on_like_any_value_and_nothing_waits(void **unused)
         assert_ok(machine_field_store(m, g, here, MACHINE_WHERE_ACTIVE), m);
     }
     machine_stats_get(m, &after);
-    /* What is interpreted waits for the scan before it. */
+    /* Interpreted plans run on the host, which waits for the scan before them. */
     assert_true(after.interpreted > before.interpreted || after.busy_s == before.busy_s);
     assert_ok(machine_field_download(m, g, MACHINE_UINT(32), out), m);
     for (int turn = 0; turn < 3; turn++) {
@@ -62,7 +62,7 @@ static void results_go_on_like_any_value_and_nothing_waits(void **unused)
     assert_memory_equal(in, out, sizeof in);
 }
 
-/* The same value shifted right after: the repeated ends of rows are there. */
+/* The result of each cut is shifted at once: a shift reads the repeated columns at the ends of rows. */
 static void repeated_columns_are_written(void **unused)
 {
     (void)unused;

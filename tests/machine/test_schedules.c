@@ -1,5 +1,5 @@
-/* Schedules of strips, on graphs that no program has made: rows are made before they are looked at, and rings hold them until
- * then. No device is needed. */
+/* Schedules of strips, on hand-made graphs: each row is computed before it is read, and its ring holds it until then. Needs no
+ * device. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,9 +27,9 @@ static int stores_of(const struct plan_graph *g, int *stores)
     return count;
 }
 
-/* ---- carried out, row by row ---- */
+/* ---- schedules carried out row by row ---- */
 
-/* Which row each slot of each node's ring holds. */
+/* The row that each slot of each node's ring holds. */
 struct rings_held {
     int of[HAND_NODES_MOST][RING_MOST];
 };
@@ -57,7 +57,7 @@ static void looks(const struct strips *s, const struct rings_held *held, const s
         bool same = s->stages[from->stage].pass == s->stages[to->stage].pass;
         if (wanted == made && same)
             continue; /* in a variable */
-        /* what is overwritten now, vector by vector, is read before that */
+        /* a row that is overwritten at this time, vector by vector, is read before that */
         bool now = same && rows && slot_of(wanted, rows) == slot_of(made, rows) &&
                    wanted == made - s->downward * rows;
         if (now) {
@@ -137,9 +137,9 @@ static void rows_are_there_when_they_are_looked_at(void **state)
     free(h);
 }
 
-/* ---- one that is known by hand ---- */
+/* ---- a schedule that is known by hand ---- */
 
-/* Turns of a loop, each of which looks at the rows above and below and at itself: each is one row behind the turn before. */
+/* Each turn of a loop reads its own row and those above and below, so it runs one row behind the turn before. */
 static void a_turn_is_one_row_behind_the_turn_before(void **state)
 {
     (void)state;

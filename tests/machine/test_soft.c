@@ -1,5 +1,5 @@
-/* Floats of other formats against MPFR, over edges and random bits: the arithmetic, as C, in
- * many formats; every operation, as the device does it, in a few: one kernel for each. */
+/* Compares floats of other formats with MPFR, on edge cases and random bits: the arithmetic, compiled as C, in many formats;
+ * every operation on the device in a few formats, one kernel each. */
 #include "support.h"
 
 #include "oracle_soft.h"
@@ -18,7 +18,7 @@ enum { SIDE = 56, CASES = SIDE * SIDE, RESULTS_MAX = 40 };
 static const struct soft_format many[] = {{10, 5}, {7, 8},  {3, 4},   {1, 2},   {2, 3},
                                           {23, 8}, {24, 9}, {25, 8},  {20, 11}, {52, 8},
                                           {1, 11}, {52, 2}, {40, 10}, {51, 11}, {52, 11}};
-/* one by the double's arithmetic, rounded; one by whole numbers */
+/* the first is computed in double and rounded, the second in integers */
 static const struct soft_format few[] = {{10, 5}, {51, 11}};
 
 struct operands {
@@ -83,7 +83,7 @@ FUNCTION(less, x < y)
 FUNCTION(equal, x == y)
 FUNCTION(moved, o->a)
 FUNCTION(tenth, oracle_soft_of(o->f, 0.1))
-/* within a format a move, of NaNs too */
+/* a conversion to the same format moves the bits, those of NaNs too */
 FUNCTION(half, o->f.s == 10 ? o->a : oracle_soft_of((struct soft_format){10, 5}, x))
 FUNCTION(single, oracle_soft_of((struct soft_format){23, 8}, x))
 FUNCTION(other, oracle_soft_of((struct soft_format){30, 6}, x))
@@ -116,7 +116,7 @@ WHOLE(64)
 WHOLE(57)
 WHOLE(128)
 
-/* ---- the machine's ---- */
+/* ---- the machine's results ---- */
 
 static void record_float(struct machine *m, struct machine_value *a, struct machine_value *b,
                          struct machine_type type)

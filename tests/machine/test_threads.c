@@ -1,5 +1,5 @@
-/* test_threads.c - several threads, each with a machine of its own at the same time: each gets what one alone gets. A
- * build with -Db_sanitize=thread sees what they share. */
+/* test_threads.c - several threads use a machine each at the same time, and get the results of a thread that is alone. A
+ * build with -Db_sanitize=thread finds what they share. */
 #include "support.h"
 
 #include "build/plans.h"
@@ -12,7 +12,7 @@ enum { THREADS = 3, HEIGHT = 48, WIDTH = 80, COUNT = HEIGHT * WIDTH, TURNS = 40 
 struct result {
     uint32_t numbers[COUNT];
     uint64_t sum;
-    uint64_t foreseen; /* calls; or that kernels came from the background */
+    uint64_t foreseen; /* foreseen calls; with background: kernels from the background */
     char error[200];   /* "": none */
 };
 
@@ -56,7 +56,7 @@ static void turn_again(const struct machine_call *call)
         machine_call_failed(s->m);
 }
 
-/* A scan, a get and a sum of what the turns have come to. */
+/* Reads the result of the turns by a scan and a sum. */
 static bool look(const struct sheet *s, struct result *r)
 {
     struct machine *m = s->m;
@@ -158,7 +158,7 @@ static void they_write_one_trace(void **state)
     assert_non_null(memchr(end, ']', 3));
 }
 
-/* Each machine's better kernels are compiled in the background, by a process of its own. */
+/* Each machine has its own background process, which compiles optimised kernels. */
 static void each_has_a_background(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
-/* Tiles of local memory, forced on a CPU: elements of all sizes, on sheets that no tile fits; and what a GPU would be given.
- * Run by oclgrind.sh too, which looks for work-items that get in each other's way. */
+/* Tests tiles of local memory, forced on a CPU: elements of all sizes, on sheets whose sides are no multiples of a tile's; and
+ * the plans that a GPU would get. oclgrind.sh also runs it, to find data races between work-items. */
 #include "base/parts.h"
 #include "device/device.h"
 #include "support.h"
 
-/* ---- on sheets that no tile fits ---- */
+/* ---- sheets whose sides are no multiples of a tile's ---- */
 
 static uint64_t dear(uint64_t x)
 {
@@ -36,7 +36,7 @@ static size_t at(const struct grid *g, uint64_t n, int down, int right)
     return (size_t)(row * g->columns + column);
 }
 
-/* Stage after stage: long words, bytes and bits that only neighbours look at. */
+/* The stages one after the other: long words, bytes and bits that are read at neighbours only. */
 static uint64_t second(const struct grid *g, uint64_t n)
 {
     return dear(dear(g->first[at(g, n, 1, 0)]) + dear(g->first[at(g, n, -1, -2)]));
@@ -107,7 +107,7 @@ static void sheets_that_no_tile_fits(void **state)
     unsetenv("LUTETIA_TILE");
 }
 
-/* By its numbers a device that is no CPU takes tiles where a launch and arrays are saved, and does without where nothing is. */
+/* With a GPU's device shape the planner chooses tiles where they save a launch and arrays, and not where they save nothing. */
 static void a_gpu_takes_tiles_by_itself(void **state)
 {
     struct machine_stats stats;
@@ -139,7 +139,7 @@ static void a_gpu_takes_tiles_by_itself(void **state)
     support_machine_destroy(m);
 }
 
-/* A tile that local memory is too small for, or a group that the device does not take: the plan does without. */
+/* A tile too large for local memory, or a work-group too large for the device: the plan has no tiles. */
 static void what_cannot_be_is_done_without(void **state)
 {
     (void)state;

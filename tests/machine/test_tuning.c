@@ -1,4 +1,4 @@
-/* test_tuning.c - what `lutetia tune` keeps: the file, who is heard first, and that it reaches the kernels. */
+/* test_tuning.c - the numbers that `lutetia tune` keeps: their file, which source overrides which, and their use in kernels. */
 #include "support.h"
 
 #include <dirent.h>
@@ -37,7 +37,7 @@ static void assert_tuned(const struct machine_tuning *tuning, struct machine_tun
     machine_destroy(m);
 }
 
-/* The only file whose name begins so; removes it where path is NULL. False: there is none. */
+/* Finds the one file whose name begins with tuning-; removes it where path is NULL. False: there is none. */
 static bool kept_file(char *path, size_t size)
 {
     char where[300];
@@ -73,7 +73,7 @@ static void a_tuning_is_kept_and_read_again(void **state)
     assert_int_equal(machine_tuning_describe(m, text, sizeof text), MACHINE_TUNED);
     assert_non_null(strstr(text, path));
     assert_tuned(NULL, wanted);
-    /* A configuration is heard before the file, the environment before both. */
+    /* A configuration overrides the file, the environment overrides both. */
     struct machine_tuning none = machine_tuning_usual();
     assert_tuned(&none, usual);
     setenv("LUTETIA_COLUMNS", "64", 1);
@@ -83,7 +83,7 @@ static void a_tuning_is_kept_and_read_again(void **state)
     setenv("LUTETIA_TUNED", "0", 1);
     assert_tuned(NULL, usual);
     unsetenv("LUTETIA_TUNED");
-    /* What may not be is not kept. */
+    /* A number out of range is not kept. */
     wanted.of[MACHINE_VECTOR] = 2;
     assert_int_equal(machine_tuning_keep(m, &wanted), MACHINE_BAD_ARGUMENT);
     support_failed(m, MACHINE_BAD_ARGUMENT, "vector");
@@ -93,7 +93,7 @@ static void a_tuning_is_kept_and_read_again(void **state)
     support_failed(m, MACHINE_BAD_ARGUMENT, "launch");
     wanted = some();
     assert_tuned(NULL, wanted);
-    /* A cost that was not measured is the table's. */
+    /* A cost that was not measured is taken from the table. */
     wanted.cost_ns[MACHINE_COST_BYTE] = 0;
     assert_ok(machine_tuning_keep(m, &wanted), m);
     wanted.cost_ns[MACHINE_COST_BYTE] = usual.cost_ns[MACHINE_COST_BYTE];
@@ -101,7 +101,7 @@ static void a_tuning_is_kept_and_read_again(void **state)
     machine_destroy(m);
 }
 
-/* One line of the file is another. */
+/* Replaces one line of the file. */
 static void line_change(const char *path, const char *begins, const char *with)
 {
     char bytes[4096], out[8192] = "";
@@ -164,7 +164,7 @@ static void a_folder_that_cannot_be_is_said(void **state)
     machine_destroy(m);
 }
 
-/* The options that the plan's kernels are made with. */
+/* The tuned numbers are in the options of the plan's kernels. */
 static void knobs_reach_the_kernels(void **state)
 {
     struct machine_tuning tuning = some();
@@ -191,7 +191,7 @@ static void knobs_reach_the_kernels(void **state)
     assert_ok(machine_flush(m), m);
     machine_begin(m);
     v = machine_field_value(m, field, MACHINE_F32, MACHINE_EVERYWHERE);
-    for (int i = 0; i < 3; i++) { /* dear enough to be kept for the neighbours */
+    for (int i = 0; i < 3; i++) { /* costly enough to be stored for the neighbours */
         v = machine_unary(m, MACHINE_FSQRT, machine_unary(m, MACHINE_FSQRT, v));
         v = machine_binary(m, MACHINE_FDIV, machine_shift(m, v, 0, 1),
                            machine_shift(m, v, 0, -1));

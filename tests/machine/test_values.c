@@ -1,6 +1,6 @@
-/* test_values.c - every operation on values against plain C, over widths that end in, on and beyond words.
+/* test_values.c - every operation on values against plain C, over widths below, at and above those of machine words.
  *
- * All operations of one width are put into one evaluation: a field each, then the downloads. */
+ * All operations of one width are one evaluation: each stores into a field, then all fields are downloaded. */
 #include "support.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ static wide word_a(struct machine_type type, uint64_t n)
 
 static wide word_b(struct machine_type type, uint64_t n)
 {
-    /* often equal to a, so that comparisons have something to find */
+    /* often equal to a, so that comparisons also find equal numbers */
     return n % 5 == 0 ? word_a(type, n) : support_word(type, 2, n);
 }
 
