@@ -55,7 +55,7 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
                 down_slope = (float)(-pace * hollows), down_base = (float)pace,
                 to_unit = (float)(1 / UNIT);
     const bool up_cut = lift * (1 - hollows) > 1 || lift * hollows + lift * (1 - hollows) > 1,
-               down_cut = pace > 1 || -pace * hollows + pace > 1;
+               down_cut = pace > 1 || -pace * hollows + pace > 1, third = o->config.model > 2;
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         float s = surface[x], i = infused[x], f = fixed[x];
@@ -63,9 +63,11 @@ static void pigment_own(const struct paper_openmp *o, int y, int pigment)
         s -= moved;
         i += moved;
         float slow = least(water[x] * to_unit, 1.0f), thin = least(slow * 4.0f, 1.0f);
-        thin *= greatest(wet[x] * 4.0f + -3.0f, 0.0f);
+        float covered = greatest(wet[x] * 4.0f + -3.0f, 0.0f);
+        thin *= covered;
         slow = slow * -0.75f + 1.0f;
         float dry = 1.0f - least(water[x], 1.0f);
+        slow *= third ? greatest(covered, dry) : 1.0f;
         float up = (height[x] * up_slope + up_base) * thin;
         up = up_cut ? least(up, 1.0f) : up;
         float lifted = whole_of(up * i, i);
@@ -112,7 +114,7 @@ static void drying_own(const struct paper_openmp *o, int y)
 static double edge_length(const struct paper_openmp *o)
 {
     const double width = o->config.air.edge_width;
-    return o->config.model > 2 ? fmax(1, 1.25 * width - 3) : 0.75 * width;
+    return o->config.model > 2 ? fmax(1, 1.3 * width - 2.5) : 0.75 * width;
 }
 
 static void around_own(const struct paper_openmp *o, int y)
@@ -157,13 +159,17 @@ static void edge_own(const struct paper_openmp *o, int y)
                 least_depth = (float)(4 / UNIT), pinning = (float)(4.375 * air->pinning),
                 film = (float)(1 / air->film), relief = (float)air->relief,
                 helped = (float)(1 + 1.2 / 4);
+    const bool third = o->config.model > 2;
 #pragma omp simd
     for (int x = 0; x < width; x++) {
         float h = surface[x] * to_unit, full = water[x] / (capacity[x] * unit);
         float corners = (down[x - 1] + up[x + 1]) + (down[x + 1] + up[x - 1]);
         float near = ((wet[x - 1] + wet[x + 1]) + (down[x] + up[x])) * 2.0f + corners;
         near += wet[x] * 4.0f;
-        float advance = sizing[x] * pinning * greatest(near * help + helped, 0.1f);
+        float help_here = greatest(near * help + helped, 0.1f);
+        if (third)
+            help_here = least(help_here, greatest(near * -0.5f + 6.0f, 0.0f));
+        float advance = sizing[x] * pinning * help_here;
         float damp = least(full, 1.0f);
         advance *= damp * damp * -0.85f + 1.0f;
         advance = greatest(advance, 1e-3f);

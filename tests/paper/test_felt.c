@@ -30,7 +30,7 @@ static struct paper_sheet_config config_of(const char *stock, int side, uint64_t
 {
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = side;
-    config.model = 2;
+    config.model = PAPER_MODEL_VERSION;
     config.seed = seed;
     config.stock = *paper_stock_find(stock);
     config.pigments_count = 1;
@@ -284,8 +284,8 @@ static void washes_are_cloudy_as_real_ones(void **state)
 {
     (void)state;
     static float density[FIBERS];
-    static const char *const names[] = {"cold press", "hot press", "rough", "laid"};
-    for (int i = 0; i < 4; i++) {
+    static const char *const names[] = {"cold press", "hot press", "rough", "laid", "glass"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         bool laid = strcmp(names[i], "laid") == 0;
         wash_brush(names[i], density);
         struct figures f = figures_of(density);

@@ -302,12 +302,19 @@ static bool parts_make(const struct making *m, struct felt *felt, float *clouds,
     const struct paper_stock *stock = &m->config->stock;
     size_t count = count_of(m);
     double scale = m->scale, grain = fmax(1, stock->grain_px);
-    if (of->length == 0)
-        return true; /* nothing in it */
+    if (of->length == 0 && m->config->model < 3)
+        return true;       /* nothing in it */
+    if (of->length == 0) { /* smears and dust */
+        bool smeared = cloud_make(m, felt->relief, 1 * scale, 16 * scale, 0.8, SEED_TOOTH);
+        level_out(felt->relief, count, 1);
+        felt->smeared = true;
+        return smeared;
+    }
     bool made = cloud_make(m, clouds, 8 * scale, 256 * scale, 0.75, SEED_CLOUDS);
     if (made)
         fibers_make(m, felt->mass, clouds);
     level_out(felt->mass, count, 1);
+    memcpy(felt->fibers, felt->mass, count * sizeof *felt->mass);
     marks_add(m, felt->relief, 1.2 * grain, 1, SEED_TOOTH);
     marks_add(m, felt->relief, fmax(1, 0.6 * grain), 0.5, SEED_TOOTH + 100);
     level_out(felt->relief, count, 1);
@@ -353,11 +360,13 @@ enum paper_status felt_make(const struct paper_sheet_config *config, struct felt
         m.lean[axis] = (double)length[axis] / longer;
     m.scale = felt_scale(config);
     size_t count = count_of(&m);
-    *out = (struct felt){calloc(count, sizeof(float)), calloc(count, sizeof(float)),
-                         calloc(count, sizeof(float))};
+    *out = (struct felt){.relief = calloc(count, sizeof(float)),
+                         .mass = calloc(count, sizeof(float)),
+                         .fibers = calloc(count, sizeof(float)),
+                         .sizing = calloc(count, sizeof(float))};
     float *clouds = calloc(count, sizeof *clouds),
           *spare = m.recipe->laid > 0 ? calloc(count, sizeof *spare) : NULL;
-    bool made = out->relief && out->mass && out->sizing && clouds &&
+    bool made = out->relief && out->mass && out->fibers && out->sizing && clouds &&
                 (spare || !(m.recipe->laid > 0)) && parts_make(&m, out, clouds, spare);
     free(clouds);
     free(spare);
@@ -372,6 +381,7 @@ void felt_free(struct felt *felt)
 {
     free(felt->relief);
     free(felt->mass);
+    free(felt->fibers);
     free(felt->sizing);
     *felt = (struct felt){0};
 }

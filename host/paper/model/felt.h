@@ -8,7 +8,9 @@
 struct felt {
     float *relief; /* up: the tooth, fibers and clouds that stand out */
     float *mass;   /* how much fiber lies there */
+    float *fibers; /* the same without clouds */
     float *sizing; /* how much of the size has gone in there */
+    bool smeared;  /* no fibers; the relief is of smears and dust (version 3) */
 };
 
 /* From the stock and the seed, by sums, products, quotients and square roots alone: the same bits everywhere.

@@ -20,6 +20,9 @@
 #define NEIGHBOURS_HELP                                                                        \
     1.2 /* the most by which wet neighbours lower it; along a straight edge a quarter of the neighbours are wet */
 #define NEIGHBOURS_LEAST 0.1
+/* Version 3: sixteenths of how wet a fiber and its neighbours are at which water closes over it; all eight neighbours are 12. */
+#define HOLE_FROM 12.0
+#define HOLE_STEEPNESS 0.5
 #define DAMP_HELP 0.85
 #define EMPTY_PART 0.015625 /* of a fiber, that counts as full up to `advance` */
 #define DEEP_FROM 8.0 /* a wet part of less than 1 / this of a fiber does not move as a film */
@@ -39,8 +42,8 @@
 #define DRIED_LEAST 4.0    /* grains */
 #define AROUND_LEAST 0.01  /* of what it relaxes by */
 #define EDGE_SHARE 0.75    /* of edge_width, over which the nearness of an edge falls to 1/e */
-#define EDGE_SLOPE 1.25
-#define EDGE_BLUR 3.0 /* fibers by which mixing widens a band */
+#define EDGE_SLOPE 1.3
+#define EDGE_BLUR 2.5 /* fibers by which mixing widens a band */
 #define EDGE_LEAST 1.0
 #define ROOM_FROM 13.0 /* units that may be taken in before a fiber is full */
 
@@ -126,19 +129,23 @@ static void pigment_settle(struct paper_sheet *p, int i, CM_field_id_t thin, CM_
 /* Pigments settle, in hollows more than on hills, slower from deep water; what falls dry stays. Uses t[8..15]. */
 static void settle_under(struct paper_sheet *p)
 {
-    CM_field_id_t thin = p->t[8], slow = p->t[9], dry = p->t[10];
+    CM_field_id_t thin = p->t[8], slow = p->t[9], wet = p->t[10], dry = p->t[14];
     kit_f_times(slow, p->surface_water, 1 / p->unit);
     kit_f_most(slow, slow, 1.0);
     kit_f_times(thin, slow, 1 / LIFTED_FROM);
     kit_f_most(thin, thin, 1.0);
-    kit_f_times(dry, p->wet_part, LIFTED_WET); /* none where only a part is wet */
-    kit_f_plus(dry, dry, 1 - LIFTED_WET);
-    kit_f_least(dry, dry, 0.0);
-    kit_f_mul(thin, thin, dry);
+    kit_f_times(wet, p->wet_part, LIFTED_WET); /* none where only a part is wet */
+    kit_f_plus(wet, wet, 1 - LIFTED_WET);
+    kit_f_least(wet, wet, 0.0);
+    kit_f_mul(thin, thin, wet);
     kit_f_times(slow, slow, -HELD_UP);
     kit_f_plus(slow, slow, 1.0);
     kit_f_most(dry, p->surface_water, 1.0);
     kit_f_from(dry, 1.0, dry);
+    if (sheet_of_version_3(p)) { /* what is not lifted must not settle, or it gathers there */
+        kit_f_max(wet, wet, dry);
+        kit_f_mul(slow, slow, wet);
+    }
     for (int i = 0; i < p->config.pigments_count; i++)
         pigment_settle(p, i, thin, slow, dry);
 }
@@ -278,9 +285,15 @@ static void edge_move(struct paper_sheet *p, const struct sheet_terms *terms)
 {
     CM_field_id_t advance = p->t[7], help = p->t[8], part = p->t[9];
     neighbourhood_make(p, help);
+    kit_f_times(part, help, -HOLE_STEEPNESS);
     kit_f_times(help, help, -NEIGHBOURS_HELP / 16);
     kit_f_plus(help, help, 1 + NEIGHBOURS_HELP / 4);
     kit_f_least(help, help, NEIGHBOURS_LEAST);
+    if (sheet_of_version_3(p)) {
+        kit_f_plus(part, part, HOLE_FROM * HOLE_STEEPNESS);
+        kit_f_least(part, part, 0.0);
+        kit_f_min(help, help, part);
+    }
     kit_f_times(advance, p->sizing, ADVANCE * p->air.pinning);
     kit_f_mul(advance, advance, help);
     kit_f_most(help, terms->saturated, 1.0);

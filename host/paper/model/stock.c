@@ -14,6 +14,7 @@
 #include <string.h>
 
 enum { RANDOM_BITS = 16 };
+#define SMEARS 0.09     /* of version 3: the roughness of what is smooth */
 #define FACE_LEAST 1e-6 /* an open face's; see OPEN_SCALE */
 
 /* Deviation 1, mean 0, another at each call. */
@@ -191,7 +192,8 @@ static void felt_write(struct paper_sheet *p, CM_field_id_t d, float *values,
 }
 
 /* From model 2 on all comes from the same fibers. Where more of them lie, the sheet stands up, holds more and drinks faster; where more
- * size went in, slower. */
+ * size went in, slower. In version 3 it is the fibers that drink, more than their clouds: ink on unsized paper runs out in fingers
+ * everywhere, and not only where the sheet as a whole drinks little. */
 static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
 {
     const struct paper_stock *stock = &p->config.stock;
@@ -200,11 +202,14 @@ static enum paper_status felted_make(struct paper_sheet *p, CM_field_id_t shade)
     if (status != PAPER_OK)
         return status;
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
-    for (size_t i = 0; i < count; i++) /* how fast it drinks */
-        felt.sizing[i] = 0.7f * felt.mass[i] - 0.7f * felt.sizing[i];
+    /* how fast it drinks; of fibers, clouds and size */
+    const bool third = sheet_of_version_3(p);
+    const float of[3] = {third ? 1.1f : 0, third ? 0.1f : 0.7f, third ? 0.2f : 0.7f};
+    for (size_t i = 0; i < count; i++)
+        felt.sizing[i] = of[0] * felt.fibers[i] + of[1] * felt.mass[i] - of[2] * felt.sizing[i];
     double mean = (stock->capacity[0] + stock->capacity[1]) / 2,
            span = (stock->capacity[1] - stock->capacity[0]) / 2;
-    const double height[2] = {0.5, stock->roughness},
+    const double height[2] = {0.5, fmax(stock->roughness, felt.smeared ? SMEARS : 0)},
                  drinks[2] = {stock->absorbency,
                               stock->absorbency * stock->absorbency_variation},
                  holds[2] = {mean, 0.4 * span}, looks[2] = {0, -0.04 * stock->color_variation};
