@@ -1,7 +1,7 @@
 /* colour.c - see colour.h. */
-#include "colour.h"
-#include "internal.h"
+#include "colour_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,46 +9,37 @@
 #include FT_FREETYPE_H
 #include FT_COLOR_H
 
-enum { SIDE_MAX = 4096, TEXTS_INK = 0xffff };
+enum { SIDE_MAX = 4096 };
 
-enum font_colour font_colour_of(struct font_face *face, uint32_t glyph)
+hb_blob_t *font_colour_table(struct font_face *face, const char tag[5])
 {
-    FT_Face ft = font_face_freetype(face);
-    FT_LayerIterator at = {.p = NULL};
-    FT_UInt layer, colour;
-    if (!FT_HAS_COLOR(ft))
-        return FONT_COLOUR_NONE;
-    if (!FT_IS_SCALABLE(ft))
-        return FONT_COLOUR_PICTURE;
-    return FT_Get_Color_Glyph_Layer(ft, glyph, &layer, &colour, &at) ? FONT_COLOUR_LAYERS
-                                                                     : FONT_COLOUR_NONE;
+    size_t count;
+    const char *bytes = font_face_bytes(face, &count);
+    hb_blob_t *whole =
+        hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
+    hb_face_t *hb =
+        hb_face_create(whole, (unsigned)(font_face_freetype(face)->face_index & 0xffff));
+    hb_blob_t *table = hb_face_reference_table(hb, HB_TAG(tag[0], tag[1], tag[2], tag[3]));
+    hb_face_destroy(hb);
+    hb_blob_destroy(whole);
+    return table;
 }
 
-int font_colour_layers(struct font_face *face, uint32_t glyph,
-                       struct font_colour_layer out[FONT_COLOUR_LAYERS_MAX])
+struct font_colr font_colour_colr(hb_blob_t *table)
 {
-    FT_Face ft = font_face_freetype(face);
-    FT_LayerIterator at = {.p = NULL};
-    FT_Palette_Data palettes = {0};
-    FT_Color *palette = NULL;
-    FT_UInt layer, colour;
-    int count = 0;
-    if (FT_Palette_Data_Get(ft, &palettes) || FT_Palette_Select(ft, 0, &palette))
-        palette = NULL;
-    while (count < FONT_COLOUR_LAYERS_MAX &&
-           FT_Get_Color_Glyph_Layer(ft, glyph, &layer, &colour, &at)) {
-        struct font_colour_layer *l = &out[count++];
-        *l = (struct font_colour_layer){.glyph = layer};
-        if (colour == TEXTS_INK || !palette || colour >= palettes.num_palette_entries)
-            continue;
-        FT_Color c = palette[colour];
-        l->own = true;
-        l->rgba[0] = c.red / 255.0;
-        l->rgba[1] = c.green / 255.0;
-        l->rgba[2] = c.blue / 255.0;
-        l->rgba[3] = c.alpha / 255.0;
-    }
-    return count;
+    unsigned count;
+    const char *bytes = hb_blob_get_data(table, &count);
+    return (struct font_colr){.bytes = (const uint8_t *)bytes, .count = count};
+}
+
+static bool has_layers(struct font_face *face, uint32_t glyph)
+{
+    uint32_t layer, colour;
+    hb_blob_t *table = font_colour_table(face, "COLR");
+    struct font_colr colr = font_colour_colr(table);
+    bool has = font_colr_plain_layer(&colr, glyph, 0, &layer, &colour);
+    hb_blob_destroy(table);
+    return has;
 }
 
 static int largest_strike(FT_Face ft)
@@ -60,8 +51,95 @@ static int largest_strike(FT_Face ft)
     return best;
 }
 
-enum font_status font_colour_picture_get(struct font_face *face, uint32_t glyph,
-                                         struct font_colour_picture *out)
+/* Whether a font that has outlines, too, has a picture of the glyph. */
+static bool has_strike(FT_Face ft, uint32_t glyph)
+{
+    return ft->num_fixed_sizes > 0 && FT_Select_Size(ft, largest_strike(ft)) == 0 &&
+           FT_Load_Glyph(ft, glyph, FT_LOAD_COLOR | FT_LOAD_BITMAP_METRICS_ONLY) == 0 &&
+           ft->glyph->format == FT_GLYPH_FORMAT_BITMAP &&
+           ft->glyph->bitmap.pixel_mode == FT_PIXEL_MODE_BGRA;
+}
+
+enum font_colour font_colour_of(struct font_face *face, uint32_t glyph)
+{
+    FT_Face ft = font_face_freetype(face);
+    if (FT_HAS_COLOR(ft)) {
+        if (!FT_IS_SCALABLE(ft))
+            return FONT_COLOUR_PICTURE;
+        if (font_colour_has_paints(face, glyph))
+            return FONT_COLOUR_PAINTS;
+        if (has_layers(face, glyph))
+            return FONT_COLOUR_LAYERS;
+        if (has_strike(ft, glyph))
+            return FONT_COLOUR_PICTURE;
+    }
+    return FT_HAS_SVG(ft) && font_colour_has_svg(face, glyph) && font_colour_svg_drawn()
+               ? FONT_COLOUR_SVG
+               : FONT_COLOUR_NONE;
+}
+
+bool font_colour_lost(struct font_face *face, uint32_t glyph, bool coloured)
+{
+    FT_Face ft = font_face_freetype(face);
+    if (!(FT_HAS_COLOR(ft) || FT_HAS_SVG(ft)) ||
+        (coloured && font_colour_of(face, glyph) != FONT_COLOUR_NONE))
+        return false;
+    struct font_outline o;
+    bool empty = font_face_outline_raw(face, glyph, &o) != FONT_OK || o.segments_count == 0;
+    font_outline_finish(&o);
+    return empty && (font_colour_of(face, glyph) != FONT_COLOUR_NONE ||
+                     font_colour_has_svg(face, glyph));
+}
+
+bool font_colour_pixels_set(const struct font_box *box, int em_px,
+                            struct font_colour_picture *out)
+{
+    enum { PIXELS_MAX = 2048 * 2048 };
+    *out = (struct font_colour_picture){.em_px = em_px};
+    if (!(box->x1 > box->x0 && box->y1 > box->y0))
+        return true;
+    double x0 = floor(box->x0), y0 = floor(box->y0), x1 = ceil(box->x1), y1 = ceil(box->y1);
+    if (!(x1 - x0 <= SIDE_MAX && y1 - y0 <= SIDE_MAX && (x1 - x0) * (y1 - y0) <= PIXELS_MAX &&
+          fabs(x0) < 1e6 && fabs(y0) < 1e6))
+        return false;
+    out->left_px = (int)x0;
+    out->top_px = -(int)y0;
+    out->width_px = (int)(x1 - x0);
+    out->height_px = (int)(y1 - y0);
+    return true;
+}
+
+int font_colour_layers(struct font_face *face, uint32_t glyph,
+                       struct font_colour_layer out[FONT_COLOUR_LAYERS_MAX])
+{
+    FT_Face ft = font_face_freetype(face);
+    FT_Palette_Data palettes = {0};
+    FT_Color *palette = NULL;
+    hb_blob_t *table = font_colour_table(face, "COLR");
+    struct font_colr colr = font_colour_colr(table);
+    uint32_t layer, colour;
+    int count = 0;
+    if (FT_Palette_Data_Get(ft, &palettes) || FT_Palette_Select(ft, 0, &palette))
+        palette = NULL;
+    while (count < FONT_COLOUR_LAYERS_MAX &&
+           font_colr_plain_layer(&colr, glyph, (uint32_t)count, &layer, &colour)) {
+        struct font_colour_layer *l = &out[count++];
+        *l = (struct font_colour_layer){.glyph = layer};
+        if (colour == FONT_COLR_INK || !palette || colour >= palettes.num_palette_entries)
+            continue;
+        FT_Color c = palette[colour];
+        l->own = true;
+        l->rgba[0] = c.red / 255.0;
+        l->rgba[1] = c.green / 255.0;
+        l->rgba[2] = c.blue / 255.0;
+        l->rgba[3] = c.alpha / 255.0;
+    }
+    hb_blob_destroy(table);
+    return count;
+}
+
+static enum font_status strike_get(struct font_face *face, uint32_t glyph,
+                                   struct font_colour_picture *out)
 {
     FT_Face ft = font_face_freetype(face);
     *out = (struct font_colour_picture){0};
@@ -88,4 +166,23 @@ enum font_status font_colour_picture_get(struct font_face *face, uint32_t glyph,
     out->top_px = ft->glyph->bitmap_top;
     out->em_px = ft->size->metrics.y_ppem;
     return FONT_OK;
+}
+
+enum font_status font_colour_picture_draw(struct font_face *face, uint32_t glyph, int em_px,
+                                          const double ink[3], const struct font_filter *area,
+                                          struct font_colour_picture *out)
+{
+    switch (font_colour_of(face, glyph)) {
+    case FONT_COLOUR_PAINTS:
+        return font_colour_paints(face, glyph, em_px, ink, area, out);
+    case FONT_COLOUR_SVG:
+        return font_colour_svg(face, glyph, em_px, ink, out);
+    case FONT_COLOUR_PICTURE:
+        return strike_get(face, glyph, out);
+    case FONT_COLOUR_NONE:
+    case FONT_COLOUR_LAYERS:
+        break;
+    }
+    *out = (struct font_colour_picture){0};
+    return font_fail(FONT_NO_GLYPH, "glyph %u has no picture", (unsigned)glyph);
 }

@@ -1,12 +1,23 @@
-/* colour.h - glyphs that have colours of their own: layers of outlines (COLR 0) and pictures (CBDT, sbix), as FreeType reads
- * them. What has neither is drawn as its outline. */
+/* colour.h - glyphs that have colours of their own: layers of outlines (COLR 0), graphs of paints (COLR 1) and pictures (CBDT, sbix), as
+ * FreeType reads them, and SVG, as librsvg draws it. What has none is drawn as its outline. */
 #ifndef LUTETIA_FONT_COLOUR_H
 #define LUTETIA_FONT_COLOUR_H
 
 #include "face.h"
 
-enum font_colour { FONT_COLOUR_NONE, FONT_COLOUR_LAYERS, FONT_COLOUR_PICTURE };
+struct font_filter;
+
+enum font_colour {
+    FONT_COLOUR_NONE,
+    FONT_COLOUR_LAYERS,
+    FONT_COLOUR_PICTURE,
+    FONT_COLOUR_PAINTS,
+    FONT_COLOUR_SVG /* only where there is librsvg */
+};
 enum font_colour font_colour_of(struct font_face *face, uint32_t glyph);
+/* Whether nothing is seen of a glyph that the font has in colours alone: because they are not drawn (not `coloured`), or
+ * there is no library for them. */
+bool font_colour_lost(struct font_face *face, uint32_t glyph, bool coloured);
 
 /* One above the other, the first below all. */
 struct font_colour_layer {
@@ -19,14 +30,17 @@ enum { FONT_COLOUR_LAYERS_MAX = 64 };
 int font_colour_layers(struct font_face *face, uint32_t glyph,
                        struct font_colour_layer out[FONT_COLOUR_LAYERS_MAX]);
 
-/* A glyph's largest picture: its upper left is at (left_px, -top_px) from the glyph's origin where an em is em_px. */
+/* A glyph's picture: its upper left is at (left_px, -top_px) from the glyph's origin where an em is em_px. */
 struct font_colour_picture {
-    uint8_t
-        *bgra; /* sRGB numbers times what they cover; four bytes a pixel, rows without gaps */
+    uint8_t *
+        bgra; /* sRGB numbers times what they cover; four bytes a pixel, rows without gaps; NULL: nothing */
     int width_px, height_px, left_px, top_px, em_px;
 };
-/* Owns: the caller frees out->bgra. Errors: NO_GLYPH, BAD_FILE, NO_MEMORY; *out is then empty. */
-enum font_status font_colour_picture_get(struct font_face *face, uint32_t glyph,
-                                         struct font_colour_picture *out);
+/* The font's largest picture, or what is drawn where an em is em_px or less (a drawing has a few million pixels at most). ink: sRGB
+ * numbers, of what has the text's ink. area: the box. Owns: the caller frees out->bgra. Errors: NO_GLYPH, BAD_FILE, NO_MEMORY;
+ * *out is then empty. */
+enum font_status font_colour_picture_draw(struct font_face *face, uint32_t glyph, int em_px,
+                                          const double ink[3], const struct font_filter *area,
+                                          struct font_colour_picture *out);
 
 #endif

@@ -121,8 +121,8 @@ static enum font_status face_begin(char *path, unsigned char *bytes, size_t coun
     return status;
 }
 
-enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
-                                       struct font_face **out)
+static enum font_status memory_open(const void *bytes, size_t count, int index, bool pictures,
+                                    struct font_face **out)
 {
     *out = NULL;
     if (!bytes || count == 0 || count > FILE_BYTES_MAX)
@@ -130,7 +130,19 @@ enum font_status font_face_open_memory(const void *bytes, size_t count, int inde
     unsigned char *copy = malloc(count);
     if (copy)
         memcpy(copy, bytes, count);
-    return face_begin(strdup("font in memory"), copy, count, index, false, out);
+    return face_begin(strdup("font in memory"), copy, count, index, pictures, out);
+}
+
+enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
+                                       struct font_face **out)
+{
+    return memory_open(bytes, count, index, false, out);
+}
+
+enum font_status font_face_open_memory_coloured(const void *bytes, size_t count, int index,
+                                                struct font_face **out)
+{
+    return memory_open(bytes, count, index, true, out);
 }
 
 /* ---- opening ---- */

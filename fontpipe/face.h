@@ -34,6 +34,8 @@ const char *font_face_first(const char *const *names);
 /* The same from memory, which is copied. */
 enum font_status font_face_open_memory(const void *bytes, size_t count, int index,
                                        struct font_face **out);
+enum font_status font_face_open_memory_coloured(const void *bytes, size_t count, int index,
+                                                struct font_face **out);
 void font_face_close(struct font_face *face); /* NULL is fine */
 
 struct font_face_info {

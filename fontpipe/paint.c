@@ -104,6 +104,7 @@ void font_painter_destroy(struct font_painter *p)
     for (int i = 0; i < 3; i++)
         font_gray_finish(&p->scratch[i]);
     font_filter_destroy(p->filter);
+    font_filter_destroy(p->area);
     free(p);
 }
 
@@ -117,7 +118,7 @@ void font_painter_stats_get(const struct font_painter *p, struct font_painter_st
     *out = p->stats;
 }
 
-static struct entry *entry_find(struct font_painter *p, const struct key *key)
+struct entry *font_painter_entry_find(struct font_painter *p, const struct key *key)
 {
     for (struct entry *e = p->buckets[bucket_of(key)]; e; e = e->next)
         if (memcmp(&e->key, key, sizeof *key) == 0) {
@@ -129,7 +130,7 @@ static struct entry *entry_find(struct font_painter *p, const struct key *key)
 }
 
 /* A new entry, of no bytes yet. */
-static struct entry *entry_make(struct font_painter *p, const struct key *key)
+struct entry *font_painter_entry_make(struct font_painter *p, const struct key *key)
 {
     struct entry *e = calloc(1, sizeof *e);
     if (!e)
@@ -144,7 +145,7 @@ static struct entry *entry_make(struct font_painter *p, const struct key *key)
 }
 
 /* Counts the entry's bytes and drops others while there are too many; the newest always stays. */
-static void entry_weigh(struct font_painter *p, struct entry *e, size_t bytes)
+void font_painter_entry_weigh(struct font_painter *p, struct entry *e, size_t bytes)
 {
     p->stats.kept_bytes += bytes - e->bytes;
     e->bytes = bytes;
@@ -237,13 +238,13 @@ static enum font_status edges_get(struct font_painter *p, struct font_face *face
     key->kind = (int32_t)map->kind;
     memcpy(key->map, map->m, sizeof key->map);
     key->place_x = key->place_y = -1;
-    struct entry *e = entry_find(p, key);
+    struct entry *e = font_painter_entry_find(p, key);
     if (e) {
         p->stats.edges_hits++;
         *out = &e->edges;
         return FONT_OK;
     }
-    e = entry_make(p, key);
+    e = font_painter_entry_make(p, key);
     if (!e)
         return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
     enum font_status status = edges_make(p, face, glyph, map, size_px, &e->edges);
@@ -251,8 +252,8 @@ static enum font_status edges_get(struct font_painter *p, struct font_face *face
         entry_free(p, e);
         return status;
     }
-    entry_weigh(p, e,
-                sizeof *e + 12 * (size_t)(e->edges.nodes_capacity + e->edges.lines_capacity));
+    font_painter_entry_weigh(
+        p, e, sizeof *e + 12 * (size_t)(e->edges.nodes_capacity + e->edges.lines_capacity));
     *out = &e->edges;
     return FONT_OK;
 }
@@ -289,7 +290,7 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
     }
     key.place_x = (int32_t)floor(fx * p->def.places + 0.5);
     key.place_y = (int32_t)floor(fy * p->def.places + 0.5);
-    struct entry *e = entry_find(p, &key);
+    struct entry *e = font_painter_entry_find(p, &key);
     if (e) {
         p->stats.kept_hits++;
         *out = &e->gray;
@@ -301,7 +302,7 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
         font_gray_draw(&gray, edges, p->filter, (double)key.place_x / p->def.places,
                        (double)key.place_y / p->def.places);
     p->stats.drawn++;
-    e = status == FONT_OK ? entry_make(p, &key) : NULL;
+    e = status == FONT_OK ? font_painter_entry_make(p, &key) : NULL;
     if (!e) {
         font_gray_finish(&gray);
         return status != FONT_OK ? status : font_fail(FONT_NO_MEMORY, "no memory for a glyph");
@@ -310,7 +311,7 @@ static enum font_status gray_get(struct font_painter *p, const struct font_edges
     gray.work = NULL;
     gray.work_bytes = 0;
     e->gray = gray;
-    entry_weigh(p, e, sizeof *e + gray.memory_bytes);
+    font_painter_entry_weigh(p, e, sizeof *e + gray.memory_bytes);
     *out = &e->gray;
     return FONT_OK;
 }
@@ -333,7 +334,7 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
                                    int *whole_x, int *whole_y)
 {
     const struct font_placed *g = &layout->glyphs[i];
-    struct font_edges *edges;
+    struct font_edges *edges = NULL;
     struct key key;
     enum font_status status =
         edges_get(p, g->face, g->glyph, whole, font_placed_size(layout, g), &key, &edges);
@@ -341,61 +342,12 @@ static enum font_status glyph_draw(struct font_painter *p, const struct font_lay
                              : status;
 }
 
-/* A glyph's own picture, kept or read. */
-static enum font_status picture_get(struct font_painter *p, const struct font_placed *g,
-                                    const struct font_colour_picture **out)
-{
-    struct key key;
-    memset(&key, 0, sizeof key);
-    key.version = font_face_version(g->face);
-    key.glyph = g->glyph;
-    key.place_x = key.place_y = -2;
-    struct entry *e = entry_find(p, &key);
-    if (!e) {
-        struct font_colour_picture picture;
-        enum font_status status = font_colour_picture_get(g->face, g->glyph, &picture);
-        if (status != FONT_OK)
-            return status;
-        e = entry_make(p, &key);
-        if (!e) {
-            free(picture.bgra);
-            return font_fail(FONT_NO_MEMORY, "no memory for a glyph");
-        }
-        e->picture = picture;
-        entry_weigh(p, e, sizeof *e + 4 * (size_t)picture.width_px * (size_t)picture.height_px);
-    }
-    *out = &e->picture;
-    return FONT_OK;
-}
-
-/* A glyph's picture where it goes; with `box` (may be NULL) only the box around it, untouched if there is none. */
-static enum font_status picture_draw(struct font_painter *p, const struct font_layout *layout,
-                                     int i, const struct font_map *map, double x_px,
-                                     double y_px, const struct font_ink *ink,
-                                     struct font_picture *to, struct font_box *box)
-{
-    const struct font_placed *g = &layout->glyphs[i];
-    const struct font_colour_picture *from = NULL;
-    struct font_map pixels;
-    double x, y, size_px = font_placed_size(layout, g);
-    enum font_status status = picture_get(p, g, &from);
-    if (status == FONT_OK && from->bgra)
-        status = font_placed_map(layout, i, map, x_px, y_px, &pixels, &x, &y);
-    if (status != FONT_OK || !from->bgra)
-        return status;
-    if (box)
-        font_blend_picture_box(from, &pixels, size_px, x, y, box);
-    else
-        font_blend_picture(p, from, &pixels, size_px, x, y,
-                           ink->kind == FONT_INK_PLAIN ? ink->rgba[3] : 1, to);
-    return FONT_OK;
-}
-
 /* Glyph i as its outline, in an ink. */
-static enum font_status outline_draw(struct font_painter *p, const struct font_layout *layout,
-                                     int i, const struct font_map *map, double x_px,
-                                     double y_px, const struct font_ink *ink,
-                                     struct font_picture *picture)
+enum font_status font_painter_outline_draw(struct font_painter *p,
+                                           const struct font_layout *layout, int i,
+                                           const struct font_map *map, double x_px, double y_px,
+                                           const struct font_ink *ink,
+                                           struct font_picture *picture)
 {
     struct font_map whole;
     double x, y;
@@ -410,66 +362,6 @@ static enum font_status outline_draw(struct font_painter *p, const struct font_l
         if (status == FONT_OK)
             font_blend(p, gray, whole_x, whole_y, p->def.stripes ? c : -1, ink, x_px, y_px,
                        picture);
-    }
-    return status;
-}
-
-/* A glyph's coloured layers, and a layout in which each in turn takes its place. */
-struct layers {
-    struct font_colour_layer of[FONT_COLOUR_LAYERS_MAX];
-    int count;
-    struct font_placed glyph;
-    struct font_layout layout;
-};
-
-static void layers_take(struct layers *l, const struct font_layout *layout, int i)
-{
-    l->glyph = layout->glyphs[i];
-    l->count = font_colour_layers(l->glyph.face, l->glyph.glyph, l->of);
-    l->layout = *layout;
-    l->layout.glyphs = &l->glyph;
-    l->layout.glyphs_count = 1;
-}
-
-/* Its layers, the first below all, each a glyph in a colour of its own or in the ink. */
-static enum font_status layers_draw(struct font_painter *p, const struct font_layout *layout,
-                                    int i, const struct font_map *map, double x_px, double y_px,
-                                    const struct font_ink *ink, struct font_picture *picture)
-{
-    struct layers l;
-    enum font_status status = FONT_OK;
-    layers_take(&l, layout, i);
-    for (int k = 0; k < l.count && status == FONT_OK; k++) {
-        const double *c = l.of[k].rgba;
-        double left = ink->kind == FONT_INK_PLAIN ? ink->rgba[3] : 1;
-        struct font_ink own = font_ink_plain(c[0], c[1], c[2], c[3] * left);
-        l.glyph.glyph = l.of[k].glyph;
-        status =
-            outline_draw(p, &l.layout, 0, map, x_px, y_px, l.of[k].own ? &own : ink, picture);
-    }
-    return status;
-}
-
-enum font_status font_painter_layout(struct font_painter *p, const struct font_layout *layout,
-                                     const struct font_map *map, double x_px, double y_px,
-                                     struct font_picture *picture)
-{
-    struct font_ink own = font_ink_plain(p->def.ink[0], p->def.ink[1], p->def.ink[2], 1);
-    enum font_status status = FONT_OK;
-    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
-        const struct font_placed *g = &layout->glyphs[i];
-        const struct font_ink *ink = g->ink > 0 ? &layout->inks[g->ink - 1] : &own;
-        switch (font_colour_of(g->face, g->glyph)) {
-        case FONT_COLOUR_PICTURE:
-            status = picture_draw(p, layout, i, map, x_px, y_px, ink, picture, NULL);
-            break;
-        case FONT_COLOUR_LAYERS:
-            status = layers_draw(p, layout, i, map, x_px, y_px, ink, picture);
-            break;
-        case FONT_COLOUR_NONE:
-            status = outline_draw(p, layout, i, map, x_px, y_px, ink, picture);
-            break;
-        }
     }
     return status;
 }
@@ -521,20 +413,11 @@ enum font_status font_painter_glyph(struct font_painter *p, struct font_face *fa
     return status;
 }
 
-static void box_add(struct font_box *box, const struct font_box *more)
-{
-    bool first = box->x1 < box->x0;
-    box->x0 = first ? more->x0 : fmin(box->x0, more->x0);
-    box->y0 = first ? more->y0 : fmin(box->y0, more->y0);
-    box->x1 = first ? more->x1 : fmax(box->x1, more->x1);
-    box->y1 = first ? more->y1 : fmax(box->y1, more->y1);
-}
-
 /* The box around glyph i's outline; untouched if it has no ink. */
-static enum font_status outline_measure(struct font_painter *p,
-                                        const struct font_layout *layout, int i,
-                                        const struct font_map *map, double x_px, double y_px,
-                                        struct font_box *box)
+enum font_status font_painter_outline_measure(struct font_painter *p,
+                                              const struct font_layout *layout, int i,
+                                              const struct font_map *map, double x_px,
+                                              double y_px, struct font_box *box)
 {
     const struct font_placed *g = &layout->glyphs[i];
     struct font_map whole;
@@ -553,43 +436,4 @@ static enum font_status outline_measure(struct font_painter *p,
     double x0 = floor(x) + place.left_px, y0 = floor(y) + place.top_px;
     *box = (struct font_box){x0, y0, x0 + place.width_px, y0 + place.height_px};
     return FONT_OK;
-}
-
-static enum font_status layers_measure(struct font_painter *p, const struct font_layout *layout,
-                                       int i, const struct font_map *map, double x_px,
-                                       double y_px, struct font_box *box)
-{
-    struct layers l;
-    enum font_status status = FONT_OK;
-    layers_take(&l, layout, i);
-    for (int k = 0; k < l.count && status == FONT_OK; k++) {
-        struct font_box more = {1, 1, -1, -1};
-        l.glyph.glyph = l.of[k].glyph;
-        status = outline_measure(p, &l.layout, 0, map, x_px, y_px, &more);
-        if (more.x0 <= more.x1)
-            box_add(box, &more);
-    }
-    return status;
-}
-
-enum font_status font_painter_measure(struct font_painter *p, const struct font_layout *layout,
-                                      const struct font_map *map, double x_px, double y_px,
-                                      struct font_box *box)
-{
-    *box = (struct font_box){1, 1, -1, -1};
-    enum font_status status = FONT_OK;
-    for (int i = 0; i < layout->glyphs_count && status == FONT_OK; i++) {
-        const struct font_placed *g = &layout->glyphs[i];
-        struct font_box more = {1, 1, -1, -1};
-        enum font_colour colour = font_colour_of(g->face, g->glyph);
-        if (colour == FONT_COLOUR_PICTURE)
-            status = picture_draw(p, layout, i, map, x_px, y_px, NULL, NULL, &more);
-        else if (colour == FONT_COLOUR_LAYERS)
-            status = layers_measure(p, layout, i, map, x_px, y_px, &more);
-        else
-            status = outline_measure(p, layout, i, map, x_px, y_px, &more);
-        if (more.x0 <= more.x1)
-            box_add(box, &more);
-    }
-    return status;
 }

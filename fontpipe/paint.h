@@ -79,6 +79,21 @@ enum font_status font_painter_measure(struct font_painter *painter,
                                       const struct font_map *map, double x_px, double y_px,
                                       struct font_box *box);
 
+/* A glyph that has a picture (drawn, or kept in the font), as pixels for whoever cannot draw it: GPUs, drawings in files. */
+struct font_tile {
+    int left_px, top_px, width_px, height_px; /* width 0: there is nothing */
+    uint8_t *
+        rgba; /* sRGB numbers and cover, not multiplied; rows without gaps. Owns: the caller frees it */
+};
+bool font_painter_is_picture(const struct font_placed *glyph);
+/* Glyph i, placed as font_painter_layout() would in a picture of that size; only the tile's part within it. ink: sRGB numbers, of glyphs
+ * that have none of the layout's. Errors: NO_GLYPH for one without a picture; those of maps and of reading it. */
+enum font_status font_painter_tile(struct font_painter *painter,
+                                   const struct font_layout *layout, int i,
+                                   const struct font_map *map, double x_px, double y_px,
+                                   const double ink[3], int width_px, int height_px,
+                                   struct font_tile *out);
+
 struct font_painter_stats {
     long drawn, kept_hits, edges_hits, evicted;
     size_t kept_bytes;

@@ -2,6 +2,7 @@
 #include "paint_internal.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { SAMPLES_MAX = 12, NEWTON_STEPS = 8 };
 
@@ -80,36 +81,98 @@ static void sample_add(const struct font_painter *p, const struct font_colour_pi
     sum[3] += cover;
 }
 
+/* The picture on its way, the pixels that it may touch, and how often each is looked at along each side. */
+struct passage {
+    struct way way;
+    double u, v; /* its middle: from where places are looked for */
+    int left, top, right, bottom, looks;
+};
+
+/* False: there is nothing. */
+static bool passage_make(const struct font_colour_picture *from, const struct font_map *map,
+                         double size_px, double x, double y, int width, int height,
+                         struct passage *out)
+{
+    struct font_box box;
+    struct font_point at;
+    double j[4];
+    *out =
+        (struct passage){.way = {map, size_px / from->em_px, from->left_px, from->top_px, x, y},
+                         .u = from->width_px / 2.0,
+                         .v = from->height_px / 2.0};
+    if (!font_blend_picture_box(from, map, size_px, x, y, &box) ||
+        !way_go(&out->way, out->u, out->v, &at, j))
+        return false;
+    /* As many places within a pixel as it covers of the picture's, along each side. */
+    double shrunk = 1 / sqrt(fmax(fabs(j[0] * j[3] - j[1] * j[2]), 1e-6));
+    out->looks = (int)fmin(SAMPLES_MAX, fmax(4, 2 * ceil(shrunk / 2)));
+    out->left = (int)fmin(width, fmax(0, floor(box.x0)));
+    out->top = (int)fmin(height, fmax(0, floor(box.y0)));
+    out->right = (int)fmax(0, fmin(width, ceil(box.x1)));
+    out->bottom = (int)fmax(0, fmin(height, ceil(box.y1)));
+    return out->left < out->right && out->top < out->bottom;
+}
+
+/* Light times cover, and cover, of a pixel. */
+static void pixel_get(const struct font_painter *p, const struct font_colour_picture *from,
+                      const struct passage *w, int column, int row, float out[4])
+{
+    int n = w->looks;
+    float sum[4] = {0};
+    for (int k = 0; k < n * n; k++) {
+        double px = column + (k % n + 0.5) / n, py = row + (k / n + 0.5) / n;
+        double u = w->u, v = w->v;
+        if (way_back(&w->way, px, py, &u, &v))
+            sample_add(p, from, u, v, sum);
+    }
+    for (int c = 0; c < 4; c++)
+        out[c] = sum[c] / (float)(n * n);
+}
+
+static uint8_t number_of(const struct font_painter *p, float light)
+{
+    return p->to_number[(int)(sqrtf(fminf(1, light)) * TO_NUMBER + 0.5f)];
+}
+
 void font_blend_picture(const struct font_painter *p, const struct font_colour_picture *from,
                         const struct font_map *map, double size_px, double x, double y,
                         double cover, struct font_picture *to)
 {
-    const struct way w = {map, size_px / from->em_px, from->left_px, from->top_px, x, y};
-    struct font_box box;
-    struct font_point at;
-    double j[4], u = from->width_px / 2.0, v = from->height_px / 2.0;
-    if (!font_blend_picture_box(from, map, size_px, x, y, &box) || !way_go(&w, u, v, &at, j))
+    struct passage w;
+    if (!passage_make(from, map, size_px, x, y, to->width_px, to->height_px, &w))
         return;
-    /* As many places within a pixel as it covers of the picture's, along each side. */
-    double shrunk = 1 / sqrt(fmax(fabs(j[0] * j[3] - j[1] * j[2]), 1e-6));
-    int n = (int)fmin(SAMPLES_MAX, fmax(3, ceil(shrunk)));
-    int left = (int)fmax(0, floor(box.x0)), top = (int)fmax(0, floor(box.y0));
-    int right = (int)fmin(to->width_px, ceil(box.x1)),
-        bottom = (int)fmin(to->height_px, ceil(box.y1));
-    for (int row = top; row < bottom; row++)
-        for (int column = left; column < right; column++) {
-            float sum[4] = {0};
+    for (int row = w.top; row < w.bottom; row++)
+        for (int column = w.left; column < w.right; column++) {
             uint8_t *below = to->rgb + (size_t)row * (size_t)to->pitch + 3 * (size_t)column;
-            for (int k = 0; k < n * n; k++) {
-                double px = column + (k % n + 0.5) / n, py = row + (k / n + 0.5) / n;
-                double su = u, sv = v;
-                if (way_back(&w, px, py, &su, &sv))
-                    sample_add(p, from, su, sv, sum);
-            }
-            float part = (float)cover / (float)(n * n);
-            for (int c = 0; c < 3 && sum[3] > 0; c++) {
-                float light = p->to_light[below[c]] * (1 - sum[3] * part) + sum[c] * part;
-                below[c] = p->to_number[(int)(sqrtf(light) * TO_NUMBER + 0.5f)];
-            }
+            float sum[4], part = (float)cover;
+            pixel_get(p, from, &w, column, row, sum);
+            for (int c = 0; c < 3 && sum[3] > 0; c++)
+                below[c] =
+                    number_of(p, p->to_light[below[c]] * (1 - sum[3] * part) + sum[c] * part);
         }
+}
+
+enum font_status font_tile_draw(const struct font_painter *p,
+                                const struct font_colour_picture *from,
+                                const struct font_map *map, double size_px, double x, double y,
+                                double cover, int width, int height, struct font_tile *out)
+{
+    struct passage w;
+    *out = (struct font_tile){0};
+    if (!passage_make(from, map, size_px, x, y, width, height, &w))
+        return FONT_OK;
+    struct font_tile tile = {w.left, w.top, w.right - w.left, w.bottom - w.top, NULL};
+    uint8_t *at = tile.rgba = calloc((size_t)tile.width_px * (size_t)tile.height_px, 4);
+    if (!at)
+        return font_fail(FONT_NO_MEMORY, "no memory for a glyph's picture");
+    for (int row = w.top; row < w.bottom; row++)
+        for (int column = w.left; column < w.right; column++, at += 4) {
+            float sum[4];
+            pixel_get(p, from, &w, column, row, sum);
+            for (int c = 0; c < 3 && sum[3] > 0; c++)
+                at[c] = number_of(p, sum[c] / sum[3]);
+            at[3] = (uint8_t)lrint(255 * fmin(1, (double)sum[3] * cover));
+        }
+    *out = tile;
+    return FONT_OK;
 }

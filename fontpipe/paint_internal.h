@@ -30,6 +30,7 @@ struct entry {
 struct font_painter {
     struct font_painter_def def;
     struct font_filter *filter;
+    struct font_filter *area; /* the box, once glyphs have been drawn as pictures */
     struct entry *buckets[BUCKETS];
     struct entry *newest, *oldest;
     struct font_painter_stats stats;
@@ -42,6 +43,21 @@ struct font_painter {
     uint8_t to_number[TO_NUMBER + 1];
 };
 
+/* paint.c: what is kept. */
+struct entry *font_painter_entry_find(struct font_painter *p, const struct key *key);
+struct entry *font_painter_entry_make(struct font_painter *p, const struct key *key);
+void font_painter_entry_weigh(struct font_painter *p, struct entry *e, size_t bytes);
+/* paint.c: glyph i of a layout as its outline in an ink, and the box around it, untouched if it has no ink. */
+enum font_status font_painter_outline_draw(struct font_painter *p,
+                                           const struct font_layout *layout, int i,
+                                           const struct font_map *map, double x_px, double y_px,
+                                           const struct font_ink *ink,
+                                           struct font_picture *picture);
+enum font_status font_painter_outline_measure(struct font_painter *p,
+                                              const struct font_layout *layout, int i,
+                                              const struct font_map *map, double x_px,
+                                              double y_px, struct font_box *box);
+
 /* The gray picture of a glyph, counted from the pixel (x, y), onto a picture: in one channel, or all (-1). The ink's places count
  * from (ink_x, ink_y). */
 void font_blend(struct font_painter *p, const struct font_gray *gray, int x, int y, int channel,
@@ -51,6 +67,12 @@ void font_blend(struct font_painter *p, const struct font_gray *gray, int x, int
 void font_blend_picture(const struct font_painter *p, const struct font_colour_picture *from,
                         const struct font_map *map, double size_px, double x, double y,
                         double cover, struct font_picture *to);
+/* The same as pixels of its own: those within a picture of that size that it may touch. */
+enum font_status font_tile_draw(const struct font_painter *p,
+                                const struct font_colour_picture *from,
+                                const struct font_map *map, double size_px, double x, double y,
+                                double cover, int width_px, int height_px,
+                                struct font_tile *out);
 /* The box around it. False: a point has no place. */
 bool font_blend_picture_box(const struct font_colour_picture *from, const struct font_map *map,
                             double size_px, double x, double y, struct font_box *box);

@@ -1,4 +1,5 @@
 /* text.c - UTF-8, faces for HarfBuzz, and faces for what the first has not: see text.h. text_lines.c sets the lines. */
+#include "colour.h"
 #include "internal.h"
 #include "text_internal.h"
 
@@ -217,6 +218,13 @@ static void candidates_find(struct font_shaper *s)
     FcPatternDestroy(pattern);
 }
 
+/* One of which something is seen. */
+static bool has_glyph(const struct font_shaper *s, struct font_face *face, uint32_t character)
+{
+    uint32_t glyph = font_face_glyph(face, character);
+    return glyph && !font_colour_lost(face, glyph, s->colour);
+}
+
 /* The shaper's face that is candidate i of fontconfig's, opened if need be; -1 if it cannot be, or has not the character. */
 static int candidate_open(struct font_shaper *s, int i, uint32_t character)
 {
@@ -230,7 +238,7 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
         return -1;
     for (int k = 1; k < s->faces_count; k++)
         if (s->faces[k].candidate == i)
-            return font_face_glyph(s->faces[k].face, character) ? k : -1;
+            return has_glyph(s, s->faces[k].face, character) ? k : -1;
     if (s->faces_count == FONT_FACES_MAX)
         return -1;
     FcPatternGetInteger(font, FC_INDEX, 0, &index);
@@ -238,7 +246,7 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
     if ((s->colour ? font_face_open_coloured
                    : font_face_open)((const char *)file, index & 0xffff, &face) != FONT_OK)
         return -1;
-    if (!font_face_glyph(face, character)) {
+    if (!has_glyph(s, face, character)) {
         font_face_close(face);
         return -1;
     }
@@ -251,7 +259,7 @@ static int candidate_open(struct font_shaper *s, int i, uint32_t character)
 /* Always in fontconfig's order: which face it is does not depend on the characters that were looked for before. */
 int font_shaper_face_for(struct font_shaper *s, uint32_t character)
 {
-    if (font_face_glyph(s->faces[0].face, character))
+    if (has_glyph(s, s->faces[0].face, character))
         return 0;
     if (!s->candidates)
         candidates_find(s);
