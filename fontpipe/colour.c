@@ -1,36 +1,12 @@
 /* colour.c - see colour.h. */
 #include "colour_internal.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_COLOR_H
-
-enum { SIDE_MAX = 4096 };
-
-hb_blob_t *font_colour_table(struct font_face *face, const char tag[5])
-{
-    size_t count;
-    const char *bytes = font_face_bytes(face, &count);
-    hb_blob_t *whole =
-        hb_blob_create(bytes, (unsigned)count, HB_MEMORY_MODE_READONLY, NULL, NULL);
-    hb_face_t *hb =
-        hb_face_create(whole, (unsigned)(font_face_freetype(face)->face_index & 0xffff));
-    hb_blob_t *table = hb_face_reference_table(hb, HB_TAG(tag[0], tag[1], tag[2], tag[3]));
-    hb_face_destroy(hb);
-    hb_blob_destroy(whole);
-    return table;
-}
-
-struct font_colr font_colour_colr(hb_blob_t *table)
-{
-    unsigned count;
-    const char *bytes = hb_blob_get_data(table, &count);
-    return (struct font_colr){.bytes = (const uint8_t *)bytes, .count = count};
-}
 
 static bool has_layers(struct font_face *face, uint32_t glyph)
 {
@@ -91,24 +67,6 @@ bool font_colour_lost(struct font_face *face, uint32_t glyph, bool coloured)
                      font_colour_has_svg(face, glyph));
 }
 
-bool font_colour_pixels_set(const struct font_box *box, int em_px,
-                            struct font_colour_picture *out)
-{
-    enum { PIXELS_MAX = 2048 * 2048 };
-    *out = (struct font_colour_picture){.em_px = em_px};
-    if (!(box->x1 > box->x0 && box->y1 > box->y0))
-        return true;
-    double x0 = floor(box->x0), y0 = floor(box->y0), x1 = ceil(box->x1), y1 = ceil(box->y1);
-    if (!(x1 - x0 <= SIDE_MAX && y1 - y0 <= SIDE_MAX && (x1 - x0) * (y1 - y0) <= PIXELS_MAX &&
-          fabs(x0) < 1e6 && fabs(y0) < 1e6))
-        return false;
-    out->left_px = (int)x0;
-    out->top_px = -(int)y0;
-    out->width_px = (int)(x1 - x0);
-    out->height_px = (int)(y1 - y0);
-    return true;
-}
-
 int font_colour_layers(struct font_face *face, uint32_t glyph,
                        struct font_colour_layer out[FONT_COLOUR_LAYERS_MAX])
 {
@@ -150,8 +108,8 @@ static enum font_status strike_get(struct font_face *face, uint32_t glyph,
     const FT_Bitmap *b = &ft->glyph->bitmap;
     if (!b->width || !b->rows)
         return FONT_OK;
-    if (b->pixel_mode != FT_PIXEL_MODE_BGRA || b->width > SIDE_MAX || b->rows > SIDE_MAX ||
-        b->pitch < 0 || ft->size->metrics.y_ppem == 0)
+    if (b->pixel_mode != FT_PIXEL_MODE_BGRA || b->width > FONT_COLOUR_SIDE_MAX ||
+        b->rows > FONT_COLOUR_SIDE_MAX || b->pitch < 0 || ft->size->metrics.y_ppem == 0)
         return font_fail(FONT_BAD_FILE, "glyph %u has a picture of a kind that is not drawn",
                          (unsigned)glyph);
     size_t row = 4 * (size_t)b->width;

@@ -1,4 +1,4 @@
-/* colour_internal.h - what colour.c, colour_paints.c and colour_svg.c share. */
+/* colour_internal.h - what colour.c, colour_paints.c, colour_svg.c and colour_table.c share. */
 #ifndef LUTETIA_FONT_COLOUR_INTERNAL_H
 #define LUTETIA_FONT_COLOUR_INTERNAL_H
 
@@ -8,6 +8,7 @@
 
 #include <hb.h>
 
+enum { FONT_COLOUR_SIDE_MAX = 4096 };
 /* The picture's place and size around a box in its pixels, y downwards; nothing for an empty one. False: too large. */
 bool font_colour_pixels_set(const struct font_box *box, int em_px,
                             struct font_colour_picture *out);

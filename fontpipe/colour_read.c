@@ -7,22 +7,6 @@
 enum { HEADER = 34, BASES = 14, LAYERS = 18, CLIPS = 22, BASE = 6, CLIP = 7 };
 static const uint32_t NOTHING_VARIES = 0xffffffff;
 
-uint32_t font_colr_u(const struct font_colr *c, uint64_t at, int bytes)
-{
-    uint32_t value = 0;
-    if (at > c->count || c->count - at < (unsigned)bytes)
-        return 0;
-    for (int i = 0; i < bytes; i++)
-        value = value << 8 | c->bytes[at + (unsigned)i];
-    return value;
-}
-
-int32_t font_colr_s(const struct font_colr *c, uint64_t at, int bytes)
-{
-    int unused = 32 - 8 * bytes;
-    return (int32_t)(font_colr_u(c, at, bytes) << unused) >> unused;
-}
-
 bool font_colr_good(const struct font_colr *c)
 {
     uint64_t bases = font_colr_u(c, BASES, 4), layers = font_colr_u(c, LAYERS, 4);

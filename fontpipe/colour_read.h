@@ -60,7 +60,7 @@ void font_colr_paint(const struct font_colr *c, uint32_t at, struct font_paint *
 
 /* colour_vary.c: what the axes add to number n of those that vary from `base` on; 0xffffffff: nothing. */
 double font_colr_delta(const struct font_colr *c, uint32_t base, uint32_t n);
-/* A number of 1 to 4 bytes; with a sign. */
+/* colour_table.c: a number of 1 to 4 bytes; with a sign. */
 uint32_t font_colr_u(const struct font_colr *c, uint64_t at, int bytes);
 int32_t font_colr_s(const struct font_colr *c, uint64_t at, int bytes);
 
