@@ -1,4 +1,4 @@
-/* listing_dispersion.c - appendix 7.4 of the thesis, included unchanged.  C as it was: compiled as gnu89.
+/* listing_dispersion.c - appendix 7.4 of the thesis, included unchanged and compiled as gnu89.
  * LISTING_DISPERSION is the quoted path of the listing. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Indices of real[], as page.h numbers its fields. */
+/* Indices of real[], in page.h's order of fields. */
 enum {
     WATER,
     ABSORBENCY,
@@ -125,7 +125,7 @@ static void turn_on_context(struct oracle *o, uint8_t *saved, int x1, int y1, in
     logand_context_with_test(o);
 }
 
-/* ---- float instructions; the four that can overflow record it ---- */
+/* ---- float instructions; the four that can overflow set the overflow flag ---- */
 
 static void keep(struct oracle *o, int n, float *dest, float result, float a, float b)
 {
@@ -181,7 +181,7 @@ static void max_constant(struct oracle *o, float *dest, float b)
     }
 }
 
-/* upward fetches from the coordinate one greater, downward from the one less; it wraps round */
+/* upward fetches from the next greater coordinate, downward from the next smaller; both wrap round */
 static void get_from_news(struct oracle *o, float *dest, const float *source, enum axis axis,
                           enum direction direction)
 {

@@ -1,14 +1,14 @@
 /* oracle.h - the thesis's listings as plain C loops, one double loop for each Paris instruction.
  *
- * Knows nothing of the machine: arrays, float arithmetic (no contraction), and the listings' own order.  Words
- * are kept as bits so that a comparison is of bits.
+ * Knows nothing of the machine. It has arrays, float arithmetic without contraction, and the listings' own order of
+ * operations. Values are returned as bits, so that tests compare bits.
  */
 #ifndef LUTETIA_TESTS_LISTINGS_ORACLE_H
 #define LUTETIA_TESTS_LISTINGS_ORACLE_H
 
 #include <stdint.h>
 
-/* One plane a field, in the order of enum page_field: the caller indexes both alike. */
+/* One plane for each field, in the order of enum page_field. */
 enum { ORACLE_PLANES = 17 };
 
 struct oracle {
@@ -24,13 +24,13 @@ struct oracle {
 void oracle_init(struct oracle *o, int width, int height);
 void oracle_finish(struct oracle *o);
 
-/* disperse_pigment_and_water(Page), once. */
+/* One call of disperse_pigment_and_water(Page). */
 void oracle_disperse(struct oracle *o);
-/* Read_image_from_disk_and_screen_ink_on_paper, with the file's bytes. */
+/* Read_image_from_disk_and_screen_ink_on_paper() with these bytes of the file. */
 void oracle_screen(struct oracle *o, const uint8_t *gray, int width, int height, int x_off,
                    int y_off, float cyan, float magenta, float yellow, float water);
 
-/* A field's bits, by the number that page.h gives it. */
+/* The bits of fiber n in the field that page.h gives this number. */
 uint32_t oracle_word(const struct oracle *o, int page_field, int n);
 
 #endif

@@ -1,4 +1,4 @@
-/* skip.c - stands for a test that cannot be built here; says why. */
+/* skip.c - replaces a test that cannot be built here: it prints why and skips. */
 #include <stdio.h>
 
 int main(void)

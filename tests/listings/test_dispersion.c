@@ -1,7 +1,7 @@
 /* test_dispersion.c - the thesis's dispersion listing, unchanged, gives the oracle's bits.
  *
- * The program runs in whatever mode the environment asks for (LUTETIA_EAGER, the device's thread count); meson
- * runs it in four.  All fields and flags are compared, temporaries and inactive fibers included.
+ * The environment chooses the mode (LUTETIA_EAGER, the device's thread count); meson runs the program in four modes. It
+ * compares all fields and flags, temporaries and inactive fibers included.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +28,7 @@ static uint32_t random_word(void)
     return (uint32_t)(sample_word(&random_state) >> 32);
 }
 
-/* A sheet that is wet in places, with pigment in spots; the temporaries hold leftovers of another program. */
+/* A sheet that is wet in places, with pigment in spots. The temporaries hold arbitrary old values. */
 static float random_amount(enum page_field which)
 {
     float unit = (float)(random_word() >> 8) * 0x1p-24f;
@@ -56,7 +56,7 @@ static void fill(struct FiberStruct *page, struct oracle *o)
         words[n] = o->test[n] = random_word() & 1;
     page_write(page, PAGE_SEEN_TEST, words);
     CM_load_test(page->seen_test);
-    /* the caller's own context: a band of fibers, and scattered ones, are off */
+    /* the caller's context: a band of fibers and some scattered fibers are off */
     for (size_t n = 0; n < count; n++)
         words[n] = o->context[n] = n % (size_t)o->width / 5 != 3 && random_word() % 16 != 0;
     page_write(page, PAGE_SEEN_CONTEXT, words);
@@ -64,7 +64,7 @@ static void fill(struct FiberStruct *page, struct oracle *o)
     free(words);
 }
 
-/* What it took, for whoever reads the log. */
+/* Prints the machine's counts to the test's log. */
 static void report(void)
 {
     struct machine_stats now;
@@ -122,7 +122,7 @@ static void dispersion_observed_every_seventh_step_agrees(void **state)
     disperse(131, 97, 7);
 }
 
-/* `few`: without those that need many kernels. */
+/* The argument `few` leaves out the tests that need many kernels. */
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {

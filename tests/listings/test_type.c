@@ -1,5 +1,5 @@
-/* test_type.c - the thesis's display of type, unchanged, gives the oracle's bits: inks and water screened by a gray
- * image read from a file, at two places, clamped where they pile up. */
+/* test_type.c - the thesis's display of type, unchanged, gives the oracle's bits. It screens inks and water by a gray image
+ * from a file, at two places, and clamps the amounts where both overlap. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,13 +16,13 @@
 
 enum { IMAGE_WIDTH = 37, IMAGE_HEIGHT = 23 };
 
-/* As listing_type.c defines it: K&R, so its floats are passed as doubles. */
+/* listing_type.c defines it in K&R style, so its floats are passed as doubles. */
 int Read_image_from_disk_and_screen_ink_on_paper(struct FiberStruct *Page, char *filename,
                                                  int width, int height, int x_off, int y_off,
                                                  double cyan, double magenta, double yellow,
                                                  double water);
 
-/* A soft ring, so that every gray occurs. */
+/* Draws a soft ring, so that every gray occurs. */
 static void draw(uint8_t *gray)
 {
     for (int y = 0; y < IMAGE_HEIGHT; y++)

@@ -1,5 +1,5 @@
-/* variant_bench.c - the step is the benchmark's own text of the same instructions. It is held to the same oracle,
- * bit for bit, as the thesis's listing, so the two give the same bits. */
+/* variant_bench.c - one step by the benchmark's code with the listing's instructions. It is compared with the listing's
+ * oracle bit for bit, so both variants give the same bits. */
 #include "listing.h"
 #include "page.h"
 #include "variant.h"
@@ -11,7 +11,7 @@ void variant_step(struct FiberStruct *page)
         .height = page->height,
         .x0 = 2,
         .y0 = 2,
-        .x1 = page->width - 1, /* the thesis's rectangle has its far edges in */
+        .x1 = page->width - 1, /* the thesis's rectangle includes its far edges */
         .y1 = page->height - 1,
         .significand = (unsigned int)page->s,
         .exponent = (unsigned int)page->e,

@@ -1,4 +1,4 @@
-/* variant_thesis.c - the step is the thesis's. */
+/* variant_thesis.c - one step by the thesis's listing. */
 #include "variant.h"
 
 /* As listing_dispersion.c defines it, in gnu89. */

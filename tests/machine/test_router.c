@@ -481,7 +481,7 @@ int main(void)
     };
     int failed = 0;
 
-    /* Both ways of sending. Gets as operations within kernels, and as kernels of their own; eager machines have only the latter. */
+    /* Both ways of sending. Gets within kernels, and as kernels of their own; eager machines have only the latter. */
     for (int way = 0; way < 3; way++) {
         bool eager = way == 1;
         setenv("LUTETIA_SCATTER", eager ? "0" : "1", 1);

@@ -1,6 +1,6 @@
-/* fuzz_state.c - saved states that somebody made to do harm: bytes changed anywhere, and the header mended to agree.
+/* fuzz_state.c - loads forged states: any bytes are changed, and the header's checksum is made to agree.
  *
- * Each must load, or be refused as a bad file. With libFuzzer, bytes say what is changed. */
+ * Each file must load, or be refused as a bad file. libFuzzer's input says which bytes are changed. */
 #include "state_sample.h"
 
 #include <unistd.h>
@@ -34,7 +34,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     return 0;
 }
 
-/* Every five bytes: where (3), what (1), how (1). */
+/* Each five bytes of input are one change: where (3 bytes), what (1), how (1). */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     uint8_t *file = malloc(good_count);
@@ -66,7 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 #ifndef LUTETIA_FUZZ_LIBFUZZER
 #include "../sample.h"
 
-/* Seeds, always the same: one change to one byte each, then several. */
+/* Without libFuzzer: the same inputs in every run, first with one change each, then with several. */
 int main(int argc, char **argv)
 {
     int files = argc > 1 ? atoi(argv[1]) : 200;

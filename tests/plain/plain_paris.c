@@ -1,9 +1,8 @@
-/* plain_paris.c - the part of C/Paris that sheets are written in, as loops over arrays: no device, no laziness, no kernels.
+/* plain_paris.c - the C/Paris calls that sheets use, as loops over arrays: no device, no lazy evaluation, no kernels.
  *
- * Two uses. It is a second opinion: sheets on it and on the machine must hold the same bits. And it is quick on tiny sheets, so
- * that a million of them can be looked at. One VP set at a time is current; a field is an array of a word for each
- * processor, or of two where it is longer than 32 bits; its length is what it was allocated with. Calls that are
- * not here are missed by the linker. Random numbers are others than the machine's. */
+ * It has two uses. Sheets must hold the same bits on it and on the machine. And it is fast on tiny sheets, so that a test can
+ * run a million of them. One VP set at a time is current. A field is an array of one word for each processor, or of two words
+ * where it is longer than 32 bits. The linker reports calls that are missing here. Its random numbers are not the machine's. */
 #include <cm/paris.h>
 
 #include <math.h>
@@ -54,7 +53,7 @@ static double *doubles(CM_field_id_t id)
     return fields[id].words;
 }
 
-/* For every active processor i; the loop without a test is what the compiler makes vectors of. */
+/* Runs the statement for every active processor i. The loop without a test of the context can be vectorised. */
 #define EACH(statement)                                                                        \
     do {                                                                                       \
         const struct set *s_ = the();                                                          \
@@ -228,7 +227,7 @@ void CM_f_lt_zero_1L(CM_field_id_t source, unsigned int s, unsigned int e)
 
 /* ---- arithmetic ---- */
 
-/* As IEEE 754-2008 has them, but for zeros of two signs, which sheets never compare. */
+/* Minimum and maximum of IEEE 754-2008, except for zeros of two signs, which sheets never compare. */
 #define LEAST_OF(a, b) ((a) < (b) ? (a) : (b))
 #define MOST_OF(a, b) ((a) > (b) ? (a) : (b))
 
@@ -376,7 +375,7 @@ void CM_my_news_coordinate_1L(CM_field_id_t dest, unsigned int axis, unsigned in
     EACH(words(dest)[i] = (uint32_t)(axis == 0 ? i / width : i % width));
 }
 
-/* d = the neighbour's; all processors' are there to be read, whatever the context. */
+/* dest = the neighbour's source. Neighbours are read whether they are active or not. */
 void CM_get_from_news_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
                          unsigned int direction, unsigned int len)
 {
@@ -407,7 +406,7 @@ void CM_get_from_news_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int 
     EACH(words(dest)[i] = shifted[i]);
 }
 
-/* ---- between sets: an address is the number of a processor in the order of rows ---- */
+/* ---- messages between sets: an address is a processor's row-major number ---- */
 
 CM_sendaddr_t CM_fe_make_news_coordinate(CM_geometry_id_t geometry, unsigned int axis,
                                          unsigned int coordinate)
@@ -430,7 +429,7 @@ void CM_get_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_id_t source,
     EACH(words(dest)[i] = words(source)[words(address)[i]]);
 }
 
-/* Whole numbers: their order does not matter. */
+/* Adds whole numbers, so their order does not matter. */
 void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_id_t source,
                            unsigned int s, unsigned int e, CM_field_id_t notify)
 {
@@ -438,7 +437,7 @@ void CM_send_with_f_add_1L(CM_field_id_t dest, CM_field_id_t address, CM_field_i
     EACH(floats(dest)[words(address)[i]] += floats(source)[i]);
 }
 
-/* Of fields of doubles, along axis 0 of a set whose height is a power of two. */
+/* Only for fields of doubles, along axis 0 of a set whose height is a power of two. */
 void CM_get_from_power_two_1L(CM_field_id_t dest, CM_field_id_t source, unsigned int axis,
                               unsigned int log2_distance, unsigned int direction,
                               unsigned int len)
@@ -459,7 +458,7 @@ void CM_f_gt_constant_1L(CM_field_id_t source, double value, unsigned int s, uns
     EACH(the()->test[i] = floats(source)[i] > (float)value);
 }
 
-/* Sums of whole numbers: their order does not matter. */
+/* Sums whole numbers, so their order does not matter. */
 double CM_global_f_add_1L(CM_field_id_t source, unsigned int s, unsigned int e)
 {
     (void)e;
@@ -490,7 +489,7 @@ static int bytes_of(unsigned int format)
     return format == CM_8_bit ? 1 : format == CM_16_bit ? 2 : format == CM_float_double ? 8 : 4;
 }
 
-/* All of the grid, or of its first rows. */
+/* Checks that the array covers the whole grid or its first rows; nothing else is implemented. */
 static void array_check(CM_vector_t start, CM_vector_t end, CM_vector_t axes)
 {
     if (start.ints[0] != 0 || start.ints[1] != 0 || end.ints[0] > the()->height ||

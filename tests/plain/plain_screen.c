@@ -1,4 +1,4 @@
-/* plain_screen.c - what sheets need of type: nothing but giving screens back. */
+/* plain_screen.c - the only function of type that sheets call: the one that frees a screen. */
 #include <paper.h>
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* scenes.h - what is done to some sheets, and the bits that they hold after it: the same under any C/Paris. */
+/* scenes.h - paints some sheets and prints their planes' hashes. The hashes are the same under every C/Paris. */
 #ifndef LUTETIA_TESTS_SCENES_H
 #define LUTETIA_TESTS_SCENES_H
 
@@ -21,7 +21,7 @@ static inline void scene_check(enum paper_status status)
     exit(1);
 }
 
-/* Random numbers are not the same everywhere: the paper comes from here. */
+/* Writes the paper's layers, because CM_u_random_1L() gives other numbers under each C/Paris. */
 static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
 {
     static const float low[3] = {0, 0.02f, 0.1f}, high[3] = {1, 0.25f, 0.9f};
@@ -34,7 +34,7 @@ static inline void scene_paper(struct paper_sheet *sheet, uint64_t *chance)
     }
 }
 
-/* One line for each turn: a number from each plane but those of colour. */
+/* Prints one line for each turn: a hash of each plane except the planes of colour. */
 static inline void scene_of_model_play(FILE *out, int model)
 {
     static uint8_t gray[11 * 9];

@@ -1,9 +1,9 @@
-/* sheets_by_chance.c - tiny sheets of any kind in any air: amounts stay numbers, within bounds, whole, and none is lost.
+/* sheets_by_chance.c - runs random tiny sheets. Amounts stay finite, within their bounds and whole, and none is lost.
  *
  *     sheets_by_chance [COUNT [SEED]]
  *
- * Each set chooses all that there is to choose: parts, torus, paper, pigments, air, twice in its life, and what is put on,
- * blotted, masked and dried. One parameter in three is at an end of its range. Prints how many were looked at. */
+ * Each set draws every setting: parts, torus, paper, pigments, and the air twice; and it draws what is put on, blotted, masked
+ * and dried. One parameter in three is at an end of its range. Prints how many sheets were checked. */
 #include <history.h>
 #include <paper.h>
 #include <sheet.h>
@@ -34,7 +34,7 @@ static double within(double low, double high)
         return low;
     case 1:
         return high;
-    case 2: /* near the low end, by orders of magnitude */
+    case 2: /* orders of magnitude near the low end */
         return low + (high - low) * ldexp(1, -(int)(word >> 8 & 31));
     default:
         return low + (high - low) * (double)(word >> 11) * 0x1p-53;
@@ -140,7 +140,7 @@ static struct paper_screen screen_by_chance(uint8_t *gray)
     return screen;
 }
 
-/* Adds to what there must be of water and of each pigment. */
+/* The sheet's totals: water, with what has dried, and each pigment. */
 static void totals_get(struct paper_sheet *sheet, int count, double *totals)
 {
     for (int i = 0; i <= count; i++)

@@ -1,4 +1,4 @@
-/* state_sample.h - small sheets with a past, and files changed so that only their header notices. */
+/* state_sample.h - small sheets with a history, and changed files of states whose headers agree with them. */
 #ifndef LUTETIA_TESTS_STATE_SAMPLE_H
 #define LUTETIA_TESTS_STATE_SAMPLE_H
 
@@ -24,7 +24,7 @@ static inline void sample_check(enum paper_status status)
     abort();
 }
 
-/* Something is put on, and `steps` steps. */
+/* Puts a screen on the sheet and runs `steps` steps. */
 static inline void sample_turn(struct paper_sheet *sheet, int turn, int steps)
 {
     uint8_t gray[5 * 4];
@@ -73,7 +73,7 @@ static inline void sample_file_write(const char *path, const uint8_t *bytes, siz
         abort();
 }
 
-/* Makes the header agree with what follows it, as somebody would who means harm. */
+/* Makes the header agree with the changed bytes, as a forger would. */
 static inline void sample_header_mend(uint8_t *bytes, size_t count)
 {
     char text[SAMPLE_HEADER] = "";
@@ -89,7 +89,7 @@ static inline void sample_header_mend(uint8_t *bytes, size_t count)
     memcpy(bytes, text, sizeof text);
 }
 
-/* Loads all that there is in the file. Only a good state, or a bad file, is right. */
+/* Loads every sheet of the file. Returns PAPER_OK, or the status of the first failure. */
 static inline enum paper_status sample_load_all(const char *path)
 {
     struct paper_state *state;

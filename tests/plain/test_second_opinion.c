@@ -1,4 +1,4 @@
-/* test_second_opinion.c - the scenes on the machine, bit for bit as on the plain C/Paris. */
+/* test_second_opinion.c - compares the scenes on the machine with those on the plain C/Paris, bit for bit. */
 #include "scenes.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* test_state.c - saved states: to the bit, whole or not at all, and damaged ones told from good ones. */
+/* test_state.c - a saved state loads bit for bit; a file is written whole or not at all; damaged files are refused. */
 #include "state_sample.h"
 
 #include "../display/scratch.h"

@@ -1,5 +1,5 @@
-/* test_state_forged.c - saved states that somebody made to do harm: HDF5 files with a header that is right, whose content reaches for
- * other files, is of types and filters that are not ours, or says what no sheet can. All are refused, in words. (security.md 8, 9, 10) */
+/* test_state_forged.c - forged states: HDF5 files with a correct header that refer to other files, have types or filters that
+ * the program does not write, or hold values that no sheet can have. All are refused with a message. (security.md 8, 9, 10) */
 #include "state_sample.h"
 
 #include "../display/scratch.h"
@@ -19,7 +19,7 @@
 
 static char path[512], secret[512];
 
-/* The same states each time, saved once. */
+/* Writes a good state; it is saved once and then copied. */
 static void good_save(bool brush)
 {
     static struct {
@@ -77,7 +77,7 @@ static void refused(const char *says)
 
 enum { PLANE_ROWS = SAMPLE_HEIGHT, PLANE_COLUMNS = SAMPLE_WIDTH };
 
-/* Another dataset in the place of a plane. */
+/* Replaces a plane by another dataset. */
 static void plane_make(hid_t file, hid_t type, hid_t how, const hsize_t size[2])
 {
     hid_t space = H5Screate_simple(2, size, NULL);
@@ -167,7 +167,7 @@ static void states_reach_for_no_other_file(void **state)
         {external_group, "leads elsewhere"},
         {second_name, "several names"},
     };
-    /* a good state: what is refused is the reaching, not what would be found */
+    /* the other file is a good state: files are refused because they refer to it, whatever it holds */
     snprintf(path, sizeof path, "%s", scratch_path("secret.h5"));
     snprintf(secret, sizeof secret, "%s", path);
     good_save(false);
@@ -178,7 +178,7 @@ static void states_reach_for_no_other_file(void **state)
     }
 }
 
-/* A FIFO as another file held the reader for ever; so does one as the state. */
+/* Opening a FIFO would block for ever, both as another file and as the state itself. */
 static void pipes_hold_nobody(void **state)
 {
     (void)state;
@@ -312,7 +312,7 @@ static void size_other(hid_t file)
     H5Pclose(how);
 }
 
-/* Gigabytes that are not in the file: HDF5 would make zeros of them. */
+/* A dataset of gigabytes whose data are not in the file: HDF5 would fill it with zeros. */
 static void run_absent(hid_t file)
 {
     hsize_t size = 1u << 31;
@@ -450,7 +450,7 @@ static size_t run_find(const void *what, size_t size)
     return (size_t)(found - bytes);
 }
 
-/* Loaded, and followed, which looks at the brushes much later. */
+/* Checks that the state is refused with and without `follow`, which reads the brushes much later. */
 static void refused_both_ways(const char *says)
 {
     struct paper_state *saved;
@@ -502,7 +502,7 @@ static void planes_hold_what_sheets_can(void **state)
     }
 }
 
-/* The bristles' grains follow the brush's description in the run. */
+/* In the run, the grains of a brush's bristles follow its description; here one grain is wrong. */
 static void brushes_hold_what_brushes_can(void **state)
 {
     (void)state;
@@ -522,7 +522,7 @@ static void brushes_hold_what_brushes_can(void **state)
     }
 }
 
-/* A dip of -1, and one into a brush that there is not: what is done is found wrong before it is done. */
+/* A dip of amount -1, and dips of brushes that do not exist: each is refused before it is carried out. */
 static void operations_are_ones_that_can_be(void **state)
 {
     (void)state;

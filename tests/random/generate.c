@@ -1,8 +1,8 @@
 /* generate.c - draws a program from a seed.
  *
- * Most of what is drawn blindly could not run; so the generator keeps the list of fields and their VP sets, draws
- * operands from it, and leaves the rest to program_normalise().  Kernels are compiled for each new shape of graph,
- * which is what a run's time goes into: geometries and widths come from small pools.
+ * Most programs that are drawn blindly could not run. So the generator keeps a list of fields and their VP sets and draws
+ * operands from it; program_normalise() drops what still cannot run. Most of a run's time goes into compiling a kernel for
+ * each new shape of graph, so geometries and widths come from small pools.
  */
 #include "program.h"
 
@@ -15,11 +15,11 @@ static const struct geometry geometries[] = {
     {4, {3, 1, 2, 41}}, {2, {1, 2}}, {1, {97}},    {2, {9, 40}},   {3, {4, 2, 17}},
 };
 
-/* Wide enough for strips of vectors: no power of two, and one that is. */
+/* Geometries wide enough for strips of vectors; some widths are powers of two. */
 static const struct geometry sheets[] = {
     {2, {9, 96}}, {2, {37, 64}}, {2, {5, 133}}, {2, {16, 128}}};
 
-/* What a field may be: room for floats beside odd lengths. */
+/* Lengths of fields: room for floats, and odd lengths. */
 static const uint8_t sizes[] = {32, 32, 64, 33, 1, 8, 24, 96, 128, 5, 160, 17, 65, 70};
 static const uint8_t widths[] = {1, 2, 5, 8, 16, 24, 31, 32, 33, 48, 63, 64, 65, 96, 127, 128};
 
@@ -30,8 +30,9 @@ struct generator {
         int bits, set;
     } slots[PROGRAM_SLOTS];
     int set;
-    bool sheet; /* fields of 32 bits and of one, in a sheet */
-    bool pure;  /* no instruction that looks, writes from outside, or draws numbers */
+    bool sheet; /* the program has only fields of 32 bits and of 1 bit, in one of sheets[] */
+    bool
+        pure; /* no instruction that reads or writes on the front end, or draws random numbers */
 };
 
 static uint32_t draw(struct generator *g, uint32_t below)
@@ -39,7 +40,7 @@ static uint32_t draw(struct generator *g, uint32_t below)
     return (uint32_t)(sample_word(&g->state) >> 32) % below;
 }
 
-/* A part of `bits` bits of some field of the current VP set; mostly from its first bit. */
+/* Draws a part, `bits` long, of a field of the current VP set; it mostly starts at the field's first bit. */
 static bool draw_operand(struct generator *g, int bits, struct operand *out)
 {
     for (int tries = 0; tries < 40; tries++) {
@@ -82,7 +83,7 @@ static void emit_deallocate(struct generator *g)
     struct instruction in = {0};
     uint32_t slot = draw(g, PROGRAM_SLOTS);
 
-    /* normalising keeps the one that fits the region; a field below in the stack is lost with it */
+    /* normalising keeps the deallocation that fits the field's region; the stack fields allocated after it go, too */
     in.d.slot = (uint8_t)slot;
     in.row = ROW_CM_deallocate_heap_field;
     emit(g, &in);
@@ -174,7 +175,7 @@ static void emit_row(struct generator *g)
     emit(g, &in);
 }
 
-/* store the context, narrow it, do things, load it again: how programs nest. */
+/* Nested context, as programs have it: stores the context, narrows it, runs instructions and loads it again. */
 static void emit_nest(struct generator *g, int depth)
 {
     struct instruction in = {0}, compare = {0};
@@ -219,7 +220,7 @@ static void emit_observe(struct generator *g)
         emit(g, &in);
 }
 
-/* A loop: the same instructions again and again, seldom with another constant, and looked at now and then. */
+/* A loop: the same instructions in each turn, seldom with another constant; some turns read a field to the front end. */
 static void emit_loop(struct generator *g, int turns)
 {
     int first = g->p->count;
@@ -260,7 +261,7 @@ static void emit_select(struct generator *g)
     emit(g, &in);
 }
 
-/* VP sets, and fields with something in them. */
+/* Draws VP sets and allocates fields with contents. */
 static struct generator begin(struct program *p, uint64_t seed, bool sheet)
 {
     struct generator g = {.p = p, .state = seed * 0x2545f4914f6cdd1du + 12345, .sheet = sheet};

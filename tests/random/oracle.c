@@ -2,8 +2,9 @@
  *
  *     field: bits[processor * width + bit]
  *
- * An instruction reads all its sources for all processors, then stores under the context. No instruction is clever;
- * this is the meaning that the lazy machine is held to. `sabotage` makes one operation wrong, to try the detector.
+ * An instruction reads all its sources for all processors, then stores under the context. The code is as plain as
+ * possible, because it defines what the lazy machine must compute. `sabotage` makes one operation wrong, to test the
+ * detector.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -173,7 +174,7 @@ static wide value_of(struct oracle *o, const struct instruction *in, uint64_t n,
             return info->op == OP_SET_BIT;
         }
     case NEWS:
-        /* a get reads the neighbour; a send is read by the one it goes to */
+        /* a get reads the neighbour in its direction; a send is a get in the opposite direction */
         if (info->op == OP_GET_NEWS)
             return get(o, &in->a, neighbour(o, n, in->axis, in->direction ? -1 : 1));
         return get(o, &in->a, neighbour(o, n, in->axis, in->direction ? 1 : -1));
@@ -196,7 +197,7 @@ static bool stores(const struct oracle *o, const struct instruction *in, uint64_
     return info->always || context[n];
 }
 
-/* dest = something: all processors' values first, then the stores. */
+/* dest = value: computes all processors' values first, then stores them. */
 static void assign(struct oracle *o, const struct instruction *in)
 {
     struct oracle_set *set = &o->sets[o->set];
@@ -451,7 +452,7 @@ static void step(struct oracle *o, const struct instruction *in)
     }
 }
 
-/* Everything that is left: flags of all sets, and all fields. */
+/* Adds to the trace what the program leaves: the flags of all sets and all fields. */
 static void dump(struct oracle *o)
 {
     for (o->set = 0; o->set < o->p->sets_count; o->set++) {

@@ -55,7 +55,7 @@ static bool is_less(bool is_signed, wide a, wide b)
     return is_signed ? (signed_wide)a < (signed_wide)b : a < b;
 }
 
-/* Zero's quotient is 0 and leaves all; the least number over -1 is its own negative. */
+/* x / 0 is 0, with remainder x. The least number / -1 is the least number. */
 static wide divided(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows)
 {
     signed_wide x = (signed_wide)a, y = (signed_wide)b;
@@ -214,7 +214,7 @@ uint64_t number_resize_float(uint64_t a, int from_bits, int to_bits)
     return from_bits == to_bits ? a : number_real(number_value(a, from_bits), to_bits);
 }
 
-/* min and max choose one of the operands: its bits, unless that is a NaN. */
+/* min and max return the bits of one operand, unless it is a NaN. */
 #define FLOAT_ARITHMETIC(function, type, bits_of, of_bits, square_root, absolute)              \
     static uint64_t function(enum op op, uint64_t pa, uint64_t pb, bool *overflows)            \
     {                                                                                          \
@@ -280,7 +280,7 @@ uint64_t number_from_integer(bool is_signed, wide a, int float_bits)
     return real_bits(is_signed ? (double)(signed_wide)a : (double)a);
 }
 
-/* Beyond the range the nearest end of it; NaN gives 0. Both are overflows. */
+/* A number out of range gives the range's nearest end, NaN gives 0. Both are overflows. */
 wide number_to_integer(enum op op, bool is_signed, uint64_t a, int float_bits, int bits,
                        bool *overflows)
 {

@@ -1,4 +1,4 @@
-/* oracle_number.h - what one instruction computes in one processor: 128-bit integers and IEEE floats. */
+/* oracle_number.h - the result of one instruction in one processor: 128-bit integers and IEEE floats. */
 #ifndef LUTETIA_TESTS_RANDOM_ORACLE_NUMBER_H
 #define LUTETIA_TESTS_RANDOM_ORACLE_NUMBER_H
 
@@ -10,11 +10,11 @@ __extension__ typedef unsigned __int128 wide;
 __extension__ typedef __int128 signed_wide;
 
 wide wide_mask(int bits);
-/* The low bits of x, with their sign. */
+/* The low `bits` bits of x, sign-extended. */
 signed_wide wide_signed(wide x, int bits);
 
-/* dest = a op b. Operands are widened already (zeros or sign); *overflows says whether the exact result fits in
- * `bits`, and is left alone by operations that do not record it. */
+/* Returns a op b. The operands are already zero- or sign-extended. *overflows tells whether the exact result does not fit in
+ * `bits` bits; operations that record no overflow leave it alone. */
 wide number_integer(enum op op, bool is_signed, wide a, wide b, int bits, bool *overflows);
 /* Floats as bits; 32 or 64 of them. */
 uint64_t number_float(enum op op, int bits, uint64_t a, uint64_t b, bool *overflows);
@@ -34,7 +34,7 @@ double number_value(uint64_t a, int float_bits);
 /* The one NaN that arithmetic gives. */
 uint64_t number_nan(int float_bits);
 
-/* ADD, MIN or MAX over the active ones of count elements, a row of the last axis after another. */
+/* ADD, MIN or MAX over the active elements among count, in the order of rows along the last axis. */
 uint64_t number_float_reduce(enum op op, const uint64_t *values, const bool *active,
                              uint64_t count, int last_axis, int bits);
 

@@ -1,7 +1,7 @@
-/* paris_executor.c - a random program through C/Paris calls.
+/* paris_executor.c - runs a random program through C/Paris calls.
  *
- * Each row of table.h becomes one case of a switch: its call, with the arguments of its shape. What a run shows is
- * appended in the order of oracle.c. */
+ * Each row of table.h becomes one case of a switch: its call with the arguments of its shape. The trace has the order of
+ * oracle.c. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 #include <cm/paris.h>
 
-/* So that VP ratios above 1 occur with small geometries. */
+/* So few that small geometries have VP ratios above 1. */
 enum { PROCESSORS = 16 };
 
 struct execution {
@@ -18,7 +18,7 @@ struct execution {
     struct trace *out;
     CM_vp_set_id_t sets[PROGRAM_SETS];
     CM_field_id_t
-        fields[PROGRAM_SLOTS]; /* CM_no_field: none; stack fields stay when they are gone */
+        fields[PROGRAM_SLOTS]; /* CM_no_field: none; deallocated stack fields keep their ids */
     const struct instruction *in;
     int set;
     /* live fields, to dump at the end */
@@ -231,8 +231,8 @@ static void step(struct execution *x, const struct instruction *in)
 
 /* ---- what is left at the end ----
  *
- * Everything is first copied into fields of at most 64 bits, then computed at once, then downloaded: a few kernels
- * instead of one for each field. */
+ * All fields are first copied into fields of at most 64 bits, then computed in one evaluation, then downloaded. That needs a
+ * few kernels instead of one for each field. */
 
 enum { COPIES_MAX = PROGRAM_SETS * 3 + PROGRAM_SLOTS * 3 };
 
@@ -309,10 +309,10 @@ static void show_copies(struct trace *out, const struct copies *c)
     }
 }
 
-static int present = -1; /* the machine there is: eager or not; -1: none that may be used */
+static int present = -1; /* the present machine: 1 eager, 0 lazy; -1: none that may be used */
 static struct paris_counts counts;
 
-/* Adds what the machine has done so far, or takes it away. */
+/* Adds the machine's counts so far to the totals (sign 1), or subtracts them (-1). */
 static void count(int sign)
 {
     struct machine_stats now;

@@ -1,4 +1,4 @@
-/* program.c - the instruction table, what makes an instruction possible, the data that programs write. */
+/* program.c - the instruction table, the checks whether an instruction can run, and the data that programs write. */
 #include "program.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ uint64_t data_word(uint32_t stream, uint64_t index)
     return sample_mixed((stream + 1) * SAMPLE_GOLDEN + index * 0xd1342543de82ef95u);
 }
 
-/* -NAN: with the bits that operations give. */
+/* -NAN has the bits of the operations' NaN. */
 double data_real(uint32_t stream, uint64_t index)
 {
     static const double awkward[] = {0.0,    -0.0,    1.0,     -1.0,         0.5,
@@ -163,7 +163,7 @@ static bool lengths_are_free(enum shape shape)
            shape == INT_TO_FLOAT || shape == FLOAT_TO_INT || shape == FLOAT_MOVE_2L;
 }
 
-/* Which operands are floats (number F), of 32 or 64 bits. */
+/* Bit mask of the operands that are floats (number F), of 32 or 64 bits. */
 static int float_operands(const struct row_info *info)
 {
     if (info->shape == INT_TO_FLOAT)
@@ -173,7 +173,7 @@ static int float_operands(const struct row_info *info)
     return info->number == NUMBER_F ? USE_D | USE_A | USE_B : 0;
 }
 
-/* Widest that the front end takes or gives. */
+/* The widest integer that a front-end call writes or reads. */
 static int widest(const struct row_info *info)
 {
     switch ((int)info->shape) {

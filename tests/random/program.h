@@ -2,14 +2,14 @@
  *
  *     struct program p;
  *     program_generate(&p, seed, length);
- *     program_normalise(&p);              // what cannot be (a field that is gone) drops out
+ *     program_normalise(&p);              // drops instructions that cannot run (a deallocated field)
  *     struct trace a = {0}, b = {0};
  *     oracle_run(&p, &a, 0);
  *     paris_run(&p, &b, eager);
  *     if (trace_differ(&a, &b, &where)) …
  *
- * Fields are slots, so an instruction can be removed without renumbering: an instruction whose slot is not what
- * it needs is dropped by program_normalise(), and all executors run normalised programs only.
+ * Fields are numbered slots, so that an instruction can be removed without renumbering the others. program_normalise()
+ * drops an instruction whose slot does not hold the field that it needs. All executors run normalised programs only.
  */
 #ifndef LUTETIA_TESTS_RANDOM_PROGRAM_H
 #define LUTETIA_TESTS_RANDOM_PROGRAM_H
@@ -147,7 +147,7 @@ struct instruction {
     int64_t constant;
     double real;
     uint8_t axis, direction, set;
-    uint32_t where; /* a processor; the start of an array's data in its stream */
+    uint32_t where; /* a processor's number, or where an array's data start in their stream */
 };
 
 struct geometry {
@@ -156,7 +156,7 @@ struct geometry {
 };
 
 struct program {
-    uint64_t seed; /* of the machine's random numbers too */
+    uint64_t seed; /* also the seed of the machine's random numbers */
     int sets_count;
     struct geometry sets[PROGRAM_SETS];
     int count;
@@ -166,9 +166,9 @@ struct program {
 uint64_t geometry_count(const struct geometry *g);
 
 void program_generate(struct program *p, uint64_t seed, int length);
-/* Mostly one long loop; sheet: over fields of a sheet of two axes, so wide that it can be strips. */
+/* Draws a program that is mostly one long loop; sheet: over fields of two axes, wide enough for strips. */
 void program_generate_loop(struct program *p, uint64_t seed, bool sheet);
-/* Drops what cannot run; the executors need this done. */
+/* Drops instructions that cannot run; call it before the executors. */
 void program_normalise(struct program *p);
 /* A C program with CM_ calls. */
 void program_print(const struct program *p, FILE *out);
@@ -176,7 +176,7 @@ void program_print(const struct program *p, FILE *out);
 /* ---- data that programs write: a function of the instruction alone ---- */
 
 uint64_t data_word(uint32_t stream, uint64_t index);
-/* Ordinary numbers and the awkward ones: zeros, denormals, infinities, NaN. */
+/* Ordinary numbers and awkward ones: zeros, subnormals, infinities, NaN. */
 double data_real(uint32_t stream, uint64_t index);
 
 /* ---- what a run showed ---- */
@@ -184,15 +184,15 @@ double data_real(uint32_t stream, uint64_t index);
 struct trace {
     uint64_t *words;
     uint32_t *
-        steps; /* the instruction that showed each word; the program's length for what is left at the end */
+        steps; /* the instruction that added each word; the program's length for words of the final state */
     size_t count, size;
     int step; /* set by the executor */
 };
 void trace_add(struct trace *t, uint64_t word);
-/* A float from a reduction; any NaN is one. */
+/* Adds a float that a reduction returned; all NaNs count as the same. */
 void trace_real(struct trace *t, double x);
 void trace_finish(struct trace *t);
-/* Index of the first difference in *where; false if there is none. */
+/* Sets *where to the index of the first difference; false: there is none. */
 bool trace_differ(const struct trace *a, const struct trace *b, size_t *where);
 
 /* ---- executors: all append the same words for the same program ---- */
@@ -205,27 +205,27 @@ enum sabotage {
     SABOTAGE_COUNT
 };
 
-/* Plain bit arrays; `sabotage` makes it wrong on purpose. */
+/* Runs on plain bit arrays; `sabotage` makes one operation wrong on purpose. */
 void oracle_run(const struct program *p, struct trace *out, enum sabotage sabotage);
 /* C/Paris calls. */
 void paris_run(const struct program *p, struct trace *out, bool eager);
 
-/* From now on machines have these environment variables, NAME=value, NULL at the end, and not those of the call
- * before. */
+/* Sets these environment variables (NAME=value, ending with NULL) for all later machines, and unsets those of the previous
+ * call. */
 void paris_force(const char *const *variables);
 
 struct paris_counts {
     long kernels_built;
-    long kernels_of_stages; /* runs of several stages in one kernel, of strips or tiles */
-    long calls_foreseen;    /* not recorded again: of a step seen before */
+    long kernels_of_stages; /* launches of kernels with several stages, in strips or tiles */
+    long calls_foreseen;    /* calls of a step seen before, which were not recorded again */
 };
-/* Of all programs so far that were fused. */
+/* The counts of all fused programs so far. */
 struct paris_counts paris_counts(void);
 
 /* ---- shrinking ---- */
 
 typedef bool (*program_fails)(void *context, const struct program *p);
-/* p fails; it is made as small as removals and simplifications get it. Returns the number of runs. */
+/* Makes the failing program p as small as removals and simplifications can. Returns the number of runs. */
 int program_shrink(struct program *p, program_fails fails, void *context);
 
 #endif

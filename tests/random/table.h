@@ -64,7 +64,7 @@
     X(CM_global_##t##_max_1L, INT_GLOBAL, N, MAX, 0)
 
 #define RANDOM_ROWS(X)                                                                         \
-    /* first, so that numbers below are known to the generator and the shrinker */             \
+    /* first, because the generator tells these rows from the others by their numbers */       \
     X(CM_allocate_stack_field, ALLOCATE, B, STACK, 1)                                          \
     X(CM_allocate_heap_field, ALLOCATE, B, HEAP, 1)                                            \
     X(CM_deallocate_stack_through, DEALLOCATE, B, STACK, 1)                                    \
@@ -139,7 +139,7 @@
     X(CM_global_f_add_1L, FLOAT_GLOBAL, F, ADD, 0)                                             \
     X(CM_global_f_min_1L, FLOAT_GLOBAL, F, MIN, 0)                                             \
     X(CM_global_f_max_1L, FLOAT_GLOBAL, F, MAX, 0)                                             \
-    /* flags; a BIT's field is the destination of a store, the source of a load */             \
+    /* flags; the field of a BIT_ row is a store's destination, or a load's source */          \
     X(CM_set_context, FLAG, B, SET_CONTEXT, 1)                                                 \
     X(CM_clear_context, FLAG, B, CLEAR_CONTEXT, 1)                                             \
     X(CM_invert_context, FLAG, B, INVERT_CONTEXT, 1)                                           \

@@ -1,4 +1,4 @@
-/* test_shrink.c - the detector and the shrinker, without a device: the oracle against itself made wrong on purpose. */
+/* test_shrink.c - the detector and the shrinker, without a device: the oracle against an oracle with a deliberate fault. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -100,7 +100,7 @@ static void generate_is_a_function_of_the_seed(void **state)
     free(p);
 }
 
-/* Most of what is drawn survives normalising, and every row of the table is drawn. */
+/* Most drawn instructions survive normalising, and every row of the table is drawn. */
 static void generate_reaches_every_row(void **state)
 {
     static unsigned int seen[ROW_COUNT];
