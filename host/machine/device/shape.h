@@ -68,6 +68,8 @@ struct device_shape {
     /* The interpreter, in nanoseconds for a lane: a step that is a loop, for each unit of an operation's cost on top, a gather on
      * top; a step lane by lane, of floats' functions and of all else. */
     double loop_ns, loop_cost_ns, gather_ns, each_math_ns, each_ns;
+    uint64_t
+        ahead_from; /* processors of a set whose arrays are not in the caches: they are fetched ahead */
     double
         short_ns; /* what the front end interprets in less time is as soon done as noted: run/record.c */
     /* When plans get kernels (build/interpreted.c): nanoseconds of a launch and its wait, of the search for a plan and its

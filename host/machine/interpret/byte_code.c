@@ -479,6 +479,32 @@ static void node_compute(struct making *k, int node)
     }
 }
 
+static int operands_of(const struct lanes_step *s)
+{
+    if (s->op < NODE_OP_COUNT)
+        return node_ops[s->op].inputs;
+    return s->op == LANES_FETCH ? 3 : s->op == LANES_JOIN || s->op == LANES_DRAW ? 2 : 1;
+}
+
+/* Which step is the first that takes an array. */
+static void arrays_ahead(struct byte_code *p)
+{
+    bool *taken = calloc((size_t)p->places_count, sizeof *taken);
+    for (int i = 0; taken && i < p->steps_count; i++) {
+        struct lanes_step *s = &p->steps[i];
+        int inputs = s->run ? operands_of(s) : 0;
+        for (int k = 0; k < 4; k++) {
+            int place = k == 3 ? s->to : s->in[k];
+            if ((k < inputs || k == 3) && p->places[place].kind == PLACE_ARRAY &&
+                !taken[place]) {
+                taken[place] = true;
+                s->ahead |= (uint8_t)(1u << k);
+            }
+        }
+    }
+    free(taken);
+}
+
 void byte_code_free(struct byte_code *p)
 {
     if (!p)
@@ -515,6 +541,8 @@ struct byte_code *byte_code_make(const struct device_shape *shape, const struct 
             if (k.needed[i])
                 node_compute(&k, i);
         good = !p->failed && p->places_count <= UINT16_MAX;
+        if (good && set->count >= shape->ahead_from)
+            arrays_ahead(p);
     }
     for (int c = 0; c < LANES_CLASSES; c++)
         free(k.idle[c]);

@@ -55,6 +55,8 @@ struct lanes_step {
     struct machine_type type; /* of the result */
     int32_t detail;
     uint8_t axis;
+    uint8_t
+        ahead; /* of arrays that no step before has taken: bit k of in[k], bit 3 of `to`: see blocks.c */
     lanes_wide mask; /* the bits of the result that may be 1 */
 };
 
