@@ -1,0 +1,165 @@
+/* test_pulse.c - a microphone of PulseAudio's, on a server of the test's own whose only source is what is played to its only
+ * sink: a buzz that is played is what is heard, and a server that ends is noticed. Skips where there is no pulseaudio. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <microphone.h>
+#include <voice.h>
+
+#include "../display/scratch.h"
+#include "clock.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { RATE_HZ = 48000, PITCH_HZ = 220, SECONDS = 3 };
+
+static char socket_option[300], server_address[300];
+
+static void quiet_begin(void)
+{
+    const int quiet = open("/dev/null", O_RDWR);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    dup2(quiet, STDOUT_FILENO);
+    dup2(quiet, STDERR_FILENO);
+}
+
+static pid_t pulseaudio_begin(void)
+{
+    const char *folder = scratch_path("pulse");
+    snprintf(socket_option, sizeof socket_option,
+             "module-native-protocol-unix auth-anonymous=1 socket=%s.socket", folder);
+    snprintf(server_address, sizeof server_address, "unix:%s.socket", folder);
+    setenv("PULSE_SERVER", server_address, 1);
+    setenv("HOME", scratch_path("."), 1);
+    unsetenv("XDG_RUNTIME_DIR");
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        quiet_begin();
+        execlp("pulseaudio", "pulseaudio", "-n", "--daemonize=no", "--exit-idle-time=-1",
+               "--use-pid-file=no", "-L", "module-null-sink sink_name=room rate=48000", "-L",
+               socket_option, (char *)NULL);
+        _exit(127);
+    }
+    return child;
+}
+
+/* Plays SECONDS of a buzz of ten harmonics; waits for nothing. */
+static pid_t player_begin(void)
+{
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    const pid_t pacat = fork();
+    assert_true(pacat >= 0);
+    if (pacat == 0) {
+        dup2(ends[0], STDIN_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        quiet_begin();
+        execlp("pacat", "pacat", "--playback", "--raw", "--format=float32le", "--rate=48000",
+               "--channels=1", "--latency-msec=50", (char *)NULL);
+        _exit(127);
+    }
+    close(ends[0]);
+    const pid_t writer = fork();
+    assert_true(writer >= 0);
+    if (writer == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        for (int i = 0; i < SECONDS * RATE_HZ; i++) {
+            double sum = 0;
+            for (int k = 1; k <= 10; k++)
+                sum += sin(2 * M_PI * PITCH_HZ * k * i / RATE_HZ) / k;
+            const float sample = (float)(0.25 * sum);
+            if (write(ends[1], &sample, sizeof sample) != sizeof sample)
+                break;
+        }
+        _exit(0);
+    }
+    close(ends[1]);
+    return pacat;
+}
+
+/* A microphone, as soon as the server runs; NULL: there is no server. */
+static struct microphone *microphone_wait(pid_t pulseaudio)
+{
+    const double until_s = clock_now_s() + 10;
+    struct microphone *m = NULL;
+    char why[300];
+    while (!microphone_open("pulse", &m, why, sizeof why)) {
+        if (clock_now_s() > until_s || waitpid(pulseaudio, NULL, WNOHANG) != 0)
+            return NULL;
+        poll(NULL, 0, 50);
+    }
+    return m;
+}
+
+static size_t hear(struct microphone *m, float *samples, size_t count)
+{
+    size_t at = 0;
+    const double until_s = clock_now_s() + 10;
+    while (at < count && clock_now_s() < until_s) {
+        at += microphone_take(m, samples + at, count - at);
+        poll(NULL, 0, 5);
+    }
+    return at;
+}
+
+static void what_is_played_is_heard(void **unused)
+{
+    (void)unused;
+    enum { COUNT = 2 * RATE_HZ };
+    const pid_t pulseaudio = pulseaudio_begin();
+    struct microphone *m = microphone_wait(pulseaudio);
+    if (!m) {
+        print_message("no PulseAudio server can be started here\n");
+        skip();
+    }
+    float *samples = calloc(COUNT, sizeof *samples);
+    struct voice_frame *frames;
+    int count;
+    assert_int_equal(microphone_rate_hz(m), RATE_HZ);
+    const pid_t player = player_begin();
+    do /* until it arrives */
+        assert_true(hear(m, samples, 480) == 480);
+    while (fabsf(samples[100]) < 0.01f && fabsf(samples[300]) < 0.01f);
+    assert_int_equal(hear(m, samples, COUNT), COUNT);
+    assert_int_equal(microphone_lost(m), 0);
+    const struct voice_def def = voice_def_default();
+    assert_true(voice_frames(&def, samples, COUNT, RATE_HZ, &frames, &count));
+    int right = 0;
+    for (int i = 10; i < count - 10; i++)
+        right += fabs(frames[i].pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ && frames[i].level > 0.1;
+    assert_true(right > 0.8 * (count - 20)); /* a busy machine may leave some out */
+    kill(player, SIGKILL);
+    waitpid(player, NULL, 0);
+    kill(pulseaudio, SIGKILL);
+    waitpid(pulseaudio, NULL, 0);
+    const double until_s = clock_now_s() + 5;
+    while (!microphone_gone(m) && clock_now_s() < until_s)
+        (void)microphone_take(m, samples, COUNT);
+    assert_true(microphone_gone(m));
+    free(frames);
+    free(samples);
+    microphone_close(m);
+    while (waitpid(-1, NULL, WNOHANG) > 0)
+        continue;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_played_is_heard)};
+    return cmocka_run_group_tests_name("pulse", tests, NULL, NULL);
+}
