@@ -43,7 +43,7 @@ enum font_filter_way {
     FONT_BY_PATCHES /* nodes by patches, lines by tables */
 };
 
-/* A kind of filter: a row of the table in filters_by_name.c is all there is of it. */
+/* A kind of filter: a row of the table in filter_profiles_by_name.c is all there is of it. */
 struct font_filter_kind {
     const char *name;
     enum { FONT_TAKES_RADIUS, FONT_TAKES_SIGMA_RADIUS, FONT_TAKES_SAMPLES } takes;
@@ -112,7 +112,7 @@ static inline const float *font_filter_y(const struct font_filter *f, int term)
     return font_filter_h(f, term) + FONT_PHASES * 2 * FONT_H_ROW;
 }
 
-/* filter_profile.c: the profile, 0 beyond the radius. */
+/* filter_integrals.c: the profile, 0 beyond the radius. */
 double font_filter_profile(const struct font_filter *f, double v);
 /* A term's density and integral at v, in double precision. */
 double font_term_density(const struct font_filter *f, int term, double v);

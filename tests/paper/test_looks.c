@@ -176,7 +176,8 @@ static void glazes_are_kubelka_munk_by_hand(void **state)
     struct paper_sheet_config config = paper_sheet_config_default();
     config.width = config.height = SIDE;
     config.parts = PAPER_PART_INFUSED;
-    while (paper_pigment_number(config.pigments_count)) {
+    while (config.pigments_count < PAPER_PIGMENTS_MAX &&
+           paper_pigment_number(config.pigments_count)) {
         config.pigments[config.pigments_count] = *paper_pigment_number(config.pigments_count);
         config.pigments_count++;
     }

@@ -54,7 +54,7 @@ enum op_fold {
     FOLD_NEVER,
     FOLD_MAKER,    /* by the function that makes it: values/shapes.c, rules.c, make.c */
     FOLD_BITS,     /* values/arithmetic.c */
-    FOLD_QUOTIENT, /* these four: values/integers.c */
+    FOLD_QUOTIENT, /* these four: values/integer_fold.c */
     FOLD_POWER,
     FOLD_SHIFT, /* b is a count of 32 bits, not of a's type */
     FOLD_COUNT,

@@ -9,7 +9,7 @@
 /* Set by environment variables: settings.c. */
 struct settings {
     uint64_t eager, replay;
-    uint64_t flush_after; /* pending values that make an evaluation due: run/evaluate.h */
+    uint64_t flush_after; /* pending values that make an evaluation due: run/pending.h */
     /* The number of processors that a plan runs on before its kernels are optimised, and
      * before they get boxes. */
     uint64_t optimise_after, box_after;

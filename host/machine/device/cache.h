@@ -11,8 +11,8 @@ uint64_t cache_hash(uint64_t h, const char *s);
 /* Opens a regular file of the cache for reading; NULL if there is none, and for pipes, links
  * and devices. */
 FILE *cache_file_read(const char *path);
-/* The key of a kernel: its whole text and its build options. The caller frees it; NULL: no
- * memory. */
+/* The key of a kernel: its name, its build options, the last part of its text, and a hash of the parts
+ * before that. The caller frees it; NULL: no memory. */
 char *cache_key(const struct device *d, const char *const parts[DEVICE_PARTS],
                 const char *options, const char *name);
 unsigned char *cache_program_read(const struct device *d, const char *key, size_t *size);

@@ -21,7 +21,8 @@
     ROW_USUAL, .call_columns = 4096, .call_processors = 512, .scatter_units = 8,               \
                .fill_run = 1 << 16, .sort_long = 1 << 15
 
-/* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken. */
+/* Each row is of a kind of device, and of a driver (its OpenCL platform; NULL: any). The first that fits is taken: a driver's row stands above the row for
+ * any driver. */
 static const struct driver_row {
     bool is_cpu;
     const char *platform;

@@ -1,4 +1,4 @@
-/* programs.c - kernels, found by their whole text and options: in memory by a hash table, on
+/* programs.c - kernels, found by their key (cache.h): in memory by a hash table, on
  * disk by a file of cache.c. */
 #include <math.h>
 #include <stdlib.h>

@@ -333,7 +333,7 @@ static inline f64 double_of(u64 bits)
 }
 
 /* x rounded to nearest even to a short format (s <= 24, e <= 9): by adding, and taking away again, a number so great that the
- * sum's last place is the result's. Longer ones: slow_lane.c. */
+ * sum's last place is the result's. Longer ones: lane_by_folding.c. */
 LOOP(fit, f64)
 {
     f64 *d = at[s->to];

@@ -7,7 +7,7 @@
  *     add(&step, at, n);          at[step.to][i] = at[step.in[0]][i] + at[step.in[1]][i], for n lanes
  *
  * fast_loops.h has the loops; it is compiled once for each instruction set. What has no loop there is done lane by lane
- * (slow_lane.c). Both give the same bits as generated kernels. */
+ * (lane_by_folding.c). Both give the same bits as generated kernels. */
 #ifndef LUTETIA_MACHINE_LANES_H
 #define LUTETIA_MACHINE_LANES_H
 
@@ -65,7 +65,7 @@ lanes_function *lanes_find(int op, enum lanes_class c);
 /* Conversions: NODE_ZERO_EXTEND (and EXTRACT), SIGN_EXTEND, U_TO_F, S_TO_F, F_TO_U, F_TO_S, F_TO_F. */
 lanes_function *lanes_find_conversion(int op, enum lanes_class from, enum lanes_class to);
 
-/* Lane by lane, any operation: the slow twin of all loops. slow_lane.c */
+/* Lane by lane, any operation: the slow twin of all loops. lane_by_folding.c */
 lanes_function lane_each;
 
 /* Of n processors' indices those from `first` on, `count` of them, where the context (NULL: everywhere) holds: `place` and `lane`

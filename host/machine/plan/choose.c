@@ -26,6 +26,7 @@
 
 #include "base/errors.h"
 #include "base/node_ops.h"
+#include "plan/plans_compared.h"
 #include "plan/search_cost.h"
 #include "plan/substitutes.h"
 
@@ -130,15 +131,6 @@ static double barriers_everywhere(struct search *s)
     return cost_of(s);
 }
 
-/* What that would cost; the last one that is noted in rows is chosen, unless strips or tiles are. */
-static void note_way(struct plan_graph *g, enum machine_plan_way way, double ns)
-{
-    if (ns < IMPOSSIBLE)
-        g->considered.cost_s[way] = 1e-9 * ns;
-    if (way == MACHINE_PLAN_ROWS)
-        g->considered.chosen = way;
-}
-
 void plan_choose(struct plan_graph *g, const struct vpset *sets,
                  const struct device_shape *shape)
 {
@@ -162,8 +154,8 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
     cost_find_light(&s, weight);
     substitutes_find(g);
     double all = barriers_everywhere(&s), best = descend(&s, all);
-    note_way(g, MACHINE_PLAN_STORED, all);
-    note_way(g, MACHINE_PLAN_ROWS, best);
+    plan_compared(g, MACHINE_PLAN_STORED, all);
+    plan_compared(g, MACHINE_PLAN_ROWS, best);
     const struct vpset *could = could_be_strips(g, sets, shape);
     bool tiles = could && shape->vector < 2;
     g->turns_most = !could ? 1 : tiles ? 2 * shape->turns : turns_most(g, could, shape);
@@ -173,7 +165,7 @@ void plan_choose(struct plan_graph *g, const struct vpset *sets,
         s.tiles = tiles;
         double strips = descend(&s, barriers_everywhere(&s));
         enum machine_plan_way way = tiles ? MACHINE_PLAN_TILES : MACHINE_PLAN_STRIPS;
-        note_way(g, way, strips);
+        plan_compared(g, way, strips);
         if (tiles) {
             cost_of(&s); /* the last one tried may not have been the best */
             g->turns_most =

@@ -11,17 +11,11 @@
 
 #include "base/errors.h"
 #include "memory/memory.h"
+#include "run/pending.h"
 #include "run/replay.h"
 #include "run/roll.h"
 #include "values/graph.h"
 #include "watch/watch.h"
-
-/* When an evaluation becomes due. Where a loop has been seen, 5 * PENDING_MANY is as many as are usual: PENDING_MOST is more. */
-enum {
-    PENDING_MANY = 384,  /* pending values; LUTETIA_FLUSH_AFTER sets another number */
-    PENDING_MOST = 4096, /* pending values: also in a loop whose turns are being collected */
-    PENDING_LOOP = 16384 /* pending values: also while a loop over slices is not at its end */
-};
 
 #define TRACE_FACTOR                                                                           \
     0x9e3779b97f4a7c15u /* its TRACE_LENGTH-th power is run.trace_power   \

@@ -1,6 +1,7 @@
 /* fields.c - the fields of a sheet: allocated, emptied, and which a pigment has. */
 #include "model/model.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 int sheet_pigment_fields(const struct paper_sheet *p, int i, CM_field_id_t fields[3])
@@ -66,6 +67,7 @@ enum paper_status sheet_amounts_clear(struct paper_sheet *p)
     }
     for (int i = 0; i < p->config.pigments_count; i++)
         count += sheet_pigment_fields(p, i, fields + count);
+    assert(count <= (int)(sizeof fields / sizeof *fields));
     float *zeros =
         calloc((size_t)p->page.grid.width * (size_t)p->page.grid.height, sizeof *zeros);
     if (!zeros)

@@ -1,6 +1,6 @@
 /* model.h - the fields of a sheet with pigments, and what the files of this folder do with them. */
-#ifndef LUTETIA_PAPER_SHEET_INTERNAL_H
-#define LUTETIA_PAPER_SHEET_INTERNAL_H
+#ifndef LUTETIA_PAPER_MODEL_H
+#define LUTETIA_PAPER_MODEL_H
 
 #include "base/page.h"
 #include "model/operations.h"

@@ -61,8 +61,8 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
     PLANE("dried water", dried, 0, 0);
     planes[count - 1].whole = true;
     if (config->model >= 2 && parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE)) {
-        PLANE("sizing", sizing, 0, AMOUNT_MOST);
-        PLANE("current", current, -AMOUNT_MOST, AMOUNT_MOST);
+        PLANE("sizing", sizing, 0.01f, 100); /* as layers.c lets it be */
+        PLANE("current", current, -10, 10);
         PLANE("wet part", wet_part, 0, 1);
         PLANE("speed along y", speed[0], -1, 1);
         PLANE("speed along x", speed[1], -1, 1);

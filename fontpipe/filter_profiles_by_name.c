@@ -1,4 +1,4 @@
-/* filters_by_name.c - the kinds of filters: profiles, and the table that everything else is read off. A new filter is its profile and
+/* filter_profiles_by_name.c - the kinds of filters: profiles, and the table that everything else is read off. A new filter is its profile and
  * a row; lists of names, help and measurements have it then. */
 #include "filter_internal.h"
 

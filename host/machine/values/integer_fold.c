@@ -1,4 +1,4 @@
-/* integers.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
+/* integer_fold.c - values of integers' quotients, powers, shifts and counts: kernels/integers.cl
  * computes them; results of constants are computed here.
  *
  * A single bit is represented differently from wider numbers (spell.c), so it is extended to
@@ -138,13 +138,16 @@ static number fold_counted(int op, int width, number a)
         for (; a; a >>= 1)
             r ^= a;
         return r;
-    default: /* ISQRT */
+    case MACHINE_ISQRT:
         for (int bit = 63; bit >= 0; bit--) {
             number t = r | (number)1 << bit;
             if (t * t <= a)
                 r = t;
         }
         return r;
+    default:
+        INVARIANT(false); /* all rows with FOLD_COUNT are above */
+        return 0;
     }
 }
 

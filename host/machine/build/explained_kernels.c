@@ -1,4 +1,4 @@
-/* explained.c - see explained.h. */
+/* explained_kernels.c - see explained.h. */
 #include "build/explained.h"
 
 #include <stdio.h>
