@@ -149,6 +149,9 @@ const struct paper_sheet_config *paper_sheet_get_config(const struct paper_sheet
 
 /* The layers of a sheet: properties of the paper, and its contents. Three layers exist once
  * for each pigment. */
+#define PAPER_GRIP_LEAST 0.15f
+#define PAPER_GRIP_MOST 2.0f
+
 enum paper_layer {
     PAPER_LAYER_HEIGHT,     /* 0..1 */
     PAPER_LAYER_ABSORBENCY, /* 0..PAPER_ABSORBENCY_MAX */
@@ -172,6 +175,8 @@ enum paper_layer {
     PAPER_LAYER_SIZING,
     PAPER_LAYER_CURRENT,
     PAPER_LAYER_WET_PART,
+    /* In version 3: how willingly the paper takes what a bristle leaves, 0.15..2, about 1 */
+    PAPER_LAYER_GRIP,
     PAPER_LAYERS_COUNT
 };
 
@@ -182,6 +187,10 @@ enum paper_status paper_sheet_layer_write(struct paper_sheet *sheet, enum paper_
                                           int pigment, const float *values);
 enum paper_status paper_sheet_layer_read(struct paper_sheet *sheet, enum paper_layer layer,
                                          int pigment, float *values);
+
+/* What writing clamps to. */
+void paper_sheet_layer_range(const struct paper_sheet *sheet, enum paper_layer layer,
+                             double range[2]);
 
 /* The total over the sheet, in units: of water (substance 0), of a pigment (1 + its number), or of the water that has dried (-1).
  * Exact on sheets with parts. Errors: NO_MEMORY, MACHINE_FAILED. */

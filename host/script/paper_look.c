@@ -6,6 +6,7 @@
 #include <history.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -31,6 +32,7 @@ static const char *const layer_names[] = {[PAPER_LAYER_HEIGHT] = "height",
                                           [PAPER_LAYER_SIZING] = "sizing",
                                           [PAPER_LAYER_CURRENT] = "current",
                                           [PAPER_LAYER_WET_PART] = "wet part",
+                                          [PAPER_LAYER_GRIP] = "grip",
                                           [PAPER_LAYERS_COUNT] = NULL};
 
 /* Finds the layer of that name, and its pigment if it has one. */
@@ -70,11 +72,17 @@ static int paper_layer(lua_State *L)
     const struct paper_sheet_config *config = paper_sheet_get_config(paper->sheet);
     int pigment, x = 0, y = 0;
     enum paper_layer layer = layer_arg(L, paper, 2, 4, &pigment);
+    double range[2];
+    char what[64];
+    paper_sheet_layer_range(paper->sheet, layer, range);
+    if (range[0] >= range[1]) /* it is refused below */
+        range[1] = 1e6;
+    snprintf(what, sizeof what, "a layer's value (%s)", layer_names[layer]);
     size_t width = (size_t)config->width, count = width * (size_t)config->height;
     float *values = values_new(L, config);
     memset(values, 0, count * sizeof *values);
     if (lua_type(L, 3) == LUA_TNUMBER) {
-        double value = script_arg_at(L, 3, "a layer's value", -1e6, 1e6);
+        double value = script_arg_at(L, 3, what, range[0], range[1]);
         for (size_t i = 0; i < count; i++)
             values[i] = (float)value;
     } else if (lua_type(L, 3) == LUA_TFUNCTION) {
@@ -83,7 +91,7 @@ static int paper_layer(lua_State *L)
             lua_pushinteger(L, (lua_Integer)(i % width));
             lua_pushinteger(L, (lua_Integer)(i / width));
             script_callback(L, 2, 1);
-            values[i] = (float)script_arg_at(L, -1, "a layer's value", -1e6, 1e6);
+            values[i] = (float)script_arg_at(L, -1, what, range[0], range[1]);
             lua_pop(L, 1);
         }
     } else {

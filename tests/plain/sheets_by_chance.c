@@ -163,7 +163,8 @@ static void planes_look(struct paper_sheet *sheet, const char *when)
         bool wet = strncmp(planes[i].name, "wet ", 4) == 0,
              speed = strncmp(planes[i].name, "speed", 5) == 0,
              noise = strcmp(planes[i].name, "sizing") == 0 ||
-                     strcmp(planes[i].name, "current") == 0;
+                     strcmp(planes[i].name, "current") == 0 ||
+                     strcmp(planes[i].name, "grip") == 0;
         bool fraction = i < 10 || wet || speed || noise;
         double most = noise           ? 100
                       : fraction      ? 1

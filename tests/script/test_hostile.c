@@ -79,10 +79,10 @@ static const struct {
     {"coroutine.resume(5)", "coroutine expected", "", false},
     {"coroutine.resume()", "coroutine expected", "", false},
     /* papers that are done something else to in such a function */
-    {"p:layer('height', function(x, y) p:put(m, {water = 0.01}) return x end) open()", NULL,
-     OPEN, false},
+    {"p:layer('height', function(x, y) p:put(m, {water = 0.01}) return x / 99 end) open()",
+     NULL, OPEN, false},
     {"p:layer('height', function(x, y) if x + y == 3 then p:undo() p:redo() p:to(0) end return "
-     "x end) open()",
+     "x / 99 end) open()",
      NULL, OPEN, false},
     {"p:stroke{brush = b, pace = 0, points = {{1, 1}, {9, 9}}, pressure = function(u) "
      "b:dip{water = u} "
@@ -90,7 +90,7 @@ static const struct {
      NULL, OPEN, false},
     {"local n = 0 p:layer('height', function(x, y) n = n + 1 if n < 300 then p:layer('height', "
      "function() "
-     "return n end) end return n end)",
+     "return n / 1e4 end) end return n / 1e4 end)",
      NULL, "", false},
     {"local function deep() p:layer('height', deep) end deep()", "C stack overflow", "", false},
     {"local function deep() p:at(0, deep) end deep()", "", "", false},
@@ -118,6 +118,8 @@ static const struct {
      "print(p:total('water'))",
      NULL, "0.0\n0.0\n", false}, /* nothing was painted of what failed in its second line */
     {"p:layer('height', tostring)", "a layer's value", "", false},
+    {"p:layer('height', 1.5)", "a layer's value (height) must be", "", false},
+    {"p:layer('grip', function() return 0 end)", "a layer's value (grip)", "", false},
     {"mask(3, 3, function() return {} end)", NULL, "", false},
     /* tables that answer: they are not asked */
     {"p:splatter(closing{drops = 3}, {water = 0.1}) open()", NULL, OPEN, false},

@@ -64,6 +64,28 @@ double sheet_brush_cloud(const struct sheet_brushes *b, double x, double y)
     return fmin(2, fmax(0.15, 1 + CLOUD_STRENGTH * cloud));
 }
 
+/* Version 3: the same clouds, on each fiber, in a layer of the sheet. A sheet whose layers are mirrored takes a mirrored stroke as
+ * the mirror image. */
+enum paper_status sheet_grip_make(struct paper_sheet *p)
+{
+    const int width = p->page.grid.width, height = p->page.grid.height;
+    const size_t count = (size_t)width * (size_t)height;
+    const double scale = felt_scale(&p->config);
+    const struct clouds of = {CLOUD_FINEST * scale, CLOUD_COARSEST * scale, CLOUD_STEP,
+                              clouds_word(p->config.seed, 77)};
+    float *grip = malloc(count * sizeof *grip);
+    if (!grip || !clouds_make(grip, width, height, p->config.torus, &of)) {
+        free(grip);
+        return paper_fail(PAPER_NO_MEMORY, "no memory for a sheet of %dx%d", width, height);
+    }
+    for (size_t i = 0; i < count; i++)
+        grip[i] = fminf(PAPER_GRIP_MOST,
+                        fmaxf(PAPER_GRIP_LEAST, 1 + (float)CLOUD_STRENGTH * grip[i]));
+    kit_grid_f_write(&p->page.grid, p->grip, grip);
+    free(grip);
+    return PAPER_OK;
+}
+
 /* The VP set and what all brushes share. */
 static enum paper_status brushes_make(struct paper_sheet *p)
 {
@@ -76,7 +98,7 @@ static enum paper_status brushes_make(struct paper_sheet *p)
         free(b);
         return paper_fail(PAPER_NO_MEMORY, "no memory for brushes");
     }
-    if (sheet_flows(p) && !clouds_lay(p, b)) {
+    if (sheet_flows(p) && !sheet_of_version_3(p) && !clouds_lay(p, b)) {
         free(b->clouds);
         free(b->touched);
         free(b);

@@ -58,17 +58,20 @@ static void contacts_write(struct sheet_brushes *b)
 }
 
 /* fullness = w / full, and level from it; other is free. */
-static void level_make(struct sheet_brushes *b, const struct sheet_brush *brush,
-                       CM_field_id_t level, CM_field_id_t fullness, CM_field_id_t other,
-                       double unit)
+static void level_make(const struct paper_sheet *p, struct sheet_brushes *b,
+                       const struct sheet_brush *brush, CM_field_id_t level,
+                       CM_field_id_t fullness, CM_field_id_t other)
 {
     CM_f_multiply_constant_3_1L(fullness, brush->held[0], 1 / brush->full, D);
     CM_f_min_constant_2_1L(fullness, 1.0, D);
     CM_f_subfrom_constant_3_1L(level, fullness, 2.0, D);
     CM_f_multiply_2_1L(level, fullness, D);
     CM_f_multiply_2_1L(level, brush->gives, D);
-    CM_f_multiply_constant_2_1L(level, brush->brush.load * unit, D);
-    CM_f_move_2L(other, b->takes, D, KIT_F);
+    CM_f_multiply_constant_2_1L(level, brush->brush.load * p->unit, D);
+    if (sheet_of_version_3(p))
+        get(b, other, p->grip);
+    else
+        CM_f_move_2L(other, b->takes, D, KIT_F);
     CM_f_multiply_2_1L(level, other, D);
 }
 
@@ -137,7 +140,7 @@ void sheet_brush_exchange(struct paper_sheet *p, struct sheet_brushes *b,
     CM_set_vp_set(b->vp_set);
     CM_set_context();
     contacts_write(b);
-    level_make(b, brush, level, fullness, other, p->unit);
+    level_make(p, b, brush, level, fullness, other);
     part_make(p, b, part, fullness, other);
     get(b, water, surface ? p->surface_water : p->page.water);
     CM_f_min_3_1L(both, level, water, D);

@@ -29,7 +29,7 @@ void sheet_fields_make(struct paper_sheet *p)
         &p->substrate[1],    &p->substrate[2], &p->surface_water, &p->wet_around,
         &p->varnish,         &p->salt,         &p->brine,         &p->sizing,
         &p->current,         &p->wet_part,     &p->speed[0],      &p->speed[1],
-        &p->ease[0],         &p->ease[1],      &p->swirl};
+        &p->ease[0],         &p->ease[1],      &p->swirl,         &p->grip};
     for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
         *floats[i] = field_make(KIT_FLOAT_BITS);
     for (int i = 0; i < p->config.pigments_count; i++) {

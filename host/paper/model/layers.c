@@ -32,6 +32,7 @@ static const struct {
     LAYER(SIZING, sizing, false, false, 0.01, 100),
     LAYER(CURRENT, current, false, false, -10, 10),
     LAYER(WET_PART, wet_part, false, false, 0, 1),
+    LAYER(GRIP, grip, false, false, PAPER_GRIP_LEAST, PAPER_GRIP_MOST),
 #undef LAYER
 };
 
@@ -75,6 +76,8 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
         return paper_fail(PAPER_BAD_ARGUMENT,
                           "paper has sizing and currents where water flows: version 2, with a "
                           "surface");
+    if (status == PAPER_OK && event->layer == PAPER_LAYER_GRIP && !sheet_of_version_3(p))
+        return paper_fail(PAPER_BAD_ARGUMENT, "paper has grip from version 3 on");
     unsigned part = event->layer == PAPER_LAYER_SURFACE_PIGMENT ? PAPER_PART_SURFACE
                     : event->layer == PAPER_LAYER_FIXED_PIGMENT ? PAPER_PART_FIXING
                                                                 : 0;
@@ -89,6 +92,13 @@ enum paper_status sheet_layer_check(const struct paper_sheet *p, const void *arg
     return status;
 }
 
+void paper_sheet_layer_range(const struct paper_sheet *p, enum paper_layer layer,
+                             double range[2])
+{
+    range[0] = layers[layer].low;
+    range[1] = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
+}
+
 enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
 {
     const struct event_layer *event = arguments;
@@ -98,13 +108,14 @@ enum paper_status sheet_layer(struct paper_sheet *p, const void *arguments)
     enum paper_status status = PAPER_OK;
     size_t count = (size_t)p->page.grid.width * (size_t)p->page.grid.height;
     double unit = layers[layer].amount ? p->unit : 1;
-    double high = layers[layer].amount && p->unit == 1 ? 1 : layers[layer].high;
+    double range[2];
+    paper_sheet_layer_range(p, layer, range);
     float *cut = malloc(count * sizeof *cut);
     if (!cut)
         return paper_fail(PAPER_NO_MEMORY, "no memory for a layer of %dx%d", p->page.grid.width,
                           p->page.grid.height);
     for (size_t i = 0; i < count; i++) {
-        double value = fmin(high, fmax(layers[layer].low, values[i])) * unit;
+        double value = fmin(range[1], fmax(range[0], values[i])) * unit;
         cut[i] = (float)(unit > 1 ? floor(value) : value);
     }
     paper_enter(&p->page);

@@ -37,6 +37,7 @@ struct paper_sheet {
     CM_field_id_t sizing, current, wet_part, speed[2];
     CM_field_id_t ease[2]; /* [axis]: how easily it flows over the face; 0: closed */
     CM_field_id_t swirl;   /* of current, at the corner above on both axes */
+    CM_field_id_t grip;    /* how willingly the paper takes what a bristle leaves */
     CM_field_id_t varnish, salt, brine;
     bool varnished, salted; /* there may be some */
     double salt_reach, salt_strength;
@@ -150,6 +151,8 @@ static inline bool sheet_of_version_3(const struct paper_sheet *p)
     return p->config.model >= 3;
 }
 
+/* Grip from the seed, in version 3. Errors: NO_MEMORY. */
+enum paper_status sheet_grip_make(struct paper_sheet *p);
 /* Sizing and currents from the seed. Errors: NO_MEMORY. */
 enum paper_status sheet_sizing_make(struct paper_sheet *p);
 /* What a step needs of them at faces and corners; after sheet_faces_make(). Uses t[0..4]. */

@@ -67,6 +67,8 @@ static int planes_make(const struct paper_sheet_config *config, struct paper_pla
         PLANE("speed along y", speed[0], -1, 1);
         PLANE("speed along x", speed[1], -1, 1);
     }
+    if (config->model >= 3)
+        PLANE("grip", grip, PAPER_GRIP_LEAST, PAPER_GRIP_MOST);
     for (int i = 0; i < config->pigments_count; i++) {
         if (parts & (PAPER_PART_SURFACE | PAPER_PART_EDGE))
             AMOUNT("surface pigment", surface, i);

@@ -69,6 +69,8 @@ static enum paper_status fresh_make(struct paper_sheet *p)
         status = sheet_sizing_make(p);
     if (status == PAPER_OK)
         status = sheet_stock_make(p);
+    if (status == PAPER_OK && sheet_of_version_3(p))
+        status = sheet_grip_make(p);
     return status == PAPER_OK ? sheet_amounts_clear(p) : status;
 }
 
