@@ -12,8 +12,7 @@ struct sheet {
     struct machine *m;
     uint32_t a, b;
     const struct looped *loop;
-    uint64_t
-        variant; /* 0: the usual kernels; else its bits choose operations, so that no cache is likely to hold them */
+    uint64_t variant; /* 0: the usual kernels; else its bits choose other operations */
 };
 
 struct looped {
@@ -21,8 +20,7 @@ struct looped {
     struct machine_type type;
     int height, width;
     struct machine_value *(*next)(const struct sheet *s);
-    bool
-        looks; /* the loop looks at a value after every turn; else many turns can be evaluated at once */
+    bool looks; /* reads after every turn; else many can be evaluated at once */
     bool tiles; /* on scalar work-items */
 };
 

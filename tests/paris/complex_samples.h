@@ -1,4 +1,4 @@
-/* complex_samples.h - complex numbers of a format to try instructions on, and how far results may be from C's. */
+/* complex_samples.h - sample complex numbers of a format, and the largest error that each instruction may have against C. */
 #ifndef PARIS_TESTS_COMPLEX_SAMPLES_H
 #define PARIS_TESTS_COMPLEX_SAMPLES_H
 
@@ -12,7 +12,7 @@
 
 typedef long double complex number_c;
 
-/* Keeps the signs of zeros, as re + im * I does not. */
+/* Keeps the signs of zeros; re + im * I would not. */
 static number_c complex_of(long double re, long double im)
 {
     union {
@@ -24,7 +24,7 @@ static number_c complex_of(long double re, long double im)
 
 typedef void (*unary_call)(CM_field_id_t, CM_field_id_t, unsigned int, unsigned int);
 
-/* Rows of less than a vector: kernels of one lane compile sooner. */
+/* Rows shorter than a vector give kernels of one lane, which compile faster. */
 enum { HIGH = 192, ACROSS = 12, MANY = HIGH * ACROSS, SPECIALS = 16 };
 
 struct format {
@@ -120,8 +120,8 @@ static void start(void)
 /* ---- comparing ---- */
 
 struct tolerance {
-    double part;  /* units in the last place of each part */
-    double whole; /* or of the number's magnitude, where a part nearly cancels; 0: never */
+    double part;  /* largest error of each part, in units in the last place */
+    double whole; /* where a part nearly cancels: in those of the magnitude; 0: never */
     bool endless; /* infinite parts are as in Annex G */
 };
 
@@ -142,7 +142,7 @@ static long double greatest_of(struct format f)
     return ldexpl(2 - ldexpl(1, -(int)f.s), (1 << (f.e - 1)) - 1);
 }
 
-/* The error in units, at most 1e9; 0 where the reference is a NaN. */
+/* The error in units in the last place, at most 1e9; 0 where wanted is a NaN. */
 static double error_of(struct format f, double got, long double wanted, long double scale)
 {
     long double most = greatest_of(f);

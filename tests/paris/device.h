@@ -1,5 +1,4 @@
-/* device.h - what the tests of C/Paris share: a VP set of an odd size, numbers in it, and
- * masks. */
+/* device.h - shared by the tests of C/Paris: a VP set of an odd size, sample numbers and masks. */
 #ifndef PARIS_TESTS_DEVICE_H
 #define PARIS_TESTS_DEVICE_H
 
@@ -11,31 +10,30 @@
 
 enum { ROWS = 5, COLUMNS = 13, COUNT = ROWS * COLUMNS };
 
-/* A machine of 16 processors with a VP set of ROWS x COLUMNS current: VP ratio 5, the last ones
- * missing. eager as in struct machine_config. Exits with 77 (skipped) where there is no device.
- * */
+/* Starts a machine of 16 processors and selects a VP set of ROWS x COLUMNS: the VP ratio is 5, and the last VPs are missing.
+ * eager: as in struct machine_config. Exits with 77 (skipped) where there is no device. */
 void device_start(int eager);
 
-/* COUNT numbers of width bits to and from a field, whatever the context. */
+/* Write and read COUNT numbers of width bits in a field, whatever the context. */
 void device_put(CM_field_id_t field, int width, const number *numbers);
 void device_get(CM_field_id_t field, int width, number *numbers);
 
 /* Reproducible: xorshift. */
 uint64_t device_random(void);
 void device_seed(uint64_t seed);
-/* COUNT numbers of width bits, half of them special: 0, 1, -1, the ends, single bits. */
+/* Draws COUNT numbers of width bits. Half of them are special: 0, 1, -1, the range's ends, single bits. */
 void device_integers(number *numbers, int width);
-/* COUNT floats (width 32 or 64): zeros of both signs, denormals, infinities, NaNs, the ends,
- * whole numbers and halves, others. */
+/* Draws COUNT floats (width 32 or 64): zeros of both signs, subnormals, infinities, NaNs, the range's ends, whole numbers and
+ * halves, others. */
 void device_floats(number *numbers, int width);
 
 /* which % 3: none, all, random */
 void device_mask(number *bits, int which);
 
-/* What error handler messages said last; handler is device_error_catch. */
+/* The last message of the error handler device_error_catch(). */
 extern char device_message[512];
 void device_error_catch(const char *message);
-/* It was about that call and mentions what, in one line; it is forgotten then. */
+/* Checks that the message is one line, begins with this call and contains `what`. Then clears it. */
 void device_said(const char *call, const char *what);
 
 /* device_start(-1), for cmocka. */

@@ -102,7 +102,7 @@ bool oracle_integer_compare(const char *op, bool is_signed, number a, int alen, 
 
 /* ---- floats ---- */
 
-/* NaNs that arithmetic makes are all the same one. */
+/* All NaNs that arithmetic gives have the same bits. */
 static number canonical(int width, double x)
 {
     uint32_t low;

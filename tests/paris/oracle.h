@@ -1,5 +1,4 @@
-/* oracle.h - what C/Paris instructions compute, for one processor, in plain C. Knows nothing of
- * the machine.
+/* oracle.h - the results of C/Paris instructions in one processor, in plain C. Knows nothing of the machine.
  *
  * A number is 128 bits; a float's bits are in the low 32 or 64. Operations are named as in
  * instructions.tab. */
@@ -11,7 +10,7 @@
 typedef unsigned __int128 number;
 
 number oracle_mask(int width);
-/* The number that the low width bits say, signed or not, as 128 bits. */
+/* Extends the low width bits, signed or unsigned, to 128 bits. */
 number oracle_extend(number bits, int width, bool is_signed);
 
 struct oracle_result {

@@ -1,5 +1,5 @@
-/* oracle_floats.h - what the float families of instructions.tab (float_...) compute, for one
- * processor, in plain C with long doubles. */
+/* oracle_floats.h - the results of the float families of instructions.tab (float_...) in one processor, in plain C with long
+ * doubles. */
 #ifndef PARIS_TESTS_ORACLE_FLOATS_H
 #define PARIS_TESTS_ORACLE_FLOATS_H
 
@@ -7,7 +7,7 @@
 
 struct oracle_float {
     number bits;
-    int ulp; /* how far off a result may be; 0: it is these bits */
+    int ulp; /* the largest error in units in the last place; 0: exactly these bits */
     bool overflow;
 };
 
@@ -24,7 +24,7 @@ struct oracle_float oracle_made(const char *op, int width, number x);
 struct oracle_result oracle_part(const char *op, int width, number x, int dlen, bool is_signed);
 /* is_... */
 bool oracle_float_test(const char *op, int width, number x);
-/* Whether got is a float of that width at most ulp away from wanted. */
+/* Whether got is at most ulp units in the last place away from wanted. */
 bool oracle_float_near(int width, number got, number wanted, int ulp);
 
 #endif

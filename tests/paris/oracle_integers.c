@@ -161,7 +161,7 @@ static number gray(const char *op, number x)
     return r;
 }
 
-/* x is extended to 128 bits; so is n, a signed number. */
+/* x * 2^n in dlen bits. x and n are extended to 128 bits; n is signed. */
 static struct oracle_result shifted(bool is_signed, number x, signed_number n, int dlen)
 {
     struct oracle_result out = {0, false};
@@ -170,7 +170,7 @@ static struct oracle_result shifted(bool is_signed, number x, signed_number n, i
         signed_number from = n > 256 ? -1 : n < -256 ? 256 : i - n;
         out.bits |= (number)(from < 0 ? 0 : from > 127 ? sign : bit(x, (int)from)) << i;
     }
-    /* whether x * 2^n, rounded down, is a number of dest's */
+    /* overflow: x * 2^n, rounded down, does not fit in dest */
     number v = x;
     for (signed_number k = n; k > 0 && k > n - 200 && !out.overflow; k--) {
         bool carry = is_signed ? bit(v, 127) != bit(v, 126) : bit(v, 127);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RUN = 512 }; /* of floats, counted from where the scan comes from */
+enum { RUN = 512 }; /* floats in one run, counted from the end where the scan begins */
 
 static int stride_of(const struct scan_grid *g, int axis)
 {
@@ -71,7 +71,7 @@ static number join(const struct scan_case *c, number a, number b)
 
 struct line {
     const struct scan_case *c;
-    int first, step, length; /* processors, in the direction of the scan */
+    int first, step, length; /* processors, in the scan's direction */
 };
 
 static int at(const struct line *l, int k)
@@ -102,7 +102,7 @@ static bool begins(const struct line *l, int k)
     return l->step > 0 ? c->sbit[at(l, k)] != 0 : c->sbit[at(l, k - 1)] != 0;
 }
 
-/* From p to q - 1, one after the other. */
+/* Combines elements p to q - 1, one after the other. */
 static number combination(const struct line *l, int p, int q)
 {
     number sum = identity_of(l->c);
@@ -112,7 +112,7 @@ static number combination(const struct line *l, int p, int q)
     return sum;
 }
 
-/* The order of float addition, as machine_scan() says it. */
+/* Combines floats in the order that machine_scan() defines. */
 static number in_runs(const struct line *l, int start, int stop, int self)
 {
     int run = self / RUN * RUN;
@@ -194,7 +194,7 @@ void oracle_spread(const struct scan_grid *g, const struct scan_case *c, unsigne
 
 /* ---- ranks ---- */
 
-/* a comes before b, whatever their places. */
+/* Whether a ranks before b by its value alone. */
 static bool before(const struct scan_case *c, number a, number b)
 {
     if (c->letter == 'f') {

@@ -1,4 +1,4 @@
-/* scan_set.h - a VP set of any geometry with numbers, masks and segments in it, on the device and in the oracle. */
+/* scan_set.h - a VP set of any geometry with numbers, masks and segments, on the device and in the oracle. */
 #ifndef PARIS_TESTS_SCAN_SET_H
 #define PARIS_TESTS_SCAN_SET_H
 
@@ -76,7 +76,7 @@ static struct set set_new(int rank, const int *dimensions)
     return s;
 }
 
-/* For numbers of that width and nothing else: a field that held others before would be cut up. */
+/* Makes fields for numbers of this width. A field that held numbers of another width would be stored in pieces. */
 static void fields_new(struct set *s, int width)
 {
     if (s->source)
@@ -108,13 +108,13 @@ static void numbers_random(number *n, int count, int width, bool floats)
         else if (i % COUNT == 0)
             device_integers(some, width);
         n[i] = some[i % COUNT];
-        /* sums of which the first NaN or infinity leaves nothing to see */
+        /* few NaNs and infinities: after the first one a sum shows nothing more */
         if (floats && device_random() % 8)
             n[i] = oracle_float_bits(width, (double)(int64_t)device_random() / 3e18);
     }
 }
 
-/* Who takes part (0 few, 1 all, 2 most) and where segments begin (one in `length`). */
+/* Sets the context (0 few, 1 all, 2 most processors) and the segment bits (one processor in `length`). */
 static void set_masks(struct set *s, int who, int length)
 {
     for (int i = 0; i < s->grid.count; i++) {

@@ -1,4 +1,4 @@
-/* steps_sheet.h - a sheet of numbers that flow, step by step, and what plain C leaves of it. */
+/* steps_sheet.h - a sheet of numbers that flow step by step, and the same steps in plain C. */
 #ifndef PARIS_TESTS_STEPS_SHEET_H
 #define PARIS_TESTS_STEPS_SHEET_H
 
@@ -46,7 +46,7 @@ static void start(struct sheet *s)
     begin_sheet(s);
 }
 
-/* Each takes up what its upper neighbour has more than its left one, but every other column keeps still. */
+/* One turn: each cell adds differences of its neighbours' cells, and every second column adds a constant. */
 static void turn(struct sheet *s, uint32_t add)
 {
     CM_get_from_news_1L(s->flow, s->cell, 0, CM_downward, 32);

@@ -1,5 +1,5 @@
-/* Moves and logical operations of fields of any length, swapped and reversed ones, and arrays
- * in each processor, against the same done on arrays of bits. */
+/* Compares moves, swaps, reversals and logical operations on fields of any length, and arrays in each processor, with the same
+ * operations on arrays of bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 enum { BITS = 700 };
 
-typedef unsigned char memory[COUNT][BITS]; /* a field of BITS bits in each processor */
+typedef unsigned char memory[COUNT][BITS]; /* the bits of a field, for each processor */
 
 static CM_field_id_t field;  /* of BITS bits */
 static memory model, before; /* what is in it, and was */
@@ -46,7 +46,8 @@ static void begin(void)
     CM_deallocate_stack_through(f);
 }
 
-/* Copies first, all at once: a download of other bits than were stored is its own kernel. */
+/* Copies the field's pieces in one evaluation, then downloads them: each download of bits that were stored in other pieces
+ * would need a kernel. */
 static void expect(const char *what)
 {
     enum { PIECES = BITS / 100 };
@@ -69,7 +70,7 @@ static void expect(const char *what)
 
 enum { MOVE, REVERSED, SWAP, XOR, NOT };
 
-/* On the model: dest, source and other are bit numbers. */
+/* Carries out an operation on the model; dest, source and other are bit numbers. */
 static void model_do(int what, int dest, int source, int other, int len, bool always)
 {
     memcpy(before, model, sizeof before);
@@ -241,7 +242,7 @@ static void arrays_are_the_oracles(void **unused)
         assert_memory_equal(got, array[k], sizeof got);
     }
     CM_transpose32_1_1L(a, ELEMENTS * LEN);
-    CM_aref32_2L(e, a, x, LEN, 7, 127); /* beyond the array there is nothing to see */
+    CM_aref32_2L(e, a, x, LEN, 7, 127); /* beyond the array no test follows */
     CM_deallocate_stack_through(a);
 }
 

@@ -1,5 +1,5 @@
-/* What is not rows of operations: fields and their parts, processors,
- * arrays, reductions, long fields, random numbers, timers, lights. */
+/* Tests calls that are no rows of the table of instructions: fields and their parts, processors, arrays, reductions, long
+ * fields, random numbers, timers, lights. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -86,7 +86,7 @@ static void processors_are_read_and_written(void **unused)
 
 /* ---- arrays ---- */
 
-/* A block of a 6 x 20 array, whose dimension j lies along axis[j]. */
+/* A block of a 6 x 20 array; the array's dimension j lies along axis[j]. */
 struct block {
     int offset[2], start[2], end[2], axis[2], dimensions[2];
 };
@@ -111,7 +111,7 @@ static const struct block blocks[] = {
 };
 enum { BLOCKS = sizeof blocks / sizeof blocks[0], ARRAY = 6 * 20 };
 
-/* The processor of element k of the array, or -1. */
+/* The processor of element k of the array; -1: none. */
 static int processor_of(const struct block *b, int k)
 {
     int subscript[2] = {k / b->dimensions[1], k % b->dimensions[1]}, at[2] = {0, 0};
@@ -273,7 +273,8 @@ static void reductions_of_integers_are_the_oracles(void **unused)
             integer_reductions(widths[w], mask);
 }
 
-/* As machine.h says: sixteen sums by column, then by halves; the rows' sums pairwise. */
+/* Sums in the order that machine.h defines: a row has sixteen sums of columns, which are added by halves; the rows' sums are
+ * added pairwise. */
 static double single_sum(const float *x, const number *context)
 {
     float rows[ROWS];
@@ -373,7 +374,7 @@ static void long_fields_go_in_pieces(void **unused)
     CM_get_from_news_1L(d, a, 1, CM_downward, LONG);
     long_get(d, low, high);
     assert_true(low[1] == al[0] && high[1] == ah[0] && low[0] == al[COLUMNS - 1]);
-    CM_lognot_1_1L(a, 0); /* nothing, as an old program's empty loop */
+    CM_lognot_1_1L(a, 0); /* length 0 does nothing, as in an old program's empty loop */
     CM_u_move_zero_always_1L(a, LONG);
     long_get(a, low, high);
     assert_true(low[5] == 0 && high[5] == 0);

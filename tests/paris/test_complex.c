@@ -1,6 +1,5 @@
-/* Complex numbers against C's own in long double: every instruction, over ranges, axes, branch
- * cuts and the ends of the range. All results of a format are recorded before the first is
- * looked at, so that there are few kernels. */
+/* Compares complex instructions with C's complex long double: every instruction, on ordinary numbers, on axes and branch cuts,
+ * and at the ends of the range. All results of a format are recorded before the first is read, so that there are few kernels. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>
@@ -64,7 +63,7 @@ static const struct {
 };
 enum { UNARIES = sizeof unaries / sizeof *unaries };
 
-/* in_single: in that format only these: the others are the double's, rounded. */
+/* The single format tests only in_single: its other functions are those of double, rounded. */
 static bool is_wanted(struct format f, int k)
 {
     static const char *const in_single[] = {"move", "sqrt"};
@@ -161,7 +160,7 @@ static void powers_agree(struct format f)
         if (getenv("PARIS_TEST_ERRORS"))
             printf("%u, %u: power %d      %6.2f %6.2f\n", f.s, f.e, k, worst.part, worst.whole);
     }
-    /* whole parts are exact: (2 + i)^3 = 2 + 11 i */
+    /* powers of numbers with whole parts are exact: (2 + i)^3 = 2 + 11 i */
     CM_c_move_constant_1L(z, 2, 1, f.s, f.e);
     CM_c_s_power_constant_2_1L(z, 3, f.s, f.e);
     CM_complex_t cube = CM_c_read_from_processor_1L(5, z, f.s, f.e);
@@ -198,7 +197,7 @@ static void parts_agree(struct format f)
     CM_deallocate_stack_through(z);
 }
 
-/* ---- forms: of a format that is neither single nor double ---- */
+/* ---- forms, in a format that is neither single nor double ---- */
 
 static const struct format small = {10, 5};
 static const struct soft_format soft_small = {10, 5};
@@ -211,7 +210,7 @@ static double rounded(double x)
 
 struct form {
     const char *name;
-    char op; /* + - * / and their sources exchanged: r for -, d for / */
+    char op; /* + - * /; with exchanged sources: r for -, d for / */
     int operands;
     bool constant, always;
     void (*call)(CM_field_id_t, CM_field_id_t, CM_field_id_t);
@@ -247,7 +246,7 @@ CALL(add_const_3_1L, dest, a, value_real, value_imag)
 CALL(add_always_2_1L, dest, a)
 CALL(add_always_3_1L, dest, a, b)
 CALL(add_constant_always_3_1L, dest, a, value_real, value_imag)
-/* multiply_3_1L is the first, for the overflow flag */
+/* multiply_3_1L comes first, because the test of the overflow flag uses it */
 static const struct form forms[] = {
     ROW(multiply, '*', _3_1L, 3, false, false) ROW(multiply, '*', _2_1L, 2, false, false)
         ROWS(add, '+') ROW(add, '+', _constant_2_1L, 2, true, false) ROW(
@@ -350,8 +349,8 @@ static void forms_agree(void **unused)
     assert_string_equal(device_message, "");
 }
 
-/* Comparisons, moves between formats, neighbours, sums, one processor, zero, one operand. */
-/* m: thirds in single floats, which is written to; c: a field of the small format. */
+/* Tests comparisons, moves between formats, neighbours, sums, one processor, zero and operations on one operand. m holds thirds
+ * in single floats and is overwritten; c is a field of the small format. */
 static void front_end_agrees(CM_field_id_t m, CM_field_id_t c)
 {
     CM_c_write_to_processor_1L(7, m, 0.1, -2, 23, 8);
@@ -426,7 +425,7 @@ static void the_rest_agrees(void **unused)
     CM_c_add_2_1L(next, wide, 16, 11);
     device_said("CM_c_add_2_1L", "dest");
     paris_safety_usual();
-    CM_c_move_zero_1L(wide + 16, 52, 11); /* the second part does not fit: neither is stored */
+    CM_c_move_zero_1L(wide + 16, 52, 11); /* no room for the second part: neither is stored */
     device_said("CM_c_move_zero_1L", "beyond its field");
     parts_of((struct format){52, 11}, wide, out);
     for (int i = 0; i < 2 * MANY; i++)

@@ -1,5 +1,5 @@
-/* Wrong calls: in safety mode each is explained with the call, the argument and what to do;
- * without it none harms the host, and what the machine cannot do is explained too. */
+/* Wrong calls. In safety mode a message names the call, the argument and the remedy. Without safety mode no call harms the
+ * host, and calls that the machine cannot carry out still get a message. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 
 #include "device.h"
 
-/* Of the current VP set, of another, on the heap, and one that has been given back. */
+/* Fields: of the current VP set, of another one, on the heap, and a deallocated one. */
 static CM_field_id_t f, foreign, heap, dead;
 static CM_vp_set_id_t other_set;
 static int vector[2] = {0, 0}, beyond[2] = {ROWS + 1, COLUMNS}, dimensions[2] = {ROWS, COLUMNS},
@@ -337,7 +337,7 @@ static void wrong_calls_are_without_effect(void **unused)
     assert_int_equal(CM_global_count_context(), COUNT);
 }
 
-/* Ones that are right, in safety mode. */
+/* Correct calls get no message in safety mode. */
 static void right_calls_are_let_through(void **unused)
 {
     (void)unused;

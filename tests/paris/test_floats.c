@@ -1,9 +1,8 @@
-/* The float families (float_... in instructions.tab) on the device against the oracle: every row
- * in every form, 23,8 and 52,11.
+/* Compares the float families (float_... in instructions.tab) on the device with the oracle: every row in every form, in the
+ * formats 23,8 and 52,11.
  *
- * All cases take the same operands, from fields that are filled once, and dests that are moves of
- * one field, so that a function is computed once for all of its forms and the machine compiles
- * few kernels. Functions whose code is long take one width in each form. */
+ * All cases share operands in fields that are filled once, and every dest is a copy of one field. So a function is computed once
+ * for all its forms, and the machine compiles few kernels. A function with long code is tested at one width in each form. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -61,7 +60,7 @@ static struct operands the;
 struct trial {
     const struct paris_test_row *row;
     struct paris_test_args args;
-    int width, dlen, whole_len; /* of the float; of dest; of an integer operand */
+    int width, dlen, whole_len; /* widths of the float, of dest, of an integer operand */
     CM_field_id_t first, dest, source, test, overflow;
 };
 static struct trial batch[BATCH];
@@ -202,7 +201,7 @@ static void operands_make(int width)
     device_floats(the.b, width);
     device_floats(the.c, width);
     device_integers(the.whole, 100);
-    for (int i = 0; i < COUNT; i += 2) /* where functions are not at their ends */
+    for (int i = 0; i < COUNT; i += 2) /* results inside the range */
         the.whole[i] = (number)(__int128)((int)(device_random() % 80) - 40) & oracle_mask(100);
     for (int i = 0; i < COUNT; i += 3) {
         the.before[i] = oracle_float_bits(width, (double)(int64_t)device_random() * 0x1p-60);
@@ -281,7 +280,7 @@ static void trial_run(const struct paris_test_row *row, int width, int dlen, int
         batch_finish();
 }
 
-/* Functions whose code is long: in place single, else double. */
+/* Functions with long code are tested in single where dest is the source, else in double. */
 static bool takes(const struct paris_test_row *row, int width)
 {
     bool is_long = row->shape <= PARIS_TEST_FLOAT_BY_INTEGER && strcmp(row->op, "scale") != 0;

@@ -1,5 +1,5 @@
-/* Floats of lengths other than 23, 8 and 52, 11, through C/Paris, against MPFR: the machine's
- * own test has more formats and numbers, this one the instructions. */
+/* Compares C/Paris instructions on floats of other lengths than 23, 8 and 52, 11 with MPFR. The machine's own test has more
+ * formats and numbers; this one has all instructions. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -62,7 +62,7 @@ static void numbers_of(CM_field_id_t field, unsigned int bits, uint64_t *numbers
     }
 }
 
-/* ---- what is wanted, for processor n ---- */
+/* ---- expected results, for processor n ---- */
 
 struct result {
     const char *name;

@@ -1,11 +1,9 @@
-/* Every instruction of the table on the device against the oracle, over widths, values and
- * context masks.
+/* Compares every instruction of the table on the device with the oracle, over widths, values and context masks.
  *
- * A case is one instruction with its own operands, flags and context. Cases run in batches, so
- * that the machine compiles one kernel for many of them; each case leaves dest, the context,
- * test and overflow in fields of its own, and these are compared when the batch is done. Each
- * row takes every eighth width, another row others, so that all rows and all widths are seen;
- * PARIS_TEST_FULL=1 takes each row at each width with each mask (an hour of compiling). */
+ * A case is one instruction with its own operands, flags and context. Cases run in batches, so that the machine compiles one
+ * kernel for many of them. Each case stores dest, the context, test and overflow in fields of its own, which are compared after
+ * the batch. A row is tested at every eighth width, and different rows begin at different widths, so that all rows and all
+ * widths occur. PARIS_TEST_FULL=1 tests each row at each width with each mask (an hour of compiling). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -48,7 +46,7 @@ struct paris_test_row {
     char type, source_type;
     const char *op;
     int operands, lengths, constant, zero, always;
-    char other; /* of a flag's operation with another flag */
+    char other; /* the second flag, of an operation on two flags */
     void (*call)(struct paris_test_args *);
 };
 
@@ -60,7 +58,7 @@ static const int widths[] = {1,  2,  3,  7,  8,  13, 16,  24,  31,
                              32, 33, 48, 63, 64, 65, 100, 127, 128};
 enum { WIDTHS_COUNT = sizeof widths / sizeof widths[0] };
 
-/* What a processor has before an instruction, and after it. */
+/* The processors' dest and flags, before or after an instruction. */
 struct state {
     number dest[COUNT], context[COUNT], test[COUNT], overflow[COUNT];
 };
@@ -97,7 +95,7 @@ static bool is_scalar(const struct trial *t)
     return t->row->constant || t->row->zero;
 }
 
-/* The neighbour whose value arrives at processor i. */
+/* The neighbour that processor i reads. */
 static int neighbour(int i, unsigned int axis, int distance)
 {
     int row = i / COLUMNS, column = i % COLUMNS;
@@ -318,7 +316,7 @@ static void float_lengths(int width, unsigned int *s, unsigned int *e)
     *e = width == 32 ? 8 : 11;
 }
 
-/* The operands, flags and arguments of a case whose row and lengths are set. */
+/* Draws the operands, flags and arguments of a case whose row and lengths are set. */
 static void trial_fill(struct trial *t, int mask)
 {
     const struct paris_test_row *row = t->row;
@@ -346,7 +344,7 @@ static void trial_fill(struct trial *t, int mask)
         device_floats(constant, 64);
         args->value_f = oracle_float_value(64, constant[0]);
         if (isnan(args->value_f))
-            args->value_f = (double)NAN; /* a payload is the front end's affair */
+            args->value_f = (double)NAN; /* no payload: front ends differ */
         if (device_random() % 2)
             args->value_f = 0.1 * (double)(device_random() % 100);
     } else {
@@ -390,7 +388,7 @@ static void trial_run(const struct paris_test_row *row, int dlen, int alen, int 
 
 /* ---- which cases ---- */
 
-/* The other spelling makes the same kernels, so one width is enough for it. */
+/* A row with a second spelling gives the same kernels, so one width is enough for it. */
 static bool is_full(void)
 {
     return getenv("PARIS_TEST_FULL") != NULL;
@@ -448,7 +446,7 @@ static void finish_and_check(void)
     assert_int_equal(failures, 0);
 }
 
-/* Integer rows of these shapes whose name begins with prefix, at every width. */
+/* Tests the integer rows of these shapes whose names begin with prefix, at every width. */
 static void shapes_run(const char *prefix, unsigned int shapes)
 {
     failures = 0;

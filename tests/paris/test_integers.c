@@ -1,12 +1,9 @@
-/* The rows of paris_compat/integers.c and bits.c, and arrays in each processor, against the
- * oracle.
+/* Compares the rows of paris_compat/integers.c and bits.c, and arrays in each processor, with the oracle.
  *
- * Thousands of processors hold pairs of numbers that are special at some width or other: ends,
- * powers of two, divisors of zero and -1. Every case takes the low bits of the same two fields,
- * so cases that differ only in form are one computation, and a kernel does dozens of them. Rows
- * are done at one set of lengths each; some of them at all widths, on VP ratios 1, 2 and 8,
- * whose kernels are the same. The rows of 13 processors make kernels of one lane; vectors have
- * a test of their own. */
+ * Thousands of processors hold pairs of numbers that are special at some width: range ends, powers of two, divisors 0 and -1.
+ * Every case takes the low bits of the same two fields. So cases that differ only in their form are one computation, and a
+ * kernel does dozens of them. Each row is tested at one set of lengths; some rows at all widths, on VP ratios 1, 2 and 8, whose
+ * kernels are the same. Grid rows of 13 processors give kernels of one lane; vectors have a test of their own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -43,12 +40,12 @@ enum {
     BATCH = 140
 };
 
-/* ---- the machine and what is on it ---- */
+/* ---- the machine and its fields ---- */
 
-static int count; /* of processors, in the VP set at hand */
+static int count; /* the number of processors in the current VP set */
 static number first[COUNT], second[COUNT];
 static number context[COUNT], test[COUNT], overflow[COUNT];
-/* The same numbers at 128 bits, and their low 64: small cases need not touch the wide ones. */
+/* [0]: the numbers' low 64 bits, for narrow cases; [1]: all 128 bits. */
 static CM_field_id_t first_field[2], second_field[2], context_field, test_field, overflow_field;
 
 static uint64_t state = SAMPLE_SHIFTED_BEGIN;
@@ -149,7 +146,7 @@ static int start(void **unused)
         fprintf(stderr, "skipped: %s\n", paris_error());
         exit(77);
     }
-    CM_set_safety_mode(0); /* lets numbers of one bit with a sign pass */
+    CM_set_safety_mode(0); /* safety mode refuses signed numbers of one bit */
     numbers_fill();
     return 0;
 }
@@ -232,7 +229,7 @@ static bool is_unary(const struct integer_row *row)
     return row->type2 == '-';
 }
 
-/* constant: any number; the row takes what of it fits. */
+/* constant: any number; the row uses the bits that fit. */
 static void trial(const struct integer_row *row, int dlen, int alen, int blen, number constant,
                   bool looks)
 {
@@ -319,7 +316,7 @@ static void every_row_is_the_oracles(void **unused)
         const struct integer_row *row = &integer_rows[r];
         if (!is_number(row))
             continue;
-        if (strcmp(row->op, last)) { /* all forms of one operation: one computation */
+        if (strcmp(row->op, last)) { /* all forms get the same operands */
             k++;
             constant = k % 2 ? second[any() % COUNT] : (number)(any() % 100) - 50;
         }
@@ -341,7 +338,7 @@ static const struct integer_row *row_named(const char *name)
     return NULL;
 }
 
-/* The form with all lengths, of every operation at several; PARIS_TEST_FULL=1: at hundreds. */
+/* Tests every operation's form with all lengths, at several sets of lengths; PARIS_TEST_FULL=1: at hundreds. */
 static void lengths_are_the_oracles(void **unused)
 {
     static const int lengths[][3] = {{13, 30, 9}, {128, 100, 66}};
@@ -363,7 +360,7 @@ static void lengths_are_the_oracles(void **unused)
     finish();
 }
 
-/* Rows of arithmetic.c at all widths, a dest and a test bit each. */
+/* Rows of arithmetic.c at one width; out gets dest and test bits. */
 static void common_rows_at(int width, CM_field_id_t out[3])
 {
     int wide = width > 64;
@@ -409,7 +406,7 @@ static void common_rows_run(int step)
         common_rows_check(width, out[width]);
 }
 
-/* Rows of 64 processors make kernels of whole vectors. */
+/* Grid rows of 64 processors give kernels of whole vectors. */
 static void vectors_are_the_oracles(void **unused)
 {
     static const int lengths[] = {32, 47, 47};
@@ -452,7 +449,7 @@ static void all_widths_are_the_oracles(void **unused)
     }
 }
 
-/* In two runs, "widths" and "forms", that a machine with two cores does beside each other. */
+/* The arguments "widths" and "forms" choose the two halves, which meson can run at the same time. */
 int main(int argc, char **argv)
 {
     const struct CMUnitTest widths[] = {

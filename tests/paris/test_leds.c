@@ -1,4 +1,4 @@
-/* The lights: what they stand for, and what LUTETIA_LEDS records of them. */
+/* The lights: which processors each light shows, and the recording of LUTETIA_LEDS. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -34,7 +34,7 @@ static bool on(const uint8_t *lights, int l)
     return lights[l / 8] >> l % 8 & 1;
 }
 
-/* By the definition: which lights is each processor in? None is left out, no other is on. */
+/* Compares the lights with their definition: a light is on if any of its processors' bits is set. */
 static void lights_stand_for_patches_of_the_set(void **unused)
 {
     (void)unused;
@@ -80,8 +80,8 @@ static uint64_t time_of(const uint8_t *frame)
     return t;
 }
 
-/* Each latch is a frame; inactive processors keep their lights; the system's patterns take them, and
- * give them back. One recording for the life of a program: all of it is here. */
+/* Each latch records one frame. Inactive processors keep their lights. The system's patterns replace the lights, and
+ * return them afterwards. A program has one recording, so one test checks all of it. */
 static void latches_are_recorded(void **unused)
 {
     (void)unused;
@@ -113,7 +113,7 @@ static void latches_are_recorded(void **unused)
         assert_int_equal(on(frames + FRAME + 8, l), bits[1][l] ? bits[2][l] : bits[0][l]);
         assert_int_equal(on(frames + 4 * FRAME + 8, l), bits[2][l]);
     }
-    /* Rows of the pattern moved by one, even ones to the right and odd ones to the left. */
+    /* The pattern's rows have moved by one light, even rows to the right and odd rows to the left. */
     const uint8_t *one = frames + 2 * FRAME + 8, *two = frames + 3 * FRAME + 8;
     int lit = 0;
     for (int row = 0; row < 64; row++)

@@ -1,6 +1,6 @@
-/* Lenient mode: what runs over a field's end is what lies after it. A model in plain C keeps each VP set's stack and
- * heap as one row of bits, in the order in which fields were allocated; random programs store and read across the ends
- * of fields, and must leave what the model has. The rest is what is let pass, what stays an error, and what is said. */
+/* Lenient mode: an access beyond a field's end reaches the bits after the field. A model in plain C keeps each VP set's stack
+ * and heap as one row of bits, with fields in the order of their allocation. Random programs store and read across the ends of
+ * fields, and must leave the model's bits. Further tests: which calls pass, which stay errors, and their messages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -32,7 +32,7 @@ static unsigned int below(unsigned int n)
 
 /* ---- the model ---- */
 
-/* All processors of a set have the same: numbers need no kernels. */
+/* All processors of a set hold the same bits, so that constants suffice and no kernels are needed. */
 struct memory {
     CM_field_id_t fields[FIELDS];
     unsigned int starts[FIELDS + 1]; /* bit of the row where each begins */
@@ -77,7 +77,7 @@ static void deallocate(int set)
     struct memory *m = &memories[set][0];
     if (!m->count)
         return;
-    /* The stack is one: what was allocated later in the other set goes too. So only its last. */
+    /* All sets share one stack: deallocating would also free newer fields of the other set. So only the newest field is freed. */
     CM_field_id_t last = m->fields[m->count - 1];
     for (int other = 0; other < SETS; other++) {
         const struct memory *o = &memories[other][0];
@@ -152,7 +152,7 @@ static void random_programs_go_on_past_ends(void **unused)
     paris_safety_usual();
 }
 
-/* Numbers that differ between processors, under a context, and what is longer than a number. */
+/* Overruns with values that differ between processors, under a context, and of fields longer than a number. */
 static void processors_differ_and_long_fields_go_on(void **unused)
 {
     (void)unused;

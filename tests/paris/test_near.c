@@ -1,6 +1,6 @@
-/* What the front end does by itself where the device's memory is its own: reads and writes of one processor, writes that are
- * gathered, reductions. Random programs of such looks and writes between instructions, with LUTETIA_NEAR=1, with =0, which asks
- * the device for each, and one instruction at a time: the same numbers, and for integers those of a model in plain C. */
+/* Work that the front end does itself where it shares memory with the device: reads and writes of one processor, gathered
+ * writes, reductions. Random programs mix these with instructions. They run with LUTETIA_NEAR=1, with LUTETIA_NEAR=0 (the device
+ * does all of it), and on the eager machine. All three give the same numbers, and integers also agree with a model in plain C. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -224,7 +224,7 @@ static void program_run(int program, int mode)
     state = 88172645463325252u + (uint64_t)program * 7919;
     said_count = 0;
     machine_begin_as(mode);
-    /* In send order a send address is a row-major index. */
+    /* The axes are in send order, so that a send address is a row-major index. */
     struct CM_axis_descriptor axes[3];
     CM_axis_descriptor_t all[3];
     memset(axes, 0, sizeof axes);
@@ -285,7 +285,7 @@ static void all_modes_say_the_same(void **unused)
     }
 }
 
-/* Thousands of writes into what is not computed yet: no plan is made for them. */
+/* Thousands of writes into a field that is not computed yet build no plans. */
 static void writes_make_no_plans(void **unused)
 {
     struct machine_stats before, after;

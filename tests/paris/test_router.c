@@ -1,5 +1,5 @@
-/* The router, aliases, and coordinates in C/Paris, against plain loops: each instruction in each form, between VP
- * sets of both orders. What the machine does below is in tests/machine/test_router.c and test_aliases.c. */
+/* Compares the router, aliases and coordinates of C/Paris with plain loops: each instruction in each form, between VP sets of
+ * both orders. tests/machine/test_router.c and test_aliases.c test the machine's part. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@ enum { PHYSICAL = 16, FROM = 90, TO = 128, MOST = WORDS_MOST }; /* ROWS * COLUMN
 
 #define V(v) ((CM_vector_t){.ints = v})
 
-static CM_vp_set_id_t news, line; /* 9 x 10 in NEWS order; 128 in send order */
+static CM_vp_set_id_t news, line; /* news: 9 x 10 in NEWS order; line: 128 in send order */
 static CM_geometry_id_t news_geometry, line_geometry;
 static CM_field_id_t address, context_bit;
 static unsigned int where[FROM];
@@ -50,7 +50,7 @@ static int64_t extended(uint64_t x, unsigned int len)
     return (int64_t)(x << (64 - len)) >> (64 - len);
 }
 
-/* op: + < > (add, min, max) & | ^ =; letter: of its operands. */
+/* Combines a and b. op: + < > (add, min, max) & | ^ =; letter: the operands' type. */
 static uint64_t joined(char op, char letter, unsigned int len, uint64_t a, uint64_t b)
 {
     double x = value_of(a, len), y = value_of(b, len);
@@ -303,7 +303,7 @@ static void moves_cross_vp_sets(void **unused)
 static void coordinates_and_addresses_agree(void **unused)
 {
     (void)unused;
-    int dimensions[3] = {5, 3, 6}; /* 90: a VP ratio of 6, and no powers of two */
+    int dimensions[3] = {5, 3, 6}; /* 90 VPs, a VP ratio of 6 */
     CM_geometry_id_t g = CM_create_geometry(V(dimensions), 3);
     unsigned int bits = CM_geometry_send_address_length(g);
     uint64_t c[FROM], of[FROM], got[8][FROM], old[FROM], r[FROM];
@@ -365,7 +365,7 @@ static void geometries_say_what_they_are(void **unused)
     assert_int_equal(CM_geometry_axis_on_chip_bits(g, 0), 0);
     assert_int_equal(CM_geometry_axis_on_chip_pos(g, 0), 0);
     assert_int_equal(CM_geometry_total_vp_ratio(g), 8);
-    /* In send order addresses are row-major: 8 processors of a row are together. */
+    /* In send order addresses are row-major: 8 VPs of a row share one processor. */
     assert_int_equal(CM_geometry_axis_vp_ratio(g, 0), 1);
     assert_int_equal(CM_geometry_axis_vp_ratio(g, 1), 8);
     assert_int_equal(CM_geometry_axis_off_chip_bits(g, 0), 3);
@@ -461,7 +461,7 @@ static void arrays_in_send_order_are_addresses(void **unused)
             array[y][x] = (unsigned short)(1000 * y + x);
     CM_u_write_to_news_array_1L(array, V(offset), V(start), V(end), V(axis), f, 16, 2,
                                 V(dimensions), CM_16_bit);
-    /* An empty block is nothing, whatever the rest says. */
+    /* An empty block transfers nothing, whatever the other arguments are. */
     CM_u_write_to_news_array_1L(array, V(zero), V(start), V(start), V(axis), f, 16, 2, V(none),
                                 CM_16_bit);
     CM_u_read_from_news_array_1L(NULL, V(zero), V(zero), V(zero), V(axis), f, 16, 2, V(none),
@@ -494,7 +494,7 @@ static void wrong_calls_are_told(void **unused)
                   nowhere = field_in(news, 32, NULL), dead = field_in(news, 8, NULL);
     CM_deallocate_stack_through(dead);
     for (int n = 0; n < FROM; n++)
-        far[n] = 95; /* of 96 places that 90 processors have */
+        far[n] = 95; /* an address among the 96 places of 90 VPs, where there is no VP */
     put(nowhere, 32, far);
     for (unsigned int safety = 0; safety < 2; safety++) {
         safety ? CM_set_safety_mode(1) : paris_safety_usual();

@@ -1,8 +1,8 @@
-/* Scans, spreads, reductions, enumerations and ranks against the oracle: over geometries of 1 to
- * 5 axes, directions, inclusions, segments, contexts, lengths.
+/* Compares scans, spreads, reductions, enumerations and ranks with the oracle: over geometries of 1 to 5 axes, directions,
+ * inclusions, segments, contexts and lengths.
  *
- * Kernels take most of the time, and a VP set of another rank has other ones; so all operations
- * are tried with three axes (which may have a length of 1), and with other ranks some. */
+ * Compiling kernels takes most of the time, and each rank of VP sets needs other kernels. So all operations are tested with
+ * three axes (some of length 1), and a few operations with other ranks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -85,7 +85,7 @@ static void try_row(struct set *s, const struct row *row, int form, int width)
     }
 }
 
-/* Two widths for each row, of all kinds of elements taken together. */
+/* Two widths for each row; together they have all types of elements. */
 static const int widths[ROWS_COUNT][2] = {{33, 7},  {32, 128}, {64, 16},  {65, 32}, {8, 50},
                                           {31, 90}, {1, 48},   {24, 128}, {64, 3},  {32, 64},
                                           {64, 32}, {32, 64},  {64, 32},  {1, 64}};
@@ -113,7 +113,7 @@ static void every_operation_is_the_oracles(void **unused)
     }
 }
 
-/* Narrow rows too, which have no repeated columns. */
+/* The shapes include rows so narrow that they have no repeated columns. */
 static void any_rank_of_geometry_is_the_oracles(void **unused)
 {
     (void)unused;
@@ -133,7 +133,7 @@ static void any_rank_of_geometry_is_the_oracles(void **unused)
     }
 }
 
-/* More than one run in each line: along rows, across them, one and sixteen columns at a time. */
+/* Lines of more than one run: along rows and across rows, one and sixteen columns at a time. */
 static void long_lines_are_the_oracles(void **unused)
 {
     (void)unused;
@@ -152,7 +152,7 @@ static void long_lines_are_the_oracles(void **unused)
     }
 }
 
-/* Whole numbers, one line: what goes from run to run, and many chunks of keys. */
+/* Integers in one line, so long that sums are carried from run to run and ranks have many chunks of keys. */
 static void a_very_long_line_is_right(void **unused)
 {
     (void)unused;
@@ -335,8 +335,7 @@ static void enumeration_counts_the_active(void **unused)
     set_free(&s);
 }
 
-/* Long bit fields, complex numbers, one processor's field, the longest integer. */
-/* The third part is no whole word. */
+/* Tests long bit fields, complex numbers, one processor's field and the longest integer. The third part is no whole word. */
 static void long_fields_go_in_parts(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* Steps that repeat: they are performed without being recorded again, many at once where that is forced, and what
- * they leave is what plain C leaves; whatever comes between them. */
+/* Steps that repeat: the machine performs them without recording them again, and many in one kernel where that is forced. They
+ * leave the bits of plain C, whatever other calls come between them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -48,8 +48,7 @@ static void a_loop_that_is_looked_at_is_not_either(void **state)
     assert_true(foreseen() - before >= CALLS * 60 / 2);
 }
 
-/* Looked at now and then, left off in the middle of a turn, with another constant, another VP set, a field that
- * comes and goes, and a call that fails. */
+/* A loop with interruptions: reads, unfinished turns, another constant, another VP set, and a temporary field. */
 static void what_comes_between_is_seen(void **state)
 {
     (void)state;
@@ -87,7 +86,7 @@ static void what_comes_between_is_seen(void **state)
     assert_int_equal(CM_u_read_from_processor_1L(0, count, 16), counted);
 }
 
-/* Instructions that no table has are foreseen as well. */
+/* Instructions that are no rows of a table are foreseen as well. */
 static void bits_and_lights_are_not_recorded_again(void **state)
 {
     (void)state;
@@ -112,7 +111,7 @@ static void bits_and_lights_are_not_recorded_again(void **state)
     assert_int_equal(foreseen() - before, 40 * (CALLS + 3));
 }
 
-/* A constant that is another one each time builds nothing. */
+/* A constant that changes in each turn builds no new kernels. */
 static void a_constant_that_changes_builds_nothing(void **state)
 {
     (void)state;
@@ -130,7 +129,7 @@ static void a_constant_that_changes_builds_nothing(void **state)
     assert_int_equal(after.kernels_built, before.kernels_built);
 }
 
-/* Three turns at a time in strips of 32 columns, of any number of turns. */
+/* One kernel runs three turns in strips of 32 columns; any number of turns is right. */
 static void many_turns_are_one_kernel(void **state)
 {
     (void)state;
@@ -157,8 +156,8 @@ static void many_turns_are_one_kernel(void **state)
     }
 }
 
-/* Whoever looks after every twentieth turn has ten at once, not eight, eight and four single ones; in strips of whole
- * rows, whose rings are tori. */
+/* A program that reads after every twentieth turn gets two kernels of ten turns, not two of eight and four of one. The strips
+ * are whole rows, whose rings are tori. */
 static void none_is_left_over(void **state)
 {
     (void)state;
@@ -176,7 +175,7 @@ static void none_is_left_over(void **state)
     assert_int_equal(kernels_run() - before, 2);
 }
 
-/* Without a coordinate in it: nothing is inside or outside of anything. */
+/* A turn without coordinates: all cells are computed alike, so the plan has no boxes. */
 static void turn_alike(struct sheet *s)
 {
     CM_get_from_news_1L(s->neighbour, s->cell, 0, CM_downward, 32);
@@ -197,7 +196,7 @@ static void turn_alike_wanted(struct sheet *s)
     }
 }
 
-/* Its first kernels are as good as kernels in rows can be; after a while it is many turns at a time all the same. */
+/* The loop's first kernels are already optimised as far as kernels in rows can be; many turns become one kernel even so. */
 static void a_loop_without_boxes_is_many_turns_at_once(void **state)
 {
     (void)state;
@@ -221,7 +220,8 @@ static uint64_t in_place(void)
     return now.kernels_in_place;
 }
 
-/* Strips of whole rows, one below the other, write where they read; but not while somebody has the old values. */
+/* Strips of whole rows, one below the other, overwrite the array that they read, but not while another field needs the old
+ * values. */
 static void what_nobody_wants_is_written_over(void **state)
 {
     (void)state;
@@ -258,7 +258,7 @@ static void what_nobody_wants_is_written_over(void **state)
 
 enum { SHORT_CALLS = 5 };
 
-/* Its temporaries are written before they are read. */
+/* A turn whose temporaries are written before they are read. */
 static void short_turn(struct sheet *s)
 {
     CM_get_from_news_1L(s->flow, s->cell, 0, CM_downward, 32);
@@ -278,7 +278,7 @@ static void short_turn_wanted(struct sheet *s)
                                        (old[(y + HIGH - 1) % HIGH * WIDE + x] + 3);
 }
 
-/* Whatever was called before the loop, its turns are evaluated where they end: what they leave is the sheet alone. */
+/* Evaluations end with the loop's turns, whatever was called before the loop. So they store the sheet and no temporaries. */
 static void only_the_sheet_is_stored(void **state)
 {
     (void)state;
@@ -309,7 +309,7 @@ static void only_the_sheet_is_stored(void **state)
     }
 }
 
-/* Where they ended before, what is looked at is in memory already; but then no look is after whole turns. */
+/* The program reads in the middle of each twentieth turn. Evaluations then end there, so that two kernels run twenty turns. */
 static void turns_end_where_somebody_looks(void **state)
 {
     (void)state;
@@ -338,7 +338,7 @@ static void turns_end_where_somebody_looks(void **state)
     expect(&s);
 }
 
-/* Two sheets, each of which takes up what lies around in the other; somebody may look in between. */
+/* A turn of two sheets: each adds the other's cells and their neighbours. `looks` reads in the middle of the turn. */
 static void coupled_turn(struct sheet s[2], bool looks)
 {
     for (int k = 0; k < 2; k++) {
@@ -374,7 +374,7 @@ static void coupled_turn_wanted(struct sheet s[2])
     }
 }
 
-/* Sixteen turns that begin in the middle need more columns around a strip than there are; eight do not. */
+/* Sixteen turns in one kernel would need more columns around a strip than there are; eight do not. */
 static void as_many_turns_as_can_be_are_one_kernel(void **state)
 {
     (void)state;
@@ -402,7 +402,7 @@ static struct device_buffer *buffer_of(CM_field_id_t id)
     return NULL;
 }
 
-/* Temporaries are not computed, and hold on to what the sheet was before; but one turn later nobody does. */
+/* Temporaries that are not computed need the sheet of the turn before, but no older one. So two arrays suffice. */
 static void two_arrays_take_turns(void **state)
 {
     (void)state;
@@ -431,7 +431,7 @@ static void two_arrays_take_turns(void **state)
     assert_memory_equal(got, wanted, sizeof got);
 }
 
-/* Where there are no strips, two turns would be two kernels, and a third array. */
+/* Without strips, two turns at once would need two kernels and a third array. */
 static void turns_that_save_nothing_are_evaluated_one_by_one(void **state)
 {
     (void)state;
@@ -450,7 +450,7 @@ static void turns_that_save_nothing_are_evaluated_one_by_one(void **state)
     expect(&s);
 }
 
-/* That is not found out each time anew. */
+/* When the loop comes again, its turns are evaluated one by one at once. */
 static void so_they_are_when_they_come_again(void **state)
 {
     (void)state;

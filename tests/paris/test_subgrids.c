@@ -1,5 +1,5 @@
-/* test_subgrids.c - where virtual processors live: inquiries, send addresses, coordinates, sends, gets and
- * aliases tell of the same subgrids, over generated geometries. */
+/* test_subgrids.c - the physical processor of each virtual one: inquiries, send addresses, coordinates, sends, gets and
+ * aliases agree on the subgrids, over generated geometries. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,7 +29,7 @@ struct grid {
     bool binary[AXES]; /* in send order */
 };
 
-/* Lengths are powers of two, and one axis at least is in NEWS order. */
+/* Draws a geometry; lengths are powers of two, and at least one axis is in NEWS order. */
 static struct grid grid_make(unsigned int rank)
 {
     struct CM_axis_descriptor axes[AXES] = {{0}};
@@ -62,7 +62,7 @@ static void coordinates_of(const struct grid *g, unsigned int index, unsigned in
         c[i] = index % g->lengths[i];
 }
 
-/* The rule, in numbers: block and place in it on each axis. */
+/* The send address by the documented rule: the block and the place in it, on each axis. */
 static unsigned int address_of(const struct grid *g, unsigned int index)
 {
     unsigned int c[AXES], processor = 0, vp = 0;
@@ -85,7 +85,7 @@ static unsigned int address_by_calls(const struct grid *g, unsigned int index)
     return address;
 }
 
-/* The least sum of weight / side over all shapes of a block. */
+/* The least sum of weight / side among all shapes of a block. */
 static double best_shape(const struct grid *g, unsigned int axis, unsigned int left)
 {
     double best = 1e9;
@@ -138,7 +138,7 @@ static void addresses_tell_of_subgrids(void **unused)
                 unsigned int up =
                     CM_fe_deposit_news_coordinate(g.id, a, i, (c[i] + 1) % g.lengths[i]);
                 unsigned int wires = a / g.ratio ^ up / g.ratio;
-                /* a neighbour is on the same processor, or across one wire of the cube */
+                /* a neighbour is on the same processor, or on one that a wire of the cube connects */
                 assert_true(g.binary[i] || (wires & (wires - 1)) == 0);
             }
         }
@@ -152,7 +152,7 @@ static void read_all(CM_field_id_t field, int bits, uint32_t *out)
                      MACHINE_OK);
 }
 
-/* The mirror image on the last axis, by coordinates. */
+/* Sends to and gets from the mirror image on the last axis; addresses come from coordinates. */
 static void send_and_get(const struct grid *g, CM_field_id_t address, unsigned int bits)
 {
     uint32_t got[MOST], last = g->lengths[g->rank - 1];
@@ -183,7 +183,7 @@ static void send_and_get(const struct grid *g, CM_field_id_t address, unsigned i
     CM_deallocate_stack_through(here);
 }
 
-/* A processor's memory, seen from a set of ratio 1. */
+/* Reads each processor's memory through a set of ratio 1. */
 static void seen_from_below(const struct grid *g, CM_field_id_t field)
 {
     struct CM_axis_descriptor axis = {

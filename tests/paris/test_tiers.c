@@ -1,5 +1,5 @@
-/* Random programs that do not repeat, in all tiers: byte code and loops in C on the front end's threads, the same shared out
- * however short it is, kernels alone, one instruction at a time. All fields hold the same bits after each program. */
+/* Runs random programs without loops in all tiers: byte code and C loops on the front end's threads, the same with even short
+ * work shared out to threads, kernels only, and one instruction at a time. After each program all fields hold the same bits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -43,7 +43,7 @@ static struct {
     CM_geometry_id_t geometry;
 } on;
 
-static uint64_t said; /* what reductions and looks have said */
+static uint64_t said; /* a hash of the results of reductions and reads */
 
 static void say(uint64_t x)
 {
@@ -176,7 +176,7 @@ static void spread_or_rank(void)
     }
 }
 
-/* All are of processors that there are. */
+/* Computes send addresses; all are addresses of existing processors. */
 static void addresses(void)
 {
     switch (below(3)) {
@@ -310,7 +310,7 @@ static void field_say(CM_field_id_t field, int bits)
         say(content[i]);
 }
 
-/* A hash of all that it leaves and has said. */
+/* Runs a program; returns a hash of its fields and of all that it has read. */
 static uint64_t program_run(int program, const struct tier *t)
 {
     state = 88172645463325252u + (uint64_t)program * 104729;

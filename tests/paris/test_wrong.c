@@ -1,7 +1,6 @@
-/* Wrong programs: each makes one mistake, on a machine that has just been initialised. In safety mode
- * the message names the call and the argument in one line; without it the call may say nothing, and
- * the host lives. Either way the machine works on. What a program without a handler does is tried
- * in children. */
+/* Wrong programs: each makes one mistake on a machine that has just been initialised. In safety mode the message names the call
+ * and the argument in one line. Without safety mode the call may give no message, and must not harm the host. In both cases the
+ * machine goes on working. Child processes test programs without an error handler. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -76,13 +75,13 @@ static unsigned char array[4096];
 /* ---- the programs ---- */
 
 struct row {
-    const char *call, *word; /* what the message begins with, and a word of it */
-    bool only_safe;          /* without safety mode it says nothing: it does something else */
+    const char *call, *word; /* the beginning of the message, and a word in it */
+    bool only_safe; /* without safety mode the call gives no message and does something else */
 };
 
 enum { FIRST = __COUNTER__ + 1 };
 
-/* The wrong program of that number; run: makes its calls. False: there is none. */
+/* Returns wrong program number `which` in *row; run: also makes its calls. False: there is none. */
 static bool wrong(int which, bool run, struct row *row)
 {
 #define WRONG(name, word, only_safe, ...)                                                      \
@@ -94,7 +93,7 @@ static bool wrong(int which, bool run, struct row *row)
         return true
 
     switch (which) {
-        /* fields that are gone, or never were */
+        /* fields that were deallocated or never allocated */
         WRONG(CM_s_add_2_1L, "source", 0, CM_s_add_2_1L(stack(32), dead_heap(), 32));
         WRONG(CM_s_add_3_1L, "dest", 0, CM_s_add_3_1L(dead_stack(), heap(8), heap(8), 8));
         WRONG(CM_f_multiply_2_1L, "not a field", 0, CM_f_multiply_2_1L(WILD, stack(32), 23, 8));
@@ -120,7 +119,7 @@ static bool wrong(int which, bool run, struct row *row)
         WRONG(CM_is_stack_field_newer, "field", 0,
               CM_is_stack_field_newer(dead_stack(), stack(8)));
         WRONG(CM_add_offset_to_field_id, "field", 1, CM_add_offset_to_field_id(dead_heap(), 8));
-        /* fields given back twice, in the wrong order, or by the wrong call */
+        /* fields deallocated twice, in the wrong order, or by the wrong call */
         WRONG(CM_deallocate_heap_field, "heap", 0, CM_deallocate_heap_field(dead_heap()));
         WRONG(CM_deallocate_stack_through, "stack", 0,
               CM_deallocate_stack_through(dead_stack()));
@@ -137,7 +136,7 @@ static bool wrong(int which, bool run, struct row *row)
         WRONG(CM_allocate_stack_field, "bits", 0, stack(0x80000000u));
         WRONG(CM_allocate_stack_field_vp_set, "vp_set", 0,
               CM_allocate_stack_field_vp_set(8, dead_set()));
-        /* fields of another VP set; their zeros belong to none, so without safety mode all may be well */
+        /* fields of another VP set; where they hold zeros, the call may pass without safety mode */
         WRONG(CM_u_add_2_1L, "VP set", 0, CM_u_add_2_1L(stack(32), foreign(), 8));
         WRONG(CM_u_add_2_1L, "VP set", 0, CM_u_add_2_1L(foreign(), stack(32), 8));
         WRONG(CM_u_add_constant_2_1L, "VP set", 0, CM_u_add_constant_2_1L(foreign(), 1, 8));
@@ -302,7 +301,7 @@ static bool wrong(int which, bool run, struct row *row)
         WRONG(CM_u_read_from_news_array_1L, "rank", 0,
               CM_u_read_from_news_array_1L(array, V(0), V(0), V(4), V(0), stack(8), 8, 0, V(4),
                                            1));
-        /* the rest; and before CM_init, after CM_detach */
+        /* other arguments; calls before CM_init and after CM_detach */
         WRONG(CM_timer_start, "timer", 0, CM_timer_start(64));
         WRONG(CM_timer_read_elapsed, "-1", 0, CM_timer_read_elapsed((unsigned)-1));
         WRONG(CM_attach_to_processors, "count", 0, CM_attach_to_processors(3));
@@ -343,7 +342,7 @@ static void listen(const char *message)
         snprintf(said, sizeof said, "%s", message);
 }
 
-/* Of a machine that has just been initialised. */
+/* Runs a wrong program on a machine that has just been initialised. */
 static struct row run(int which, unsigned int safety)
 {
     struct row row;
@@ -363,7 +362,7 @@ static bool is_explained(const struct row *row, const char *message)
            !strchr(message, '\n') && strlen(message) < 250;
 }
 
-/* All instructions still do what they should. */
+/* Checks that the machine still computes correctly. */
 static void check_machine(int which)
 {
     CM_set_safety_mode(1);
@@ -404,7 +403,7 @@ static void without_it_nothing_breaks(void **unused)
     }
 }
 
-/* Without a handler a wrong program ends with 1 and the line. */
+/* Without an error handler a wrong program prints the line and ends with status 1. */
 static void programs_end_with_the_line(void **unused)
 {
     (void)unused;

@@ -1,8 +1,7 @@
 /* clang-format off */
-/* A small library of vectors as one of 1990 was written, and what it is tested with. A vector of n
- * elements has a field in the set of one VP to each processor, room for k elements in each, k a power of
- * two; an operation copies its arguments to the stack, looks at them from the set with k VPs to each
- * processor, computes there, and copies the result back. Each runs in both safety modes. */
+/* A small library of vectors in the style of 1990, with its tests. A vector of n elements is a field in the VP set of ratio 1,
+ * with room for k elements in each processor, k a power of two. An operation copies its arguments to the stack, makes aliases of
+ * them in the set of ratio k, computes there, and copies the result back. All run in both safety modes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <cm/paris.h>
@@ -78,7 +77,7 @@ static void all_processors ()
     CM_set_context ();
 }
 
-/* k VPs to a processor, of which the first n take part.  Called with one to a processor. */
+/* Selects the set of ratio k and turns on its first n VPs. The set of ratio 1 must be selected at the call. */
 static void elements (k, n)
     int k, n;
 {
@@ -145,7 +144,7 @@ static void transfer (v, array, n, bits, writes)
 
 /* ---- operations ---- */
 
-/* In place of a loop over elements there is one over those of a processor. */
+/* Adds vectors with a loop over the elements of one processor. */
 static void add (d, a, b, n)
     vector d, a, b;
     int n;
@@ -230,7 +229,7 @@ static void replace (v, i, x, n)
     CM_s_write_to_processor_1L (i / k, CM_add_offset_to_field_id (v, i % k * INTEGER), x, INTEGER);
 }
 
-/* How often each of the m numbers is in v: sums that collide. */
+/* Counts how often each of m numbers occurs in v, by sends with addition that collide. */
 static void histogram (d, v, n, m)
     vector d, v;
     int n, m;
@@ -270,7 +269,7 @@ static void compare (what, n)
         }
 }
 
-/* Those that are flagged go to the sum of flags before them. */
+/* Packs: each flagged element goes to the place given by the sum of the flags before it. */
 static void exercise_pack (a, b, c, f, n)
     vector a, b, c, f;
     int n;
@@ -289,7 +288,7 @@ static void exercise_pack (a, b, c, f, n)
     compare ("pack", n);
 }
 
-/* Lengths of segments, as sends to their starts: other ratios on both sides. */
+/* Counts the lengths of segments by sends to their starts, between sets of different ratios. */
 static void exercise_segments (b, n)
     vector b;
     int n;

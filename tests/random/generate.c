@@ -31,8 +31,7 @@ struct generator {
     } slots[PROGRAM_SLOTS];
     int set;
     bool sheet; /* the program has only fields of 32 bits and of 1 bit, in one of sheets[] */
-    bool
-        pure; /* no instruction that reads or writes on the front end, or draws random numbers */
+    bool pure;  /* no instruction that reads, writes or draws random numbers */
 };
 
 static uint32_t draw(struct generator *g, uint32_t below)
