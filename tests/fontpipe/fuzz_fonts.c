@@ -1,5 +1,5 @@
-/* fuzz_fonts.c - a thousand damaged font files, ten thousand random outlines, random text: each is drawn or refused. The
- * same seeds each time. (security.md 7) */
+/* fuzz_fonts.c - draws or refuses a thousand damaged font files, ten thousand random outlines, and random text, with the same
+ * seeds in every run. (security.md 7) */
 #include "fuzz_outline.h"
 #include "support.h"
 
@@ -19,8 +19,8 @@ static uint32_t random_below(uint32_t *seed, size_t bound)
     return (uint32_t)(random_unit(seed) * (double)bound);
 }
 
-/* Bytes changed, runs blanked, pieces copied elsewhere, ends cut off; the first kilobyte, where the tables are listed, as
- * often as all the rest. */
+/* Damages a file: changes bytes, blanks runs, copies pieces elsewhere, cuts off the end. Half of the damage is in the first
+ * kilobyte, which lists the tables. */
 static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)
 {
     int kinds = 1 + (int)random_below(seed, 3);
@@ -42,7 +42,7 @@ static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)
         case 3:
             bytes[at] ^= (uint8_t)(1u << random_below(seed, 8));
             break;
-        case 4: /* a large number where a count or an offset may be */
+        case 4: /* writes a large number, perhaps over a count or an offset */
             if (at + 4 <= count)
                 memcpy(bytes + at, "\x7f\xff\xff\xff", 4);
             break;
@@ -54,7 +54,7 @@ static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)
     return count;
 }
 
-/* What anyone would do with a font. Returns whether anything was drawn. */
+/* Uses a font as programs do. Returns whether anything was drawn. */
 static bool font_use(const uint8_t *bytes, size_t count, uint32_t *seed)
 {
     static struct font_filter *filter;
@@ -136,7 +136,8 @@ static void random_outlines_are_drawn_or_refused(void **state)
     assert_true(ink > OUTLINES / 4);
 }
 
-/* What libFuzzer has found: a long curve of few nodes and many pieces; a line that is level but for rounding. */
+/* Inputs that libFuzzer has found: a long curve with few nodes and many pieces; a line that is horizontal except for
+ * rounding. */
 static void hard_outlines_are_drawn(void **state)
 {
     (void)state;

@@ -26,7 +26,7 @@ static uint8_t byte(struct input *in)
     return in->at < in->end ? *in->at++ : 0;
 }
 
-/* Mostly small whole numbers, where things coincide; now and then any float. */
+/* Reads a number: mostly a small integer, so that points coincide; sometimes any float. */
 static double number(struct input *in)
 {
     uint8_t kind = byte(in);
@@ -87,7 +87,7 @@ static void gray_check(const struct font_gray *g, const struct font_filter *filt
     font_filter_describe(filter, &info);
     must(g->width_px >= 0 && g->height_px >= 0 && (!g->width_px) == (!g->pixels));
     must(g->pitch >= g->width_px && g->pitch % 16 == 0);
-    /* A pixel that is covered once is between none and full, except for the filter's overshoot. */
+    /* Where nothing is covered twice, a pixel lies between empty and full, except for the filter's overshoot. */
     float slack = (float)(0.06 + 4 * info.undershoot);
     for (int r = 0; g->exact && r < g->height_px; r++)
         for (int c = 0; c < g->width_px; c++) {
@@ -97,7 +97,7 @@ static void gray_check(const struct font_gray *g, const struct font_filter *filt
         }
 }
 
-/* All instruction sets give the same. */
+/* All instruction sets give the same picture. */
 static void sets_check(const struct font_edges *e, const struct font_filter *f, double x,
                        double y, const struct font_gray *best)
 {
@@ -150,7 +150,7 @@ int fuzz_outline(const uint8_t *bytes, size_t count)
     bool tame = true;
     map_read(&in, &map);
     enum font_status status = outline_read(&in, &o);
-    /* Coordinates that dwarf the em leave nothing of what floats can say about a pixel. */
+    /* Coordinates far larger than the em leave floats without precision for a pixel. */
     struct font_box box = font_outline_box(&o);
     tame = fabs(box.x0) < 4000 && fabs(box.x1) < 4000 && fabs(box.y0) < 4000 &&
            fabs(box.y1) < 4000 && map.kind == FONT_AFFINE;

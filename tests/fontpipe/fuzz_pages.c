@@ -1,5 +1,5 @@
-/* fuzz_pages.c - random bytes as texts with signs, set by random choices, changed, pointed at: they are set or refused. The same seeds
- * each time; with -DLUTETIA_FUZZ_TARGET libFuzzer's. (security.md 7) */
+/* fuzz_pages.c - takes random bytes as texts, sets them with random options, edits them and asks for places in them. Each is
+ * set or refused. The seeds are the same in every run, or libFuzzer's with -DLUTETIA_FUZZ_TARGET. (security.md 7) */
 #include <page.h>
 #include <setup.h>
 
@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
 static const double shape[] = {60, 40, 140, 60, 120, 160, 40, 120};
 
-/* The first bytes are the choices, the rest is the text. */
+/* The first bytes are the options, the rest is the text. */
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     enum { CHOICES = 10, PAGES = 4 };

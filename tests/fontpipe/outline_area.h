@@ -1,4 +1,4 @@
-/* outline_area.h - an outline's ink, found without the code that fills it. */
+/* outline_area.h - an outline's area, computed without the code that fills it. */
 #ifndef LUTETIA_TESTS_OUTLINE_AREA_H
 #define LUTETIA_TESTS_OUTLINE_AREA_H
 
@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-/* The ink of an outline, in its own units, by its segments: half the sum of cross products, curves by parts. */
+/* The area of an outline in its own units: half the sum of its segments' cross products, with curves in short parts. */
 static inline double outline_area(const struct font_outline *o)
 {
     double sum = 0;

@@ -1,5 +1,5 @@
-/* test_arcs.c - filters with a way of their own to gray against the same edges as nodes and lines, drawn by tables: letters and
- * random outlines, at any place, size, angle and distortion, by all instruction sets. */
+/* test_arcs.c - some filters have faster code of their own. Compares it with the general code, which draws the same edges by
+ * tables: letters and random outlines at any place, size, angle and distortion, with all instruction sets. */
 #include "support.h"
 
 #include <gray.h>
@@ -57,7 +57,7 @@ static int pixel(const struct font_gray *g, int x, int y)
                : g->pixels[y * g->pitch + x];
 }
 
-/* The largest difference of two pictures, wherever they lie. */
+/* The largest difference between two pictures, which may cover different areas. */
 static int difference(const struct font_gray *a, const struct font_gray *b)
 {
     int worst = 0;
@@ -123,7 +123,7 @@ static struct font_map map_random(uint32_t *random, double size_px, double units
     return map;
 }
 
-/* Sizes and places that fonts like, and any others. */
+/* Draws a usual size, or any other. */
 static double size_random(uint32_t *random, double most)
 {
     return random_next(random) % 3 == 0 ? 8 * (1 + random_next(random) % 4)
@@ -160,7 +160,7 @@ static void letters_are_drawn_as_by_tables(void **state)
     pictures_finish(&p);
 }
 
-/* Contours of lines and curves of all kinds, with points on whole pixels now and then. */
+/* Draws contours of lines and curves of all kinds; some have their points on whole pixels. */
 static void outline_random(struct font_outline *o, uint32_t *random)
 {
     bool whole = random_next(random) % 2;
@@ -235,7 +235,7 @@ static void instruction_sets_agree(void **state)
     pictures_finish(&p);
 }
 
-/* Sums that do not fit a band, and arcs far longer than one. */
+/* Pictures whose sums need several bands, with arcs far longer than a band. */
 static void large_pictures_are_drawn_in_bands(void **state)
 {
     const struct fixture *f = *state;
@@ -260,7 +260,7 @@ static void edges_of_another_filter_are_refused(void **state)
     assert_font(font_edges_build(&edges, &f->letters[0][32], &map, f->filter[0]));
     assert_int_equal(font_gray_draw(&gray, &edges, other, 0, 0), FONT_BAD_ARGUMENT);
     assert_true(gray.width_px == 0 && gray.pixels == NULL);
-    /* The same edges are fine once they are made anew. */
+    /* The edges can be drawn after they are built again for the other filter. */
     assert_font(font_edges_build(&edges, &f->letters[0][32], &map, other));
     assert_font(font_gray_draw(&gray, &edges, other, 0, 0));
     assert_true(gray.width_px > 0);

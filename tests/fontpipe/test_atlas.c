@@ -1,5 +1,5 @@
-/* test_atlas.c - glyphs packed into pages: their pictures are right, do not overlap, stay
- * within bounds, and leave in the order of their last use. */
+/* test_atlas.c - glyphs packed into pages: their pictures are right, do not overlap and stay within bounds. The glyph that was
+ * used longest ago is evicted first. */
 #include "support.h"
 
 #include <atlas.h>
@@ -134,8 +134,8 @@ static void what_is_new_is_said(void **state)
     end(&f);
 }
 
-/* Far more glyphs than there is room for, of many sizes, a few a frame: those of the frame are all there and right when it
- * ends, none over another, and no more pages than there may be. */
+/* Draws far more glyphs than there is room for, of many sizes, a few in each frame. At a frame's end all its glyphs are in the
+ * pages, correct and without overlaps, and there are not too many pages. */
 static void frames_keep_what_they_asked_for(void **state)
 {
     (void)state;
@@ -216,7 +216,7 @@ static void what_is_used_stays(void **state)
                                        20 + frame % 7, NULL, 0.25 * (frame % 4), 0, &slot));
     }
     slot_check(&f, &first, kept, 24, 0, 0);
-    /* All in use: said, and what was asked for stays. */
+    /* When the frame uses all room, the atlas returns an error and keeps the frame's glyphs. */
     font_atlas_begin(f.atlas);
     enum font_status status = FONT_OK;
     for (int i = 0; i < 200 && status == FONT_OK; i++)
@@ -230,7 +230,7 @@ static void what_is_used_stays(void **state)
     end(&f);
 }
 
-/* Quads put together from the pages are the layout's cover. */
+/* The quads with the pages' pictures give the same coverage as drawing the layout. */
 static void layouts_become_quads(void **state)
 {
     (void)state;
@@ -271,7 +271,7 @@ static void layouts_become_quads(void **state)
         total += count;
     }
     assert_int_equal(total,
-                     12); /* letters, fi being one, and the comma; the spaces have none */
+                     12); /* the letters (fi is one) and the comma; spaces have no quad */
     assert_memory_equal(cover, made, sizeof cover);
     font_painter_destroy(painter);
     font_layout_finish(&layout);

@@ -1,5 +1,5 @@
-/* test_colour.c - glyphs with colours of their own: pictures (Noto Color Emoji, where it is installed) and layers (a font put
- * together here), beside what is drawn without them. */
+/* test_colour.c - glyphs with their own colours: pictures (Noto Color Emoji, where it is installed) and layers (a font made
+ * here), beside glyphs without. */
 #include "support.h"
 
 #include <edges.h>
@@ -30,7 +30,7 @@ static struct font_painter *painter_make(void)
 
 static const char frog[] = "\xf0\x9f\x90\xb8";
 
-/* How much of the page is painted, and how green that is. */
+/* How much of the page is painted, and how green the paint is. */
 static double painted(const uint8_t *rgb, double *green)
 {
     double sum = 0;
@@ -43,7 +43,7 @@ static double painted(const uint8_t *rgb, double *green)
     return sum;
 }
 
-/* A shaper whose fallback has the frog as a picture; skipped where there is none. */
+/* Lays out a frog, whose picture is in a fallback font. Skips the test where no such font is installed. */
 static void frog_lay(struct font_face *face, struct font_shaper **s, double size_px,
                      struct font_layout *l)
 {
@@ -87,7 +87,7 @@ static void pictures_are_drawn_in_their_colours(void **state)
     font_face_close(face);
 }
 
-/* A quarter of a turn: pixel for pixel. */
+/* A quarter turn of the text turns the picture pixel for pixel. */
 static void pictures_are_turned_with_the_text(void **state)
 {
     (void)state;
@@ -149,7 +149,8 @@ static uint32_t get32(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* The font with two tables more: of `base` the layers `below` in half of a red and `above` in the text's ink. */
+/* Adds the tables COLR and CPAL to a font: glyph `base` gets the layers `below`, in a half transparent red, and `above`, in the
+ * text's ink. */
 static uint8_t *layered_make(const uint8_t *from, size_t count, uint32_t base, uint32_t below,
                              uint32_t above, size_t *made_count)
 {
@@ -159,7 +160,7 @@ static uint8_t *layered_make(const uint8_t *from, size_t count, uint32_t base, u
     uint8_t *made = calloc(1, at + 128), *entry = made + 12;
     memcpy(made, from, 12);
     put(made + 4, tables + 2, 2);
-    /* The two come first: tables are in the order of their tags, and these begin with capitals. */
+    /* The new tables come first: tables are sorted by their tags, and these begin with capitals. */
     memcpy(entry, "COLR", 4);
     put(put(entry + 8, (uint32_t)at, 4), COLR, 4);
     memcpy(entry + 16, "CPAL", 4);

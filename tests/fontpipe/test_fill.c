@@ -1,5 +1,5 @@
-/* test_fill.c - what is covered twice is found from the curves (fill_quick.c) as by strips (fill.c): all glyphs of
- * several fonts, and random tangles. */
+/* test_fill.c - two ways to find areas that are covered twice must agree: from the curves (fill_quick.c) and by strips (fill.c).
+ * Tests all glyphs of several fonts, and random tangles. */
 #include "outline_area.h"
 #include "support.h"
 
@@ -19,7 +19,7 @@ static void work_free(struct fill_work *w)
     free(w->links);
 }
 
-/* Compares both ways for an outline that is not prepared, and finishes it. tolerance: of areas. False: they differ. */
+/* Compares both ways on an outline that is not prepared, and finishes it. False: their areas differ by more than tolerance. */
 static bool alike(struct font_outline *o, enum font_fill rule, double tolerance, bool *seen,
                   bool *rebuilt)
 {
@@ -41,7 +41,7 @@ static bool alike(struct font_outline *o, enum font_fill rule, double tolerance,
     return same;
 }
 
-/* All glyphs of fonts of each kind: those whose contours are apart, and those that overlap. */
+/* All glyphs of fonts with separate contours and of fonts with overlapping ones. */
 static void glyphs_are_filled_as_by_strips(void **state)
 {
     (void)state;
@@ -70,7 +70,7 @@ static void glyphs_are_filled_as_by_strips(void **state)
     }
 }
 
-/* Contours of random curves that cross each other often; every fourth has corners on whole numbers, where much touches. */
+/* Random curves that cross each other often. Every fourth contour has corners on whole numbers, so that many points coincide. */
 static void random_tangles_are_filled_as_by_strips(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void random_tangles_are_filled_as_by_strips(void **state)
             }
             assert_font(font_outline_close(&o));
         }
-        /* Strips are chords: each is beside its curve by a 32768th of the outline. */
+        /* Strips replace curves by chords, which miss the curve by a 32768th of the outline. */
         if (!alike(&o, n & 1 ? FONT_EVEN_ODD : FONT_NONZERO, 60, &seen, &rebuilt))
             fail_msg("tangle %d: other ink than by strips", n);
         if (!whole)

@@ -1,4 +1,4 @@
-/* test_filter.c - filters: tables, what is measured of them, names, choosing. */
+/* test_filter.c - filters: tables, measured properties, names, choice. */
 #include "support.h"
 
 #include <filter_internal.h>
@@ -23,13 +23,13 @@ static void integrals_are_one(void **state)
             fail_msg("%s: %g, by rows %g", *name, sum, rows);
         assert_true(fabs(font_filter_edge(f, r + 1) - 1) < 1e-9);
         assert_true(fabs(font_filter_edge(f, -r - 1)) < 1e-12);
-        /* Halves are alike. Low-rank ones were even from the start. */
+        /* The two halves of a filter are equal; low-rank filters are made so. */
         assert_true(fabs(font_filter_edge(f, 0) - 0.5) < 1e-3);
         font_filter_destroy(f);
     }
 }
 
-/* Whatever the phase: rows add up to the whole, and what is padded is what belongs there. */
+/* In every phase the rows add up to the whole filter, and the padding has the right values. */
 static void tables_hold_the_filter(void **state)
 {
     (void)state;
@@ -72,7 +72,7 @@ static void round_filters_are_few_products(void **state)
         struct font_filter *f = filter_make(names[n]);
         double worst = 0;
         assert_true(f->terms_count >= 2 && f->terms_count <= FONT_TERMS_MAX);
-        /* A half plane at any angle: the sum of products against the filter itself. */
+        /* Half planes at several angles: the sum of products against the filter itself. */
         for (int angle = 0; angle < 8; angle++) {
             enum { N = 240 };
             double d = 2 * f->radius / N, c = cos(angle * M_PI / 16),

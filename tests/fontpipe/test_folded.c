@@ -28,7 +28,7 @@ static int pixel(const struct font_gray *gray, int x, int y)
                : gray->pixels[y * gray->pitch + x];
 }
 
-/* A picture of the outline mapped as short lines. */
+/* Draws the outline mapped as short lines. */
 static void mapped_draw(struct font_gray *gray, const struct font_outline *outline,
                         const struct font_map *map, const struct font_filter *filter)
 {
@@ -42,7 +42,7 @@ static void mapped_draw(struct font_gray *gray, const struct font_outline *outli
     font_outline_finish(&mapped);
 }
 
-/* Maps that do not fold: both ways are one picture. */
+/* Maps that do not fold give the same picture both ways. */
 static void lines_are_the_curves(void **state)
 {
     (void)state;
@@ -85,8 +85,8 @@ static void lines_are_the_curves(void **state)
     font_face_close(face);
 }
 
-/* A square whose sides cross becomes two triangles; a square with a dent its boundary; so does
- * one that is folded over by a corner. */
+/* A square whose sides cross covers two triangles. A square with a dent, or with a corner folded over, covers the inside of its
+ * boundary. */
 static void folded_squares_cover_once(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_gray.c - gray against the definition in double precision: sizes, places between pixels, filters, angles, faces,
- * shears and distortions, and all instruction sets. */
+/* test_gray.c - compares gray with its definition in double precision ("gold"): sizes, places between pixels, filters, angles,
+ * faces, shears and distortions, with all instruction sets. */
 #include "support.h"
 
 #include <gold.h>
@@ -44,7 +44,7 @@ static int fixture_destroy(void **state)
     return 0;
 }
 
-/* Draws and compares; bytes and values before rounding are added to the sums. */
+/* Draws and compares. Adds the differences of bytes, and of values before rounding, to the sums. */
 static void compare(const struct font_outline *outline, const struct font_map *map,
                     const struct font_filter *filter, double x, double y,
                     struct font_difference *bytes, struct font_difference *exact)
@@ -79,7 +79,7 @@ static void sums_check(const char *what, const struct font_difference *bytes,
     assert_true(ink <= 0.05);
 }
 
-/* Each of 256 places, 12 angles, 4 filters and 3 faces many times, in ever other company. */
+/* 256 places, 12 angles, 4 filters and 3 faces, each many times in changing combinations. */
 static void gray_is_gold_at_any_place_and_angle(void **state)
 {
     const struct fixture *f = *state;
@@ -124,7 +124,7 @@ static void gray_is_gold_sheared_and_distorted(void **state)
     static const enum font_map_kind kinds[] = {FONT_AFFINE, FONT_PROJECTIVE, FONT_BILINEAR,
                                                FONT_SMOOTH};
     struct font_difference bytes[4] = {{0}}, exact[4] = {{0}};
-    /* the second almost has a dent: there a smooth map is neither of the others */
+    /* the second square almost has a dent: there a smooth map differs from the other kinds */
     const struct font_point corners[2][4] = {{{3, 2}, {41, 8}, {37, 35}, {0, 30}},
                                              {{3, 2}, {41, 8}, {23.5, 19.5}, {0, 30}}};
     for (int k = 0; k < 144; k++) {
@@ -153,7 +153,7 @@ static void gray_is_gold_sheared_and_distorted(void **state)
     sums_check("smooth", &bytes[3], &exact[3]);
 }
 
-/* The rarer filters, in the same way. */
+/* Compares gray with gold for the rarer filters. */
 static void gray_is_gold_with_other_filters(void **state)
 {
     const struct fixture *f = *state;
@@ -181,7 +181,7 @@ static void gray_is_gold_with_other_filters(void **state)
     }
 }
 
-/* A picture drawn in bands is the picture. */
+/* A picture that is drawn in bands agrees with gold. */
 static void bands_join(void **state)
 {
     const struct fixture *f = *state;
@@ -196,7 +196,7 @@ static void bands_join(void **state)
     struct font_map map = font_map_size(600, 1000);
     compare(&outline, &map, f->filter[0], 0.3, 0.6, &bytes, &exact);
     sums_check("600 px", &bytes, &exact);
-    /* Narrow, and higher than a band: its rows of sums lie closer together. */
+    /* A picture that is narrow and higher than a band: its rows of sums lie closer together. */
     struct font_difference tall_bytes = {0}, tall_exact = {0};
     struct font_map tall = {FONT_AFFINE, {0.009, 0, 0, 0, -2.5, 0}};
     compare(&outline, &tall, f->filter[0], 0.3, 0.6, &tall_bytes, &tall_exact);
@@ -204,7 +204,7 @@ static void bands_join(void **state)
     font_outline_finish(&outline);
 }
 
-/* Instruction sets differ by what they round, nowhere more. */
+/* Instruction sets differ only by rounding. */
 static void instruction_sets_agree(void **state)
 {
     const struct fixture *f = *state;
@@ -243,12 +243,12 @@ static void instruction_sets_agree(void **state)
     font_edges_finish(&edges);
 }
 
-/* The gold itself, against counting: points of a fine grid that are inside, weighed by the filter. */
+/* Checks gold itself by counting the points of a fine grid that are inside, weighed by the filter. */
 static void gold_is_what_counting_gives(void **state)
 {
     const struct fixture *f = *state;
     enum { FINE = 48, WIDTH = 16, HEIGHT = 14 };
-    /* A triangle and a hole: x - y >= 0 and so on, by hand. */
+    /* A triangle with a hole; the tests for inside are written by hand. */
     struct font_outline o = {.units_per_em = 1};
     assert_font(font_outline_move(&o, 1.3, 1.2));
     assert_font(font_outline_line(&o, 2.1, 8.9));
@@ -301,7 +301,7 @@ static void nonsense_is_refused(void **state)
     assert_int_equal(font_gray_draw(&gray, &edges, f->filter[0], INFINITY, 0),
                      FONT_BAD_ARGUMENT);
     assert_int_equal(font_gray_draw(&gray, &edges, f->filter[0], 0, 1e8), FONT_BAD_ARGUMENT);
-    /* Size -12 turns the glyph over and around: as a rotation by 180 degrees does. */
+    /* Size -12 mirrors the glyph in both directions, like a rotation by 180 degrees. */
     map = font_map_size(-12, 2048);
     assert_font(font_edges_build(&edges, &outline, &map, f->filter[0]));
     assert_font(font_gray_draw(&gray, &edges, f->filter[0], 0, 0));
@@ -311,7 +311,7 @@ static void nonsense_is_refused(void **state)
     font_gray_finish(&gray);
 }
 
-/* A thread that asks for the plain instructions has their bits, whatever the others use. */
+/* A thread that asks for plain instructions gets their bits, whatever other threads use. */
 static void plain_here_is_plain(void **state)
 {
     const struct fixture *f = *state;

@@ -1,5 +1,4 @@
-/* test_levels.c - master, rectangles, and edits of the levels: which levels are made again
- * after an edit, and which are not. */
+/* test_levels.c - master, rectangles and edits of levels: an edit makes the levels that depend on it again, and no others. */
 #include "support.h"
 
 #include <gold.h>
@@ -16,7 +15,7 @@ static void outline_load(const char *font, uint32_t character, struct font_outli
     font_face_close(face);
 }
 
-/* Point by point: is the centre inside? */
+/* A pixel of the master is black if its centre is inside. */
 static void masters_are_what_is_inside(void **state)
 {
     (void)state;
@@ -103,7 +102,7 @@ static double gray_difference(const struct font_gray *a, const struct font_gray 
     return worst;
 }
 
-/* A copy that lives on when the levels draw again. */
+/* A copy of gray that stays valid when the levels draw again. */
 static struct font_gray gray_copy(const struct font_gray *g)
 {
     struct font_gray copy = *g;
@@ -113,8 +112,7 @@ static struct font_gray gray_copy(const struct font_gray *g)
     return copy;
 }
 
-/* Finds rectangles by a plain look at each pixel: a run of a row begins a rectangle if the row
- * above has no such run. */
+/* Counts rectangles by a plain loop over pixels: a run of a row begins a rectangle if the row above has no such run. */
 static int cuts_count(const struct font_master *m, bool columns)
 {
     int count = 0, along = columns ? m->height_px : m->width_px,
@@ -133,7 +131,8 @@ static int cuts_count(const struct font_master *m, bool columns)
     return count;
 }
 
-/* Rows or columns, whichever are fewer; of noise in blocks, over word boundaries and odd sizes. */
+/* The master is cut into rows or columns, whichever gives fewer rectangles. The masters are noise in blocks, of odd sizes and
+ * across word boundaries. */
 static void masters_are_cut_the_better_way(void **state)
 {
     (void)state;
@@ -228,7 +227,7 @@ static void edits_flow_down_and_no_further(void **state)
     outline_load("DejaVuSans", 'B', &o);
     assert_font(font_levels_create(&o, 1000, 24, "gaussian-fast", &l));
 
-    /* Straight from the outline; nothing else is made; the same place is not drawn again. */
+    /* Gray is drawn straight from the outline, no other level is made, and the same place is not drawn again. */
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     struct font_gray exact = gray_copy(gray);
@@ -236,7 +235,7 @@ static void edits_flow_down_and_no_further(void **state)
     assert_true(made.masters == 0 && made.rectangles == 0 && made.edges == 1 &&
                 made.grays == 1);
 
-    /* The thesis's way gives the same to what a master of 40 pixels to one can. */
+    /* The thesis's way, by a master of 40 pixels to one, gives the same gray within the master's precision. */
     font_levels_use_master(l, true);
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &exact) <= 4);
@@ -245,7 +244,7 @@ static void edits_flow_down_and_no_further(void **state)
     assert_true(made.masters == 1 && made.rectangles == 1 && made.edges == 2 &&
                 made.grays == 2);
 
-    /* Another table: only gray. Another size: edges and gray. */
+    /* Another filter makes only gray again; another size makes edges and gray. */
     assert_font(font_levels_filter_set(l, "cone"));
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &from_master) > 4);
@@ -262,13 +261,13 @@ static void edits_flow_down_and_no_further(void **state)
     assert_true(made.masters == 1 && made.rectangles == 1 && made.edges == 4 &&
                 made.grays == 5);
 
-    /* A retouched master: its rectangles again, not itself. */
+    /* Retouching the master makes its rectangles again, but not the master. */
     const struct font_master *m;
     assert_font(font_levels_master(l, &m));
     long ink = font_master_ink(m);
     assert_font(font_levels_master_fill(l, 230, -620, 160, 140, true));
     assert_true(font_master_ink(m) > ink);
-    font_levels_use_master(l, false); /* edited: gray is of the master all the same */
+    font_levels_use_master(l, false); /* an edited master is used all the same */
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &from_master) > 100);
     font_levels_made_get(l, &made);
@@ -276,7 +275,7 @@ static void edits_flow_down_and_no_further(void **state)
 
     rectangles_edit(l);
 
-    /* The outline again: edits are forgotten. */
+    /* Setting the outline again drops the edits. */
     assert_font(font_levels_outline_set(l, &o));
     assert_font(font_levels_gray(l, 0.2, 0.4, &gray));
     assert_true(gray_difference(gray, &exact) == 0);
@@ -312,8 +311,8 @@ static void fine_masters_are_nearly_exact(void **state)
     font_outline_finish(&o);
 }
 
-/* A master written as a picture, retouched there and read again: the same ink but for what was retouched, and all below
- * made of it. */
+/* A master is written as a picture, retouched there and read again. It differs only where it was retouched, and the levels
+ * below are made from it. */
 static void masters_are_retouched_as_pictures(void **state)
 {
     (void)state;
@@ -345,14 +344,14 @@ static void masters_are_retouched_as_pictures(void **state)
     assert_font(font_levels_master_set(l, &read));
     assert_font(font_levels_gray(l, 0, 0, &gray));
     assert_int_equal(gray_difference(gray, &before), 0);
-    /* Ink in the margin, beyond the master's own box. */
+    /* The picture gets ink in its margin, beyond the master's box. */
     for (int r = 0; r < 40; r++)
         memset(picture + (size_t)r * (size_t)frame.width_px, 20, 40);
     assert_font(font_master_from_picture(&read, &frame, picture));
     assert_true(font_master_at(&read, frame.left_px, frame.top_px));
     assert_int_equal(font_master_differs(m, &read),
                      font_master_ink(&read) - font_master_ink(m));
-    font_levels_use_master(l, false); /* edited: from the master all the same */
+    font_levels_use_master(l, false); /* an edited master is used all the same */
     assert_font(font_levels_master_set(l, &read));
     assert_font(font_levels_gray(l, 0, 0, &gray));
     assert_true(gray->width_px >= before.width_px && gray->pixels[2 * gray->pitch + 2] > 50);

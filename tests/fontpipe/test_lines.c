@@ -1,4 +1,4 @@
-/* test_lines.c - text in columns: where lines are broken, where they stand, random text. */
+/* test_lines.c - text in columns: the places of line breaks and of lines, and random text. */
 #include "support.h"
 
 #include <text.h>
@@ -69,7 +69,7 @@ static void lines_are_broken_at_spaces(void **state)
             assert_true(l->lines[i].ends_paragraph == (i == l->lines_count - 1));
             if (i < l->lines_count - 1) {
                 assert_true(marsh[last] != ' ' && marsh[last + 1] == ' ');
-                /* The next word would not have fitted. */
+                /* The next word would not have fitted into the line. */
                 size_t word = strcspn(marsh + last + 2, " ");
                 struct font_layout longer;
                 assert_font(font_shaper_layout(f.shaper, marsh + first,
@@ -119,7 +119,7 @@ static void lines_stand_on_their_side(void **state)
             assert_true(fills ? line->width_px == WIDTH : line->width_px < WIDTH);
             assert_true(fabs(line->x_px - parts[align] * (WIDTH - line->width_px)) < 1e-9);
             assert_true(fabs(l->glyphs[line->glyphs_begin].x_px - line->x_px) < 1e-6);
-            /* The last glyph's advance ends where the line does. */
+            /* The last glyph's advance ends at the line's end. */
             const struct font_placed *last =
                 &l->glyphs[line->glyphs_begin + line->glyphs_count - 1];
             double advance;
@@ -128,7 +128,7 @@ static void lines_stand_on_their_side(void **state)
                         1e-6);
         }
     }
-    /* Without a column lines stand within the longest. */
+    /* Without a column width, lines are aligned within the longest line. */
     struct font_text_options right = {.align = FONT_ALIGN_RIGHT};
     const struct font_layout *l = set(&f, "long line\nI", &right);
     assert_true(l->lines[0].x_px == 0);
@@ -142,13 +142,13 @@ static void words_too_long_are_broken_between_letters(void **state)
     struct fixture f;
     begin(&f, "DejaVuSans");
     struct font_text_options options = {.width_px = 1};
-    /* An accent stays on its letter; each letter has a line, however narrow it is. */
+    /* In a column too narrow for a letter each letter gets a line; an accent stays with its letter. */
     const struct font_layout *l = set(&f, "oe\xcc\x81v", &options);
     assert_int_equal(l->lines_count, 3);
     options.width_px = 60;
     l = set(&f, "mmmmmmmmmmmmmm", &options);
     assert_int_equal(l->lines_count, 5); /* 19.5 pixels each */
-    /* A soft hyphen is seen where a line ends at it, and only there. */
+    /* A soft hyphen is drawn only where a line ends at it. */
     l = set(&f, "extra\xc2\xadordinary", &options);
     assert_int_equal(l->lines_count, 3);
     const struct font_placed *last = &l->glyphs[l->lines[0].glyphs_count - 1];
@@ -201,8 +201,8 @@ static void a_width_that_cannot_be_is_refused(void **state)
     end(&f);
 }
 
-/* Letters of many scripts, marks, joiners, controls, damage; columns of all widths. Whatever comes, lines fit or hold one
- * letter, glyphs belong to lines, and the text is gone through in order. */
+/* Random letters of many scripts, marks, joiners, controls and damaged UTF-8, in columns of all widths. Every line fits or holds
+ * one letter, every glyph belongs to a line, and lines follow the text's order. */
 static void random_text_is_set(void **state)
 {
     (void)state;

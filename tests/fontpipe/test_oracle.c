@@ -1,8 +1,8 @@
-/* test_oracle.c - pixels of random glyphs of the fonts that are installed, against an oracle that shares nothing with the
- * pipeline: FreeType reads the outlines, and a pixel is the integral over rows of the spans that are inside by
- * the nonzero rule, each weighed by a closed form (or a fine table) of the filter.
+/* test_oracle.c - compares pixels of random glyphs of the installed fonts with an oracle that shares no code with the pipeline.
+ * FreeType reads the outlines. A pixel is the integral, over rows, of the spans that are inside by the nonzero rule, weighed by a
+ * closed form (or a fine table) of the filter.
  *
- *     test_oracle [CASES [SEED]]        120 cases of any size from 5 to 3000 pixels, unless it is said otherwise */
+ *     test_oracle [CASES [SEED]]        120 cases by default, of sizes from 5 to 3000 pixels */
 #include "support.h"
 
 #include <gray.h>
@@ -35,7 +35,7 @@ struct oracle_filter {
     double radius;
     double (*profile)(double v); /* of a product; NULL: round */
     bool cone;
-    double *integral; /* of the profile, from -radius on, PROFILE_STEPS + 1; normalised */
+    double *integral; /* the profile's, from -radius on, PROFILE_STEPS + 1; normalised */
     double whole;
 };
 
@@ -118,7 +118,7 @@ static double row_integral(const struct oracle_filter *f, double u, double v)
     return sum / f->whole;
 }
 
-/* ---- outlines: curves that rise or fall all along, in pixels, y downwards ---- */
+/* ---- outlines: curves that are monotonic in y, in pixels, y downwards ---- */
 
 struct curve {
     int degree;
@@ -261,7 +261,7 @@ static struct crossing crossing_of(const struct curve *c, double y)
     return (struct crossing){along(c->x, c->degree, t), falls ? -1 : 1};
 }
 
-/* What a row at y adds, of the pixel whose centre is at (x, y + v). */
+/* The row at y's part of the pixel whose centre is (x, centre_y). */
 static double row_of(const struct oracle_filter *f, const struct curve *const *near, int count,
                      double x, double centre_y, double y)
 {
@@ -294,8 +294,8 @@ struct pixel {
     double x, y;
 };
 
-/* Gauss's three nodes, on halves as long as that makes a difference: an edge that is all but level passes a pixel within few
- * rows. */
+/* Integrates rows by Gauss's three nodes, and halves the interval until that makes no difference: a nearly horizontal edge
+ * crosses a pixel within few rows. */
 static double rows_of(const struct pixel *p, double from, double to, double before, int depth)
 {
     static const double at[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
@@ -359,7 +359,7 @@ static int paths_compare(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* Of all fonts' files, in order of their names. */
+/* Lists the files of all fonts, sorted by name. */
 static int paths_find(char ***paths)
 {
     FcPattern *pattern = FcPatternCreate();

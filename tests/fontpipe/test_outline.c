@@ -1,4 +1,4 @@
-/* test_outline.c - outlines: curves, what is covered twice, emboldening, fonts of each kind. */
+/* test_outline.c - outlines: curves, areas covered twice, emboldening, fonts of each kind. */
 #include "outline_area.h"
 #include "support.h"
 
@@ -18,8 +18,7 @@ static void square(struct font_outline *o, double x, double y, double side, bool
     assert_font(font_outline_close(o));
 }
 
-/* How far the segments are from closed contours: each point must be the end of as many segments
- * as it is the beginning of. */
+/* Whether the segments form closed contours: each point must be the end of as many segments as it is the beginning of. */
 static bool closed(const struct font_outline *o)
 {
     double x = 0, y = 0, xx = 0, yy = 0;
@@ -52,7 +51,8 @@ static void simple_shapes_stay_as_they_are(void **state)
 static void overlaps_are_covered_once(void **state)
 {
     (void)state;
-    /* Two squares of 100 that share 50 by 50, turned either way: 17500 under non-zero, 15000 under even-odd. */
+    /* Two squares of side 100, in either direction, overlap by 50 by 50. Their area is 17500 by the nonzero rule and 15000 by the
+     * even-odd rule. */
     for (int turns = 0; turns < 4; turns++)
         for (int rule = 0; rule < 2; rule++) {
             struct font_outline o = {0};
@@ -62,7 +62,7 @@ static void overlaps_are_covered_once(void **state)
             bool apart = rule == FONT_NONZERO && (turns == 1 || turns == 2);
             assert_true(o.rebuilt);
             assert_true(closed(&o));
-            /* Under non-zero the shared part of squares that turn against each other is a hole. */
+            /* By the nonzero rule the overlap of squares of opposite directions is a hole. */
             double expected = rule == FONT_EVEN_ODD || apart ? 15000 : 17500;
             if (fabs(outline_area(&o) - expected) > 1e-6)
                 fail_msg("turns %d, rule %d: %g, not %g", turns, rule, outline_area(&o),
@@ -81,14 +81,14 @@ static void nested_contours_of_one_turn_are_one(void **state)
     assert_font(font_outline_prepare(&o, FONT_NONZERO));
     assert_true(o.rebuilt);
     assert_true(fabs(outline_area(&o) - 10000) <
-                1e-2); /* what coincides is moved by some 10^-8 */
+                1e-2); /* coinciding points are moved by some 10^-8 */
     font_outline_finish(&o);
 }
 
 static void crossing_curves_stay_curves(void **state)
 {
     (void)state;
-    /* An eight that crosses itself, of curves. */
+    /* A figure eight of curves, which crosses itself. */
     struct font_outline o = {0};
     assert_font(font_outline_move(&o, 0, 0));
     assert_font(font_outline_cubic(&o, 300, 300, -200, 300, 100, 0));
@@ -103,7 +103,7 @@ static void crossing_curves_stay_curves(void **state)
     font_outline_finish(&o);
 }
 
-/* Random tangles: the rebuilt outline must fill the points that the rule says, and be full nowhere twice. */
+/* The winding number of a point. In random tangles the rebuilt outline must cover the points that the rule fills, each once. */
 static int winding_at(const struct font_outline *o, double x, double y)
 {
     int winding = 0;
@@ -132,7 +132,7 @@ static void tangles_fill_what_the_rule_says(void **state)
                 font_outline_move(&o, 1000 * random_unit(&seed), 1000 * random_unit(&seed)));
             for (int k = 0; k < 4; k++) {
                 double p[6];
-                for (int i = 0; i < 6; i++) /* often on whole numbers, where things coincide */
+                for (int i = 0; i < 6; i++) /* often whole numbers, so that points coincide */
                     p[i] = n % 4 < 2 ? floor(10 * random_unit(&seed)) * 100
                                      : 1000 * random_unit(&seed);
                 int degree = 1 + (int)(3 * random_unit(&seed));
@@ -158,10 +158,10 @@ static void tangles_fill_what_the_rule_says(void **state)
     }
     print_message("%d of %d points differ, %d of 40 rebuilt\n", wrong, points, rebuilt);
     assert_true(rebuilt > 20);
-    assert_true(wrong <= points / 200); /* those that lie within a chord's error of an edge */
+    assert_true(wrong <= points / 200); /* points very near an edge may differ */
 }
 
-/* Rebuilt outlines are drawn with rotation too: horizontal parts count then. */
+/* A rebuilt outline is right under a rotation too, where its horizontal parts count. */
 static void rebuilt_outlines_can_be_turned(void **state)
 {
     (void)state;
@@ -212,7 +212,7 @@ static void bold_is_bolder_by_as_much(void **state)
         square(&o, 20, 20, 60, !clockwise);
         assert_font(font_outline_embolden(&o, 10, 4));
         assert_font(font_outline_prepare(&o, FONT_NONZERO));
-        /* Outside 110 by 104, the hole 50 by 56. */
+        /* The outside is 110 by 104, the hole 50 by 56. */
         assert_true(fabs(outline_area(&o) - (110 * 104 - 50 * 56)) < 1e-6);
         font_outline_finish(&o);
     }
@@ -273,7 +273,7 @@ static void what_is_no_font_is_said(void **state)
     assert_null(face);
 }
 
-/* ---- a collection and a variable font, put together here: there is none among the fonts that tests install ---- */
+/* ---- a collection and a variable font, made here because the fonts that tests install have none ---- */
 
 static void put16(uint8_t *at, unsigned value)
 {
@@ -292,7 +292,7 @@ static uint32_t get32(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Two fonts in one file: offsets of tables are from the file's beginning, so they move. */
+/* Puts two fonts into one file. Offsets of tables count from the file's beginning, so they change. */
 static void collections_have_faces(void **state)
 {
     (void)state;
@@ -354,8 +354,8 @@ static void axis_make(uint8_t *fvar)
     put16(fvar + 34, 256);
 }
 
-/* DejaVu Sans with an axis `wght` 100..900, 400 usual, along which the advance grows and all glyphs stay but
- * 'l', whose first four points move right by 100 units at 900. */
+/* Makes DejaVu Sans with an axis `wght` 100..900, default 400. Along it the advance grows, and of all glyphs only `glyph` ('l')
+ * changes: at 900 its first four points are 100 units further right. */
 static uint8_t *variable_make(const uint8_t *font, size_t count, unsigned glyph,
                               unsigned glyphs_count, size_t *out_count)
 {
@@ -398,7 +398,7 @@ static uint8_t *variable_make(const uint8_t *font, size_t count, unsigned glyph,
     put16(d + 2, 8);      /* data begins */
     put16(d + 6, 0x2000); /* private point numbers, shared tuple 0 */
     uint8_t *p = d + 8;
-    *p++ = 4; /* four points: 0, 1, 2, 3 as steps of a byte */
+    *p++ = 4; /* four points, 0, 1, 2, 3, as differences of one byte */
     *p++ = 3;
     *p++ = 0;
     *p++ = 1;
@@ -449,7 +449,7 @@ static void axes_move_outlines(void **state)
     assert_true(left[1] - left[0] == 50 && left[2] - left[0] == 100);
     assert_font(font_face_axis_set(face, "wght", 400));
     assert_true(font_face_version(face) == first);
-    /* Back and forth between two hundred settings: each of the last has the version that it had, and no two the same. */
+    /* Two hundred settings have different versions; the last ones get their old versions when they are set again. */
     uint64_t versions[200];
     for (int i = 0; i < 200; i++) {
         assert_font(font_face_axis_set(face, "wght", 101 + i));
@@ -469,7 +469,7 @@ static void axes_move_outlines(void **state)
     free(variable);
 }
 
-/* Two circles that are mirrored at x = 600 cross there: as exactly as doubles say, not as their pieces do. */
+/* Two circles, mirror images at x = 600, cross there. The corner has the precision of doubles, not that of the curves' pieces. */
 static void corners_are_where_curves_cross(void **state)
 {
     (void)state;
@@ -487,7 +487,7 @@ static void corners_are_where_curves_cross(void **state)
     o.units_per_em = 1000;
     assert_font(font_outline_prepare(&o, FONT_NONZERO));
     assert_true(o.rebuilt);
-    /* Where the left one's first quarter is there. */
+    /* Finds where the left circle's first quarter crosses x = 600. */
     const struct font_segment quarter = {3, 0, {{r, 0}, {r, k}, {k, r}, {0, r}}};
     double low = 0, high = 1, y;
     for (int n = 0; n < 60; n++) {

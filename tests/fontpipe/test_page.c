@@ -1,4 +1,5 @@
-/* test_page.c - pages: lines against all ways to break, edits against texts from scratch, keeps, notes, shapes, tabs, vertical lines. */
+/* test_page.c - pages: lines against a search of all ways to break; edited texts, with keeps, notes, shapes, tabs and vertical
+ * lines, against texts set anew; carets. */
 #include "support.h"
 
 #include <breaks.h>
@@ -197,7 +198,7 @@ static struct page_manner random_manner(uint32_t *seed)
     return m;
 }
 
-/* ---- edits against texts from scratch ---- */
+/* ---- edited texts against texts set anew ---- */
 
 struct model {
     int id;
@@ -381,7 +382,7 @@ static struct page_text *one_column(double width, const char *text, size_t bytes
     return t;
 }
 
-/* A caret's place hits a place whose caret is there: the same one, where directions do not change. */
+/* Hitting a caret's place gives a text place with the same caret; where the direction does not change, the same text place. */
 static void carets_and_hits_agree(void **state)
 {
     (void)state;
@@ -420,11 +421,11 @@ static void carets_and_hits_agree(void **state)
         assert_int_equal(at.byte, 0);
         page_text_destroy(t);
     }
-    /* The rest are places in white space at lines' ends, and those where two directions meet. */
+    /* The other places are in white space at lines' ends, and where two directions meet. */
     assert_true((double)same > 0.8 * (double)all);
 }
 
-/* Latin letters alone, in one line: each place is hit again exactly. */
+/* In one line of Latin letters each caret's place hits exactly its own text place. */
 static void places_are_hit_again(void **state)
 {
     (void)state;
@@ -460,7 +461,7 @@ static double boxes_width(struct page_text *t, int id, int from, int to, int *co
     return width;
 }
 
-/* What is selected in two parts is as wide as selected at once, and boxes of a line do not lie over each other. */
+/* Two adjacent selections are together as wide as one selection of both, and a line's boxes do not overlap. */
 static void selections_add_up(void **state)
 {
     (void)state;
@@ -482,7 +483,7 @@ static void selections_add_up(void **state)
         assert_true(count > 0 && parts[0] + parts[1] >= count);
         page_text_destroy(t);
     }
-    /* From a Latin word into an Arabic one: two boxes, for the Arabic begins at the right. */
+    /* A selection from a Latin word into an Arabic one has two boxes, because Arabic begins at the right. */
     static const char both[] = "abc \xd8\xa7\xd9\x84\xd9\x85\xd8\xa7\xd8\xa1 def";
     struct page_manner manner = page_manner_default();
     int id, count;

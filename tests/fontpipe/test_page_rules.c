@@ -1,5 +1,5 @@
-/* test_page_rules.c - what pages promise: lines that fill their column, words divided, keeps, notes, shapes, tabs, lines that go down;
- * and the same as drawings. */
+/* test_page_rules.c - the rules of pages: lines fill their column, hyphenation, keeps, notes, shapes, tabs, vertical lines; and
+ * pages as drawings. */
 #include "support.h"
 
 #include <drawing.h>
@@ -62,7 +62,7 @@ static void end(struct fixture *f)
     page_text_destroy(f->text);
 }
 
-/* Where glyph i's ink ends if the pen moves on by its advance. */
+/* The place of the pen after the glyph's advance. */
 static double glyph_end(const struct font_placed *g)
 {
     struct font_face_info info;
@@ -114,7 +114,7 @@ static void justified_lines_fill_the_column(void **state)
     }
 }
 
-/* Each hyphen at a line's end stands where the patterns allow one. */
+/* The patterns allow each hyphen that stands at a line's end. */
 static void words_are_divided_by_patterns(void **state)
 {
     (void)state;
@@ -193,7 +193,7 @@ static void letters_widen_a_little(void **state)
     end(&f);
 }
 
-/* How many of the paragraph's lines are on a page. */
+/* The number of the paragraph's lines on a page. */
 static int lines_on(struct fixture *f, int id, int page)
 {
     struct page_box boxes[100];
@@ -208,7 +208,7 @@ static int lines_on(struct fixture *f, int id, int page)
 static void keeps_are_kept(void **state)
 {
     (void)state;
-    /* Over all heights of a column, at most one line alone is left nowhere. */
+    /* At no height of the column does a paragraph leave a single line alone. */
     for (int height = 100; height < 420; height += 20) {
         struct fixture f;
         struct page_frame frame = column;
@@ -372,7 +372,7 @@ static void lines_go_down(void **state)
 static void thai_words_are_broken(void **state)
 {
     (void)state;
-    /* Of "the Thai language is beautiful", written together. */
+    /* "the Thai language is beautiful", written without spaces. */
     static const char thai[] =
         "\xe0\xb8\xa0\xe0\xb8\xb2\xe0\xb8\xa9\xe0\xb8\xb2\xe0\xb9\x84\xe0\xb8\x97\xe0\xb8\xa2"
         "\xe0\xb9\x80\xe0\xb8\x9b\xe0\xb9\x87\xe0\xb8\x99\xe0\xb8\xa0\xe0\xb8\xb2\xe0\xb8\xa9"
@@ -435,7 +435,7 @@ static void drawings_have_all_letters(void **state)
     free(svg);
     char *pdf = drawn(l, true, &bytes);
     assert_memory_equal(pdf, "%PDF-1.5", 8);
-    /* Each object begins where the table says. */
+    /* Each object begins at its offset in the xref table. */
     const char *table = strstr(pdf + atol(strstr(pdf, "startxref") + 10), "xref");
     assert_ptr_equal(table, pdf + atol(strstr(pdf, "startxref") + 10));
     const char *row = strstr(table, "65535 f \n") + 9;
@@ -448,7 +448,7 @@ static void drawings_have_all_letters(void **state)
     end(&f);
 }
 
-/* Each gradient once, in the page's own places, and the letters in it. */
+/* Drawings define each gradient once, in the page's coordinates, and fill letters with it. */
 static void drawings_have_gradients(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* test_tex.c - paragraphs are broken where TeX breaks them, each line as bad, the whole with as many demerits: for the same words and widths.
+/* test_tex.c - paragraphs of the same words and widths get TeX's line breaks, each line's badness, and the paragraph's demerits.
  *
- *     test_tex                  compares with what TeX said (tex_answers.h)
- *     test_tex --tex            prints the paragraphs as a file for INITEX; tex_answers.py makes tex_answers.h of its log
+ *     test_tex                  compares with TeX's answers (tex_answers.h)
+ *     test_tex --tex            prints the paragraphs as a file for INITEX; tex_answers.py makes tex_answers.h from its log
  *
- * Letters have the widths of a table, in 64ths of a point, which both count without rounding. */
+ * A table gives the letters' widths in 64ths of a point, which both programs add without rounding. */
 #include "support.h"
 
 #include <breaks.h>
@@ -16,9 +16,8 @@ enum { PARAGRAPHS = 120, LINES_MAX = 40, PLACES_MAX = 400, UNITS = 64 };
 enum { SPACE = 213, SPACE_STRETCH = 107, SPACE_SHRINK = 71, HYPHEN = 213 };
 
 struct tex_answer {
-    double demerits; /* 0: TeX found no way within the tolerance */
-    int count, ends[LINES_MAX],
-        bad[LINES_MAX]; /* of each line, which piece it ends with, and its badness */
+    double demerits;                            /* 0: TeX found no way within the tolerance */
+    int count, ends[LINES_MAX], bad[LINES_MAX]; /* of each line: its last piece, its badness */
 };
 #include "tex_answers.h"
 
@@ -36,7 +35,7 @@ static const int letters[26] = {282, 317, 269, 327, 276, 199, 304, 333, 166,
                                 163, 320, 166, 506, 336, 314, 323, 320, 243,
                                 234, 211, 330, 304, 454, 301, 298, 266};
 
-/* A word or a part of one: what stands behind it. */
+/* A word or a part of one. The flags tell what follows it. */
 struct piece {
     int width;
     bool space, hyphen; /* else it is the last */
@@ -52,7 +51,7 @@ static bool vowel(char c)
     return strchr("aeiouy", c) != NULL;
 }
 
-/* Words of the text from a random one on; they may be divided before a consonant between vowels. */
+/* Takes words of the text from a random one on. A word may be divided before a consonant between vowels. */
 static void paragraph_make(struct paragraph *p, uint32_t *seed)
 {
     int wanted = 40 + (int)(random_next(seed) % 90);
@@ -135,7 +134,7 @@ static void lines_are_texs(void **state)
                                     chosen[i] == places_count - 1);
             double bad = fmin(100 * fabs(r * r * r), BREAK_INFINITE);
             assert_int_equal(chosen[i] - 1, tex->ends[i]);
-            /* TeX's badness is a whole number, and nearly what the cube says. */
+            /* TeX's badness is an integer that approximates 100 times the ratio cubed. */
             double rounding = 1 + 0.01 * bad;
             if (fabs(bad - tex->bad[i]) > rounding)
                 fail_msg("paragraph %d, line %d: %g bad, TeX says %d", n, i, bad, tex->bad[i]);
@@ -154,7 +153,7 @@ static void lines_are_texs(void **state)
 
 /* ---- for TeX ---- */
 
-/* Each piece is a box of its width with its number in it; the log shows which are in a line. */
+/* Prints each piece as a box of its width that holds its number; TeX's log then shows the pieces of each line. */
 static void tex_print(void)
 {
     static struct paragraph p;

@@ -1,4 +1,4 @@
-/* test_text.c - text: UTF-8, shaping, order, fallback, lines, painting, what is kept. */
+/* test_text.c - text: UTF-8, shaping, order, fallback, lines, painting, kept glyphs. */
 #include "support.h"
 
 #include <paint.h>
@@ -68,7 +68,7 @@ static void letters_kern_and_join(void **state)
     assert_int_equal(apart.glyphs_count, 2);
     font_shaper_destroy(joiner);
     font_face_close(sans);
-    /* An accent of its own goes onto the letter, where it takes no room. */
+    /* A combining accent is placed on its letter and adds no width. */
     struct font_layout letter = layout_make(s, "e", NULL),
                        accent = layout_make(s, "e\xcc\x81", NULL);
     assert_true(fabs(letter.width_px - accent.width_px) < 1e-6);
@@ -99,8 +99,7 @@ static void type_1_fonts_kern_too(void **state)
     font_face_close(face);
 }
 
-/* Hebrew between Latin: seen in reverse, at its place. */
-/* HarfBuzz reads advances from OpenType's tables itself; FreeType must say the same, and of Type 1 it is asked. */
+/* HarfBuzz reads advances from OpenType tables, and asks FreeType for those of Type 1. Both must agree. */
 static void advances_are_the_glyphs(void **state)
 {
     (void)state;
@@ -118,7 +117,7 @@ static void advances_are_the_glyphs(void **state)
             const char text[3] = {(char)(c < 0x80 ? c : 0xc0 | c >> 6),
                                   (char)(c < 0x80 ? 0 : 0x80 | (c & 0x3f)), 0};
             double advance;
-            /* Not marks, which move nothing once they are shaped. */
+            /* Skips marks, which have no advance after shaping. */
             if ((c >= 0x300 && c < 0x370) || (c >= 0x483 && c < 0x48a) || c == 0xad ||
                 !font_face_glyph(face, c))
                 continue;
@@ -138,6 +137,7 @@ static void advances_are_the_glyphs(void **state)
     }
 }
 
+/* A Hebrew word between Latin ones is drawn from right to left, in its place. */
 static void right_to_left_is_turned(void **state)
 {
     (void)state;
@@ -151,12 +151,12 @@ static void right_to_left_is_turned(void **state)
         assert_true(i == 0 || l.glyphs[i].x_px > l.glyphs[i - 1].x_px);
     }
     font_layout_finish(&l);
-    /* A paragraph to the left ends where the longest line does. */
+    /* Right-to-left lines end at the right end of the longest line. */
     l = layout_make(s, "\xd7\x90\xd7\x91\xd7\x92\xd7\x93\n\xd7\x90", NULL);
     assert_int_equal(l.lines_count, 2);
     assert_true(l.glyphs[4].line == 1 && l.glyphs[4].x_px > l.width_px / 2);
     assert_true(fabs(l.glyphs[4].y_px - l.line_height_px) < 1e-9);
-    /* Arabic letters take their joined shapes: not the glyphs that their characters have alone. */
+    /* Arabic letters take their joined shapes, whose glyphs differ from those of single letters. */
     struct font_layout joined = layout_make(s, "\xd8\xa8\xd8\xa8\xd8\xa8", NULL);
     assert_int_equal(joined.glyphs_count, 3);
     assert_true(joined.glyphs[0].glyph != joined.glyphs[1].glyph &&
@@ -189,7 +189,7 @@ static void what_the_face_has_not_is_found_or_said(void **state)
     font_face_close(face);
 }
 
-/* What a bold or slanted face lacks comes from one that is so, too. */
+/* A glyph that a bold or slanted face lacks comes from a face that is bold or slanted, too. */
 static void fallback_keeps_weight_and_slant(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void fallback_keeps_weight_and_slant(void **state)
     }
 }
 
-/* URW's faces are there as Type 1 and as OpenType, under one name. */
+/* URW's faces are installed as Type 1 and as OpenType under the same name; the OpenType file is chosen. */
 static void names_are_of_opentype_files(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static void names_are_of_opentype_files(void **state)
     free(path);
 }
 
-/* The thinner stems are the more they are darkened, and wide ones not at all. */
+/* Thin stems are darkened more than thick ones, and wide ones not at all. */
 static void stems_say_how_dark(void **state)
 {
     (void)state;
@@ -338,20 +338,20 @@ static void light_is_what_is_mixed(void **state)
     static struct paint_fixture f;
     struct font_painter_def def = font_painter_def_default();
     paint_begin(&f, "Hamburg");
-    /* Black on white and white on black take and give the same light. */
+    /* Black text on white removes as much light as white text on black adds. */
     paint(&f, &def, 0, 5, 25);
     memset(f.pixels[1], 0, sizeof f.pixels[1]);
     def.ink[0] = def.ink[1] = def.ink[2] = 1;
     paint(&f, &def, 1, 5, 25);
     double black = ink_of(&f, 0, 0), white = sizeof f.pixels[0] - ink_of(&f, 1, 0);
     assert_true(fabs(black / white - 1) < 0.003);
-    /* Mixed as numbers, black takes away more light. */
+    /* Without gamma correction black text removes more light. */
     struct font_painter_def numbers = font_painter_def_default();
     numbers.gamma = 1;
     memset(f.pixels[1], 255, sizeof f.pixels[1]);
     paint(&f, &numbers, 1, 5, 25);
     assert_true(ink_of(&f, 1, 0) > 1.1 * black);
-    /* The round trip of numbers loses nothing. */
+    /* A number converted to light and back is unchanged. */
     for (int i = 0; i < 256; i++)
         assert_int_equal(lrint(255 * font_number(font_light(i / 255.0, 0), 0)), i);
     paint_end(&f);
@@ -379,7 +379,7 @@ static void stripes_are_thirds_of_pixels(void **state)
     paint_begin(&f, "Vl");
     def.stripes = true;
     paint(&f, &def, 0, 5, 25);
-    /* Red is what gray is when the text is a third further right. */
+    /* The red subpixels are the gray of text that is a third of a pixel further right. */
     def.stripes = false;
     paint(&f, &def, 1, 5 + 1.0 / 3, 25);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -406,12 +406,12 @@ static void glyphs_kept_are_glyphs_drawn(void **state)
     assert_true(stats.drawn == drawn && stats.kept_hits >= f.layout.glyphs_count);
     assert_true(stats.evicted == 0 && stats.kept_bytes < def.budget_bytes);
     font_painter_destroy(p);
-    /* As if drawn where they are, to a 128th of a pixel. */
+    /* Kept glyphs are those drawn at their exact place, to a 128th of a pixel. */
     def.places = 0;
     paint(&f, &def, 1, 4.25, 25);
     for (size_t i = 0; i < sizeof f.pixels[0]; i++)
         assert_true(abs(f.pixels[0][i] - f.pixels[1][i]) <= 6);
-    /* A budget too small for two: glyphs come and go, the picture is the same. */
+    /* With room for less than two glyphs the painter draws them again and again; the picture is the same. */
     def.places = 64;
     def.budget_bytes = 4096;
     assert_font(font_painter_create(&def, &p));
@@ -443,7 +443,7 @@ static void what_lies_outside_is_cut_off(void **state)
     paint_end(&f);
 }
 
-/* A whole line through a distortion: its corners stay within the four. */
+/* A map distorts a whole line, and the line stays within the map's four corners. */
 static void lines_are_distorted_as_a_whole(void **state)
 {
     (void)state;

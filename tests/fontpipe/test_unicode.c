@@ -1,5 +1,5 @@
-/* test_unicode.c - directions and line ends against Unicode's own test files (Debian's unicode-data), and shaping against hb-shape
- * (libharfbuzz-bin). Where they are not installed the cases are skipped. */
+/* test_unicode.c - compares directions and line breaks with Unicode's test files (Debian's unicode-data), and shaping with
+ * hb-shape (libharfbuzz-bin). Skips the cases where these are not installed. */
 #include "support.h"
 
 #include <text.h>
@@ -15,7 +15,7 @@ enum { LINE_MAX_BYTES = 4096, CHARACTERS = 256 };
 static const char bidi_file[] = "/usr/share/unicode/BidiCharacterTest.txt";
 static const char breaks_file[] = "/usr/share/unicode/auxiliary/LineBreakTest.txt";
 
-/* The numbers up to a semicolon; an x is -1. */
+/* Reads the numbers up to a semicolon; an x is -1. */
 static int numbers_read(char **at, int base, int *out)
 {
     int n = 0;
@@ -33,7 +33,7 @@ static int numbers_read(char **at, int base, int *out)
     return n;
 }
 
-/* Levels, and the order in which letters are seen, of all lines of the file. */
+/* Compares levels and visual order for all lines of the file. */
 static void directions_are_unicodes(void **state)
 {
     (void)state;
@@ -83,8 +83,8 @@ static void directions_are_unicodes(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* Where ICU has rules of its own beside Unicode 15's file: it keeps a hyphen at the beginning of a word with its letters (as Unicode
- * does since 15.1), and a point or comma with the digits behind it, before which a line may then end. */
+/* Whether ICU differs here from Unicode 15's file by its own rules. ICU keeps a hyphen at a word's beginning with its letters (as
+ * Unicode does since 15.1). It keeps a point or comma with the digits after it, and a line may end before it. */
 static bool icus_own(const uint32_t *text, int place, bool wanted)
 {
     if (!wanted)
@@ -140,7 +140,7 @@ static void line_ends_are_unicodes(void **state)
     assert_true(own < 30);
 }
 
-/* Of plain text libunibreak is asked, so that ICU need not be loaded: that it says what ICU does. */
+/* libunibreak breaks plain text, so that ICU need not be loaded; it must agree with ICU. */
 static void plain_text_needs_no_icu(void **state)
 {
     (void)state;
@@ -169,7 +169,7 @@ static void plain_text_needs_no_icu(void **state)
     }
 }
 
-/* Words that are written together: of Lao, Khmer and Burmese. */
+/* Finds words of Lao, Khmer and Burmese, which are written without spaces. */
 static void words_of_south_east_asia_are_found(void **state)
 {
     (void)state;
@@ -211,7 +211,7 @@ static void words_of_south_east_asia_are_found(void **state)
     }
 }
 
-/* One run each: glyphs, and how far apart they are. */
+/* Compares the glyphs and advances of single runs with hb-shape's. */
 static void glyphs_are_hb_shapes(void **state)
 {
     (void)state;

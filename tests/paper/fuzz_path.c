@@ -1,5 +1,5 @@
-/* fuzz_path.c - SVG paths, SVG files and recorded samples from damaged bytes: each is read or refused with one line, and what
- * is read is within its bounds. The first byte says which. */
+/* fuzz_path.c - reads SVG paths, SVG files and recorded samples from damaged bytes. Each is read, within its bounds, or refused
+ * with one line. The first byte of input chooses the kind. */
 #include <path.h>
 
 #include <math.h>
@@ -36,7 +36,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     if (count < 1)
         return 0;
-    char *text = malloc(count); /* with a 0 instead of the first byte's */
+    char *text = malloc(count); /* all but the first byte, and a 0 */
     if (!text)
         abort();
     memcpy(text, bytes + 1, count - 1);
@@ -68,7 +68,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 #ifndef LUTETIA_FUZZ_LIBFUZZER
 #include "../sample.h"
 
-/* Good ones, each damaged in many ways, always the same. */
+/* Without libFuzzer: good inputs, each damaged in many ways, the same in every run. */
 int main(void)
 {
     static const char *const seeds[] = {

@@ -1,4 +1,4 @@
-/* history_operations.h - sheets, and operations by chance on them, for the tests of history. */
+/* history_operations.h - sheets and random operations on them, for the tests of history. */
 #ifndef LUTETIA_TESTS_HISTORY_OPERATIONS_H
 #define LUTETIA_TESTS_HISTORY_OPERATIONS_H
 
@@ -55,7 +55,7 @@ static struct paper_sheet *sheet_new(double budget_bytes)
     return sheet;
 }
 
-/* Of everything that the sheet holds. */
+/* A hash of all the sheet's planes. */
 static uint64_t state_hash(struct paper_sheet *sheet)
 {
     struct paper_plane planes[PAPER_PLANES_MAX];
@@ -92,7 +92,7 @@ static void step(struct paper_sheet *sheet)
     check(paper_sheet_finish(sheet));
 }
 
-/* An operation by its number, always the same one. */
+/* Carries out a random operation; the same number always gives the same one. */
 static void operate(struct paper_sheet *sheet, uint64_t number)
 {
     chance = number * 77 + 5;

@@ -1,4 +1,5 @@
-/* test_brush.c - brushes: nothing is lost between bristles and fibers, both sides are alike, dry ones touch hills only. */
+/* test_brush.c - brushes: nothing is lost between bristles and fibers, a mirrored stroke gives a mirrored picture, and dry
+ * brushes touch only the paper's hills. */
 #include <brush.h>
 #include <paper.h>
 
@@ -23,7 +24,7 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-/* Always two pigments, so that all tests have the same kernels. */
+/* Every sheet has two pigments, so that all tests have the same kernels. */
 static struct paper_sheet *sheet_of(int model)
 {
     struct paper_sheet_config config =
@@ -49,7 +50,7 @@ static struct paper_brush brush_small(void)
     return brush;
 }
 
-/* On the sheet, dried, and in the brush. */
+/* A substance's total: on the sheet, dried, and in the brush. */
 static double everything(struct paper_sheet *sheet, int substance)
 {
     double sum, part;
@@ -109,7 +110,7 @@ static void what_leaves_the_brush_arrives(void **state)
     struct paper_brush brush = brush_small();
     check(paper_sheet_brush(sheet, &brush));
     for (int i = 0; i < 3; i++) {
-        /* the second brush is clean and thirsty: it takes paint up; the third is thick with paint */
+        /* the second brush is clean and nearly dry, so it takes up paint; the third is full of thick paint */
         dip(sheet, i == 1 ? 0.02 : 1, i == 1 ? 0 : 0.5, i == 2 ? 4 : 0);
         double before[3], held[3], laid[3];
         for (int j = 0; j < 3; j++) {
@@ -150,7 +151,7 @@ static void a_brush_runs_dry(void **state)
     for (int i = 0; i < FIBERS; i++)
         part[i % WIDTH >= WIDTH / 2] += (double)rose[i];
     assert_true(part[0] > 100 && part[1] < 0.6 * part[0] && part[1] > 0);
-    /* a stroke that is pressed harder is wider */
+    /* a stroke with more pressure is wider */
     int rows[2] = {0};
     for (int hard = 0; hard < 2; hard++) {
         const struct paper_stroke_sample again[2] = {
@@ -222,8 +223,8 @@ static void masking_fluid_is_not_painted(void **state)
 
 /* ---- sameness ---- */
 
-/* All that a sheet is made of is in its layers, in version 3 as in 1; in version 2 bristles leave more in some places than in
- * others, which no layer holds. */
+/* Mirrors a sheet by its layers, which hold all its properties in versions 1 and 3. In version 2 bristles leave more in some
+ * places than in others, which no layer holds. */
 static void sheet_mirror(struct paper_sheet *sheet, int model)
 {
     static const enum paper_layer layers[] = {PAPER_LAYER_HEIGHT,   PAPER_LAYER_ABSORBENCY,
@@ -277,7 +278,7 @@ static void mirrored_of(int model)
             fail_msg("version %d, fiber %d, %d: %.9g, mirrored %.9g", model, i % WIDTH,
                      i / WIDTH, (double)rose[0][i], (double)rose[1][j]);
     }
-    assert_true(sum > 100 && skew > 0.5 * sum); /* the picture itself is no mirror image */
+    assert_true(sum > 100 && skew > 0.5 * sum); /* the picture is not its own mirror image */
 }
 
 static void a_mirrored_stroke_gives_the_mirrored_picture(void **state)
@@ -310,7 +311,7 @@ static void one_side_can_be_loaded(void **state)
         for (int j = 0; j < FIBERS; j++)
             *(j / WIDTH < 32 ? &upper[i] : &lower[i]) += (double)layer[j];
     }
-    /* it goes to the right, so its left is above */
+    /* the stroke goes to the right, so its left side is above */
     assert_true(upper[0] > 3 * lower[0] && lower[1] > 3 * upper[1]);
     paper_sheet_destroy(sheet);
 }

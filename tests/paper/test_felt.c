@@ -1,5 +1,5 @@
-/* test_felt.c - felted paper, measured: no direction before another but where a mould has lines, clouds of many sizes, the same sheet
- * finer at another resolution, no seam on a torus; and how a brushed wash lies on it. */
+/* test_felt.c - measures felted paper. It has no preferred direction except a mould's lines, clouds of many sizes, the same form
+ * at a finer resolution, and no seam on a torus. Measures also a brushed wash on it. */
 #include "model/felt.h"
 
 #include <brush.h>
@@ -40,7 +40,7 @@ static struct paper_sheet_config config_of(const char *stock, int side, uint64_t
 
 /* ---- spectra ---- */
 
-/* In place: a power of two of numbers, `step` apart. */
+/* Fourier transform in place; count is a power of two, and the numbers are `step` apart. */
 static void transform(double complex *values, int count, int step)
 {
     static double complex row[SIDE];
@@ -63,14 +63,13 @@ static void transform(double complex *values, int count, int step)
 }
 
 struct figures {
-    double over_64; /* part of the variance at wavelengths of 64 and more */
-    double axes; /* mean power near the axes to that near the diagonals, wavelengths 4 to 32 */
-    double
-        slope; /* of the mean power over frequency, logarithms of both, wavelengths 4 to 128 */
+    double over_64; /* share of the variance at wavelengths of 64 and more */
+    double axes;    /* mean power, axes / diagonals, wavelengths 4 to 32 */
+    double slope;   /* of log power over log frequency, wavelengths 4 to 128 */
     double deviation;
 };
 
-/* How power falls along rings of whole frequencies from 4 to SIDE / 4: a straight line through the logarithms. */
+/* The slope of power over frequency on a log-log scale, by least squares, for rings of whole frequencies 4 to SIDE / 4. */
 static double slope_of(const double *power, const int *counts)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -233,7 +232,8 @@ static void a_torus_has_no_seam(void **state)
 
 /* ---- a brushed wash ---- */
 
-/* A wide flat brush, nine strokes that waver; dried after 200 steps. density: optical, of red, which ultramarine takes most. */
+/* Paints nine wavering strokes of a wide flat brush and dries them after 200 steps. density: the optical density for red, which
+ * ultramarine absorbs most. */
 static void wash_brush(const char *stock, float *density)
 {
     enum { WIDE = 640, EDGE = (WIDE - SIDE) / 2, STROKES = 9 };

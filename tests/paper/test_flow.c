@@ -1,5 +1,5 @@
-/* test_flow.c - what water does that flows, measured: backruns, drops, letters, drips, edges and type, all on one paper in one
- * air. Scripts choose water, pigment, gravity and time. */
+/* test_flow.c - measures flowing water: backruns, drops, letters, drips, edges and type, all on one paper in one air. Scripts
+ * choose water, pigment, gravity and time. */
 #include <paper.h>
 #include <sheet.h>
 
@@ -103,9 +103,10 @@ static double value_at(const float *values, double x, double y)
            v * ((1 - u) * (double)at[SIDE] + u * (double)at[SIDE + 1]);
 }
 
-/* ---- a backrun: clean water into a damp wash ---- */
+/* ---- a backrun: clean water put into a damp wash ---- */
 
-/* Adds the power of the radius, in squares of its mean, to `power`; the sum but for the first is returned. */
+/* Adds the spectrum of the front's radius over the angle, relative to the mean radius squared, to `power`. Returns its sum
+ * without the first term. */
 static double front_power(const float *wet, double power[SPECTRUM + 1])
 {
     static double radius[RAYS];
@@ -166,7 +167,7 @@ static void backrun_has_lobes(void **state)
 
 /* ---- a drop of colour into clean water ---- */
 
-/* The part of `amounts` that no disc with the profile of an error function has, about its own middle. */
+/* How far `amounts` differ from the best fitting disc about their own middle, whose profile is an error function. */
 static double unlike_a_disc(const float *amounts)
 {
     double mass = 0, x_sum = 0, y_sum = 0, squares = 0, best = INFINITY;
@@ -237,7 +238,7 @@ static void shapes_that_touch_run_into_each_other(void **state)
 
 /* ---- ink on absorbent paper ---- */
 
-/* How long the line is along which amounts are `at`, to the circle around as large an area. */
+/* The length of the contour line of `amounts` at level `at`, relative to the circumference of a circle of the same area. */
 static double front_ratio(const float *amounts, float at)
 {
     static const int corners[5] = {0, 1, SIDE + 1, SIDE, 0};
@@ -327,7 +328,7 @@ static void drips_differ(void **state)
                 lowest = lowest && low[x + i] <= low[x] && !(i < 0 && low[x + i] == low[x]);
             if (!lowest)
                 continue;
-            /* how far its middle has come aside, half as high */
+            /* how far the drip's middle has moved sideways at half its height */
             int half = (BOTTOM + low[x]) / 2, left = x, right = x;
             while (left > 0 && first[half * SIDE + left - 1] > 0.05f && x - left < 20)
                 left--;
@@ -350,7 +351,7 @@ static void drips_differ(void **state)
 
 /* ---- edges ---- */
 
-/* How wide a band at the edge of a disc is darker than what is well inside, fibers; *contrast: the most of it. */
+/* The width, in fibers, of the band at a disc's edge that is darker than its inside; *contrast: how much darker at most. */
 static double band_width(const float *amounts, double radius, double *contrast)
 {
     static double profile[SIDE], counts[SIDE];
@@ -403,7 +404,7 @@ static void edges_are_as_wide_as_asked(void **state)
 
 /* ---- gray edges ---- */
 
-/* Of the fibers with ink, how many are neither full nor empty. */
+/* The share of the fibers with ink that are only partly full. */
 static double gray_part(const float *amounts, double full)
 {
     double ink = 0, gray = 0;
@@ -418,7 +419,7 @@ static void gray_edges_stay(void **state)
 {
     (void)state;
     struct paper_sheet *sheet = sheet_new(2);
-    /* strokes of letters: 1.3 and 2.7 fibers wide, at all angles */
+    /* strokes as wide as those of letters, 1.3 and 2.7 fibers, at all angles */
     for (int i = 0; i < 48; i++) {
         double x = 20 + 28 * (i % 8), y = 30 + 36 * (i / 8), angle = 0.13 * i,
                half = i % 2 ? 0.65 : 1.35, u = cos(angle), v = sin(angle);

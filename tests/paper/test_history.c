@@ -1,4 +1,4 @@
-/* test_history.c - time as something one edits: whatever way leads to a moment, the sheet is the same to the bit. */
+/* test_history.c - undo, redo, seek and insertion: the sheet at a given moment is the same to the bit, however one gets there. */
 #include <brush.h>
 #include <history.h>
 #include <paper.h>
@@ -28,7 +28,7 @@ static void going_back_and_forth_gives_the_same_bits(void **state)
     static long times[OPERATIONS + 1];
     for (size_t budget = 0; budget < sizeof budgets / sizeof *budgets; budget++) {
         struct paper_sheet *sheet = sheet_new(budgets[budget]);
-        int done[OPERATIONS + 1], compared = 0; /* some are more than one to the history */
+        int done[OPERATIONS + 1], compared = 0; /* some count as several */
         for (int i = 0; i <= OPERATIONS; i++) {
             if (budget == 0) {
                 hashes[i] = state_hash(sheet);
@@ -98,7 +98,7 @@ static void moments_are_found_while_paint_flows(void **state)
     }
     assert_int_equal(paper_history_seek(sheet, 31), PAPER_BAD_ARGUMENT);
     assert_int_equal(paper_history_seek(sheet, -1), PAPER_BAD_ARGUMENT);
-    /* what is done now takes the place of what was undone */
+    /* a new operation replaces the undone ones */
     check(paper_sheet_dry(sheet));
     assert_int_equal(paper_history_undone(sheet), 0);
     assert_int_equal(paper_history_done(sheet), 3);
@@ -149,8 +149,8 @@ static void what_is_inserted_comes_before_what_followed(void **state)
     paper_sheet_destroy(other);
 }
 
-/* Operations by chance, then insertions at a chance time that are undone: the history and the sheet are as they were,
- * and further undos go on from there. */
+/* Undoes insertions at random times after random operations. The history and the sheet are then as before the insertion, and
+ * further undos go on from there. */
 static void undo_after_an_insertion_takes_it_back(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void undo_after_an_insertion_takes_it_back(void **state)
         check(paper_history_insert_end(sheet, true));
         assert_true(state_hash(sheet) != before);
         assert_true(paper_history_done(sheet) > done);
-        if (turn % 3 == 0) { /* the last operation and the insertion */
+        if (turn % 3 == 0) { /* undoes the last operation and the insertion */
             assert_int_equal(paper_history_undo(sheet, 2), 2);
             assert_int_equal(paper_history_done(sheet), done - 1);
             assert_int_equal(paper_history_redo(sheet, 9), 1);
@@ -183,7 +183,7 @@ static void undo_after_an_insertion_takes_it_back(void **state)
         assert_true(state_hash(sheet) == before);
         paper_sheet_destroy(sheet);
     }
-    /* once something was done since, the last operation is undone as ever */
+    /* after a later operation, undo takes back that operation and not the insertion */
     struct paper_sheet *sheet = sheet_new(100e3);
     box_put(sheet, 2, 2, 9, (double[]){1, 0.5, 0});
     step(sheet);
@@ -255,7 +255,7 @@ static void a_saved_run_goes_on(void **state)
     assert_true(state_hash(sheet) == middle);
     paper_sheet_destroy(sheet);
 
-    /* followed: done again without being computed, looked at or not; or otherwise from some moment on */
+    /* follow: the same operations come again and are not computed; two of the ways read the sheet in the middle */
     for (int way = 0; way < 4; way++) {
         double budget = way % 2 ? 1e6 : 0;
         check(paper_history_decode(saved.bytes, saved.count, true, budget, saved_give, &saved,
@@ -288,7 +288,7 @@ static void a_saved_run_goes_on(void **state)
     saved.bytes = NULL;
 }
 
-/* Back and forth before it was saved, and after: parts of a program that are told apart by their number. */
+/* Parts of a program with undos and redos, by number; some run before the sheet is saved and some after. */
 static void wander(struct paper_sheet *sheet, int part)
 {
     struct paper_air air = *paper_sheet_get_air(sheet);
@@ -300,7 +300,7 @@ static void wander(struct paper_sheet *sheet, int part)
         for (int i = 0; i < 9; i++)
             step(sheet);
         break;
-    case 1: /* what another air is made of must be known without a look */
+    case 1: /* the present air must be known without computing the sheet */
         air.humidity = 0.005;
         check(paper_sheet_air(sheet, &air));
         operate(sheet, 7);
@@ -392,7 +392,7 @@ static void a_saved_run_goes_on_where_much_was_undone(void **state)
     saved.bytes = NULL;
 }
 
-/* Every byte of the run's beginning and many of the rest, changed; and every length. */
+/* Damages saved runs: every byte at the beginning, many later bytes, and every length. */
 static void damaged_runs_are_refused_or_harmless(void **state)
 {
     (void)state;
@@ -417,7 +417,7 @@ static void damaged_runs_are_refused_or_harmless(void **state)
             copy[at % saved.count] =
                 (uint8_t)(sample_word(&word) % 3 ? sample_word(&word) : 255);
         }
-        /* another size would be another sheet, with kernels of its own: the description is checked by itself */
+        /* only the description is checked where the damage changed the size: another size would need other kernels */
         struct paper_sheet_config config;
         if (paper_history_describe(copy, count, &config) != PAPER_OK || config.width != WIDTH ||
             config.height != HEIGHT || config.pigments_count != 2 ||
@@ -472,7 +472,7 @@ static void another_resolution_is_the_same_picture(void **state)
         double small, large;
         check(paper_sheet_total(sheet, substance, &small));
         check(paper_sheet_total(twice, substance, &large));
-        /* pigment is what was put on; water dries alike */
+        /* pigment keeps its amount; water dries at about the same rate on both sheets */
         if (fabs(large / small - 4) > (substance > 0 ? 0.01 : 0.5))
             fail_msg("substance %d: %g became %g", substance, small, large);
     }
@@ -533,7 +533,7 @@ static void computing_again_can_be_stopped(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* Its speeds and wet parts are states like all others. */
+/* The speeds and wet areas of flowing water are restored like all other planes. */
 static void water_that_flows_comes_back_the_same(void **state)
 {
     sheets_model = PAPER_MODEL_VERSION;

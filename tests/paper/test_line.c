@@ -1,4 +1,4 @@
-/* test_line.c - lines of type: where letters stand, what is refused. */
+/* test_line.c - lines of type: the places of letters, and refused input. */
 #include <face.h>
 #include <paper.h>
 
@@ -34,7 +34,7 @@ static double advance_of(const char *text, const char *font)
     return advance;
 }
 
-/* Its outermost rows and columns hold ink: a screen is as small as that. */
+/* A screen's outermost rows and columns hold ink: it is no larger than its type. */
 static void screen_fits_its_ink(void **state)
 {
     (void)state;
@@ -164,7 +164,7 @@ static double ink_of(const struct paper_screen *s)
     return ink / 255;
 }
 
-/* Moved by parts of a fiber, turned, through another filter: as much ink, elsewhere. */
+/* Type that is moved by parts of a fiber, turned, or drawn with another filter has the same amount of ink. */
 static void type_is_placed_turned_and_filtered(void **state)
 {
     (void)state;
@@ -186,11 +186,11 @@ static void type_is_placed_turned_and_filtered(void **state)
         line.anchor = cases[i].anchor;
         line.filter = cases[i].filter;
         assert_int_equal(paper_line_screen(&line, &s, NULL), PAPER_OK);
-        /* Letters that touch may share a little. */
+        /* Where letters touch, some ink may count once. */
         if (fabs(ink_of(&s) / ink - 1) > 0.004)
             fail_msg("case %zu: ink %g for %g", i, ink_of(&s), ink);
         assert_true(fabs(s.advance_px - plain.advance_px) < 1e-9);
-        if (cases[i].angle_deg == 90) { /* reads upwards, its middle at the origin */
+        if (cases[i].angle_deg == 90) { /* it reads upwards, centred at the origin */
             assert_true(s.height_px > 2 * s.width_px);
             assert_true(abs(s.baseline_y_px - s.height_px / 2) < 4);
         }
@@ -230,7 +230,7 @@ static void type_is_set_in_columns(void **state)
     }
 }
 
-/* Another font has it: nothing is missing, and something is drawn for it. */
+/* A character that the font lacks is drawn with another font's glyph. */
 static void what_a_font_lacks_comes_from_another(void **state)
 {
     (void)state;
@@ -243,7 +243,7 @@ static void what_a_font_lacks_comes_from_another(void **state)
     paper_screen_destroy(&s);
 }
 
-/* A damaged font is refused or set somehow; nothing worse. */
+/* A damaged font is refused or drawn in some way; it does no other harm. */
 static void damaged_fonts_do_no_harm(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_looks.c - what a sheet looks like: colours against Kubelka-Munk by hand, and each of watercolour's effects, measured. */
+/* test_looks.c - the look of a sheet: compares its colours with Kubelka-Munk by hand, and measures each of watercolour's
+ * effects. */
 #include <paper.h>
 #include <sheet.h>
 
@@ -23,8 +24,8 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-/* A light pigment that hardly granulates and a heavy one that does. Always these two, no number of the air 0, and something
- * of each put on, so that all tests have the same kernels. */
+/* A light pigment that hardly granulates, and a heavy one that does. All tests use both pigments and no 0 in the air's numbers,
+ * so that they have the same kernels. */
 enum { LIGHT, HEAVY };
 #define NONE 1e-7 /* less than a grain */
 
@@ -52,8 +53,7 @@ static struct paper_sheet *sheet_make(const char *stock, const struct paper_air 
     return sheet_of(PAPER_MODEL_USUAL, stock, air);
 }
 
-/* Water that spreads (version 1). Tests that use it measure how far it does; test_flow.c
- * measures water that flows. */
+/* A sheet whose water spreads (version 1), for tests that measure how far. test_flow.c measures flowing water. */
 static struct paper_sheet *sheet_spreading(const char *stock, const struct paper_air *air)
 {
     return sheet_of(1, stock, air);
@@ -94,7 +94,7 @@ static void pigment_read(struct paper_sheet *sheet, int pigment, float *sum)
     }
 }
 
-/* Mean over the ring of fibers whose centers are from..to off the middle. */
+/* Mean over the fibers whose centres lie at distances from..to of the middle. */
 static double ring_mean(const float *values, double from, double to)
 {
     double sum = 0;
@@ -111,7 +111,7 @@ static double ring_mean(const float *values, double from, double to)
 
 /* ---- colours ---- */
 
-/* The textbook's formulas: a layer of thickness 1 over a reflecting ground. */
+/* The reflectance of a layer of thickness 1 over a ground, by the textbook's formulas. */
 static double layer_by_hand(double k, double s, double below)
 {
     if (s < 1e-12)
@@ -151,8 +151,8 @@ static double difference(const double a[3], const uint16_t *shown)
                 (x[2] - y[2]) * (x[2] - y[2]));
 }
 
-/* One sheet with all pigments, in the fibers alone, for all pairs: one kernel. Every layer is written, so that none is known
- * to be 0. */
+/* Puts two pigments into the fibers of one sheet that has all pigments, so that all pairs share one kernel. Writes every layer,
+ * so that the machine knows of none that it is 0. */
 static void glaze_put(struct paper_sheet *sheet, int count, int one, int two)
 {
     static float amounts[FIBERS];
@@ -210,7 +210,7 @@ static void glazes_are_kubelka_munk_by_hand(void **state)
             }
             check(paper_sheet_seal(sheet));
             check(paper_sheet_view(sheet, &color, sealed));
-            for (int i = 0; i < 3 * FIBERS; i++) /* by an empty layer: Q is kept from 0 */
+            for (int i = 0; i < 3 * FIBERS; i++) /* not exact: Q is kept above 0 */
                 if (abs(rgb[i] - sealed[i]) > 4)
                     fail_msg("%s: sealing changed %d to %d", one->name, rgb[i], sealed[i]);
         }
@@ -249,7 +249,7 @@ static void pigments_from_colours_look_so(void **state)
 
 enum { RINGS = 40 };
 
-/* Mean amounts of rings a fiber wide: the profile across the edge of a disc. */
+/* The mean amount in each ring, a fiber wide: the profile across a disc's edge. */
 static void profile_read(struct paper_sheet *sheet, int pigment, double profile[RINGS])
 {
     static float values[FIBERS];
@@ -258,7 +258,7 @@ static void profile_read(struct paper_sheet *sheet, int pigment, double profile[
         profile[i] = ring_mean(values, i, i + 1);
 }
 
-/* The profile of a dried wash: even in the middle, a narrow dark line at the edge of what was wet, nothing beyond. */
+/* A dried wash is even in the middle, has a narrow dark line at the edge of the wet area, and nothing beyond. */
 static void edges_darken(void **state)
 {
     (void)state;
@@ -281,7 +281,7 @@ static void edges_darken(void **state)
         paper_sheet_destroy(sheet);
     }
     const double *p = profile[1];
-    int width = 0; /* of the line at half its height over the middle */
+    int width = 0; /* width of the line at half its height above the middle */
     for (int i = 0; i < RINGS; i++)
         width += p[i] > (p[peak[1]] + middle[1]) / 2;
     double edge = (p[27] + p[28] + p[29]) / 3, pale = profile[0][27] + profile[0][28];
@@ -382,7 +382,7 @@ static void light_pigments_run_ahead(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A drop hung on an upright sheet: how long what it leaves is, and how wide. */
+/* Puts a drop on an upright sheet, and measures the length and width of its trace. */
 static void drop_hang(const char *stock, int *length, int *width)
 {
     enum { TOP = 12, SIZE = 8 };
@@ -411,7 +411,7 @@ static void drop_hang(const char *stock, int *length, int *width)
     paper_sheet_destroy(sheet);
 }
 
-/* Paper that takes no water lets drops run, little wider than they were; blotting paper drinks them up. */
+/* On paper that takes no water a drop runs down and hardly widens; blotting paper soaks it up. */
 static void drops_drip_on_glass(void **state)
 {
     (void)state;

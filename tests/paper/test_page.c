@@ -1,4 +1,4 @@
-/* test_page.c - the sheet on the machine: what it shows, that it is the same each time, that what flows is kept. */
+/* test_page.c - the sheet on the machine: its pictures, the same bits in each run, and conservation in its flow. */
 #include <paper.h>
 #include <paris_internal.h>
 
@@ -14,7 +14,7 @@
 
 enum { WIDTH = 96, HEIGHT = 70, BYTES = 3 * WIDTH * HEIGHT };
 
-/* FNV-1a of the golden page, as PoCL 3.1 on x86-64 and every other device must give it. */
+/* The FNV-1a hash of the golden page, which PoCL 3.1 on x86-64 and every other device must give. */
 static const uint64_t golden_hash = 0x4abb75efe109d328u;
 
 static void check(enum paper_status status)
@@ -23,7 +23,7 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-/* Two at a time, as `lutetia` does: kernels of more steps take long to compile. */
+/* Evaluates two steps at a time, as `lutetia` does: kernels of more steps take long to compile. */
 static void disperse(struct paper *sheet, const struct paper_weather *weather, int steps)
 {
     for (int i = 0; i < steps; i++) {
@@ -41,7 +41,7 @@ static struct paper_config config_small(void)
     return config;
 }
 
-/* A small page with all there is on it: pools, rectangles, type; `steps` cycles of windy weather. */
+/* Makes a small page with pools, rectangles and type, and runs `steps` cycles of windy weather. */
 static struct paper *page_make(const struct paper_config *config, int steps)
 {
     struct paper *sheet;
@@ -72,7 +72,7 @@ static void page_view(const struct paper_config *config, int steps, uint8_t *rgb
 static void bits_per_fiber_add_up(void **state)
 {
     (void)state;
-    /* 5 floats that stay and 4 that do not, image and colour, coordinates, two contexts. */
+    /* 5 permanent and 4 temporary floats, image and colour, coordinates, two contexts. */
     assert_int_equal(paper_bits_per_fiber(1024, 512), 9 * 32 + 2 * 24 + 10 + 9 + 2);
     assert_int_equal(paper_bits_per_fiber(1024, 1024), 358);
     const char *name;
@@ -131,7 +131,7 @@ static void golden_page_has_its_hash(void **state)
         fail_msg("the golden page hashes to 0x%016llx", (unsigned long long)hash);
 }
 
-/* Before any time has passed the picture is the sheet minus the screen, to the bit. */
+/* Before the first step the picture is the sheet minus the screen, to the bit. */
 static void type_is_crisp_before_time(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void type_is_crisp_before_time(void **state)
     paper_destroy(sheet);
 }
 
-/* What flows out of a fiber arrives in the next: away from the rim nothing is lost but what dries. */
+/* The outflow of a fiber is its neighbour's inflow: away from the rim nothing is lost except by drying. */
 static void flow_keeps_water_and_pigment(void **state)
 {
     (void)state;
@@ -184,8 +184,8 @@ static void flow_keeps_water_and_pigment(void **state)
     assert_true(fabs(cyan[1] - cyan[0]) < 1e-3 * cyan[0]);
 }
 
-/* The rule is symmetric where absorbency is the same everywhere and nothing pulls; what is left is the order of
- * rounding, and that pigment crosses a face by the water on one side of it: a part of a shade. */
+/* With the same absorbency everywhere and no gravity the rule is symmetric. Two asymmetries remain, less than a shade: the order
+ * of rounding, and that the pigment that crosses a face depends on the water of one side. */
 static void still_paper_is_symmetric(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static void dry_paper_stands_still(void **state)
     assert_memory_equal(before, after, BYTES);
 }
 
-/* Amounts stay within 0..1, whatever the weather: no channel wraps round, no NaN spoils a total. */
+/* Amounts stay within 0..1 in any weather: no colour channel wraps round, and no total is a NaN. */
 static void extremes_stay_within_bounds(void **state)
 {
     (void)state;
@@ -291,7 +291,7 @@ static void wrong_arguments_are_refused(void **state)
     paper_destroy(sheet);
 }
 
-/* Off the sheet, half on it, and far beyond any integer's reach of it. */
+/* Places off the sheet, half on it, and farther away than an int can hold. */
 static void places_off_the_sheet_are_ignored(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_path.c - ways from outside: SVG paths against shapes known, SVG files, recorded samples. */
+/* test_path.c - paths from outside: SVG paths against known shapes, SVG files, recorded samples. */
 #include <path.h>
 
 #include <math.h>
@@ -68,7 +68,7 @@ static void straight_lines_are_their_corners(void **state)
         for (int j = 0; j < 2 * rows[i].count; j++)
             assert_true(fabs(lines.line[0].points[j] - rows[i].corners[j]) < 1e-12);
     }
-    parse("M0 0L1 1M5 5L6 6zL9 9"); /* after z it goes on from where that sub-path began */
+    parse("M0 0L1 1M5 5L6 6zL9 9"); /* after z it goes on at the sub-path's start */
     assert_int_equal(lines.count, 3);
     assert_true(lines.line[2].points[0] == 5 && lines.line[2].points[2] == 9);
     parse("M 3 3 M 4 4");
@@ -80,7 +80,7 @@ static void straight_lines_are_their_corners(void **state)
 static void curves_are_near_what_they_are(void **state)
 {
     (void)state;
-    /* a parabola: y = x (1 - x) * 2 from 0,0 to 1,0 through .5,.5, times 100 */
+    /* a parabola, 100 times as large: y = x (1 - x) * 2 from 0,0 to 1,0 through .5,.5 */
     static const char *const parabolas[] = {
         "M0 0Q50 100 100 0", "M0 0C33.333333333 66.666666667 66.666666667 66.666666667 100 0",
         "m0 0q50 100 100 0", "M-100 0Q-50 -100 0 0T100 0"};
@@ -96,7 +96,7 @@ static void curves_are_near_what_they_are(void **state)
         if (i < 3) /* chords lie inside, by less than the tolerance */
             assert_true(fabs(area(way) + 1e4 / 3) < 100 * TOLERANCE);
     }
-    /* S goes on as the cubic before it came */
+    /* S continues the cubic before it smoothly */
     parse("M0 0C0 10 10 10 10 0S20 -10 20 0");
     struct paper_lines one = lines;
     lines = (struct paper_lines){0};
@@ -110,7 +110,7 @@ static void curves_are_near_what_they_are(void **state)
 static void arcs_are_arcs(void **state)
 {
     (void)state;
-    /* four ways from 10,0 to 0,10 on circles of 10: about 0,0 and about 10,10 */
+    /* four arcs of radius 10 from 10,0 to 0,10: about 0,0 and about 10,10 */
     for (int large = 0; large < 2; large++)
         for (int sweep = 0; sweep < 2; sweep++) {
             char path[64];
@@ -124,8 +124,7 @@ static void arcs_are_arcs(void **state)
                          10) < 1e-9);
             double want = (large ? 1.5 : 0.5) * PI * 10;
             assert_true(fabs(length(way) - want) < 0.01 * want);
-            double turned =
-                0; /* against y, which grows downwards: sweep 1 is the positive turn */
+            double turned = 0; /* y grows downwards, so sweep 1 is the positive turn */
             for (int i = 1; i < way->points_count; i++)
                 turned +=
                     (way->points[2 * i - 2] - middle) * (way->points[2 * i + 1] - middle) -
@@ -145,7 +144,7 @@ static void arcs_are_arcs(void **state)
         assert_true(fabs(u * u + v * v - 1) < 1e-6);
     }
     assert_true(fabs(fabs(area(&lines.line[0])) - PI * 800) < 2);
-    /* radii too small are stretched: a half circle */
+    /* radii too small are enlarged: the arc is a half circle */
     parse("M0 0A1 1 0 0 1 20 0");
     for (int i = 0; i < lines.line[0].points_count; i++)
         assert_true(
@@ -270,7 +269,7 @@ static void strokes_pass_through_their_samples(void **state)
         assert_true(fabs(at.x - samples[i].x) < 1e-12 && fabs(at.y - samples[i].y) < 1e-12);
         assert_true(fabs(at.pressure - samples[i].pressure) < 1e-12);
     }
-    /* no corner: the way before and after a sample has one direction */
+    /* no corners: the direction is the same just before and just after a sample */
     for (int i = 1; i < 3; i++) {
         double t = samples[i].time_s, h = 1e-6;
         struct paper_stroke_sample a = paper_stroke_at(&stroke, t - h, &cursor),
@@ -279,7 +278,7 @@ static void strokes_pass_through_their_samples(void **state)
         assert_true(fabs((b.x - a.x) - (c.x - b.x)) < 1e-4 * h * 1e3);
         assert_true(fabs((b.y - a.y) - (c.y - b.y)) < 1e-4 * h * 1e3);
     }
-    /* even samples on a line are followed evenly */
+    /* equally spaced samples on a line give a constant speed */
     const struct paper_stroke_sample even[] = {
         {.x = 2}, {.time_s = 1, .x = 4}, {.time_s = 2, .x = 6}};
     stroke = (struct paper_stroke){.samples_count = 3, .samples = even};

@@ -1,4 +1,4 @@
-/* test_sheet.c - sheets with pigments: nothing is lost, both sides are alike, and each effect is there to be measured. */
+/* test_sheet.c - sheets with pigments: nothing is lost, mirrored sheets give mirrored bits, and each effect can be measured. */
 #include <paper.h>
 #include <paris_internal.h>
 #include <sheet.h>
@@ -130,7 +130,7 @@ static void without_parts_it_is_the_thesis(void **state)
         sum = total(sheet, i);
         assert_true(fabs(theirs - sum) <= 1e-3 * sum + 1e-9);
     }
-    /* and fiber by fiber: the thesis's picture of pigments, made from what the sheet holds */
+    /* fiber by fiber: the thesis's picture of pigments is computed from the sheet's layers */
     static uint8_t rgb[3 * SIDE * SIDE];
     check(paper_view_read(page, PAPER_VIEW_WATER, rgb));
     check(paper_sheet_layer_read(sheet, PAPER_LAYER_INFUSED_WATER, 0, ours));
@@ -142,7 +142,7 @@ static void without_parts_it_is_the_thesis(void **state)
 
 /* ---- matter ---- */
 
-/* Nothing is 0, so that all tests have the same kernels. */
+/* An air without a 0, so that all tests have the same kernels. */
 static struct paper_air air_with_all(void)
 {
     struct paper_air air = paper_air_default();
@@ -180,7 +180,7 @@ static void nothing_is_lost_in_many_steps(void **state)
 static struct paper_air air_by_chance(void)
 {
     struct paper_air air = paper_air_default();
-    /* one in three a hair's breadth from an end of its range: numbers that are equal would make another graph, and other
+    /* numbers near an end of their range differ from it a little: equal numbers would give another graph and other
      * kernels to compile */
 #define CHOOSE(member, low, high)                                                              \
     air.member = sample_word(&chance) % 3   ? uniform(low, high)                               \
@@ -263,7 +263,7 @@ enum { BOARD = 28 };
 
 enum motion { AS_IT_IS, MIRRORED_X, MIRRORED_Y, TRANSPOSED, SHIFTED, MOTIONS };
 
-/* Where fiber x, y of the board goes. */
+/* The fiber to which the motion takes fiber x, y of the board. */
 static int moved(enum motion motion, int x, int y)
 {
     switch (motion) {
@@ -289,7 +289,7 @@ static const enum paper_layer board_layers[] = {
     PAPER_LAYER_CURRENT};
 enum { BOARD_LAYERS = sizeof board_layers / sizeof *board_layers, BOARD_OF_SPREADING = 8 };
 
-/* Eddies turn the other way round in a mirror. */
+/* A layer's value after the motion: eddies turn the other way round in a mirror. */
 static float seen_so(enum motion motion, enum paper_layer layer, float value)
 {
     bool mirror = motion == MIRRORED_X || motion == MIRRORED_Y || motion == TRANSPOSED;
@@ -349,7 +349,7 @@ static void moved_sheets_give_moved_bits(void **state)
         moved_sheets_of_model_give_moved_bits(model);
 }
 
-/* One pigment and no surface: each instruction is a kernel to compile. */
+/* The sheet has one pigment and no surface, because the eager machine compiles a kernel for each instruction. */
 static void eager_is_fused(void **state)
 {
     (void)state;

@@ -25,7 +25,7 @@ static void check(enum paper_status status)
         fail_msg("status %d: %s", (int)status, paper_error());
 }
 
-/* Always two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
+/* Every sheet has two pigments, so that all tests have the same kernels. The first stains five times as much as the second. */
 static struct paper_sheet *sheet_make(void)
 {
     struct paper_sheet_config config =
@@ -153,7 +153,7 @@ static void splatter_falls_where_it_is_thrown(void **state)
 
 /* ---- salt ---- */
 
-/* What flowing water meets: its eddies turn the other way in the mirror. */
+/* Mirrors the layers that steer flowing water; eddies turn the other way round in a mirror. */
 static void flow_mirror(struct paper_sheet *sheet)
 {
     static float values[FIBERS], turned[FIBERS];
@@ -266,7 +266,7 @@ static void lifting_takes_what_does_not_stain(void **state)
     memset(gray, 255, sizeof gray); /* the upper half */
     struct paper_screen screen = {.width_px = WIDTH, .height_px = 24, .gray = gray};
     check(paper_sheet_lift(sheet, &(struct paper_lift){.place = {&screen, 0, 0}, .part = 0.8}));
-    /* half of the sheet loses 0.8 of what stains 1, and 0.8 / 5.5 of what stains 5.5 */
+    /* half of the sheet loses 0.8 of the pigment of stain 1, and 0.8 / 5.5 of that of stain 5.5 */
     assert_true(fabs(total(sheet, 2) / before[1] - 0.6) < 1e-3);
     assert_true(fabs(total(sheet, 1) / before[0] - (1 - 0.4 / 5.5)) < 1e-3);
     assert_int_equal(paper_sheet_lift(sheet, &(struct paper_lift){.part = 2}),
@@ -305,8 +305,9 @@ static void varnish_deepens_and_shines(void **state)
     paper_sheet_destroy(sheet);
 }
 
-/* A finer picture of a sheet with a disc and chance in it: the mean of a fiber's pixels is the fiber's, no pixel is beyond
- * the nine fibers around it, and the disc's edge is nearer to a circle than the blocks of fibers are. */
+/* A picture with several pixels for each fiber, of a sheet with a disc and random amounts. The mean of a fiber's pixels is the
+ * fiber's colour. Each pixel lies within the range of the nine fibers around it. The disc's edge is nearer to a circle than the
+ * edge of its fibers. */
 static void finer_pictures_have_the_same_means(void **state)
 {
     (void)state;
@@ -368,7 +369,7 @@ static void finer_pictures_have_the_same_means(void **state)
 
 /* ---- colours ---- */
 
-/* Mixtures that the sheet itself shows, taken apart and shown again. */
+/* Separates the colours of mixtures that a sheet has shown, and compares the colours of the result. */
 static void mixtures_are_separated_again(void **state)
 {
     (void)state;
@@ -418,7 +419,7 @@ static void mixtures_are_separated_again(void **state)
     assert_true(mean < 0.6 && worst < 2.5 && off < 0.03);
 }
 
-/* The formula here and the sheet's give the same colour; and known L*a*b* of known colours. */
+/* The formula of this file and the sheet give the same colour. L*a*b* of some colours is known. */
 static void the_formula_is_the_sheets(void **state)
 {
     (void)state;
@@ -463,7 +464,7 @@ static void colours_out_of_reach_are_met_as_well_as_can_be(void **state)
     for (int i = 0; i < 5; i++)
         config.pigments[i] = *paper_pigment_find(names[i]);
     struct paper_separation s = paper_separation_of(&config);
-    /* black, white, a gray, and a green brighter than any of these make */
+    /* black, white, a gray, and a green brighter than any mixture of these pigments */
     static const uint8_t rgb[12] = {0, 0, 0, 255, 255, 255, 128, 128, 128, 0, 255, 0};
     float found[5][4];
     check(paper_separate(&s, rgb, 4,
