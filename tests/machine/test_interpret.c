@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "build/plans.h"
 #include "interpret/lanes.h"
 #include "values/graph.h"
 
@@ -423,6 +424,37 @@ static void a_plan_that_costs_more_than_compiling_is_compiled(void **state)
     free(out[1]);
 }
 
+/* Each number's bits are a plan: a sum or an exclusive or. */
+static void of_many_plans_the_oldest_go(void **state)
+{
+    enum { BITS = 14 };
+    const struct machine_type word = MACHINE_UINT(32);
+    (void)state;
+    struct machine *m = interpreting("1");
+    assert_true(support_set(m, 1, 5) > 0);
+    uint32_t f = support_field(m, word, 1);
+    for (uint32_t k = 0, x = 1, y = 1; k < 1u << BITS; k++) {
+        struct machine_value *v = support_value(m, f, word), *one = v;
+        struct machine_scalar read;
+        for (int bit = 0; bit < BITS; bit++) {
+            v = machine_binary(m, k >> bit & 1 ? MACHINE_ADD : MACHINE_XOR, v,
+                               bit % 2 ? one : machine_unary(m, MACHINE_NOT, one));
+            y = k >> bit & 1 ? y + (bit % 2 ? x : ~x) : y ^ (bit % 2 ? x : ~x);
+        }
+        assert_ok(machine_field_store(m, f, v, MACHINE_EVERYWHERE), m);
+        machine_begin(m);
+        assert_ok(machine_field_read(m, f, word, 2, &read), m);
+        machine_begin(m);
+        if (k == 0) /* what the field held before is not 1 */
+            y = (uint32_t)read.lo;
+        assert_int_equal(read.lo, y);
+        assert_true(m->plans->count <= 8192 + 4096 + 1);
+        x = y;
+    }
+    assert_true(m->plans->built >= 1u << BITS);
+    support_machine_destroy(m);
+}
+
 /* A comparison of coordinates stays a node of its own, even where byte code needs it in a second stage or from a neighbour. It
  * is not replaced by an array, so that later kernels see which rows it selects. */
 static void tests_of_coordinates_keep_their_definition(void **state)
@@ -556,6 +588,7 @@ int main(void)
         cmocka_unit_test(blocks_find_their_neighbours),
         cmocka_unit_test(tests_of_coordinates_keep_their_definition),
         cmocka_unit_test(a_small_plan_is_never_compiled),
+        cmocka_unit_test(of_many_plans_the_oldest_go),
         cmocka_unit_test(a_plan_that_costs_more_than_compiling_is_compiled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -37,6 +37,7 @@ void plan_becomes(struct machine *m, struct plan *p, struct plan *better)
     p->signature = old.signature;
     p->signature_length = old.signature_length;
     p->hash = old.hash;
+    p->used = old.used;
     p->worked = old.worked;
     p->version = old.version + 1;
     p->next = old.next;

@@ -12,6 +12,37 @@
 #include "base/errors.h"
 #include "build/background.h"
 
+/* Of a program that does not repeat; each takes some kilobytes. */
+enum { PLANS_MOST = 8192, BUCKETS = 4096 };
+
+bool plans_are_many(const struct machine *m)
+{
+    return m->plans->count > PLANS_MOST && m->plans->built - m->plans->begun > PLANS_MOST / 2;
+}
+
+/* All that were used last before that. */
+static void forget_before(struct machine *m, uint64_t used)
+{
+    for (int i = 0; i < m->plans->table_size; i++)
+        for (struct plan **at = &m->plans->table[i], *p; (p = *at);) {
+            if (p->used >= used || p == m->plans->improving) {
+                at = &p->next;
+                continue;
+            }
+            *at = p->next;
+            m->plans->count--;
+            plan_free(p);
+        }
+}
+
+void plans_forget_oldest(struct machine *m)
+{
+    m->plans->begun = m->plans->built;
+    forget_before(m, m->plans->built - PLANS_MOST / 2);
+    if (m->plans->count > PLANS_MOST) /* all are in use */
+        forget_before(m, m->plans->built);
+}
+
 void plans_finish(struct machine *m)
 {
     for (int i = 0; i < m->plans->table_size; i++)
@@ -66,6 +97,8 @@ static struct plan *plan_find(const struct machine *m, const struct reach *r, ui
     while (p && !(p->hash == hash && p->signature_length == r->length &&
                   !memcmp(p->signature, r->signature, r->length * sizeof *r->signature)))
         p = p->next;
+    if (p)
+        p->used = m->plans->built;
     return p;
 }
 
@@ -86,8 +119,10 @@ static bool plan_keep(struct machine *m, struct plan *p, const struct plan_reque
     memcpy(p->signature, r->signature, bytes);
     p->signature_length = r->length;
     p->hash = hash;
+    p->used = m->plans->built;
     p->next = *bucket;
     *bucket = p;
+    m->plans->count++;
     return true;
 }
 
@@ -123,7 +158,7 @@ struct plan *plan_get(struct machine *m, const struct plan_request *q)
 {
     uint64_t hash = words_hash(q->reach->signature, q->reach->length);
     if (!m->plans->table) {
-        m->plans->table_size = 1024;
+        m->plans->table_size = BUCKETS;
         m->plans->table = calloc((size_t)m->plans->table_size, sizeof *m->plans->table);
         if (!m->plans->table) {
             machine_fail(m, MACHINE_NO_MEMORY, "not enough memory for plans");

@@ -40,7 +40,7 @@ struct array {
 struct plan {
     uint32_t *signature;
     uint32_t signature_length;
-    uint64_t hash;
+    uint64_t hash, used; /* used: when it was last found, in plans made */
     struct launch *launches;
     int launches_count;
     int *stored; /* the nodes that get buffers, in the order of launches */
@@ -90,7 +90,8 @@ static inline bool plan_use_runs(enum plan_use use)
 /* Plans kept, and their kernels. */
 struct plans {
     struct plan **table; /* by signature; NULL: empty */
-    int table_size;
+    int table_size, count;
+    uint64_t begun;                /* plans made when the oldest were last forgotten */
     struct background *background; /* background.c; NULL: not used yet */
     struct plan *improving;        /* the plan whose better kernels are being compiled */
     struct describing describing;
@@ -125,6 +126,9 @@ struct plan_request {
 /* Returns the plan: a new or a known one, with better kernels if these are due. NULL: error
  * set; for a plan that is not to run, it may also be impossible. */
 struct plan *plan_get(struct machine *m, const struct plan_request *q);
+/* Whether there are so many that the oldest should go; they go, all but those used lately. Nobody else may know them any more. */
+bool plans_are_many(const struct machine *m);
+void plans_forget_oldest(struct machine *m);
 uint32_t plan_version(const struct machine *m, const struct plan *p);
 /* Whether its kernels are still being compiled in the background. */
 bool plan_waits(const struct machine *m, const struct plan *p);

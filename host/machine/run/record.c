@@ -122,7 +122,8 @@ void record_evaluates(struct machine *m, struct plan *plan, struct machine_value
     struct replay *p = m->run->replay;
     if (!p)
         return;
-    p->forgets = history_evaluates(m, plan, due);
+    p->forgets = history_evaluates(m, plan, due) ||
+                 (plans_are_many(m) && !run_mode_builds(m->run->mode));
     p->is_short = plan_is_short(m, plan);
     if (p->depth || p->forgets)
         states_from_forget(m);
@@ -250,14 +251,16 @@ void record_evaluated(struct machine *m, struct device_buffer *const *buffers,
                       struct machine_value *const *wanted, int wanted_count, bool due)
 {
     struct replay *p = m->run->replay;
-    if (!p)
-        return;
-    if (!p->depth) {
+    if (p && !p->depth) {
         p->since = 0;
         p->looked = !due;
     }
-    if (p->forgets)
+    if (p && p->forgets)
         states_forget(m);
+    if ((!p || p->forgets) && plans_are_many(m) && !run_mode_builds(m->run->mode))
+        plans_forget_oldest(m);
+    if (!p)
+        return;
     p->forgets = false;
     if (p->active >= 0) /* the evaluation changed nothing that is kept */
         return;
