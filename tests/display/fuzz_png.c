@@ -1,7 +1,7 @@
-/* fuzz_png.c - damaged PNGs: each is read or refused, with a reason, and nothing worse.
+/* fuzz_png.c - reads damaged PNGs. Each is read, or refused with a reason.
  *
- * Mutations are of a valid file: bytes changed, runs cut out, doubled, or the end missing.  Half of them get their
- * chunks' checksums put right again, so that they are not all refused at the door. (security.md 7) */
+ * The damage to a valid file: bytes are changed, runs are removed or doubled, or the end is cut off. Half of the files then get
+ * correct checksums in their chunks, so that the reader does not refuse them at once. (security.md 7) */
 #include <display.h>
 
 #include <setjmp.h>
@@ -65,7 +65,7 @@ static void checksums_mend(uint8_t *bytes, size_t count)
     }
 }
 
-/* A picture's header with a size that would fill any memory is refused by size alone: keep the fuzzing quick. */
+/* Whether the header's size is huge. The reader refuses it by its size; skipping it keeps the fuzzing quick. */
 static bool header_is_huge(const uint8_t *bytes, size_t count)
 {
     return count >= 24 && (double)big_endian(bytes + 16) * big_endian(bytes + 20) > 1e8;
@@ -84,7 +84,7 @@ static size_t mutate(uint8_t *bytes, size_t count)
         case 1:
             bytes[at] ^= (uint8_t)(1u << sample_below(&random_state, 8));
             break;
-        case 2: /* the header's fields are few: hit them often */
+        case 2: /* changes the header, which is short, often */
             bytes[16 + sample_below(&random_state, 13) % (count > 29 ? 13 : 1)] =
                 (uint8_t)sample_below(&random_state, 20);
             break;

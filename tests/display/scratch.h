@@ -1,4 +1,4 @@
-/* scratch.h - a folder for one test program's files, gone when it ends.
+/* scratch.h - a folder for one test program's files, which is removed when the program ends.
  *
  *     const char *path = scratch_path("page.png");
  */
@@ -49,7 +49,7 @@ static inline void scratch_remove(void)
     rmdir(scratch_dir);
 }
 
-/* The name of a file in the folder; valid until the eighth next call. */
+/* The path of a file in the folder; valid until the eighth call after this. */
 static inline const char *scratch_path(const char *name)
 {
     static char paths[8][512];

@@ -1,4 +1,4 @@
-/* test_frame_clock.c - the clock at times that are made up. */
+/* test_frame_clock.c - the frame clock, with times that the test gives it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@ static bool near(double a, double b)
     return fabs(a - b) < 1e-9;
 }
 
-/* Frames of chance lengths: after each, as many steps as the time is worth, the rest carried, nothing lost. */
+/* After frames of random lengths the clock has made all steps that fit into the time, and carries the remainder. */
 static void steps_follow_real_time(void **state)
 {
     (void)state;
@@ -35,7 +35,7 @@ static void steps_follow_real_time(void **state)
     assert_true(clock.lost_s == 0);
 }
 
-/* A film's frames are whole numbers of steps, and each has as many, in spite of rounding. */
+/* Each frame of a film has the same whole number of steps, in spite of rounding. */
 static void films_have_the_same_steps_in_each_frame(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void paused_clocks_take_single_steps(void **state)
     assert_int_equal(frame_clock_advance(&clock, 0.2), 2);
     assert_int_equal(frame_clock_advance(&clock, 0.25), 0);
     assert_true(near(frame_clock_time_s(&clock), 0.12));
-    /* The time that passed is not made up for. */
+    /* The steps of the paused time are not made afterwards. */
     clock.paused = false;
     assert_int_equal(frame_clock_advance(&clock, 0.27), 2);
     frame_clock_single(&clock);
@@ -111,7 +111,7 @@ static void frames_are_measured(void **state)
     assert_true(fabs(clock.frame_s - 0.01) < 1e-5);
 }
 
-/* A recording's moments: how long one waits for each, whatever the rate and the pauses. */
+/* The waiting time for each moment of a recording is right at any rate and with pauses. */
 static void moments_are_waited_for(void **state)
 {
     (void)state;
@@ -141,9 +141,9 @@ static void pictures_leave_time(void **state)
     struct frame_pace pace = {.least_s = 0.04};
     assert_true(pace.due_s == 0);
     frame_pace_drawn(&pace, 1, 1.01);
-    assert_true(near(pace.due_s, 1.04)); /* a quick one: at most so many a second */
+    assert_true(near(pace.due_s, 1.04)); /* a quick picture: the rate is limited */
     frame_pace_drawn(&pace, 2, 2.3);
-    assert_true(near(pace.due_s, 2.6)); /* a slow one: as long a rest */
+    assert_true(near(pace.due_s, 2.6)); /* a slow one: a pause as long as it took */
 }
 
 int main(void)

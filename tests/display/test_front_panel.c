@@ -1,4 +1,4 @@
-/* test_front_panel.c - pictures of the machine's lights, and the recordings that they are made of. */
+/* test_front_panel.c - pictures of the machine's lights, and recordings of lights. */
 #include <front_panel.h>
 #include <light_recording.h>
 
@@ -102,7 +102,7 @@ static void places_are_all_different(void **state)
     assert_int_equal(row, 63);
 }
 
-/* A light adds red and takes nothing away, wherever one looks; no light, no red. */
+/* A light only adds red to the picture, in every view. Without lights there is no red. */
 static void light_is_added(void **state)
 {
     (void)state;
@@ -159,8 +159,8 @@ static void wrong_sizes_are_refused(void **state)
     front_panel_destroy(panel);
 }
 
-/* A picture of 960x960 in less than a tenth of a second of one processor: the best of some, as
- * others may be at work here. */
+/* A picture of 960x960 takes less than a tenth of a second of one processor: the least of several times, because other programs
+ * may be running. */
 static void pictures_are_quick(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static int take(void *context, const struct light_frame *frame)
     return ++t->count != t->most;
 }
 
-/* A recording of FRAMES, with the line again in its middle; returns its bytes. */
+/* Makes a recording of FRAMES, with its first line repeated in the middle; returns its length in bytes. */
 static size_t recording_make(uint8_t *out)
 {
     uint8_t *at = out;
@@ -222,8 +222,7 @@ static size_t recording_make(uint8_t *out)
 
 static enum display_status feed(struct light_reader *reader, const uint8_t *bytes, size_t count)
 {
-    while (count >
-           0) { /* pieces of 1 to 700 bytes, each of its own so that ASan sees its end */
+    while (count > 0) { /* each piece has its own memory, so that ASan sees its end */
         size_t piece =
             1 + sample_below(&random_state, sample_below(&random_state, 2) ? 5 : 700);
         piece = piece < count ? piece : count;
@@ -266,7 +265,7 @@ static void recordings_are_read_in_any_pieces(void **state)
     assert_int_equal(t.count, 3);
 }
 
-/* Damaged ones are read or refused, with a reason. */
+/* Damaged recordings are read, or refused with a reason. */
 static void damaged_recordings_are_read_or_refused(void **state)
 {
     (void)state;

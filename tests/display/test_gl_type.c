@@ -1,4 +1,4 @@
-/* test_gl_type.c - type drawn by OpenGL without a window: pixel by pixel what the painter draws. */
+/* test_gl_type.c - compares type drawn by OpenGL, without a window, with the painter's, pixel by pixel. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +56,7 @@ static void stage_close(struct stage *s)
     font_face_close(s->face);
 }
 
-/* The same by the painter, at as many places between pixels. */
+/* The painter's picture of the text, with as many places between pixels. */
 static struct display_image painted(const struct stage *s, const struct font_map *map, double x,
                                     double y, int places)
 {
@@ -76,7 +76,7 @@ static struct display_image painted(const struct stage *s, const struct font_map
     return image;
 }
 
-/* Light is mixed in both; a byte may round the other way. Returns how many pixels have ink. */
+/* Compares the pictures. Both mix light, so a byte may differ by rounding. Returns how many pixels have ink. */
 static int compare(const struct stage *s, struct display_image *wanted)
 {
     struct display_image drawn;
@@ -101,7 +101,7 @@ static void text_is_as_painted(void **state)
     struct font_atlas_def atlas = font_atlas_def_default();
     atlas.places_x = atlas.places_y = 4;
     stage_open(&s, 21.5, &atlas);
-    /* Twice: the second frame draws nothing anew. */
+    /* The second frame uses the first one's glyphs. */
     for (int frame = 0; frame < 2; frame++) {
         gl_offscreen_clear(s.screen, paper);
         gl_type_begin(s.type, WIDTH, HEIGHT);
@@ -115,7 +115,7 @@ static void text_is_as_painted(void **state)
     stage_close(&s);
 }
 
-/* Turned, and partly beyond the picture's edges. */
+/* Text that is turned and partly beyond the picture's edges. */
 static void text_turns(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void text_turns(void **state)
     stage_close(&s);
 }
 
-/* Each glyph through a map of its own, of every kind, and in inks that let others shine through; then all of it turned. */
+/* Each glyph has its own map, of every kind, and translucent ink; then the whole text is turned. */
 static void glyphs_have_maps_and_inks(void **state)
 {
     (void)state;
@@ -158,15 +158,14 @@ static void glyphs_have_maps_and_inks(void **state)
         struct font_map all = font_map_rotation(9);
         gl_type_begin(s.type, WIDTH, HEIGHT);
         assert_display(gl_type_draw(s.type, &s.layout, turned ? &all : NULL, 8, 50, ink));
-        /* Distorted glyphs are drawn in their places; the painter rounds only the remaining
-         * translation. */
+        /* Distorted glyphs are drawn at their exact places, so the painter may round only the whole text's translation. */
         struct display_image wanted = painted(&s, turned ? &all : NULL, 8, 50, 16);
         assert_true(compare(&s, &wanted) > 1000);
         stage_close(&s);
     }
 }
 
-/* One page that cannot hold all of it: what has been drawn makes room. */
+/* The atlas's one page cannot hold all glyphs: drawn glyphs make room for others. */
 static void small_atlases_do(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_input.c - the queue of events, full and not; what pens report. */
+/* test_input.c - the queue of events, also when it is full, and the reports of pens. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -67,7 +67,7 @@ static void paths_are_copied(void **state)
         input_queue_put(&queue, &(struct input_event){.kind = INPUT_DROP, .path = path}));
     assert_true(input_queue_take(&queue, &event));
     assert_string_equal(event.path, "/tmp/one.ttf");
-    /* The other goes with the queue: the leak checker sees that. */
+    /* The queue frees the other path: the leak checker would notice. */
 }
 
 static void full_queues_keep_what_ends_something(void **state)
@@ -82,7 +82,7 @@ static void full_queues_keep_what_ends_something(void **state)
     while (put_key(INPUT_KEY_UP, 'A'))
         ups++;
     assert_true(keys > INPUT_EVENTS_MAX / 2 && ups >= 32);
-    /* Closing and a size always find room, once each. */
+    /* There is always room for one closing and one size. */
     assert_int_equal(keys + ups, INPUT_EVENTS_MAX - 2);
     for (int i = 0; i < 3; i++) {
         assert_true(input_queue_put(&queue, &(struct input_event){.kind = INPUT_CLOSE}));
@@ -148,7 +148,7 @@ static void pens_report_changes(void **state)
                (const double[]){100, 200, 1023.5, -32, 64}, &pen);
     assert_true(pen.is_pen);
     assert_true(pen.pressure == 0.5 && pen.tilt_x == -0.5 && pen.tilt_y == 1);
-    /* Only what changed is there: pressure is then the first value. */
+    /* A report holds only what changed: pressure is then its first value. */
     pen_report(&wacom, (const unsigned char[]){0x04}, 1, (const double[]){2047}, &pen);
     assert_true(pen.pressure == 1 && pen.tilt_x == -0.5 && pen.tilt_y == 1);
     /* Beyond its range, or no number. */

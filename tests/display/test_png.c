@@ -1,4 +1,4 @@
-/* test_png.c - whole PNG files or none; what is written is read back. */
+/* test_png.c - a PNG file is written whole or not at all, and reading it gives the same picture. */
 #include <display.h>
 
 #include <setjmp.h>
@@ -93,7 +93,7 @@ static void devices_are_refused(void **state)
     display_image_destroy(&image);
 }
 
-/* A limit on a file's size is the disk that any test can fill. */
+/* A limit on the file's size stands for a full disk. */
 static void full_disk_keeps_the_old_file(void **state)
 {
     (void)state;

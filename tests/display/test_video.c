@@ -1,4 +1,5 @@
-/* test_video.c - videos: what is in them, and encoders that fail, are killed, or are not there. ffmpeg is a script of the test's. (security.md 14) */
+/* test_video.c - videos: their contents, and encoders that fail, are killed or are missing. A script of the test plays ffmpeg.
+ * (security.md 14) */
 #include "scratch.h"
 
 #include <display.h>
@@ -20,7 +21,7 @@ static void check(enum display_status status)
         fail_msg("status %d: %s", (int)status, display_error());
 }
 
-/* A PATH with nothing but our ffmpeg on it (NULL: none); its last argument is the file. */
+/* Sets a PATH that holds only this script as ffmpeg (NULL: nothing). Its last argument is the file. */
 static void encoder_put(const char *script)
 {
     static char folder[600];
@@ -98,7 +99,7 @@ static void without_an_encoder_it_is_a_y4m(void **state)
     check(video_finish(video));
     assert_int_equal(access(scratch_path("other.y4m"), F_OK), 0);
     assert_int_equal(access(scratch_path("other.mp4"), F_OK), -1);
-    /* nothing of what is abandoned or empty */
+    /* an abandoned or empty video leaves no file */
     check(video_create(path, WIDTH, HEIGHT, 25, &video));
     check(video_finish(video));
     int files = scratch_count();
@@ -125,7 +126,7 @@ static void an_encoder_gets_all_of_it(void **state)
     assert_int_equal(count, 35 + 40 * FRAME);
 }
 
-/* Adds pictures until it fails, or ends it; what was said. */
+/* Adds pictures until the encoder fails, or finishes the film. Returns the error's message. */
 static const char *film_fail(const char *script)
 {
     char path[512];
@@ -176,7 +177,7 @@ static void what_cannot_be_is_refused(void **state)
     assert_int_equal(video_create("/no/such/x.mp4", 4, 4, 25, &video), DISPLAY_IO_FAILED);
 }
 
-/* The encoder gets the sound as a file of its own, from the beginning; where there can be none it gets none. */
+/* The encoder reads the sound from its own file, from the beginning. A format without sound gets none. */
 static void sound_goes_to_the_encoder(void **state)
 {
     (void)state;
@@ -188,7 +189,7 @@ static void sound_goes_to_the_encoder(void **state)
     FILE *sound = tmpfile();
     assert_non_null(sound);
     fputs(wav, sound);
-    fflush(sound); /* its place is at the end: the encoder must not mind */
+    fflush(sound); /* at its end, yet the encoder reads all of it */
     snprintf(script, sizeof script,
              "case \"$*\" in *\"-f wav -i /proc/self/fd/4\"*) cat /proc/self/fd/4 >%s ;; esac\n"
              "cat >\"$file\"",

@@ -1,4 +1,4 @@
-/* test_window.c - windows on an Xvfb: the screen shows the image that was passed to the window. */
+/* test_window.c - windows on an Xvfb: the screen shows the image that a window was given. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,7 @@ static Window on_screen(const char *title)
     return found;
 }
 
-/* Four channels of noise; its memory ends with the last pixel. */
+/* An image of noise; its memory ends with the last pixel. */
 static struct display_image noise(int width, int height, int channels)
 {
     size_t bytes = (size_t)width * (size_t)height * (size_t)channels;
@@ -53,7 +53,7 @@ static struct display_image noise(int width, int height, int channels)
     return image;
 }
 
-/* What three channels of the screen then are; alpha is of black. */
+/* The image as the screen shows it in three channels, on black where alpha is below 1. */
 static struct display_image as_seen(const struct display_image *image)
 {
     struct display_image seen = {image->width_px, image->height_px, 3, NULL};
@@ -108,7 +108,7 @@ static void images_are_shown_pixel_for_pixel(void **state)
     assert_true(screen_window_gone(there, 5));
 }
 
-/* One colour, covering a half of the black behind it. */
+/* A half transparent colour on black. */
 static void alpha_covers_black(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void alpha_covers_black(void **state)
     window_destroy(window);
 }
 
-/* Four quarters of four colours, in a window of another ratio: bars are black, the middle of each
+/* An image with quarters of four colours in a window of another ratio: bars at the edges are black, and the middle of each
  * quarter has its colour. */
 static void ratios_are_kept(void **state)
 {
@@ -224,7 +224,8 @@ static void shrunk_images_are_means(void **state)
     window_destroy(window);
 }
 
-/* The next event, which must be of that kind; moves and changes of focus, which depend on where Xvfb's pointer lies, apart. */
+/* Takes the next event, which must be of this kind. Skips moves and changes of focus, because they depend on the place of Xvfb's
+ * pointer. */
 static void take_kind(struct window *window, enum input_kind kind, struct input_event *event)
 {
     do {
@@ -274,7 +275,7 @@ static void keys_and_closing_are_events(void **state)
         take_kind(window, INPUT_KEY_UP, &event);
         assert_int_equal(event.key, keys[i].key);
     }
-    /* Many keys at once: the first ones are kept, and closing is never lost. */
+    /* Of too many keys at once the first ones are kept, and closing is never lost. */
     for (int i = 0; i < INPUT_EVENTS_MAX; i++)
         screen_key(there, i % 2 ? XK_a : XK_b);
     screen_close(there);

@@ -1,4 +1,4 @@
-/* test_window_input.c - what a hand does in a window arrives as events: places, buttons, wheels, keys with modifiers, text. */
+/* test_window_input.c - actions in a window arrive as events: places, buttons, wheels, keys with modifiers, text. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 static struct window *window;
 static Window there;
 
-/* The next event of that kind; others before it are passed over. */
+/* The next event of this kind; skips others before it. */
 static struct input_event next(enum input_kind kind)
 {
     struct input_event event;
@@ -55,7 +55,7 @@ static void pointers_move_press_and_release(void **state)
         assert_int_equal(event.buttons, 1u << buttons[i].button);
         assert_true(event.x_px == x && event.y_px == y);
 
-        /* Held, the pointer is followed beyond the window. */
+        /* While a button is held the window gets the pointer's moves beyond its edges. */
         xtest_move(there, x + 400, y + 5);
         event = next(INPUT_POINTER_MOVE);
         assert_true(event.x_px == x + 400 && event.y_px == y + 5);
@@ -67,7 +67,7 @@ static void pointers_move_press_and_release(void **state)
     }
 }
 
-/* A program that is late gets a press where it was, though the pointer has long been elsewhere. */
+/* A program that reads events late gets the press at its place, although the pointer has moved since. */
 static void late_presses_are_where_they_were(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void held_keys_repeat(void **state)
     assert_int_equal(next(INPUT_KEY_UP).key, INPUT_KEY_RIGHT);
 }
 
-/* Without a window manager a window that fills the screen is where the screen is, and goes back. */
+/* Without a window manager a window fills the screen, and then returns to its place and size. */
 static void windows_fill_the_screen_and_go_back(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* xtest.h - a hand on the tests' screen: the pointer, its buttons and the keyboard as a person moves them (XTest), so that
- * grabs, focus and modifiers are the real ones.
+/* xtest.h - simulates a person on the tests' screen by XTest: the pointer, its buttons and the keyboard. Grabs, focus and
+ * modifiers are the X server's own.
  *
  *     xtest_move(window, 100, 50);
  *     xtest_button(1, true);
@@ -13,7 +13,7 @@
 
 void xtest_move(Window window, int x_px, int y_px);
 void xtest_button(unsigned button,
-                  bool down); /* X11's: 1 left, 2 middle, 3 right, 4 and 5 the wheel */
+                  bool down); /* X11's button: 1 left, 2 middle, 3 right, 4 and 5 the wheel */
 void xtest_key(KeySym key, bool down);
 void xtest_type(KeySym key); /* down and up */
 

@@ -1,4 +1,4 @@
-/* xvfb.c - Xvfb as a child, and an X client of its own beside the program that is tested. */
+/* xvfb.c - runs Xvfb as a child, with an X connection besides that of the tested program. */
 #include "xvfb.h"
 
 #include "clock.h"
@@ -22,7 +22,7 @@ static void moment_wait(void)
     usleep(10000);
 }
 
-/* A window may go while one looks at it. */
+/* Ignores X errors: a window may disappear while it is read. */
 static int error_pass(Display *of, XErrorEvent *error)
 {
     (void)of;

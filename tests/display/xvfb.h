@@ -1,4 +1,4 @@
-/* xvfb.h - a display for one test program, and what can be seen and done on it.
+/* xvfb.h - a display for one test program: reads its screen and types on it.
  *
  *     if (!screen_start("800x600"))
  *         return 77; // there is no Xvfb
@@ -7,7 +7,7 @@
  *     screen_read(window, &image);
  *     screen_key(window, XK_Escape);
  *
- * Xvfb takes a free number, ends with this program, and DISPLAY names it. */
+ * Xvfb takes a free display number and ends with this program; DISPLAY is set to it. */
 #ifndef LUTETIA_TEST_XVFB_H
 #define LUTETIA_TEST_XVFB_H
 
@@ -15,20 +15,20 @@
 #include <display.h>
 #include <stdbool.h>
 
-/* False: Xvfb is not installed; it said so. */
+/* Returns false with a message where Xvfb is not installed. */
 bool screen_start(const char *size);
-/* What desktops say of a screen to programs that are started; 0: nothing. */
+/* Sets the resolution that desktops tell programs; 0: none. */
 void screen_dpi(int dots_per_inch);
 void screen_end(void); /* and DISPLAY is unset */
 
-/* The window that is shown under a title that has this in it, waiting for it; 0: there is none. */
+/* Waits for a visible window whose title contains this text; 0: none came. */
 Window screen_window(const char *title, double wait_s);
-/* Waits until that window is no more. */
+/* Waits until the window is gone. */
 bool screen_window_gone(Window window, double wait_s);
 
-/* What is on the screen in a window, three channels; the caller destroys it. */
+/* Reads a window's pixels from the screen, three channels; the caller destroys the image. */
 void screen_read(Window window, struct display_image *image);
-/* Waits until that is this image; or it is compared with it pixel by pixel, and says where it differs. */
+/* Waits until the window shows this image. False, with the first pixel that differs printed: it does not. */
 bool screen_shows(Window window, const struct display_image *image, double wait_s);
 
 void screen_resize(Window window, int width_px, int height_px);

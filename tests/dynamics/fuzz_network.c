@@ -1,5 +1,5 @@
-/* fuzz_network.c - networks and clamps from damaged text: each is read or refused with one line; what is read moves without exploding, and is
- * written and read again as the same text. */
+/* fuzz_network.c - reads networks and clamps from damaged text. Each is read, or refused with one line. A network that is read
+ * moves without exploding, and is written and read again as the same text. */
 #include <clamps.h>
 #include <network_file.h>
 #include <step.h>
@@ -64,7 +64,7 @@ static void clamps_look(const char *text, size_t count)
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 {
     struct dyn_network *n, *again;
-    char *text = malloc(count + 1); /* its end is where a sanitizer sees it */
+    char *text = malloc(count + 1); /* sanitizers see a read beyond its end */
     if (!text)
         abort();
     memcpy(text, bytes, count);
@@ -93,7 +93,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 #ifndef LUTETIA_FUZZ_LIBFUZZER
 #include "../sample.h"
 
-/* Good ones, each damaged in many ways, always the same. */
+/* Without libFuzzer: good texts, each damaged in many ways, the same in every run. */
 int main(void)
 {
     static const char *const seeds[] = {

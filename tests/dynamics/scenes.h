@@ -8,16 +8,17 @@
 /* From least to most. */
 double scene_chance(uint64_t *state, double least, double most);
 
-/* A number of masses by chance, springs between some, a world by chance (with walls, wind, breaking springs), tacked and
- * pulled masses. What could be slow is not in it: at most a few parts a step of 1/240 s. */
+/* Draws a network: random masses, springs between some of them, a random world (with walls, wind, breaking springs), and tacked
+ * and pulled masses. A step of 1/240 s has at most a few parts, so that tests are quick. */
 struct dyn_network *scene_by_chance(uint64_t *state);
 
-/* A square of four masses with its edges and diagonals, lower left corner at (x, y). k: of the springs; c: their damping. */
+/* A square of four masses with springs along its edges and diagonals; its lower left corner is at (x, y). k: the springs'
+ * constant; c: their damping. */
 struct dyn_network *scene_letter(double x, double y, double k, double c);
 
 void scene_spring(struct dyn_network *n, int a, int b, double k, double c);
 
-/* In doubles; cmocka's own is in floats. After <cmocka.h>. */
+/* Compares doubles; cmocka's own macro compares floats. Include after <cmocka.h>. */
 #define assert_near(is, want, epsilon)                                                         \
     do {                                                                                       \
         double is_ = (is), want_ = (want);                                                     \
@@ -25,7 +26,7 @@ void scene_spring(struct dyn_network *n, int a, int b, double k, double c);
             fail_msg("%s is %.17g, not %.17g", #is, is_, want_);                               \
     } while (0)
 
-/* Dies where what must be fine is not. */
+/* Aborts if status is not DYN_OK. */
 void scene_must(enum dyn_status status);
 
 #endif

@@ -1,16 +1,17 @@
-/* test_bounds.c - no setting makes a network explode: every control by chance over all of its range, and its ends, 1,000 steps each.
+/* test_bounds.c - no setting makes a network explode. Draws every control at random from its whole range, often at an end, and
+ * runs 1,000 steps.
  *
- *     test_springs_bounds                 some, as part of the tests
- *     test_springs_bounds FIRST COUNT     settings FIRST to FIRST + COUNT - 1: all are different
+ *     test_springs_bounds                 a few settings, as part of the tests
+ *     test_springs_bounds FIRST COUNT     settings FIRST to FIRST + COUNT - 1; all are different
  *
- * What is asserted, at every hundredth step:
- *   - all places and speeds are finite; places are within the plane's edges, speeds within the speed limit along each axis;
- *   - speeds are within GROWTH times (√(2 E / m) + g t + w), with E the energy that motion and springs had at first, m the
- *     least mass, g the greatest acceleration by gravity, t the time, w the wind: what a network that only
- *     loses energy has, but for what a step near the bound of stability lends it for a while: with a safety of 0.95 a single
- *     oscillator's speed up to √(1.95 / 0.05) = 6.2 times, and a bounce may turn round what is lent; 29.3 is the most of a million. Not asserted where a side begins beyond
- *     a mass, for it is put back by force.
- * The thesis's step is none of the integrators here: it is kept as it was, and explodes. */
+ * Asserts at every hundredth step:
+ *   - All places and speeds are finite. Places are within the plane's edges, and speeds within the speed limit along each axis.
+ *   - Speeds are within GROWTH times (√(2 E / m) + g t + w). E is the first energy of motion and springs, m the least mass, g the
+ *     greatest acceleration by gravity, t the time, w the wind. A network that only loses energy stays within the parenthesis. A
+ *     step near the bound of stability may exceed it for a while: with a safety of 0.95 a single oscillator's speed grows up to
+ *     √(1.95 / 0.05) = 6.2 times, and a bounce may turn that speed round. The most of a million settings is 29.3. This is not
+ *     asserted where a mass begins beyond a side, because a force puts it back.
+ * The thesis's step is not tested here: it is kept as it was, and explodes. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -63,7 +64,7 @@ static void fields_fill(uint64_t *state, const struct dyn_control *fields, int f
         scene_must(dyn_control_write(&fields[i], of, any_of(state, &fields[i])));
 }
 
-/* near: sides and what each mass and spring has are moderate, so that the second bound holds. */
+/* Draws a setting. near: the sides, masses and springs are moderate, so that the second bound holds. */
 static struct dyn_network *setting(uint64_t *state, bool near)
 {
     struct dyn_network *n;
@@ -117,7 +118,7 @@ static double least_mass(const struct dyn_network *n)
     return least * dyn_network_world(n)->mass;
 }
 
-/* The greatest speed over what the second bound allows it. */
+/* Checks the bounds; returns the greatest speed divided by the second bound. */
 static double look(uint64_t setting_number, const struct dyn_network *n, double lent, double t)
 {
     const struct dyn_world *w = dyn_network_world(n);
@@ -136,8 +137,8 @@ static double look(uint64_t setting_number, const struct dyn_network *n, double 
     return most;
 }
 
-/* The length of a step: any rate of pictures; or less, so that few parts are stable: parts are what a network could explode
- * in, and all are near their bound. 0: steps of the least length have more. */
+/* Draws the length of a step: that of some frame rate, or less, so that few parts of a step suffice for stability. A network
+ * explodes, if at all, in parts, and all parts are near their bound. 0: even the shortest steps have too many parts. */
 static double step_choose(uint64_t *state, struct dyn_network *n)
 {
     const uint64_t word = sample_word(state);
@@ -150,8 +151,8 @@ static double step_choose(uint64_t *state, struct dyn_network *n)
     return dt < 1e-9 ? 0 : dt;
 }
 
-/* One setting in HARD is taken as it comes, with up to 1024 parts a step and springs that are softened; for the others
- * settings are drawn until few parts suffice, so that a million take minutes. */
+/* One setting in HARD may have up to 1024 parts in a step, and softened springs. The others are drawn again until few parts
+ * suffice, so that a million settings take minutes. */
 static struct dyn_network *setting_choose(uint64_t *state, bool near, double *dt)
 {
     struct dyn_network *n = setting(state, near);

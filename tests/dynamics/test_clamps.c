@@ -1,4 +1,4 @@
-/* test_clamps.c - masses led along keys. */
+/* test_clamps.c - clamps move masses along keys. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -46,7 +46,7 @@ static void keys_are_met_and_the_way_is_smooth(void **unused)
     }
     assert_true(dyn_clamps_at(c, 5, 1000, &x, &y));
     assert_true(x == xs[7] && y == ys[7]);
-    /* speeds on both sides of a key are the same */
+    /* the speeds before and after a key are the same */
     for (int i = 1; i < 7; i++) {
         double h = 1e-6, before, after;
         dyn_clamps_at(c, 5, times[i] - h, &before, &y);
@@ -83,7 +83,7 @@ static void network_follows_and_is_let_go(void **unused)
     dyn_network_destroy(n);
 }
 
-/* Led along a line at an even speed and let go, it flies on at that speed. */
+/* A mass that a clamp moves at constant speed keeps that speed when it is released. */
 static void mass_let_go_keeps_its_speed(void **unused)
 {
     (void)unused;
@@ -104,7 +104,7 @@ static void mass_let_go_keeps_its_speed(void **unused)
     scene_must(dyn_clamps_step(c, n, 1.0 / 256, 256 + 1));
     assert_true(dyn_mass_get(n, 0).vx == 2);
     assert_near(dyn_mass_get(n, 0).x, 4 + 2 * (256 + 1) / 256.0, 1e-9);
-    /* taken again, and let go only long after */
+    /* the mass is clamped again and released much later */
     scene_must(dyn_clamps_key(c, 0, 4, 0, 5));
     scene_must(dyn_clamps_key(c, 0, 5, 3, 5));
     scene_must(dyn_clamps_free(c, 0, 5.5));

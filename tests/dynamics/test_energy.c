@@ -1,4 +1,4 @@
-/* test_energy.c - what springs without damping keep: free, and on a floor. */
+/* test_energy.c - springs without damping keep their energy: free, and on a floor. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ static double energy_about(struct dyn_network *n)
     return sum / 240;
 }
 
-/* A letter that turns, swings and, on a floor that takes nothing, bounces; its energy before and after a minute. */
+/* A letter turns, swings, and bounces on a floor that takes no energy. Compares its energy before and after a minute. */
 static void letter_keeps_its_energy(void **unused)
 {
     (void)unused;
@@ -63,8 +63,8 @@ static void letter_keeps_its_energy(void **unused)
         }
 }
 
-/* Letters that fall from forty heights on a floor that takes nothing, for half a minute. The root of the mean square of what
- * their energies drift is 17, 6.5 and 3.4 % with one, two and three parts where a bounce only turns the speed of a part's middle round. */
+/* Letters fall from forty heights on a floor that takes no energy, for half a minute. If a bounce only reversed the speed of a
+ * part's middle, the root mean square drift of their energies would be 17, 6.5 and 3.4 % with one, two and three parts. */
 static void bounces_keep_energy(void **unused)
 {
     (void)unused;

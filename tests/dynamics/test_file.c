@@ -1,4 +1,5 @@
-/* test_file.c - networks as text: read again they go on to the same bits; bad ones are refused in one line. */
+/* test_file.c - networks as text: a network that is written and read continues with the same bits; bad text is refused in one
+ * line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +57,7 @@ static void network_read_again_goes_on_to_the_same_bits(void **unused)
     }
 }
 
-/* Every single field at values that are hard to write. */
+/* Every field, at values that are hard to write in decimal. */
 static void fields_come_back_to_the_bit(void **unused)
 {
     (void)unused;
@@ -154,7 +155,7 @@ static void bad_networks_are_refused_in_one_line(void **unused)
     }
 }
 
-/* A million springs on one mass: refused at the first that is too many. */
+/* A million springs on one mass are refused at the first one too many. */
 static void hub_of_a_million_springs_is_refused(void **unused)
 {
     (void)unused;
@@ -173,7 +174,7 @@ static void hub_of_a_million_springs_is_refused(void **unused)
     free(text);
 }
 
-/* Wherever a file is cut, it is refused: but for the newline at its end. */
+/* A file that is cut short anywhere is refused, unless only its last newline is missing. */
 static void file_cut_short_is_refused_anywhere(void **unused)
 {
     (void)unused;

@@ -1,4 +1,4 @@
-/* test_machine.c - networks as a program in C/Paris: the same as in C but for rounding. */
+/* test_machine.c - networks as a program in C/Paris give the results of C except for rounding. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +45,7 @@ static void compare(struct dyn_network *n, int steps, double least)
     dyn_network_destroy(on_machine);
 }
 
-/* With sides, friction, wind, drag, tacks. Springs that break would change how many parts a step has. */
+/* With sides, friction, wind, drag and tacks. No spring breaks, because that would change a step's number of parts. */
 static void machine_steps_as_c_does(void **unused)
 {
     (void)unused;

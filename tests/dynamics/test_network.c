@@ -120,11 +120,11 @@ static void tables_name_ranges_and_choices(void **unused)
                      (size_t)dyn_controls_count * sizeof(double)); /* none without a row */
 }
 
-/* All of a mass and of a spring, one by one and for all. */
+/* Writes and reads all fields of masses and springs, one by one and all at once. */
 static void fields_are_written_and_read(void **unused)
 {
     (void)unused;
-    /* what is behind the last member may be anything */
+    /* the padding after the last member is not compared */
     const size_t whole = offsetof(struct dyn_mass, hold) + sizeof(unsigned);
     uint64_t state = 5;
     struct dyn_network *n = scene_by_chance(&state);

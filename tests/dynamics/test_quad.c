@@ -1,4 +1,5 @@
-/* test_quad.c - the unit square onto four corners: over a million quads by chance, by a second way, back, and while corners move. */
+/* test_quad.c - maps of the unit square onto quads: a million random quads, against a second way to compute them, the inverse, and
+ * moving corners. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,7 +26,7 @@ static void quad_by_chance(uint64_t *state, double q[4][2])
             q[i][k] = scene_chance(state, -1, 1);
 }
 
-/* Strictly convex, by its angles: all turns to one side. */
+/* Whether the quad is strictly convex: it turns to the same side at all corners. */
 static bool convex(const double q[4][2])
 {
     int left = 0, right = 0;
@@ -45,7 +46,7 @@ static void convex_by_chance(uint64_t *state, double q[4][2])
     while (!convex(q));
 }
 
-/* Twice the area of the least of the triangles of three corners. */
+/* Twice the area of the smallest triangle of three corners. */
 static double least_triangle(const double q[4][2])
 {
     double least = INFINITY;
@@ -76,8 +77,8 @@ static void matrix_point(const double m[4][4], double u, double v, double *x, do
     *y = out[1] / out[3];
 }
 
-/* Points: all million within 1e-12. The matrix is a difference of areas, and loses what they lose: within 1e-12 where no triangle of
- * three corners is smaller than a thousandth, and within 1e-14 over it where one is. */
+/* Mapped points are within 1e-12 for all million quads. The matrix is a difference of areas and loses precision with them. It is
+ * within 1e-12 where the smallest triangle of three corners is at least a thousandth, else within 1e-14 divided by its area. */
 static void corners_of_a_million_quads_are_met(void **unused)
 {
     (void)unused;
@@ -113,7 +114,7 @@ static void corners_of_a_million_quads_are_met(void **unused)
         assert_true(kinds[kind] > MANY / 50);
 }
 
-/* The thesis's product: where what it divides by is not small. And both are the same map everywhere. */
+/* The thesis's product meets the corners where its divisors are not small. It is then the same map as ours at all points. */
 static void thesis_meets_the_corners_of_a_million_quads(void **unused)
 {
     (void)unused;
@@ -153,7 +154,7 @@ static void thesis_meets_the_corners_of_a_million_quads(void **unused)
     assert_true(met > MANY / 4);
 }
 
-/* A letter on its side: the thesis's has nothing to divide by, ours is exact. */
+/* For a letter that lies on its side the thesis's product divides by 0; our map is exact. */
 static void turned_square_has_a_map(void **unused)
 {
     (void)unused;
@@ -171,7 +172,7 @@ static void turned_square_has_a_map(void **unused)
     }
 }
 
-/* What no other map of a plane does: lines stay lines. And what bilinear does: sides' parts stay equal. */
+/* Only projective maps keep all lines straight. Bilinear maps keep equal parts of a side equal. */
 static void kinds_are_what_they_say(void **unused)
 {
     (void)unused;
@@ -245,7 +246,7 @@ static void jacobians_are_slopes(void **unused)
     }
 }
 
-/* A corner is pushed through the diagonal to a dent and out again: points go along without a jump. */
+/* A corner moves across the diagonal, which makes a dent, and back. All points move without a jump. */
 static void smooth_is_continuous_while_a_corner_moves(void **unused)
 {
     (void)unused;

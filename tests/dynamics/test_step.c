@@ -1,4 +1,5 @@
-/* test_step.c - what masses do: like a plain loop, like formulas, and the same to the bit whatever the instruction set. */
+/* test_step.c - the motion of masses agrees with a plain loop and with formulas, and has the same bits under every instruction
+ * set. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,7 +26,7 @@ static struct dyn_world *world_of(struct dyn_network *n, struct dyn_world *w)
 
 /* ---- a second way ---- */
 
-/* Plain loops over what can be asked of a network: no tables prepared, no vectors. */
+/* The forces by plain loops over the network's public functions, without prepared tables and vectors. */
 static void force_of(struct dyn_network *n, int i, const struct dyn_world *w, double (*f)[2])
 {
     struct dyn_spring s = dyn_spring_get(n, i);
@@ -47,19 +48,20 @@ static void force_of(struct dyn_network *n, int i, const struct dyn_world *w, do
     f[s.end[1]][1] -= pull * dy / length;
 }
 
-/* What a part gives each side of a network: its length, and how slow is at rest. */
+/* The numbers of a part of a step that each side needs: the part's length h, and the speed `slow` that counts as rest. */
 struct meeting {
     double h, slow, e, mu, limit;
 };
 
-/* Back from beyond a side at 0, the speed v against it, of which a part gave `gained`, and t along it. */
+/* Puts a mass back from beyond a side at 0. v is its velocity across the side, of which this part has given `gained`; t is its
+ * velocity along the side. */
 static void side(const struct meeting *at, double *p, double *v, double gained, double *t)
 {
     double speed = -*v, e = speed > at->slow ? at->e : 0, h = at->h;
     if (!(*p < 0 && speed > 0))
         return;
     double gain = e > 0 && fabs(gained) <= speed / 2 ? -gained : 0;
-    double left = fmin(-*p / (h * speed), 1); /* of the part, when it meets the side */
+    double left = fmin(-*p / (h * speed), 1); /* share of the part after it meets the side */
     left = fmin(-*p / (h * (speed + gain / 2 * (1 - left))), 1);
     double met = speed + gain * (0.5 - left), leaves = e * met;
     *p = fmax(h * left * (leaves - gain / 2 * left), 0);
@@ -273,7 +275,7 @@ static void mass_falls_bounces_and_lies(void **unused)
     struct dyn_event event;
     double fall = sqrt(2 / 9.81);
     scene_must(dyn_network_step(n, 1e-4, 60000));
-    /* each bounce half as fast, until it is not heard any more */
+    /* each bounce is half as fast, until it is too slow to be heard */
     double speed = 9.81 * fall, time = fall;
     int heard = 0;
     for (; dyn_events_take(n, &event, 1); heard++) {
@@ -285,7 +287,7 @@ static void mass_falls_bounces_and_lies(void **unused)
         assert_true(dyn_clank_velocity(event.strength) == (int)(20 * event.strength));
         time += 2 * speed / 9.81;
     }
-    assert_int_equal(heard, 4); /* 4.43 / 2, 4, 8 and 16 are more than 0.2 */
+    assert_int_equal(heard, 4); /* 4.43 / 2, / 4, / 8 and / 16 exceed 0.2 */
     struct dyn_mass rest = dyn_mass_get(n, 0);
     assert_true(rest.y == 0 && rest.vy == 0);
     dyn_network_destroy(n);
@@ -325,7 +327,7 @@ static void drag_never_overshoots(void **unused)
     }
 }
 
-/* Two masses, one fixed: the time of a swing is 2 pi sqrt(m / k), and damping takes what it should. */
+/* Two masses, one fixed: the period is 2 pi sqrt(m / k), and the damping is that of the formula. */
 static void spring_swings_as_its_formula_says(void **unused)
 {
     (void)unused;
@@ -359,7 +361,7 @@ static void spring_swings_as_its_formula_says(void **unused)
     }
 }
 
-/* Without sides, gravity and drag the centre goes straight on, and what turns goes on turning. */
+/* Without sides, gravity and drag the momentum and the angular momentum stay the same. */
 static void letter_keeps_its_momentum(void **unused)
 {
     (void)unused;
@@ -388,7 +390,7 @@ static void letter_keeps_its_momentum(void **unused)
 
 /* ---- stability ---- */
 
-/* However stiff: neither letters with a thousand times the springs, nor a mass of a gram between two of a ton. */
+/* Neither very stiff letters nor a mass of a gram between two of a ton explode. */
 static void stiff_springs_divide_the_step(void **unused)
 {
     (void)unused;
@@ -402,7 +404,7 @@ static void stiff_springs_divide_the_step(void **unused)
             const struct dyn_state *s = &dyn_network_states(n)[i];
             assert_true(fabs(s->x) < 10 && s->y > -0.1 && s->y < 10);
         }
-        /* the least stable mass: three springs of 2 k on a gram; diagonals damp as well */
+        /* the least stable mass has a gram and three springs of 2 k; diagonals damp as well */
         double c = 6 * sqrt(k) / 10 / 0.001, kk = 6 * k / 0.001;
         assert_near(plan.stable_s * (c + sqrt(c * c + 4 * kk)), 4, 1e-6);
         bool many = 1.0 / 60 / (0.5 * plan.stable_s) > DYN_PARTS_MAX;

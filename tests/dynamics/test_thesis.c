@@ -1,5 +1,5 @@
-/* test_thesis.c - the thesis's integrator: the same bits as the thesis's listing over 10,000 steps, of networks by chance in
- * which masses are tacked, held and let go. */
+/* test_thesis.c - the thesis's integrator gives the bits of the thesis's listing over 10,000 steps, for random networks whose
+ * masses are tacked, held and released. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,7 +87,7 @@ static void scene_make(struct scene *s, uint64_t *state)
     network_make(s);
 }
 
-/* A hand that takes hold of masses, moves them, tacks them and lets them go. */
+/* Takes, moves, tacks and releases a random mass. */
 static void hand(struct scene *s, uint64_t *state)
 {
     int mass = (int)(sample_word(state) % MASSES), held = s->params.selected;
@@ -176,7 +176,7 @@ static void agrees(thesis_step *theirs)
             same(&s, step);
             heard += clanks_same(&s);
         }
-        assert_true(isfinite(s.masses[0].Wx)); /* a scene that explodes shows nothing */
+        assert_true(isfinite(s.masses[0].Wx)); /* an exploded scene would prove nothing */
         dyn_network_destroy(s.network);
     }
     assert_true(heard > 100);

@@ -63,7 +63,7 @@ static struct dyn_word *word_make(struct dyn_network **n, const struct dyn_word_
     return word;
 }
 
-/* Where each letter's origin is, from its box. */
+/* The x of a letter's origin, computed from its box. */
 static double origin_x(const struct dyn_word *word, const struct dyn_network *n, int i)
 {
     const struct dyn_letter *l = dyn_word_letter(word, i);
@@ -162,7 +162,7 @@ static void paragraph_is_boxes_links_and_what_lines_hang_from(void **state)
     dyn_network_destroy(n);
 }
 
-/* On a circle all stand upright on it, and springs are at rest there. */
+/* On a circle all letters stand upright on its line, and the springs are at rest. */
 static void word_goes_round_a_circle(void **state)
 {
     const struct fixture *f = *state;
@@ -371,7 +371,8 @@ static double momentum(const struct dyn_network *n, bool y)
     return sum;
 }
 
-/* Two words thrown at each other: without collisions they go through, with them they bounce, and momentum is kept. */
+/* Two words fly towards each other. Without collisions they pass through each other; with collisions they bounce and keep their
+ * momentum. */
 static void words_thrown_at_each_other_bounce(void **state)
 {
     const struct fixture *f = *state;
@@ -417,7 +418,7 @@ static void words_thrown_at_each_other_bounce(void **state)
     }
 }
 
-/* How much boxes of letters overlap: samples of each that are well within another. */
+/* The overlap of letters' boxes: the share of their sample points that lie well within another box. */
 static double overlap(const struct dyn_word *word, const struct dyn_network *n)
 {
     int in = 0, all = 0;
@@ -440,7 +441,7 @@ static double overlap(const struct dyn_word *word, const struct dyn_network *n)
     return (double)in / all;
 }
 
-/* A word that has come to pieces, poured into a cup: letters lie on each other, not in each other. */
+/* A word's separate letters fall into a cup. They come to rest on each other, not in each other. */
 static void letters_poured_into_a_cup_lie_on_each_other(void **state)
 {
     const struct fixture *f = *state;

@@ -1,5 +1,5 @@
-/* thesis_oracle.h - the thesis's step with its own names of things, as test_thesis.c compares it: written down again from its
- * operations (thesis_oracle.c), or compiled from the thesis's text where that is present (listing.py). */
+/* thesis_oracle.h - the thesis's step, with the thesis's names, for test_thesis.c. It is written again operation by operation
+ * (thesis_oracle.c), and compiled from the thesis's text where that is present (listing.py). */
 #ifndef LUTETIA_TESTS_THESIS_ORACLE_H
 #define LUTETIA_TESTS_THESIS_ORACLE_H
 
@@ -18,7 +18,7 @@ struct thesis_params {
     double gravity, damping, floor, dTime;
 };
 
-/* One step; angles and lengths of the springs are set. */
+/* Makes one step and sets the springs' angles and lengths. */
 typedef void thesis_step(const struct thesis_params *params, struct thesis_mass *masses,
                          struct thesis_spring *springs, void (*clank)(int velocity));
 

@@ -1,4 +1,4 @@
-/* child.h - runs a command as a user would, and keeps what it said.
+/* child.h - runs a command as a user would, and keeps its outputs.
  *
  *     struct child child = {.arguments = {lutetia, "paint", "x", "-o", "/proc/x.png"}};
  *     child_run(&child);
@@ -14,8 +14,8 @@ enum { CHILD_ARGUMENTS_MAX = 48, CHILD_TEXT_MAX = 1 << 16 };
 
 struct child {
     const char *arguments[CHILD_ARGUMENTS_MAX]; /* NULL ends them */
-    const char *variables[4]; /* NAME=value, added to the environment; NULL ends them */
-    long file_bytes_max;      /* 0: no limit; a disk that is soon full */
+    const char *variables[4]; /* NAME=value, added to the environment; NULL ends the list */
+    long file_bytes_max;      /* 0: no limit; stands for a full disk */
     int interrupt_after_ms;   /* 0: never */
     bool output_full;         /* the standard output is /dev/full */
 

@@ -1,12 +1,12 @@
 /* explained.c - a program whose kernels and bytes are known by hand, for test_explain.py.
  *
- *     explained N          N times: water += flow, then a look at one processor
- *     explained forever    the same until somebody ends it; says "running" after the first look
+ *     explained N          N times: water += flow, then a read of one processor
+ *     explained forever    the same until it is killed; prints "running" after the first read
  *     explained nothing    makes no machine
  *     explained twice      a step on one machine, and a step on another
  *
- * A step is one kernel that reads 8 bytes and writes 4 for each of 32 x 512 processors, with one operation; the first
- * look compiles it. C of 1990, for `lutetia cc`. */
+ * A step is one kernel that reads 8 bytes and writes 4 for each of 32 x 512 processors, with one operation. The first read
+ * compiles it. Written in C of 1990, for `lutetia cc`. */
 #include <cm/paris.h>
 
 #include <stdio.h>

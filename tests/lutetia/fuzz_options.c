@@ -1,4 +1,4 @@
-/* fuzz_options.c - random command lines: each is taken, or refused in one line, and what is taken is in range. */
+/* fuzz_options.c - random command lines. Each is accepted, with values in range, or refused in one line. */
 #include <options.h>
 
 #include "lutetia.h"
@@ -21,7 +21,7 @@ enum { LINES = 40000, ARGUMENTS_MAX = 9 };
 static int complaints;
 static char complaint[2048];
 
-/* The command's own prints; here it is counted. */
+/* Replaces the command's function, which prints: counts the message and keeps it. */
 int fail_usage(const char *verb, const char *format, ...)
 {
     va_list arguments;

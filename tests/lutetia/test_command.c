@@ -1,4 +1,4 @@
-/* test_command.c - the command as a user meets it: what it does, and one clear line for what it cannot do. */
+/* test_command.c - the command as a user runs it: its results, and one clear line for each error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,11 +11,10 @@
 
 static const char *lutetia;
 
-#define OUT "@out@"   /* a file in the scratch folder that must not be there afterwards */
-#define JUNK "@junk@" /* a file there that holds no picture and no font */
+#define OUT "@out@"   /* a file in the scratch folder that must not exist afterwards */
+#define JUNK "@junk@" /* a file there that is neither picture nor font */
 
-/* A wrong command line: what is wrong with it, its words, the exit status, and two texts that
- * the one line must contain. */
+/* Wrong command lines: the mistake, the arguments, the exit status, and two texts that the one line must contain. */
 static const struct {
     const char *name;
     const char *arguments[10];
@@ -272,7 +271,7 @@ static int lines_in(const char *text)
     return lines;
 }
 
-/* One clear line, the right exit status, and no file under the final name or beside it. */
+/* A wrong command prints one line, exits with the right status, and leaves no file under the final name or beside it. */
 static void wrong_is_said(void **state)
 {
     size_t i = (size_t)(uintptr_t)*state;
@@ -296,7 +295,7 @@ static void wrong_is_said(void **state)
     unlink(scratch_path("junk"));
 }
 
-/* Each case begins with an empty folder, whatever the one before left. */
+/* Empties the scratch folder before each case. */
 static int begin_clean(void **state)
 {
     (void)state;

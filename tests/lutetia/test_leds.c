@@ -1,4 +1,4 @@
-/* test_leds.c - `lutetia leds`: programs, recordings, patterns, and what is wrong with them. */
+/* test_leds.c - `lutetia leds`: programs, recordings, patterns, and its errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@ static const char *lutetia;
 
 enum { FRAMES = 5 };
 
-/* A recording of FRAMES; times are tenths of a second. */
+/* Writes a recording of FRAMES, a tenth of a second apart. */
 static const char *recording(const char *name, size_t cut)
 {
     static const char line[] = "lutetia leds 1 4096\n";

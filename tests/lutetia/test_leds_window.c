@@ -1,5 +1,5 @@
-/* test_leds_window.c - `lutetia leds` with a window: what is on the screen is what the PNG pictures show, and what
- * closes the window, the program, or both. */
+/* test_leds_window.c - `lutetia leds` with a window: the screen shows the pictures of the PNG files. Tests also what closes the
+ * window, the program, or both. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@
 
 static const char *lutetia, *latcher;
 
-/* ---- commands that run while one looks ---- */
+/* ---- commands that run beside the test ---- */
 
 struct command {
     const char *arguments[16]; /* NULL ends them */
@@ -56,8 +56,8 @@ static void command_start(struct command *command)
     command->said_from = ends[0];
 }
 
-/* Reads what it says until it and all it started have nothing more to say, and waits for it. Its exit status, or
- * 1000 and the signal that ended it. */
+/* Reads the outputs of the command and of all processes that it started to their ends, and waits for the command. Returns its
+ * exit status, or 1000 plus the signal that ended it. */
 static int command_end(struct command *command)
 {
     size_t count = 0;
@@ -114,7 +114,7 @@ static struct display_image png_take(const char *path)
     return image;
 }
 
-/* What `lutetia leds -o` makes of that source, whose last word is NULL. */
+/* The picture that `lutetia leds -o` makes of this source; the last argument is NULL. */
 static struct display_image picture_of(const char *size, const char *view, const char *source,
                                        const char *first, const char *second)
 {
@@ -132,7 +132,7 @@ static void shows(Window window, const struct display_image *image)
         fail_msg("it is not on the screen");
 }
 
-/* A recording of some frames, so many microseconds apart. */
+/* Writes a recording whose frames are apart_us microseconds apart. */
 static const char *recording(const char *name, int frames, uint32_t apart_us)
 {
     const char *path = scratch_path(name);
@@ -195,7 +195,7 @@ static void no_display_is_said(void **state)
     one_line(&program, "CM_latch_leds: LUTETIA_LEDS=window: no display");
 }
 
-/* Nobody asked for a window: the picture is written. */
+/* Without a display, and without --window, the command writes a picture. */
 static void no_display_gives_pictures(void **state)
 {
     (void)state;
@@ -239,8 +239,8 @@ static void programs_are_shown_and_the_last_picture_stays(void **state)
     display_image_destroy(&last);
 }
 
-/* Frames wait for their time on the window's clock: the second is hours away and comes when a full stop asks for what is
- * next. With --close that is all, and a picture is still written if asked for. */
+/* Frames wait for their time on the window's clock. The second frame is hours away; the key `.` shows it at once. With --close the
+ * command then ends, and -o still writes the picture. */
 static void recordings_wait_for_the_clock(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void recordings_wait_for_the_clock(void **state)
     assert_memory_equal(written.pixels, second.pixels, 3 * 120 * 100);
     display_image_destroy(&written);
 
-    /* By itself the second comes when its time has, and stays on the screen. */
+    /* Without a key the second frame comes at its time and stays on the screen. */
     command.arguments[2] = "--window";
     command.arguments[3] = "--fps";
     command.arguments[4] = "1000";
@@ -343,8 +343,8 @@ static void closing_stops_the_program(void **state)
     display_image_destroy(&last);
 }
 
-/* LUTETIA_LEDS=window: the program ends and its output with it; the window stays. It is as large as the small screen
- * lets it be: nine tenths of 260 pixels. */
+/* LUTETIA_LEDS=window: the program ends and closes its output, but the window stays. On the small screen its side is nine tenths
+ * of 260 pixels. */
 static void programs_show_themselves(void **state)
 {
     (void)state;
@@ -362,7 +362,7 @@ static void programs_show_themselves(void **state)
     screen_key(window, XK_Escape);
     assert_true(screen_window_gone(window, 20));
 
-    /* Closed while the program runs: that is interrupted. */
+    /* Closing the window interrupts the running program. */
     command = (struct command){.arguments = {latcher, path, "wait"},
                                .variables = {"LUTETIA_LEDS=window"}};
     command_start(&command);
@@ -373,7 +373,7 @@ static void programs_show_themselves(void **state)
     assert_true(screen_window_gone(window, 20));
     pid_in(path);
 
-    /* A display that is none: the viewer says why, and the program that there is no window. */
+    /* Without a display the viewer prints the reason, and the program that there is no window. */
     command = (struct command){.arguments = {latcher, path, "end"},
                                .variables = {"LUTETIA_LEDS=window", "DISPLAY=:4095"}};
     command_start(&command);
@@ -384,7 +384,7 @@ static void programs_show_themselves(void **state)
     display_image_destroy(&last);
 }
 
-/* Twice as many pixels where the screen has twice as many an inch; the picture is made as large. */
+/* On a screen with twice the resolution the window has twice as many pixels, and the picture is drawn in that size. */
 static void fine_screens_have_larger_windows(void **state)
 {
     (void)state;
@@ -417,7 +417,7 @@ static void programs_without_lights_leave_no_window(void **state)
     one_line(&command, "no-such-program: cannot run");
 }
 
-/* Files are written into the scratch folder, and `lutetia` is found where it was built. */
+/* Sets the environment so that files go into the scratch folder and the built `lutetia` is on the PATH. */
 static void surroundings_make(void)
 {
     char path[8192];

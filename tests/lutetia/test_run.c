@@ -1,5 +1,5 @@
-/* test_run.c - `lutetia run` as a user meets it: what a script makes, and one clear line for what it may not or cannot do.
- * (security.md 1, 3, 4) */
+/* test_run.c - `lutetia run` as a user runs it: the files that scripts make, and one clear line for what they may not or cannot
+ * do. (security.md 1, 3, 4) */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
 static const char *lutetia;
 
-/* What one line must say; the script's line number is in it where it is not 0. */
+/* Wrong scripts and the text of their one line; it contains the script's line number where that is not 0. */
 static const struct {
     const char *script, *says;
     int line;
@@ -182,7 +182,7 @@ static void a_script_makes_its_pictures(void **state)
     assert_int_equal(stat(first, &status), 0);
     assert_int_equal(stat(second, &status), 0);
 
-    /* the same bits again, and in each folder of a sweep */
+    /* a second run gives the same bits, and so does each folder of a sweep */
     char said[64], swept[640], command[1600];
     snprintf(said, sizeof said, "%.60s", child.output);
     child_script(&child, path,

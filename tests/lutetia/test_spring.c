@@ -1,4 +1,4 @@
-/* test_spring.c - `lutetia spring` as a user runs it: pictures by each way, what is said where something is wrong. */
+/* test_spring.c - `lutetia spring` as a user runs it: pictures in each way of drawing, and its messages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,7 +51,7 @@ static struct display_image picture(const char *path)
     return image;
 }
 
-/* Without a display: exactly, by EGL and by OSMesa the same moment. */
+/* Without a display the exact picture and those by EGL and OSMesa show the same moment. */
 static void stills_agree(void **state)
 {
     (void)state;
@@ -89,7 +89,8 @@ static double moment_weight(const char *set, const char *turn)
     return weight;
 }
 
-/* A style's choices are made before the word is, controls of the world and the stage after; a turned word weighs the same. */
+/* --set reaches the style, which is used to make the word, and the controls of world and stage. A turned word has the same amount
+ * of ink. */
 static void sets_reach_style_world_and_stage(void **state)
 {
     (void)state;
@@ -106,7 +107,7 @@ static void sets_reach_style_world_and_stage(void **state)
     assert_null(strstr(child.output, "\nbox "));
 }
 
-/* A script of clamps leads a word's mass; without it the mass is elsewhere. */
+/* A script of clamps moves a word's mass; without it the mass is elsewhere. */
 static void scripts_lead_masses(void **state)
 {
     (void)state;
@@ -126,7 +127,7 @@ static void scripts_lead_masses(void **state)
         fail_msg("%s", text);
 }
 
-/* A session is done again while a film is made: a mass is led away and tacked, gravity is changed. Saved, it is the same. */
+/* A session that moves and tacks a mass and changes gravity is replayed into a film. Saved again it is the same text. */
 static void sessions_are_replayed(void **state)
 {
     (void)state;
@@ -157,7 +158,7 @@ static void sessions_are_replayed(void **state)
     assert_string_equal(text, played);
 }
 
-/* How many pixels of a part of a picture are blue: ink on paper. */
+/* Counts the blue pixels, ink on paper, in rows y0 to y1. */
 static int blue_count(const struct display_image *image, int y0, int y1)
 {
     int count = 0;
@@ -169,7 +170,7 @@ static int blue_count(const struct display_image *image, int y0, int y1)
     return count;
 }
 
-/* A word that has fallen has left tracks where it was, and lies there itself in black; of another pigment they have another colour. */
+/* A word that has fallen lies on the sheet in black and has left wet tracks. Another pigment gives them another colour. */
 static void letters_leave_wet_tracks(void **state)
 {
     (void)state;
@@ -185,8 +186,7 @@ static void letters_leave_wet_tracks(void **state)
     for (int i = 0; i < 3 * 128 * 128; i += 3)
         black += images[0].pixels[i] + images[0].pixels[i + 1] + images[0].pixels[i + 2] < 60;
     assert_true(black > 200);
-    assert_true(blue_count(&images[0], 0, 50) >
-                100); /* it began there, and is not there any more */
+    assert_true(blue_count(&images[0], 0, 50) > 100); /* the tracks' beginning */
     assert_int_equal(blue_count(&images[1], 0, 50), 0);
     for (int i = 0; i < 2; i++)
         display_image_destroy(&images[i]);
@@ -196,7 +196,7 @@ static void letters_leave_wet_tracks(void **state)
     one_line(&wrong, "--wet goes with --still");
 }
 
-/* A word without weight stays: its prints, all in the same place, saturate the paper. */
+/* Without gravity a word prints again and again in the same place; that saturates the paper and does not flood it. */
 static void still_letters_do_not_flood(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void lacking_glyphs_are_named(void **state)
     one_line(&child, "no font has a glyph for U+F0000");
 }
 
-/* A folder, a film, a strip and a still of one run: the last picture is the still, and of the strip. */
+/* One run gives a folder, a film, a strip and a still. The still is the last picture of all of them. */
 static void films_stills_and_strips_are_of_one_run(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static void films_stills_and_strips_are_of_one_run(void **state)
     display_image_destroy(&all);
 }
 
-/* What was saved goes on where it was: the bits of one long run. */
+/* A saved run that is continued gives the bits of one long run. */
 static void runs_are_saved_and_gone_on_with(void **state)
 {
     (void)state;
@@ -353,7 +353,7 @@ static void what_is_wrong_is_said_in_a_line(void **state)
     }
 }
 
-/* Where EGL finds no driver that is said; OSMesa needs none. */
+/* Where EGL finds no driver there is a message, and OSMesa draws without one. */
 static void without_egl_osmesa_draws(void **state)
 {
     (void)state;
@@ -372,7 +372,7 @@ static void without_egl_osmesa_draws(void **state)
     }
 }
 
-/* Ctrl-C: the film is whole until then, and nothing else is left. */
+/* After Ctrl-C there is a whole film up to that moment, and no other file. */
 static void films_are_interrupted(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_spring_pictures.c - the pictures in docs/stage.md and the README, made again by the commands that stand there: by
- * similarity, for fonts differ a little from version to version. */
+/* test_spring_pictures.c - makes the pictures in docs/stage.md and the README again by the commands given there. Compares them by
+ * similarity, because fonts differ a little between versions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
 static const char *lutetia, *source;
 
-/* A picture is found by its name in the document; the command is the one before it whose --still is that name. */
+/* A picture's name stands in the document; its command is the last one before that writes it by --still. */
 static const struct {
     const char *document, *still, *image;
 } pictures[] = {
@@ -45,7 +45,7 @@ static char *text_read(const char *name)
     return text;
 }
 
-/* The last `lutetia spring` before "--still NAME" in the document, up to its line's end, lines joined at backslashes. */
+/* The last `lutetia spring` command before "--still NAME" in the document, to the end of its line. Joins lines at backslashes. */
 static char *command_find(const char *document, const char *still)
 {
     char wanted[100], *text = text_read(document), *begin = NULL;
@@ -66,7 +66,7 @@ static char *command_find(const char *document, const char *still)
     return begin;
 }
 
-/* Words between blanks, or within double quotes. */
+/* Splits a command into words at blanks, outside double quotes. */
 static int words_split(char *text, const char **words, int most)
 {
     int count = 0;

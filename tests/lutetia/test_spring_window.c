@@ -1,4 +1,4 @@
-/* test_spring_window.c - `lutetia spring` in a window on an Xvfb, a hand at it: what it saves is what the hand did. */
+/* test_spring_window.c - `lutetia spring` in a window on an Xvfb: it saves what the pointer did. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -59,7 +59,7 @@ static void file_wait(const char *path)
             fail_msg("there is no %s", path);
 }
 
-/* The window shows so much of the world that an em is 60 pixels: 10 ems by 6.25, the floor half an em above its edge. */
+/* The window shows 10 ems by 6.25 of the world, with an em of 60 pixels and the floor half an em above the lower edge. */
 static const char *const scene[] = {"--size", "600x375", "--view", "-2,-0.5,8,5.75", NULL};
 
 static void at(Window window, double x, double y)
@@ -67,7 +67,7 @@ static void at(Window window, double x, double y)
     xtest_move(window, (int)(60 * (x + 2)), (int)(375 - 60 * (y + 0.5)));
 }
 
-/* The window, when the light theme's paper is seen in it. */
+/* Waits for the window to show the light theme's paper. */
 static Window window_of(void)
 {
     Window window = screen_window("springs", 20);
@@ -86,7 +86,7 @@ static Window window_of(void)
     return window;
 }
 
-/* The first letter's upper left mass is led up and tacked; the script of it and the masses are saved. */
+/* The pointer moves the first letter's upper left mass up and tacks it; the command saves this as a script, and the masses. */
 static void hands_are_saved_as_scripts(void **state)
 {
     (void)state;
@@ -125,7 +125,7 @@ static void hands_are_saved_as_scripts(void **state)
     for (int i = 0; i < dyn_masses_count(network); i++)
         if (dyn_mass_get(network, i).hold & DYN_STUCK)
             stuck = i;
-    assert_int_equal(stuck, 3); /* lower left, lower right, upper right, upper left */
+    assert_int_equal(stuck, 3); /* order: lower left, lower right, upper right, upper left */
     struct dyn_mass mass = dyn_mass_get(network, stuck);
     assert_true(mass.x > 0.98 && mass.x < 1.02 && mass.y > top + 1.97 && mass.y < top + 2.03);
     double x, y;
@@ -136,7 +136,7 @@ static void hands_are_saved_as_scripts(void **state)
     dyn_network_destroy(network);
 }
 
-/* Where a screen has twice as many pixels an inch the window has twice as many, and masses are as large as they look. */
+/* On a screen with twice the resolution the window has twice as many pixels, and masses have the same size in inches. */
 static void fine_screens_have_larger_windows(void **state)
 {
     (void)state;
@@ -151,8 +151,8 @@ static void fine_screens_have_larger_windows(void **state)
         screen_read(window, &image);
         assert_int_equal(image.width_px, fine ? 600 : 300);
         assert_int_equal(image.height_px, fine ? 374 : 187);
-        /* The upper left mass, at (0.098, 2.729): up and to the left of its middle, by more than its radius on a usual screen and by
-         * less on a fine one. */
+        /* A pixel up and left of the upper left mass's middle (0.098, 2.729). It is outside the mass on a usual screen,
+         * and inside on a fine one. */
         int em = fine ? 60 : 30, x = (int)(em * 2.098) - 3;
         int y = image.height_px - (int)(em * 3.229) - 3;
         int seen = image.pixels[3 * (y * image.width_px + x)];

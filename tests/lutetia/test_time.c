@@ -1,5 +1,5 @@
-/* test_time.c - time as scripts and the command edit it: the same bits whatever way leads there; films, sweeps, and what goes wrong
- * with them. */
+/* test_time.c - scripts and the command edit time: a moment has the same bits however one gets there. Tests also films, sweeps, and
+ * their errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,7 @@ static void script_write(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Up to eight more arguments, ended by NULL. */
+/* Runs a script with up to eight more arguments, ended by NULL. */
 static void run(const char *script, const char *const *more, int status)
 {
     int interrupt = child.interrupt_after_ms;
@@ -119,8 +119,8 @@ static void scripts_go_back_and_forth(void **state)
     assert_true(same("back/same.png", "back/same2.png"));
 }
 
-/* Saved when version 1 was the usual one: scripts that name no version go on with it, and
- * those that name another begin anew. */
+/* A sheet that was saved when version 1 was the default: scripts that name no version continue it, and those that name another
+ * version begin a new sheet. */
 static void sheets_of_version_1_go_on(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void saved_runs_go_on(void **state)
     one_line("/proc/x.h5: cannot write");
 }
 
-/* Bytes of the file; the caller frees. */
+/* Reads a file's bytes; the caller frees them. */
 static char *read_all(const char *name, size_t *count)
 {
     FILE *file = fopen(in_scratch(name), "rb");
@@ -196,7 +196,7 @@ static char *read_all(const char *name, size_t *count)
     return bytes;
 }
 
-/* The film of a run, in two parts, one for each half of it; it goes back and forth before it is stopped and after. */
+/* A run that is stopped and continued makes its film in two parts. It uses undo and redo in both halves. */
 static void films_go_on(void **state)
 {
     (void)state;

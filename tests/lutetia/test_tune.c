@@ -1,4 +1,4 @@
-/* test_tune.c - `lutetia tune`: what it measures gives the bits of plain C whatever the knobs are; the command. */
+/* test_tune.c - `lutetia tune`: the measured programs give the bits of plain C with all settings; the command's messages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,7 +87,7 @@ static void every_knob_gives_the_same_bits(void **state)
     }
 }
 
-/* Whatever the device: no cost is absurd, and the machine is as it was. */
+/* On any device the measured costs are plausible, and measuring leaves the machine as it was. */
 static void costs_are_measured(void **state)
 {
     struct machine_config config = machine_config_default();
@@ -134,7 +134,7 @@ static void wrong_lines_are_said(void **state)
     fails_with(&nowhere, 1, "nonsense");
 }
 
-/* Ctrl-C: what was kept stays, and nothing is left beside it. */
+/* After Ctrl-C no measurement is kept. */
 static void an_interrupted_one_keeps_nothing(void **state)
 {
     char folder[] = "/tmp/lutetia-tune-XXXXXX", cache[64], command[128];

@@ -1,4 +1,4 @@
-/* test_type.c - `lutetia type` and `lutetia font`: pictures, and one clear line about what is wrong. */
+/* test_type.c - `lutetia type` and `lutetia font`: pictures, and one clear line for each error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
 static const char *lutetia;
 
-/* What it says is one line where it fails or reports something, none otherwise. */
+/* Runs the command, which must print one line where it fails or reports something, and none otherwise. */
 static void run(struct child *child, int status, const char *says)
 {
     child->arguments[0] = lutetia;
@@ -31,7 +31,7 @@ static void run(struct child *child, int status, const char *says)
         fail_msg("exit %d for %d, and it said: %s", child->status, status, child->errors);
 }
 
-/* The number that follows these words, which stand in the text once. */
+/* The number after these words, which occur once in the text. */
 static double number_after(const char *text, const char *words)
 {
     const char *at = strstr(text, words);
@@ -140,7 +140,7 @@ static void fonts_and_filters_are_shown(void **state)
     run(&levels, 0, "");
     assert_non_null(strstr(levels.output, "rectangles: "));
     assert_true(ink_of(path, &width, &height) > 5000);
-    /* The master out, and in again: the same; filters from files. */
+    /* A master that is written and read again gives the same picture; filters are read from files. */
     const char *master = scratch_path("master.png"), *words = scratch_path("filter.txt");
     struct child out = {.arguments = {"", "font", "DejaVuSans", "--glyph", "B", "--em", "300",
                                       "--master-out", master, "-o", path}};

@@ -1,4 +1,4 @@
-/* test_voice.c - `lutetia voice`: pictures and films of a voice, and one clear line about what is wrong. */
+/* test_voice.c - `lutetia voice`: pictures and films of a voice, and one clear line for each error. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -69,14 +69,14 @@ static long bytes_of(const char *path)
     return stat(path, &status) == 0 ? (long)status.st_size : -1;
 }
 
-/* Without ffmpeg the film is silent; its sound is a file beside it that is as long as the film. */
+/* Without ffmpeg the film is silent, and a file beside it holds its sound, which is as long as the film. */
 static void film_and_its_sound(void **state)
 {
     (void)state;
     enum { RATE = 44100, SECONDS_10 = 42, FPS = 10, FRAMES = SECONDS_10 + 1 };
     const char *film = scratch_path("film.y4m"), *sound = scratch_path("film.wav"),
                *again = scratch_path("again.png");
-    /* nothing on the PATH: a film by us, whatever is installed */
+    /* with nothing on the PATH the program writes the film itself */
     struct child child = {.arguments = {"", "", "--cry", "Aagh", "--video", film, "--fps", "10",
                                         "--picture", "64x36"},
                           .variables = {"PATH=/nowhere"}};
@@ -84,7 +84,7 @@ static void film_and_its_sound(void **state)
     assert_int_equal(bytes_of(sound), 44 + 2 * RATE * SECONDS_10 / 10);
     long frame = 6 + 3 * 64 * 36, bytes = bytes_of(film);
     assert_true(bytes > FRAMES * frame && bytes < FRAMES * frame + 100);
-    /* the sound that was written is one that can be read, and is the same cry */
+    /* the written sound can be read again and shows the same cry */
     struct child second = {
         .arguments = {"", "", sound, "Aagh", "--still", again, "--picture", "320x180"}};
     run(&second, reads ? 0 : 1, reads ? "" : "this build reads no sounds");

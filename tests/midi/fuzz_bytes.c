@@ -1,5 +1,5 @@
-/* fuzz_bytes.c - any bytes, cut anywhere: the parser's messages are the oracle's, encoded they are read back as they were, and
- * any text is a chain of filters or is refused. The first bytes say where to cut. With libFuzzer it is the target. */
+/* fuzz_bytes.c - parses any bytes in pieces. The messages are the oracle's, and encoding and parsing them again gives the same
+ * messages. Any text is a chain of filters or is refused. The first bytes choose the pieces. With libFuzzer it is the target. */
 #include "oracle.h"
 
 #include <midi_encoder.h>
@@ -105,7 +105,7 @@ int main(void)
         size_t count = sample_word(&seed) % sizeof bytes;
         oracle_bytes(&seed, bytes, count);
         fuzz_one(bytes, count);
-        /* A chain that has a byte or two wrong. */
+        /* A chain with one or two wrong bytes. */
         const char *chain = chains[sample_word(&seed) % 5];
         memcpy(bytes, chain, strlen(chain) + 1);
         for (int k = 0; k < 2; k++)

@@ -1,5 +1,5 @@
-/* fuzz_wire.c - frames by chance, some of them right: what a server makes of a client's, and a client of a server's. Neither falls; a
- * client that behaves is served all the while. With libFuzzer it is the target: the bytes are those after the greeting. */
+/* fuzz_wire.c - sends random frames, some of them correct, to a server as a client would, and to a client as a server would. Both
+ * survive, and the server goes on serving a correct client. With libFuzzer it is the target: its bytes follow the greeting. */
 #include <midi_client.h>
 #include <midi_server.h>
 #include <midi_time.h>
@@ -66,11 +66,11 @@ static void to_server(const uint8_t *bytes, size_t count)
     shutdown(file, SHUT_WR);
     struct pollfd p = {file, POLLIN, 0};
     while (poll(&p, 1, 2000) > 0 && recv(file, back, sizeof back, 0) > 0)
-        ; /* until the server has taken all, and closes */
+        ; /* until the server has read all and closes */
     close(file);
 }
 
-/* Whether a client that behaves still hears what it sends. */
+/* Whether a correct client still receives what it sends. */
 static void good_is_served(uint8_t note)
 {
     struct midi_message m = midi_message_make(0, 0x9f, note & 0x7f, 99);
@@ -125,7 +125,7 @@ static void to_client(const uint8_t *bytes, size_t count)
     const struct midi_client_def def = {.name = "fuzz", .address = false_path};
     struct midi_client *client;
     struct midi_client_event e;
-    /* What comes with the first reply may be a refusal. */
+    /* The first reply may be a refusal. */
     const bool open = midi_client_open(&def, &client) == MIDI_OK;
     must(open || (!client && midi_error()[0]));
     while (open && midi_client_next(client, 5000, &e) == MIDI_OK) {
@@ -172,7 +172,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count)
 }
 #else
 
-/* Frames whose heads are mostly right, with payloads that may be. */
+/* Makes frames whose heads are mostly correct, with random payloads. */
 static size_t frames_by_chance(uint64_t *seed, uint8_t *bytes, size_t room)
 {
     static const char *const words[] = {

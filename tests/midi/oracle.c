@@ -24,7 +24,7 @@ static void list_add(struct list *l, size_t place, const uint8_t *bytes, size_t 
     memcpy(p->message.bytes, bytes, count);
 }
 
-/* How many data bytes belong to a status, as the specification's table has it; -1: no such message. */
+/* The number of a status's data bytes, by the specification's table; -1: no such message. */
 static int data_of(uint8_t status)
 {
     if (status < 0xf0)
@@ -32,7 +32,7 @@ static int data_of(uint8_t status)
     return status == 0xf1 || status == 0xf3 ? 1 : status == 0xf2 ? 2 : status == 0xf6 ? 0 : -1;
 }
 
-/* A system exclusive from its f0 up to `end`, where another status stands; its last byte's place is given. */
+/* Adds the pieces of a system exclusive, from its f0 to the byte before the next status, which is at end_place. */
 static void sysex_cut(struct list *l, const uint8_t *all, const size_t *places, size_t length,
                       size_t end_place)
 {

@@ -1,7 +1,7 @@
-/* oracle.h - the slow twin of the parser: sees all the bytes at once, and reads the real-time messages and the others apart.
+/* oracle.h - the parser's slow twin: has all bytes at once, and reads real-time messages and the others separately.
  *
- * Real-time bytes are taken out first, each with the place where it stood. What is left is cut at its status bytes; each
- * part is read by itself, each message with the place of its last byte. The places then give the order of all. */
+ * It takes out the real-time bytes first, each with its place. It cuts the rest at its status bytes and reads each part by itself;
+ * a message has the place of its last byte. The places then give the order of all messages. */
 #ifndef LUTETIA_TESTS_MIDI_ORACLE_H
 #define LUTETIA_TESTS_MIDI_ORACLE_H
 
@@ -9,11 +9,11 @@
 
 #include "taken.h"
 
-/* At the end of the bytes the source is gone. */
+/* Parses all bytes; the source is lost at their end. */
 void oracle_parse(const uint8_t *bytes, size_t count, struct taken *out,
                   struct midi_parser_counts *counts);
 
-/* Bytes as an instrument, a bad cable or an enemy might send them. seed: any; the same gives the same. */
+/* Draws bytes that an instrument, a bad cable or an attacker might send. The same seed gives the same bytes. */
 void oracle_bytes(uint64_t *seed, uint8_t *bytes, size_t count);
 
 #endif

@@ -20,7 +20,7 @@ enum { PEER_CLIENT = 20, NOTE_ON = 6, BYTES_MOST = 1 << 16, AWAY_MS = 500 };
 #define OF_ALSA __attribute__((visibility("default")))
 
 struct sequencer {
-    int ends[2]; /* the program reads from the first what is written to the second */
+    int ends[2]; /* the program reads from ends[0] what is written to ends[1] */
     bool from, to;
     int said;
     struct packet {

@@ -38,7 +38,7 @@ static void stop(int signal_number)
 static void serve(const struct midi_server_def *def)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    closefrom(3); /* the instruments are the test's alone */
+    closefrom(3); /* the server must not hold the test's instruments open */
     if (midi_server_create(def, &running) != MIDI_OK) {
         fprintf(stderr, "server: %s\n", midi_error());
         _exit(1);
@@ -47,7 +47,7 @@ static void serve(const struct midi_server_def *def)
     midi_server_run(running);
     midi_server_destroy(running);
 #ifdef __SANITIZE_ADDRESS__
-    __lsan_do_leak_check(); /* and not exit(): the scratch folders are the test's */
+    __lsan_do_leak_check(); /* not exit(), which would remove the test's scratch folders */
 #endif
     _exit(0);
 }
@@ -114,8 +114,7 @@ void instrument_again(struct instrument *i)
     assert_true(i->file >= 0 && grantpt(i->file) == 0 && unlockpt(i->file) == 0);
     assert_int_equal(ptsname_r(i->file, other, sizeof other), 0);
     assert_int_equal(tcgetattr(i->file, &t), 0);
-    cfmakeraw(
-        &t); /* from the beginning: nothing of what is sent before the server opens it is changed */
+    cfmakeraw(&t); /* raw before the server opens it, so that no byte is changed */
     assert_int_equal(tcsetattr(i->file, TCSANOW, &t), 0);
     unlink(i->link); /* of a test that failed */
     assert_int_equal(symlink(other, i->link), 0);

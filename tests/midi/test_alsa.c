@@ -1,5 +1,5 @@
 /* test_alsa.c - the server's port of ALSA's sequencer. Where libasound.so.2 is sequencer_twin.c, messages go to a port and
- * come back; with the real library and a kernel without a sequencer, the device says so. */
+ * come back. With the real library and a kernel without a sequencer, the device reports that. */
 #include "server_support.h"
 
 #include <setjmp.h>
@@ -26,7 +26,7 @@ static bool library_installed(void)
     return there;
 }
 
-/* Sends a note until it comes back: messages that silence all channels come first. */
+/* Sends a note until it comes back; messages that silence all channels come first. */
 static void notes_come_back(struct midi_client *c, int device)
 {
     struct midi_message m, note = midi_message_make(0, 0x90, 60, 100);
@@ -36,7 +36,7 @@ static void notes_come_back(struct midi_client *c, int device)
     while (!midi_message_equal(&m, &note));
 }
 
-/* A system exclusive in that many pieces. */
+/* Sends a system exclusive in that many pieces. */
 static void piece_make(struct midi_message *m, int number, int count)
 {
     memset(m, 0, sizeof *m);
@@ -51,7 +51,7 @@ static void piece_make(struct midi_message *m, int number, int count)
 static void messages_go_through_the_sequencer(void **unused)
 {
     (void)unused;
-    enum { PIECES = 21 }; /* more than a coder of the server holds */
+    enum { PIECES = 21 }; /* more than the server's coder holds */
     struct midi_message m, piece;
     if (!library_installed())
         skip();

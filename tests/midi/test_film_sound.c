@@ -1,5 +1,5 @@
-/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard when the network has it, within a picture's time; and songs
- * and devices become sound. Skips where FluidSynth or its SoundFont is not installed. */
+/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard at its time in the network, within a picture's time. Songs
+ * and devices also become sound. Skips where FluidSynth or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +40,7 @@ static void must_run(struct child *child)
         fail_msg("exit %d: %s", child->status, child->errors);
 }
 
-/* Of a clank that can be heard; and how many events there are, in so many seconds. */
+/* The time of the first audible clank; *events_count: the number of events in that many seconds. */
 static double first_clank_s(double seconds, int *events_count)
 {
     struct dyn_network *n;
@@ -138,7 +138,7 @@ static int first_inked(const char *raw, int width, int height)
     return found;
 }
 
-/* As a player would find them in the film: the key's letter, and its sound. */
+/* In the film a key's letter and its sound begin together. */
 static void letters_and_sound_come_together(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* test_filter.c - each filter, chains of them, and thinning: what arrives, when, and that the last value always does. */
+/* test_filter.c - single filters, chains, and thinning: the messages that come out and their times. The last value always comes
+ * out. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +14,7 @@
 #include "../sample.h"
 #include "oracle.h"
 
-/* "TIME_MS words|TIME_MS words": messages with times. Returns the time of the last, ms. */
+/* Reads messages with times, "TIME_MS words|TIME_MS words". Returns the last one's time in ms. */
 static int messages_read(const char *text, struct taken *out)
 {
     char copy[1000], *rest = copy;
@@ -36,7 +37,7 @@ static void chain_run(const char *filters, const struct taken *in, struct taken 
     if (midi_chain_create(filters, &chain) != MIDI_OK)
         fail_msg("%s: %s", filters, midi_error());
     for (size_t i = 0; i < in->count; i++) {
-        /* As a server does: first what has become due. */
+        /* First the messages that have become due, as in a server. */
         for (uint64_t due; (due = midi_chain_due_ns(chain)) <= in->messages[i].time_ns;)
             midi_chain_flush(chain, due, taken_add, out);
         midi_chain_take(chain, &in->messages[i], taken_add, out);
@@ -76,12 +77,12 @@ static const struct {
      "0 note-on 2 b3 1|1 note-on 1 c4 1|2 control 1 7 7"},
     {"transpose=12 notes=c4-c5 channel=3", "0 note-on 1 c3 1|1 note-on 1 c4 1|2 note-on 1 c5 1",
      "0 note-on 3 c4 1|1 note-on 3 c5 1"},
-    /* The first value goes at once, the newest of those within 10 ms at the end of them. */
+    /* The first value goes out at once; of later values within 10 ms only the newest does, at the end of that time. */
     {"thin=10", "0 control 1 7 1|2 control 1 7 2|4 control 1 7 3|20 control 1 7 4",
      "0 control 1 7 1|4 control 1 7 3|20 control 1 7 4"},
     {"thin=10", "0 bend 1 1|1 bend 1 2|2 bend 2 3|3 bend 2 4|4 bend 1 5",
      "0 bend 1 1|2 bend 2 3|4 bend 1 5|3 bend 2 4"},
-    /* Before another message of the channel, all that is held back for it. */
+    /* Held back values go out before the next other message of their channel. */
     {"thin=10", "0 control 1 7 1|1 control 1 7 2|2 note-on 2 60 9|3 note-on 1 60 9",
      "0 control 1 7 1|2 note-on 2 60 9|1 control 1 7 2|3 note-on 1 60 9"},
     {"thin=10", "0 control 1 64 127|1 control 1 64 0|2 control 1 6 1|3 control 1 6 2",
@@ -117,8 +118,8 @@ static void filters_do_as_they_say(void **unused)
     }
 }
 
-/* By chance: thinned messages are some of those that went in; the last value of each controller is the same; others are
- * untouched and in order; no controller comes more often than it may between two other messages of its channel. */
+/* Random messages: the thinned ones are some of the original ones, and each controller's last value is the same. Other messages are
+ * unchanged and in order. Between two other messages of its channel no controller comes more often than it may. */
 static void thinning_keeps_every_last_value(void **unused)
 {
     (void)unused;
@@ -165,7 +166,7 @@ static void thinning_keeps_every_last_value(void **unused)
     }
 }
 
-/* A chain takes whatever a parser gives, and what comes out is well made. */
+/* A chain takes any message that a parser gives, and its messages are well-formed. */
 static void chains_take_generated_messages(void **unused)
 {
     (void)unused;

@@ -1,4 +1,4 @@
-/* test_jack.c - the server's JACK ports, on a JACK server of the test's own with the dummy driver; skips where there is none. */
+/* test_jack.c - the server's JACK ports. The test runs its own JACK server with the dummy driver, and skips where there is none. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,7 +40,7 @@ static pid_t jackd_begin(void)
     return child;
 }
 
-/* A client of JACK's own; NULL: no server came within five seconds, or there is no jackd. */
+/* Opens a JACK client; NULL: no server came within five seconds, or there is no jackd. */
 static void *jack_client(const struct jack_library *jack, pid_t jackd)
 {
     const uint64_t until_ns = midi_now_ns() + UINT64_C(5000000000);
@@ -52,7 +52,7 @@ static void *jack_client(const struct jack_library *jack, pid_t jackd)
     return client;
 }
 
-/* Servers that are killed leave semaphores, and so do their clients. */
+/* Removes the semaphores that a killed server and its clients leave. */
 static void leftovers_remove(void)
 {
     char pattern[100];
@@ -93,7 +93,7 @@ static void messages_go_through_jack(void **unused)
     struct midi_message note = midi_message_make(0, 0x90, 60, 100), m;
     struct midi_message first = {.count = MIDI_BYTES_MAX, .bytes = {0xf0}};
     struct midi_message last = {.count = 2, .bytes = {1, 0xf7}};
-    do { /* what silences all channels comes first */
+    do { /* messages that silence all channels come first */
         assert_int_equal(midi_client_send(c, 0, &note), MIDI_OK);
         m = next_message(c, NULL);
     } while (!midi_message_equal(&m, &note));
@@ -103,7 +103,7 @@ static void messages_go_through_jack(void **unused)
     while (m.bytes[1] != 61)
         m = next_message(c, NULL);
     assert_true(midi_message_equal(&m, &note));
-    /* within two periods of 2.7 ms of now and then, its time */
+    /* its time lies between sending and now, within two periods of 2.7 ms */
     assert_true(m.time_ns + 6000000 > before_ns && m.time_ns <= midi_now_ns());
     assert_int_equal(midi_client_send(c, 0, &first), MIDI_OK);
     assert_int_equal(midi_client_send(c, 0, &last), MIDI_OK);
@@ -111,7 +111,7 @@ static void messages_go_through_jack(void **unused)
     assert_true(midi_message_equal(&m, &first));
     m = next_message(c, NULL);
     assert_true(midi_message_equal(&m, &last));
-    /* JACK goes: the notes that sound end, and the device is away. */
+    /* When JACK ends, sounding notes end and the device is reported as away. */
     kill(jackd, SIGTERM);
     waitpid(jackd, NULL, 0);
     m = next_message(c, NULL);
@@ -143,7 +143,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(
-            without_a_server_that_is_said), /* before this process is a client, which children inherit */
+            without_a_server_that_is_said), /* first: children would inherit a client */
         cmocka_unit_test(messages_go_through_jack),
     };
     return cmocka_run_group_tests_name("jack", tests, NULL, NULL);

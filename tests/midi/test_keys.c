@@ -1,4 +1,4 @@
-/* test_keys.c - keys as letters: how large, when, which; and measured in pixels. */
+/* test_keys.c - keys as letters: their sizes, times and choice, also measured in pixels. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

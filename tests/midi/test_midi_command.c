@@ -1,5 +1,5 @@
-/* test_midi_command.c - `lutetia midi` and a program that uses the library: what is played is heard and recorded; what is wrong is
- * said. */
+/* test_midi_command.c - `lutetia midi` and a program that uses the library: played notes are heard and recorded, and errors get a
+ * message. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -63,7 +63,7 @@ static void words_are_sent_and_status_is_told(void **unused)
     run(MIDI("status", "-s", s.path), 1, "`lutetia midi serve` starts one");
 }
 
-/* A song of that many notes, 10 ms apart. */
+/* Writes a song of that many notes, 10 ms apart. */
 static void song_write(const char *path, int notes)
 {
     const struct midi_song_def def = midi_song_def_default();
@@ -145,7 +145,7 @@ static void what_is_played_is_recorded(void **unused)
     served_end(&s);
 }
 
-/* examples/midi_octave.c, built as any program is that uses the library. */
+/* Builds examples/midi_octave.c as any program that uses the library, and runs it. */
 static void programs_use_the_library(void **unused)
 {
     (void)unused;
@@ -191,7 +191,7 @@ static void songs_become_letters(void **unused)
               "--font", "DejaVuSans"),
          0, "");
     assert_int_equal(access(poster, R_OK) | access(still, R_OK) | access(sheet, R_OK), 0);
-    /* 60 ms and three times the release: five pictures at ten a second */
+    /* the film lasts 60 ms and three times the release: five pictures at ten a second */
     keys(MIDI(song, "--frames", frames, "--fps", "10", "--release", "0.1", "--picture", "96x40",
               "--font", "DejaVuSans"),
          0, "");

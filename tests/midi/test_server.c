@@ -1,4 +1,5 @@
-/* test_server.c - the server with instruments on pseudo-terminals: who hears what, and what happens where one of them goes. */
+/* test_server.c - the server with instruments on pseudo-terminals: who receives which messages, and what happens when one of them
+ * goes away. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -79,7 +80,7 @@ static void a_device_plays_what_clients_send(void **unused)
     assert_int_equal(midi_client_send(b, device, &m), MIDI_OK);
     assert_int_equal(instrument_hear(&keys, bytes, 2, 2000), 2);
     assert_memory_equal(bytes, "\x3d\x64", 2);
-    /* One client's system exclusive is not mixed with another's notes, but with real-time messages. */
+    /* Another client's notes wait for the end of a system exclusive; real-time messages do not. */
     struct midi_message first = {.count = MIDI_BYTES_MAX, .bytes = {0xf0}};
     struct midi_message last = {.count = 2, .bytes = {1, 0xf7}},
                         clock = {.count = 1, .bytes = {0xf8}};
@@ -98,7 +99,7 @@ static void a_device_plays_what_clients_send(void **unused)
     instrument_unplug(&keys);
 }
 
-/* A million bytes would take 16 clients a while; some thousand messages arrive whole and in order at each. */
+/* Some thousand messages arrive whole and in order at each of several clients. */
 static void nothing_is_lost_or_altered(void **unused)
 {
     (void)unused;
@@ -193,7 +194,7 @@ static void unplugged_and_back(void **unused)
     (void)next_message(c, NULL);
     (void)next_message(c, NULL);
     instrument_unplug(&keys);
-    /* What was open is closed, and the notes and pedals that were down are up. */
+    /* When the instrument goes, its open system exclusive is ended, and its notes and pedals are released. */
     struct midi_message m = next_message(c, NULL);
     check_text(&m, "sysex f0 01 f7");
     m = next_message(c, NULL);
@@ -261,7 +262,7 @@ static void no_note_hangs(void **unused)
     midi_client_close(a); /* b still holds 62 */
     assert_int_equal(instrument_hear(&keys, bytes, 64, 200), 3);
     assert_memory_equal(bytes, "\x80\x3c\x40", 3);
-    /* The server ends: what is down goes up. */
+    /* When the server ends, it releases all notes. */
     served_end(&s);
     assert_int_equal(instrument_hear(&keys, bytes, 64, 200), 2);
     assert_memory_equal(bytes, "\x3e\x40", 2);
@@ -300,7 +301,7 @@ static void status_tells(void **unused)
     served_end(&s);
 }
 
-/* A pseudo-terminal of the server's: programs that know nothing of it open the link. */
+/* The server makes a pseudo-terminal of its own; programs open its link like a serial port. */
 static void a_terminal_of_the_servers_own(void **unused)
 {
     (void)unused;

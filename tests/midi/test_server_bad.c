@@ -1,4 +1,5 @@
-/* test_server_bad.c - whoever sends garbage, floods or never reads, and sockets in the way: clear words, and no effect on others. */
+/* test_server_bad.c - clients that send garbage, flood or never read, and sockets in the way. They get clear messages, and others
+ * notice nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,7 +46,7 @@ static void frame_write(int file, uint8_t kind, uint8_t device, const void *payl
     (void)written;
 }
 
-/* What a connection ends with: the text of the error frame. */
+/* Checks that the connection ends with an error frame with this text. */
 static void ends_with(int file, const char *says)
 {
     uint8_t bytes[8192];
@@ -101,7 +102,7 @@ static void garbage_is_answered_and_others_go_on(void **unused)
     frame_write(file, MIDI_WIRE_COMMAND, 0, "dance", 5);
     shutdown(file, SHUT_WR);
     ends_with(file, "known are listen");
-    for (int turn = 0; turn < 100; turn++) { /* by chance, after a greeting or without */
+    for (int turn = 0; turn < 100; turn++) { /* random bytes, with or without a greeting */
         uint8_t bytes[200];
         file = raw_connection(&s);
         if (turn & 1)
@@ -127,7 +128,7 @@ static void garbage_is_answered_and_others_go_on(void **unused)
     instrument_unplug(&keys);
 }
 
-/* One that never reads loses messages, is told so when it does read, and its notes end; the others hear all. */
+/* A client that never reads loses messages, is told so when it reads at last, and its notes end. The others receive everything. */
 static void who_does_not_read_is_told_what_it_lost(void **unused)
 {
     (void)unused;
@@ -169,7 +170,7 @@ static void who_does_not_read_is_told_what_it_lost(void **unused)
     served_end(&s);
 }
 
-/* One sends as much as it can to a device that takes nothing; another one's device goes on as if nothing were. */
+/* One client floods a device that accepts nothing; another client's device is not affected. */
 static void a_flood_stays_where_it_is(void **unused)
 {
     (void)unused;
@@ -206,7 +207,7 @@ static void a_flood_stays_where_it_is(void **unused)
     uint8_t bytes[5000];
     assert_int_equal(instrument_hear(&keys, bytes, 3, 2000), 3);
     assert_true(midi_now_ns() - before_ns < UINT64_C(1000000000));
-    /* Both play the device that is full: they take turns, so the good one's note comes soon after there is room. */
+    /* Both clients play the full device. They take turns, so the other client's note comes soon after there is room. */
     m = midi_message_make(0, 0x95, 1, 2);
     assert_int_equal(midi_client_send(good, 1, &m), MIDI_OK);
     size_t total = 0;
@@ -259,7 +260,7 @@ static void sockets_in_the_way(void **unused)
     assert_int_equal(create_at(file, NULL, 0), MIDI_REFUSED);
     assert_non_null(strstr(midi_error(), "no socket"));
     assert_int_equal(create_at("/nowhere/socket", NULL, 0), MIDI_IO_FAILED);
-    /* Another user's, where this process may be one. */
+    /* Another user may not connect; tested only as root. */
     if (getuid() == 0) {
         s = served_begin((const char *[]){"loop", NULL}, 0, NULL);
         pid_t other = fork();

@@ -1,4 +1,4 @@
-/* test_song.c - Standard MIDI Files: read, written, in time, damaged; and what other programs make of ours, and we of theirs. */
+/* test_song.c - Standard MIDI Files: reading, writing, times, damage. Other programs read our files, and we read theirs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
 #define HEADER(format, tracks, high, low) "MThd\0\0\0\6\0" format "\0" tracks high low
 
-/* Two tracks, 96 ticks a quarter note; 120 a minute, from tick 192 on 60 a minute. */
+/* Two tracks, 96 ticks to a quarter note, 120 quarter notes a minute and from tick 192 on 60. */
 static const char two_tracks[] = HEADER(
     "\1", "\2", "\0",
     "\x60") "MTrk\0\0\0\x13\0\xff\x51\3\7\xa1\x20\x81\x40\xff\x51\3\x0f\x42\x40\0\xff\x2f\0"
@@ -55,7 +55,7 @@ static void a_file_is_read(void **unused)
     midi_song_destroy(song);
 }
 
-/* Times are exact to a nanosecond whatever the stretch before them is; the way back finds the tick. */
+/* Times are exact to a nanosecond at any distance from the last tempo; converting back gives the tick. */
 static void time_is_exact(void **unused)
 {
     (void)unused;
@@ -99,7 +99,7 @@ static void what_is_written_is_read(void **unused)
     }
 }
 
-/* Messages as a server gives them: in pieces, with a clock between. */
+/* Messages as a server gives them, with a system exclusive in pieces and a clock between. */
 static void recordings_hold_what_was_played(void **unused)
 {
     (void)unused;
@@ -128,7 +128,7 @@ static void recordings_hold_what_was_played(void **unused)
         struct midi_song_event e = midi_song_event(back, i);
         midi_song_play(&e, &parser, taken_add, &out);
     }
-    /* As it went in, but for the clock and the tune request. */
+    /* The messages are the recorded ones except the clock and the tune request. */
     size_t next = 0;
     for (size_t i = 0; i < in.count; i++) {
         if (in.messages[i].bytes[0] == 0xf8 || in.messages[i].bytes[0] == 0xf6)
@@ -286,7 +286,7 @@ static int lines_with(const char *path, const char *part)
     return count;
 }
 
-/* A song by chance whose meta events mean something to others. */
+/* A random song whose meta events other programs understand. */
 static struct midi_song *plain_song(int notes)
 {
     struct midi_song_def def = {.format = 1, .division = 480};
@@ -335,7 +335,7 @@ static void others_read_what_we_write(void **unused)
     assert_int_equal(lines_with(csv, "2, 60, Note_on_c, 0, 61, 100"), 1);
     assert_int_equal(lines_with(csv, "Tempo, 400000"), 1);
     assert_int_equal(lines_with(csv, "System_exclusive, 5, 126, 127, 9, 1, 247"), 1);
-    /* And written by that program, it is the same song. */
+    /* That program writes the same song. */
     if (midi_song_read(back, &theirs) != MIDI_OK)
         fail_msg("%s", midi_error());
     const char *differs = songs_differ(song, theirs);
@@ -364,7 +364,7 @@ static void fluidsynth_plays_what_we_write(void **unused)
         "fluidsynth -q -ni -R 0 -C 0 -r 8000 -O s16 -T raw -F '%s' %s '%s' >/dev/null 2>&1",
         wav, font, mid);
     assert_true(runs(command));
-    /* Eight notes, 50 ms apart: more than 0.4 s of sound, and it is heard. */
+    /* Eight notes, 50 ms apart, give more than 0.4 s of sound, which is not silent. */
     FILE *file = fopen(wav, "rb");
     assert_non_null(file);
     long count = 0;

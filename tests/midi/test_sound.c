@@ -1,5 +1,5 @@
-/* test_sound.c - events to sound: three bounces are three onsets, when they should be, louder when faster. Skips where FluidSynth or
- * its SoundFont is not installed. */
+/* test_sound.c - events to sound: three bounces give three onsets at their times, louder for faster bounces. Skips where FluidSynth
+ * or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +28,7 @@ static bool able(void)
     return false;
 }
 
-/* A ball that falls and bounces, as the springs' floor has it: times and speeds of its first three bounces. */
+/* The times and speeds of the first three bounces of a ball, by the formulas of the springs' floor. */
 static void bounces(double times_s[3], double speeds[3])
 {
     const double gravity = 9.8, height = 1, restitution = 0.7;

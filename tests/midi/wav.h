@@ -1,4 +1,4 @@
-/* wav.h - WAV files as FluidSynth writes them, and what is heard in them. Included after cmocka.h. */
+/* wav.h - reads WAV files that FluidSynth writes, and measures their sound. Include after cmocka.h. */
 #ifndef LUTETIA_TESTS_MIDI_WAV_H
 #define LUTETIA_TESTS_MIDI_WAV_H
 
@@ -54,7 +54,7 @@ static inline struct wav wav_read(const char *path)
     return w;
 }
 
-/* The loudest of some moments, of all channels. */
+/* The greatest sample between two times, of all channels. */
 static inline int wav_peak(const struct wav *w, double from_s, double to_s)
 {
     int loudest = 0;
@@ -67,7 +67,7 @@ static inline int wav_peak(const struct wav *w, double from_s, double to_s)
     return loudest;
 }
 
-/* Onsets: where a millisecond is louder than the ten before it, and loud. Returns how many. */
+/* Finds onsets: milliseconds that are loud, and louder than the ten before. Returns how many. */
 static inline int wav_onsets(const struct wav *w, double *times_s, int most)
 {
     const double step_s = 0.001;

@@ -1,7 +1,7 @@
-/* scene_springs.h - letters of a word on a network made by hand: what tests of the stage look at.
+/* scene_springs.h - a word's letters on a network made by hand, for the tests of the stage.
  *
- * Each letter stands on four masses of its own with springs along edges and diagonals; two springs join it to the next. Its box
- * is one unit wide and 1.2 high; the first is at (0, bottom). */
+ * Each letter stands on four masses of its own with springs along edges and diagonals. Two springs join it to the next letter.
+ * A letter's box is one unit wide and 1.2 high; the first is at (0, bottom). */
 #ifndef LUTETIA_TEST_SCENE_SPRINGS_H
 #define LUTETIA_TEST_SCENE_SPRINGS_H
 
@@ -9,7 +9,7 @@
 #include <springs.h>
 #include <stage.h>
 
-/* A stage with the word on it. face: borrowed, must outlive it. */
+/* Makes a stage with the word on it. face: borrowed, must outlive the stage. */
 struct stage *scene_springs(const char *word, double bottom, struct font_face *face);
 
 #endif

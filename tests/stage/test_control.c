@@ -1,4 +1,4 @@
-/* test_control.c - a table of controls: found, read, written, refused; along a slider and back. */
+/* test_control.c - a table of controls: they are found, read, written and refused, and converted to a slider's place and back. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,7 +90,7 @@ static void texts_are_values_and_back(void **state)
             fail_msg("'%s' is %g", bad[i].text, value);
 }
 
-/* A slider goes from least to most, always upwards, and a value comes back from where it is. */
+/* A slider's value rises from least to most, and converting a value to its place and back returns the value. */
 static void sliders_are_curves(void **state)
 {
     (void)state;

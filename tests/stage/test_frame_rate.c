@@ -1,6 +1,6 @@
-/* test_frame_rate.c - how often pictures of a line of 40 letters come in a window of 1280x1024 on an Xvfb, which has OpenGL by software alone;
- * beside it a window that shows nothing, which is what OpenGL and the window take by themselves. Printed, by the clock on the wall and in
- * processor time; what is asserted is that time goes on as it should at that rate. */
+/* test_frame_rate.c - measures the frame rate of a line of 40 letters in a window of 1280x1024 on an Xvfb, whose OpenGL is
+ * software, and that of an empty window. Prints rates by the wall clock and processor time per picture. Asserts only that the simulation
+ * keeps real time at that rate. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static double processor_s(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Pictures in a second by the wall, and processor time for each, in ms. */
+/* Measures pictures per second of wall clock time, and processor time for each picture in ms. */
 static void measure(struct stage *stage, const char *title, double *rate_hz, double *cost_ms)
 {
     enum { WARM = 10 };
@@ -49,7 +49,7 @@ static void measure(struct stage *stage, const char *title, double *rate_hz, dou
     const double took_s = clock_now_s() - began_s;
     *rate_hz = count / took_s;
     *cost_ms = 1e3 * (processor_s() - began_processor_s) / count;
-    /* real time, but where a picture took longer than the clock lets one be */
+    /* the simulation keeps real time, except where a picture took longer than the clock's longest frame */
     const double went_s = frame_clock_time_s(stage_clock(stage)) - simulated_s;
     assert_true(went_s > 0.2 * took_s && went_s < 1.1 * took_s);
     stage_window_destroy(window);

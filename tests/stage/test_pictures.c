@@ -1,5 +1,5 @@
-/* test_pictures.c - one draw list by each way there is: exactly, by EGL, by OSMesa and in a window. Pictures agree in
- * structure, and the ink on them weighs the same. */
+/* test_pictures.c - draws one list in each way: exactly, by EGL, by OSMesa and in a window. The pictures agree in structural
+ * similarity and in their amounts of ink. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,8 +55,8 @@ static void letter_add(struct stage_draw_list *list, uint32_t character, double 
     stage_draw_letter(list, &letter, corners, color);
 }
 
-/* A bit of everything, at many places between pixels: letters distorted and turned (by 90 degrees, too), thin and thick lines,
- * discs, rings, boxes, translucency. */
+/* Makes a list with some of everything, at many places between pixels: letters distorted and turned (also by 90 degrees), thin
+ * and thick lines, discs, rings, boxes, translucency. */
 static void scene_make(struct stage_draw_list *list)
 {
     chance_state = 11;
@@ -106,7 +106,7 @@ static void agrees(const struct display_image *image, const struct display_image
         fail_msg("likeness %.4f, weight %.4f", alike, weight);
 }
 
-/* With LUTETIA_KEEP pictures can be looked at. */
+/* Keeps the picture's file where LUTETIA_KEEP is set. */
 static void keep(const char *name, const struct display_image *image)
 {
     char path[4096];
@@ -117,7 +117,7 @@ static void keep(const char *name, const struct display_image *image)
     assert_int_equal(display_png_write(path, image), DISPLAY_OK);
 }
 
-/* The exact picture weighs what the shapes' areas say. */
+/* The exact picture's amount of ink is the shapes' area times their cover. */
 static void exact_ink_is_area_times_cover(void **state)
 {
     (void)state;
@@ -146,7 +146,7 @@ static void exact_ink_is_area_times_cover(void **state)
             assert_int_equal(stage_exact_draw(exact, &list, white, &image), STAGE_OK);
             double weight = ink_weight(&image, (const uint8_t[]){255, 255, 255}) / 3;
             double wanted = bars[i].area * (turn == 4 ? 0.5 : 1);
-            /* Eight bits a pixel: near the edges each is rounded. */
+            /* Pixels at the edges are rounded to eight bits. */
             if (fabs(weight / wanted - 1) > 0.012)
                 fail_msg("bar %zu, turn %d: %.1f for %.1f", i, turn, weight, wanted);
         }
@@ -168,7 +168,7 @@ static void by_opengl(enum stage_way way, const char *name)
     keep("exact", &wanted);
     keep(name, &image);
     agrees(&image, &wanted, 0.98);
-    /* Letters that are kept are the same. */
+    /* The second picture uses kept letters and is the same. */
     assert_int_equal(stage_renderer_draw(renderer, &list, paper), STAGE_OK);
     assert_int_equal(stage_renderer_read(renderer, &again), STAGE_OK);
     assert_memory_equal(image.pixels, again.pixels, 3 * WIDTH * HEIGHT);
@@ -185,7 +185,7 @@ static void egl_agrees(void **state)
     by_opengl(STAGE_BY_EGL, "egl");
 }
 
-/* No display, no EGL, no graphics card. */
+/* OSMesa needs no display, no EGL and no graphics card. */
 static void osmesa_agrees(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void wrong_sizes_are_refused(void **state)
     assert_int_equal(stage_exact_create("no-such-filter", &none), STAGE_BAD_ARGUMENT);
 }
 
-/* What is far out, or no number, is nothing; a letter that is folded over is left out and counted. */
+/* Shapes that are far out, or whose numbers are NaN, draw nothing. A folded letter is left out and counted. */
 static void what_cannot_be_drawn_is_left_out(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void what_cannot_be_drawn_is_left_out(void **state)
     stage_draw_finish(&list);
 }
 
-/* Shadows and what earlier frames leave: everything again, moved and fainter. */
+/* Shadows and traces of earlier frames draw a list again, moved and fainter. */
 static void lists_are_drawn_again(void **state)
 {
     (void)state;
@@ -252,7 +252,7 @@ static void lists_are_drawn_again(void **state)
     display_image_destroy(&two);
     two = exact_picture(&moved);
     keep("moved", &two);
-    /* Where a letter's middle was there is half as much ink, so many pixels away. */
+    /* The letter's middle, drawn again at half strength, has half as much ink. */
     double before = 1, after = 1;
     stage_draw_begin(&again, STAGE_VIEW_PIXELS);
     stage_draw_again(&again, &list, 0, 0, NULL, 1, true);
@@ -268,7 +268,7 @@ static void lists_are_drawn_again(void **state)
     stage_draw_finish(&moved);
 }
 
-/* Letters larger than the picture are seen where it is; those that are too large are nothing. */
+/* Letters larger than the picture are drawn within it; letters that are far too large draw nothing. */
 static void large_letters_agree(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* test_session.c - sessions: what was done by chance is done again to the bit; texts that are none are refused. */
+/* test_session.c - sessions: random actions are replayed to the bit; texts that are no sessions are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,7 @@ static uint32_t chance(uint32_t below)
     return (uint32_t)(chance_state >> 33) % below;
 }
 
-/* Something of everything that a person can do. */
+/* Does random actions of every kind that a person can do. */
 static void deed_by_chance(struct stage *stage)
 {
     static const char *const sets[] = {"gravity=3", "gravity=-2.5", "stiffness=3", "rate=0.5",
@@ -64,7 +64,7 @@ static void deed_by_chance(struct stage *stage)
         stage_mark_drop(stage);
 }
 
-/* Frames of one rate while it is played, of another while it is done again; written again it is the same text. */
+/* A session is recorded at one frame rate and replayed at another. Written again it is the same text. */
 static void sessions_are_done_again_to_the_bit(void **state)
 {
     (void)state;
@@ -89,7 +89,7 @@ static void sessions_are_done_again_to_the_bit(void **state)
             fail_msg("%s", stage_error());
         for (int i = 0; stage_clock(other)->steps_count < steps; i++) {
             struct frame_clock *clock = stage_clock(other);
-            clock->paused = true; /* steps one by one: frames are not the played ones */
+            clock->paused = true; /* one step at a time: other frames than the recorded ones */
             frame_clock_single(clock);
             assert_int_equal(stage_frame(other, i / 30.0, NULL), STAGE_OK);
         }
@@ -184,7 +184,7 @@ static void wrong_texts_are_refused(void **state)
     stage_destroy(stage);
 }
 
-/* Bytes of a good text changed by chance: read, and then done without harm, or refused in one line. */
+/* A good text with random changes is read and replayed without harm, or refused in one line. */
 static void bytes_by_chance_are_read_or_refused(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void bytes_by_chance_are_read_or_refused(void **state)
     chance_state = 3;
     for (int i = 0; i < runs; i++) {
         size_t length = chance(4) ? sizeof good - 1 : chance(sizeof good - 1);
-        char *bytes = malloc(length ? length : 1); /* ends with its memory: nothing reads on */
+        char *bytes = malloc(length ? length : 1); /* exact: finds reads beyond it */
         struct stage_session s;
         memcpy(bytes, good, length);
         for (uint32_t k = chance(4); length && k > 0; k--)

@@ -1,4 +1,4 @@
-/* test_stage.c - a word of springs on a stage, without a window: time, controls, hands, pictures, going back. */
+/* test_stage.c - a word of springs on a stage, without a window: time, controls, pointers, pictures, undo. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,7 +61,7 @@ static double px_of(double x, double y, double *y_px)
     return x_px;
 }
 
-/* What a hand does at a place of the world. */
+/* Sends a pointer's event at a place of the world. */
 static bool hand(enum stage_event_kind kind, double x, double y, double pressure, int button,
                  unsigned modifiers)
 {
@@ -69,7 +69,7 @@ static bool hand(enum stage_event_kind kind, double x, double y, double pressure
     return stage_hand(stage, kind, x_px, y_px, pressure, button, modifiers);
 }
 
-/* Frames of a film are the simulation's own steps, whatever the frames' rate. */
+/* A film at any frame rate has the simulation's own steps. */
 static void frames_are_steps_of_one_length(void **state)
 {
     (void)state;
@@ -94,7 +94,7 @@ static void controls_are_the_stages_and_the_actors(void **state)
     (void)state;
     int count;
     const struct stage_control *rows = stage_controls(stage, &count);
-    for (int i = 0; i < count; i++) { /* each has its usual value, and names differ */
+    for (int i = 0; i < count; i++) { /* each control has its default; names differ */
         if (fabs(stage_control_read(&rows[i], stage) - rows[i].usual) > 1e-12)
             fail_msg("%s", rows[i].name);
         assert_int_equal(stage_control_write(&rows[i], stage, rows[i].usual), STAGE_OK);
@@ -130,7 +130,7 @@ static void pictures_show_what_is_set(void **state)
     (void)state;
     stage_picture(stage, WIDTH, HEIGHT, 1, &list);
     assert_int_equal(items_of(STAGE_DRAW_GLYPH), 4);
-    /* 16 masses, 4 x 6 + 3 x 2 springs, the floor. */
+    /* Bars: 16 masses, 4 x 6 + 3 x 2 springs, the floor. */
     assert_int_equal(items_of(STAGE_DRAW_BAR), 16 + 30 + 1);
     set("show_masses=off");
     set("show_springs=off");
@@ -141,7 +141,7 @@ static void pictures_show_what_is_set(void **state)
     set("grid=on");
     stage_picture(stage, WIDTH, HEIGHT, 1, &list);
     assert_in_range(items_of(STAGE_DRAW_BAR), 5, 100);
-    /* Two pixels where the screen is twice as fine. */
+    /* Lines are two pixels wide on a screen of twice the resolution. */
     set("grid=off");
     set("show_masses=on");
     stage_picture(stage, WIDTH, HEIGHT, 1, &list);
@@ -151,7 +151,7 @@ static void pictures_show_what_is_set(void **state)
     assert_false(list.incomplete);
 }
 
-/* Between steps places are drawn ahead: a falling mass lower by what it falls in half a step. */
+/* Pictures between steps extrapolate places: a falling mass is drawn lower by its fall in half a step. */
 static void pictures_are_between_steps(void **state)
 {
     (void)state;
@@ -179,7 +179,7 @@ static void skins_are_earlier_moments(void **state)
         stage_picture(stage, WIDTH, HEIGHT, 1, &list);
     }
     assert_int_equal(items_of(STAGE_DRAW_GLYPH), 4 + 3 * 4);
-    /* From back to front: older ones higher and fainter. */
+    /* The list goes from back to front: older traces are higher and fainter. */
     for (int i = 0; i < 4; i++) {
         struct font_point at;
         double jacobian[4];
@@ -230,7 +230,7 @@ static int sounds(const char *name)
     return found;
 }
 
-/* With Shift, and with a pen pressed hard, a mass is where the pointer is in the same frame, and stays. */
+/* With Shift, or with a pen pressed hard, a mass moves to the pointer in the same frame, and stays there. */
 static void hands_tack(void **state)
 {
     (void)state;
@@ -255,13 +255,13 @@ static void hands_tack(void **state)
         assert_int_equal(stage_frame(stage, now_s += 0.2, NULL), STAGE_OK);
         assert_true(fabs(mass(m).y - (y + 0.9)) < 1e-9);
     }
-    /* Moved without Shift it stays tacked. */
+    /* A tacked mass that is moved without Shift stays tacked. */
     double x = mass(0).x, y = mass(0).y;
     hand(STAGE_POINTER_DOWN, x, y, 0, INPUT_BUTTON_LEFT, 0);
     hand(STAGE_POINTER_MOVE, x + 0.4, y, 0, 0, 0);
     hand(STAGE_POINTER_UP, x + 0.4, y, 0, INPUT_BUTTON_LEFT, 0);
     assert_true(fabs(mass(0).x - x - 0.4) < 1e-9 && mass(0).hold == DYN_STUCK);
-    /* Touched with Shift the tack is taken out. */
+    /* A touch with Shift frees the mass. */
     hand(STAGE_POINTER_DOWN, x + 0.4, y, 0, INPUT_BUTTON_LEFT, INPUT_SHIFT);
     hand(STAGE_POINTER_UP, x + 0.4, y, 0, INPUT_BUTTON_LEFT, INPUT_SHIFT);
     assert_int_equal(mass(0).hold, DYN_FREE);
@@ -279,14 +279,14 @@ static void hands_pull_whole_letters(void **state)
         hand(STAGE_POINTER_MOVE, x + 0.02 * i, y + 0.05 * i, 0, 0, 0);
         assert_int_equal(stage_frame(stage, i / 60.0, NULL), STAGE_OK);
     }
-    for (int k = 0; k < 4; k++) { /* all four came along, its shape not much changed */
+    for (int k = 0; k < 4; k++) { /* the letter's four masses moved together */
         assert_true(mass(4 + k).y > before[k][1] + 0.4);
         assert_true(mass(4 + k).x > before[k][0]);
     }
     assert_true(fabs(mass(4).y - mass(5).y) < 0.5);
     hand(STAGE_POINTER_CANCEL, 0, 0, 0, 0, 0);
     assert_false(hand(STAGE_POINTER_MOVE, x, y, 0, 0, 0));
-    /* Beside everything there is nothing to take. */
+    /* Away from all letters the pointer takes nothing. */
     assert_false(hand(STAGE_POINTER_DOWN, 2, 6, 0, INPUT_BUTTON_LEFT, 0));
 }
 
@@ -355,7 +355,7 @@ static void reset_is_the_beginning(void **state)
     assert_true(mass(3).y == later && dyn_network_world(network())->gravity == 1);
 }
 
-/* A session again: the same hand at the same frames is the same to the bit. */
+/* The same pointer events at the same frames give the same bits. */
 static void hands_are_replayed_to_the_bit(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* test_stage_window.c - a word of springs in a window on an Xvfb, and a hand that works there: what it does is in the
- * simulation and on the screen. */
+/* test_stage_window.c - a word of springs in a window on an Xvfb. Pointer and keys change the simulation and the screen. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +31,7 @@ static void turn(void)
         fail_msg("%s", stage_error());
 }
 
-/* Turns until it is so; fails after ten seconds. */
+/* Runs turns of the window until the condition holds; fails after ten seconds. */
 #define UNTIL(condition)                                                                       \
     do {                                                                                       \
         double until_s = clock_now_s() + 10;                                                   \
@@ -109,7 +108,7 @@ static double value_of(const char *name)
     return stage_control_read(control(name, &row), stage);
 }
 
-/* A pixel of the window that is on the screen. */
+/* Reads the window's pixel at a place of the world from the screen. */
 static void seen_at(double x, double y, uint8_t rgb[3])
 {
     struct display_image image;
@@ -134,7 +133,7 @@ static void masses_are_dragged_and_let_go(void **state)
     point_at(before.x - 0.6, before.y + 0.8);
     UNTIL(mass(0).y > before.y + 0.4 && mass(0).x < before.x - 0.2);
     xtest_button(1, false);
-    UNTIL(hypot(mass(0).vx, mass(0).vy) < 0.3); /* it swings, and lies still in the end */
+    UNTIL(hypot(mass(0).vx, mass(0).vy) < 0.3); /* it swings until it rests */
     assert_int_equal(hold_of(0), DYN_FREE);
     /* Undone it is where it was. */
     xtest_type(XK_space);
@@ -146,7 +145,7 @@ static void masses_are_dragged_and_let_go(void **state)
     assert_true(mass(0).y == before.y);
 }
 
-/* The pointer's place is in the simulation and on the screen in one turn. */
+/* One turn brings a mass to the pointer, in the simulation and on the screen. */
 static void tacks_are_where_the_pointer_is(void **state)
 {
     (void)state;
@@ -268,7 +267,7 @@ static void sliders_and_typed_values_set_controls(void **state)
     turn();
     assert_true(value_of("gravity") > 40);
 
-    /* Typed: "3.75", with a slip that is taken back; then something that it cannot be. */
+    /* Types "3.75" with a corrected mistake, and then a value that is refused. */
     xtest_move(there, (int)value.x1 - 5, (int)value.y0 + 5);
     xtest_button(1, true);
     xtest_button(1, false);
@@ -293,7 +292,7 @@ static void sliders_and_typed_values_set_controls(void **state)
     xtest_button(1, true);
     xtest_button(1, false);
     UNTIL(value_of("shadow") == 1);
-    /* On the panel nothing of the stage is taken. */
+    /* A click on the panel takes no mass of the stage. */
     assert_true(stage_undo(stage));
 }
 
@@ -341,7 +340,7 @@ static void keys_are_listed(void **state)
         rows++;
     }
     assert_in_range(rows, 15, 40);
-    /* The panel of keys covers the upper left. */
+    /* The panel with the list of keys covers the upper left. */
     uint8_t panel = (uint8_t)lroundf(255 * stage_theme(stage)->colors[STAGE_COLOR_PANEL].r);
     int alike = 0;
     for (double until_s = clock_now_s() + 10; alike < 1000 && clock_now_s() < until_s;) {

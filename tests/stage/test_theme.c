@@ -1,4 +1,4 @@
-/* test_theme.c - themes: those that are built in name everything; files, good ones and ones made by chance. */
+/* test_theme.c - themes: the built-in ones define everything; good files, and random ones. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -84,7 +84,7 @@ static void wrong_files_are_refused(void **state)
     assert_int_equal(stage_theme_open("/", &theme), STAGE_BAD_FILE);
 }
 
-/* Bytes of a good theme changed by chance, and bytes that never were one: read or refused, in one line. */
+/* A good theme with random changes, and random bytes, are read or refused in one line. */
 static void bytes_by_chance_are_read_or_refused(void **state)
 {
     (void)state;
@@ -99,7 +99,7 @@ static void bytes_by_chance_are_read_or_refused(void **state)
             chance = chance * 6364136223846793005u + 1442695040888963407u;
             length = k == 0 && chance >> 62 == 0 ? (size_t)(chance >> 33) % length : length;
         }
-        char *text = malloc(length + 1); /* ends with its memory: nothing reads on */
+        char *text = malloc(length + 1); /* exact: finds reads beyond it */
         char *bytes = realloc(text, length ? length : 1);
         assert_non_null(bytes);
         memcpy(bytes, good, length);
