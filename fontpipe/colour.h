@@ -30,6 +30,11 @@ enum { FONT_COLOUR_LAYERS_MAX = 64 };
 int font_colour_layers(struct font_face *face, uint32_t glyph,
                        struct font_colour_layer out[FONT_COLOUR_LAYERS_MAX]);
 
+struct font_layout;
+/* The layout with its glyphs of layers as those, each in an ink of its own where it has one; no lines. For whoever draws outlines alone.
+ * Owns: the caller finishes *out. Errors: NO_MEMORY. */
+enum font_status font_colour_spread(const struct font_layout *from, struct font_layout *out);
+
 /* A glyph's picture: its upper left is at (left_px, -top_px) from the glyph's origin where an em is em_px. */
 struct font_colour_picture {
     uint8_t *

@@ -8,6 +8,7 @@ void drawn_finish(struct drawn *d)
 {
     free(d->glyphs);
     free(d->of);
+    font_painter_destroy(d->painter);
     *d = (struct drawn){0};
 }
 
@@ -33,7 +34,10 @@ enum font_status drawn_find(const struct font_layout *layout, struct drawn *out)
             if (!good)
                 break;
             out->glyphs[out->count++] =
-                (struct drawn_glyph){.face = g->face, .glyph = g->glyph, .first = i};
+                (struct drawn_glyph){.face = g->face,
+                                     .glyph = g->glyph,
+                                     .first = i,
+                                     .picture = font_painter_is_picture(g)};
             next[k] = heads[bucket];
             heads[bucket] = k;
         }

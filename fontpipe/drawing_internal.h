@@ -1,9 +1,10 @@
-/* drawing_internal.h - what drawing.c, drawing_svg.c and drawing_pdf.c share. */
+/* drawing_internal.h - what drawing.c, drawing_picture.c, drawing_svg.c and drawing_pdf.c share. */
 #ifndef LUTETIA_FONT_DRAWING_INTERNAL_H
 #define LUTETIA_FONT_DRAWING_INTERNAL_H
 
 #include "drawing.h"
 #include "internal.h"
+#include "paint.h"
 
 /* A glyph that is used, each once. */
 struct drawn_glyph {
@@ -11,13 +12,26 @@ struct drawn_glyph {
     uint32_t glyph;
     int first;      /* the layout's first that is it */
     int font, code; /* PDF: of which font which letter */
+    bool picture;   /* it has no outline */
 };
 
 struct drawn {
     struct drawn_glyph *glyphs;
     int *of; /* of each of the layout's glyphs: which */
     int count, capacity;
+    struct font_painter *painter; /* once there is a picture */
 };
+
+enum { DRAWN_FINER = 4 }; /* pixels of a picture to one of the drawing's, along each side */
+
+/* Glyph i's picture, so much finer than the drawing. Owns: the caller frees out->rgba. */
+enum font_status drawn_tile(struct drawn *drawn, const struct font_drawing *d,
+                            const struct font_layout *layout, int i, const struct font_map *map,
+                            double x_px, double y_px, struct font_tile *out);
+/* The tile as PNG, in Base64. */
+enum font_status drawn_png(const struct font_tile *tile, FILE *file);
+/* The bytes as zlib packs them. Owns: the caller frees them; NULL: no memory. */
+uint8_t *drawn_deflated(const uint8_t *bytes, size_t count, size_t *out_count);
 
 enum font_status drawn_find(const struct font_layout *layout, struct drawn *out);
 void drawn_finish(struct drawn *drawn);

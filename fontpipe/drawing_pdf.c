@@ -2,6 +2,7 @@
  *
  * Letters are glyphs of Type 3 fonts, up to 255 in each: a glyph is its outline in the font's units, and a table says which text it
  * shows. Objects are written one after the other; the table at the end says where each begins. */
+#include "colour.h"
 #include "drawing_internal.h"
 
 #include <math.h>
@@ -17,12 +18,21 @@ struct pdf_font {
     int count, glyphs[LETTERS_MAX]; /* of the drawn */
 };
 
+/* Colours and cover, packed. */
+struct pdf_picture {
+    int width_px, height_px, number; /* number: of its object, once it is written */
+    uint8_t *packed[2];
+    size_t counts[2];
+};
+
 struct pdf {
     const struct font_drawing *d;
     const struct font_layout *layout;
     struct drawn drawn;
     struct pdf_font *fonts;
     int fonts_count, fonts_capacity;
+    struct pdf_picture *pictures;
+    int pictures_count, pictures_capacity;
     bool covers[256]; /* translucencies that are used */
     double x, y;      /* of the layout's origin, in pixels */
     FILE *f;
@@ -148,6 +158,63 @@ static void ink_put(struct pdf *p, int i, FILE *f)
         fprintf(f, "%.5g %.5g %.5g rg /A%d gs\n", c[0], c[1], c[2], cover);
 }
 
+static bool picture_pack(const struct font_tile *tile, struct pdf_picture *out)
+{
+    size_t count = (size_t)tile->width_px * (size_t)tile->height_px;
+    uint8_t *apart = malloc(4 * count);
+    *out = (struct pdf_picture){.width_px = tile->width_px, .height_px = tile->height_px};
+    for (size_t i = 0; apart && i < count; i++) {
+        memcpy(apart + 3 * i, tile->rgba + 4 * i, 3);
+        apart[3 * count + i] = tile->rgba[4 * i + 3];
+    }
+    for (int k = 0; apart && k < 2; k++)
+        out->packed[k] =
+            drawn_deflated(apart + (k ? 3 * count : 0), k ? count : 3 * count, &out->counts[k]);
+    free(apart);
+    return out->packed[0] && out->packed[1];
+}
+
+/* A glyph that is a picture, where it is. */
+static enum font_status picture_put(struct pdf *p, int i, const struct font_map *map, double x,
+                                    double y, FILE *f)
+{
+    struct font_tile tile;
+    enum font_status status = drawn_tile(&p->drawn, p->d, p->layout, i, map, x, y, &tile);
+    if (status != FONT_OK || !tile.width_px)
+        return status;
+    bool good = array_reserve(&p->pictures, &p->pictures_capacity, p->pictures_count + 1,
+                              sizeof *p->pictures) &&
+                picture_pack(&tile, &p->pictures[p->pictures_count++]);
+    const double part = point_px / DRAWN_FINER;
+    p->covers[255] = true;
+    fprintf(f, "q /A255 gs %.7g 0 0 %.7g %.7g %.7g cm /I%d Do Q\n", tile.width_px * part,
+            tile.height_px * part, tile.left_px * part,
+            p->d->height_px * point_px - (tile.top_px + tile.height_px) * part,
+            p->pictures_count - 1);
+    free(tile.rgba);
+    return good ? FONT_OK : no_memory();
+}
+
+/* Its cover, then itself. */
+static bool picture_object(struct pdf *p, struct pdf_picture *picture)
+{
+    bool good = true;
+    for (int k = 1; k >= 0 && good; k--) {
+        good = object_begin(p);
+        fprintf(p->f,
+                "<< /Type /XObject /Subtype /Image /Width %d /Height %d /ColorSpace /Device%s "
+                "/BitsPerComponent 8 /Filter /FlateDecode /Length %zu",
+                picture->width_px, picture->height_px, k ? "Gray" : "RGB", picture->counts[k]);
+        if (!k)
+            fprintf(p->f, " /SMask %d 0 R", p->objects - 1);
+        fputs(" >>\nstream\n", p->f);
+        fwrite(picture->packed[k], 1, picture->counts[k], p->f);
+        fputs("\nendstream\nendobj\n", p->f);
+    }
+    picture->number = p->objects;
+    return good;
+}
+
 static enum font_status letter_put(struct pdf *p, int i, const struct font_map *map, double x,
                                    double y, FILE *f)
 {
@@ -161,9 +228,15 @@ static enum font_status letter_put(struct pdf *p, int i, const struct font_map *
         return status;
     if (i == 0 || p->layout->glyphs[i - 1].ink != g->ink)
         ink_put(p, i, f);
+    if (drawn->picture) {
+        status = picture_put(p, i, map, x, y, f);
+        if (status != FONT_OK || whole.kind != FONT_AFFINE)
+            return status;
+    }
     struct font_ink own;
     /* Programs that show PDF do not clip gradients to the letters of such fonts: those are paths. */
-    if (whole.kind == FONT_AFFINE && !gradient(drawn_ink(p->d, p->layout, i, &own))) {
+    if (drawn->picture ||
+        (whole.kind == FONT_AFFINE && !gradient(drawn_ink(p->d, p->layout, i, &own)))) {
         font_face_describe(g->face, &info);
         double em = info.units_per_em * point_px;
         const double *m = whole.m;
@@ -193,8 +266,15 @@ static enum font_status glyph_put(struct pdf *p, const struct drawn_glyph *g)
     struct font_outline outline;
     if (!f)
         return no_memory();
-    enum font_status status = font_face_outline_raw(g->face, g->glyph, &outline);
-    if (status == FONT_OK) {
+    enum font_status status = FONT_OK;
+    if (g->picture) { /* nothing, that has the text */
+        double advance = 0;
+        (void)font_face_advance(g->face, g->glyph, &advance);
+        fprintf(f, "%.7g 0 0 0 0 0 d1\n", advance);
+    } else {
+        status = font_face_outline_raw(g->face, g->glyph, &outline);
+    }
+    if (status == FONT_OK && !g->picture) {
         struct font_box box = font_outline_box(&outline);
         fprintf(f, "%.7g 0 %.7g %.7g %.7g %.7g d1\n", outline.advance, box.x0, box.y0, box.x1,
                 box.y1);
@@ -294,6 +374,8 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
     bool good = numbers && stream_put(p, content, count);
     for (int i = 0; good && i < p->fonts_count && status == FONT_OK; i++)
         status = font_put(p, &p->fonts[i], &numbers[i]);
+    for (int i = 0; good && i < p->pictures_count; i++)
+        good = picture_object(p, &p->pictures[i]);
     good = good && object_begin(p);
     int page = p->objects;
     fprintf(p->f,
@@ -303,6 +385,9 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
             page + 1, p->d->width_px * point_px, p->d->height_px * point_px);
     for (int i = 0; good && i < p->fonts_count; i++)
         fprintf(p->f, " /F%d %d 0 R", i, numbers[i]);
+    fputs(" >> /XObject <<", p->f);
+    for (int i = 0; good && i < p->pictures_count; i++)
+        fprintf(p->f, " /I%d %d 0 R", i, p->pictures[i].number);
     fputs(" >> /ExtGState <<", p->f);
     for (int i = 0; i < 256; i++)
         if (p->covers[i])
@@ -324,16 +409,14 @@ static enum font_status objects_put(struct pdf *p, const char *content, size_t c
     return status == FONT_OK && !good ? no_memory() : status;
 }
 
-enum font_status font_drawing_pdf(const struct font_drawing *d,
-                                  const struct font_layout *layout, const struct font_map *map,
-                                  double x, double y, FILE *file)
+static enum font_status spread_put(const struct font_drawing *d,
+                                   const struct font_layout *layout, const struct font_map *map,
+                                   double x, double y, FILE *file)
 {
     struct pdf p = {.d = d, .layout = layout, .x = x, .y = y};
     char *content = NULL, *whole = NULL;
     size_t content_bytes = 0, whole_bytes = 0;
-    enum font_status status = drawn_inks_check(layout);
-    if (status == FONT_OK)
-        status = drawn_find(layout, &p.drawn);
+    enum font_status status = drawn_find(layout, &p.drawn);
     if (status == FONT_OK && !fonts_find(&p))
         status = no_memory();
     FILE *f = status == FONT_OK ? open_memstream(&content, &content_bytes) : NULL;
@@ -357,7 +440,27 @@ enum font_status font_drawing_pdf(const struct font_drawing *d,
     free(content);
     free(whole);
     free(p.fonts);
+    for (int i = 0; i < p.pictures_count; i++) {
+        free(p.pictures[i].packed[0]);
+        free(p.pictures[i].packed[1]);
+    }
+    free(p.pictures);
     free(p.offsets);
     drawn_finish(&p.drawn);
+    return status;
+}
+
+enum font_status font_drawing_pdf(const struct font_drawing *d,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x, double y, FILE *file)
+{
+    struct font_layout spread;
+    enum font_status status = drawn_inks_check(layout);
+    if (status == FONT_OK)
+        status = font_colour_spread(layout, &spread);
+    if (status != FONT_OK)
+        return status;
+    status = spread_put(d, &spread, map, x, y, file);
+    font_layout_finish(&spread);
     return status;
 }

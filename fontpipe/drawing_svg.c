@@ -1,7 +1,9 @@
 /* drawing_svg.c - a layout as SVG: see drawing.h. */
+#include "colour.h"
 #include "drawing_internal.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static int byte_of(double number)
 {
@@ -54,13 +56,35 @@ static void fill_put(const struct font_drawing *d, const struct font_layout *lay
                 byte_of(ink->rgba[1]), byte_of(ink->rgba[2]), ink->rgba[3]);
 }
 
+static enum font_status picture_put(const struct font_drawing *d,
+                                    const struct font_layout *layout, struct drawn *drawn,
+                                    int i, const struct font_map *map, double x, double y,
+                                    FILE *f)
+{
+    struct font_tile tile;
+    enum font_status status = drawn_tile(drawn, d, layout, i, map, x, y, &tile);
+    if (status != FONT_OK || !tile.width_px)
+        return status;
+    const double part = 1.0 / DRAWN_FINER;
+    fprintf(f,
+            "<image x=\"%.7g\" y=\"%.7g\" width=\"%.7g\" height=\"%.7g\" "
+            "href=\"data:image/png;base64,",
+            tile.left_px * part, tile.top_px * part, tile.width_px * part,
+            tile.height_px * part);
+    status = drawn_png(&tile, f);
+    fputs("\"/>\n", f);
+    free(tile.rgba);
+    return status;
+}
+
 /* A letter: its outline used at its place; or a path where it is distorted, or has an ink whose places are the picture's. */
 static enum font_status letter_put(const struct font_drawing *d,
-                                   const struct font_layout *layout, const struct drawn *drawn,
-                                   int i, const struct font_map *map, double x, double y,
-                                   FILE *f)
+                                   const struct font_layout *layout, struct drawn *drawn, int i,
+                                   const struct font_map *map, double x, double y, FILE *f)
 {
     struct font_map whole;
+    if (drawn->glyphs[drawn->of[i]].picture)
+        return picture_put(d, layout, drawn, i, map, x, y, f);
     struct font_outline outline;
     struct font_ink own;
     enum font_status status = drawn_map(layout, i, map, x, y, &whole);
@@ -90,6 +114,8 @@ static enum font_status outlines_put(const struct drawn *drawn, FILE *f)
 {
     for (int k = 0; k < drawn->count; k++) {
         struct font_outline outline;
+        if (drawn->glyphs[k].picture)
+            continue;
         enum font_status status =
             font_face_outline_raw(drawn->glyphs[k].face, drawn->glyphs[k].glyph, &outline);
         if (status != FONT_OK)
@@ -128,14 +154,12 @@ static void words_put(const struct font_drawing *d, const struct font_layout *la
     fputs("</g>\n", f);
 }
 
-enum font_status font_drawing_svg(const struct font_drawing *d,
-                                  const struct font_layout *layout, const struct font_map *map,
-                                  double x, double y, FILE *f)
+static enum font_status spread_put(const struct font_drawing *d,
+                                   const struct font_layout *layout, const struct font_map *map,
+                                   double x, double y, FILE *f)
 {
     struct drawn drawn = {0};
-    enum font_status status = drawn_inks_check(layout);
-    if (status == FONT_OK)
-        status = drawn_find(layout, &drawn);
+    enum font_status status = drawn_find(layout, &drawn);
     if (status != FONT_OK)
         return status;
     fprintf(f,
@@ -158,4 +182,19 @@ enum font_status font_drawing_svg(const struct font_drawing *d,
     return status == FONT_OK && ferror(f)
                ? font_fail(FONT_BAD_FILE, "the drawing cannot be written")
                : status;
+}
+
+enum font_status font_drawing_svg(const struct font_drawing *d,
+                                  const struct font_layout *layout, const struct font_map *map,
+                                  double x, double y, FILE *f)
+{
+    struct font_layout spread;
+    enum font_status status = drawn_inks_check(layout);
+    if (status == FONT_OK)
+        status = font_colour_spread(layout, &spread);
+    if (status != FONT_OK)
+        return status;
+    status = spread_put(d, &spread, map, x, y, f);
+    font_layout_finish(&spread);
+    return status;
 }

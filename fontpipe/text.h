@@ -29,8 +29,8 @@ struct font_shaper;
 /* face: borrowed, must outlive the shaper; the first choice for every character. */
 enum font_status font_shaper_create(struct font_face *face, struct font_shaper **out);
 void font_shaper_destroy(struct font_shaper *shaper); /* NULL is fine */
-/* Characters that no font has as outlines are looked for in fonts of pictures in colours, too: for whoever draws by
- * font_painter_layout(), which alone draws those. */
+/* Characters that no font has as outlines are looked for in fonts of colours, too: for whoever draws by font_painter_layout(),
+ * gl_type_draw() or in files (drawing.h). */
 void font_shaper_colour(struct font_shaper *shaper);
 
 /* START: left, and where a paragraph runs to the left, right. JUSTIFY: white spaces are widened until lines fill the

@@ -308,7 +308,7 @@ int verb_set(int argc, char **argv)
                                   .indent_em = s.indent_em,
                                   .hyphenate = s.hyphenate,
                                   .vertical = s.vertical,
-                                  .colour = type_out_of(s.out_path) == TYPE_OUT_PNG,
+                                  .colour = true,
                                   .protrude = s.protrude,
                                   .expand = s.expand,
                                   .tolerance = s.tolerance};

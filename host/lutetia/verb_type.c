@@ -235,9 +235,8 @@ static int type_run(struct type *t, struct font_face *face)
     def.darken_px = t->darken_px;
     def.stripes = t->stripes;
     int status = EXIT_SUCCESS;
-    bool painted = !t->gl && !t->compare && type_out_of(t->out_path) == TYPE_OUT_PNG;
-    if (font_shaper_create(face, &shaper) == FONT_OK && painted)
-        font_shaper_colour(shaper); /* the painter alone draws such */
+    if (font_shaper_create(face, &shaper) == FONT_OK && !t->compare)
+        font_shaper_colour(shaper);
     if (!shaper || font_painter_create(&def, &painter) != FONT_OK ||
         font_shaper_layout(shaper, t->text, strlen(t->text), t->size_px, &options, &layout) !=
             FONT_OK)

@@ -131,6 +131,37 @@ static void text_turns(void **state)
     stage_close(&s);
 }
 
+/* Pictures between letters, whole and turned, and half of one. */
+static void pictures_are_as_painted(void **state)
+{
+    (void)state;
+    static const char frogs[] = "Wet \xf0\x9f\x90\xb8\xf0\x9f\x92\xa7 type";
+    struct stage s;
+    struct font_atlas_def atlas = font_atlas_def_default();
+    atlas.places_x = atlas.places_y = 8;
+    stage_open(&s, 30, &atlas);
+    font_layout_finish(&s.layout);
+    font_shaper_colour(s.shaper);
+    assert_int_equal(font_shaper_layout(s.shaper, frogs, strlen(frogs), 40, NULL, &s.layout),
+                     FONT_OK);
+    if (s.layout.missing_count) {
+        print_message("there is no font of pictures in colours (fonts-noto-color-emoji)\n");
+        stage_close(&s);
+        skip();
+    }
+    const struct font_ink half = font_ink_plain(0.2, 0.4, 0, 0.5);
+    s.layout.glyphs[5].ink = font_layout_ink_add(&s.layout, &half);
+    struct font_map maps[] = {font_map_rotation(0), font_map_rotation(20)};
+    for (int m = 0; m < 2; m++) {
+        gl_offscreen_clear(s.screen, paper);
+        gl_type_begin(s.type, WIDTH, HEIGHT);
+        assert_display(gl_type_draw(s.type, &s.layout, &maps[m], 20.3, 90.6, ink));
+        struct display_image wanted = painted(&s, &maps[m], 20.3, 90.6, 8);
+        assert_true(compare(&s, &wanted) > 1000);
+    }
+    stage_close(&s);
+}
+
 /* Each glyph has its own map, of every kind, and translucent ink; then the whole text is turned. */
 static void glyphs_have_maps_and_inks(void **state)
 {
@@ -214,9 +245,9 @@ static void what_cannot_be_is_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_is_as_painted),        cmocka_unit_test(text_turns),
-        cmocka_unit_test(glyphs_have_maps_and_inks), cmocka_unit_test(small_atlases_do),
-        cmocka_unit_test(what_cannot_be_is_said),
+        cmocka_unit_test(text_is_as_painted),      cmocka_unit_test(text_turns),
+        cmocka_unit_test(pictures_are_as_painted), cmocka_unit_test(glyphs_have_maps_and_inks),
+        cmocka_unit_test(small_atlases_do),        cmocka_unit_test(what_cannot_be_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* fuzz_fonts.c - draws or refuses a thousand damaged font files, ten thousand random outlines, and random text, with the same
  * seeds in every run. (security.md 7) */
+#include "fuzz_face.h"
 #include "fuzz_outline.h"
 #include "support.h"
 
-#include <gray.h>
 #include <text.h>
 
 #include <stdlib.h>
@@ -54,50 +54,6 @@ static size_t damage(uint8_t *bytes, size_t count, uint32_t *seed)
     return count;
 }
 
-/* Uses a font as programs do. Returns whether anything was drawn. */
-static bool font_use(const uint8_t *bytes, size_t count, uint32_t *seed)
-{
-    static struct font_filter *filter;
-    struct font_face *face;
-    struct font_face_info info;
-    struct font_edges edges = {0};
-    struct font_gray gray = {0};
-    bool drawn = false;
-    if (!filter)
-        filter = filter_make("gaussian-fast");
-    if (font_face_open_memory(bytes, count, 0, &face) != FONT_OK) {
-        assert_true(strlen(font_error()) > 0 && !strchr(font_error(), '\n'));
-        return false;
-    }
-    font_face_describe(face, &info);
-    assert_true(info.units_per_em > 0 && info.line_height > 0 &&
-                info.ascender > info.descender);
-    for (int i = 0; i < 8; i++) {
-        struct font_outline o;
-        uint32_t glyph = i < 4 ? font_face_glyph(face, (uint32_t) "Ag&\xe9"[i] & 0xff)
-                               : random_below(seed, (size_t)info.glyphs_count + 2);
-        struct font_map map = font_map_size(12.25, info.units_per_em);
-        if (font_face_outline(face, glyph, &o) == FONT_OK &&
-            font_edges_build(&edges, &o, &map, filter) == FONT_OK &&
-            edges.x1 - edges.x0 < 2000 && edges.y1 - edges.y0 < 2000 &&
-            font_gray_draw(&gray, &edges, filter, 0.5, 0.25) == FONT_OK)
-            drawn = drawn || gray.pixels;
-        font_outline_finish(&o);
-    }
-    struct font_shaper *shaper;
-    struct font_layout layout;
-    struct font_text_options alone = {.no_fallback = true};
-    assert_font(font_shaper_create(face, &shaper));
-    if (font_shaper_layout(shaper, "AVfi \xd7\x90\xd8\xa8", 9, 12, &alone, &layout) == FONT_OK)
-        assert_true(layout.glyphs_count >= 1);
-    font_layout_finish(&layout);
-    font_shaper_destroy(shaper);
-    font_face_close(face);
-    font_edges_finish(&edges);
-    font_gray_finish(&gray);
-    return drawn;
-}
-
 static void damaged_fonts_are_drawn_or_refused(void **state)
 {
     (void)state;
@@ -111,7 +67,7 @@ static void damaged_fonts_are_drawn_or_refused(void **state)
         assert_non_null(copy);
         for (int i = 0; i < (FILES + 2) / 3; i++) {
             memcpy(copy, bytes, whole);
-            drawn += font_use(copy, damage(copy, whole, &seed), &seed);
+            drawn += fuzz_face(copy, damage(copy, whole, &seed)) > 0;
         }
         free(copy);
         font_face_close(face);

@@ -2,6 +2,7 @@
  * here), beside glyphs without. */
 #include "support.h"
 
+#include <drawing.h>
 #include <edges.h>
 #include <paint.h>
 
@@ -217,6 +218,51 @@ static void layers_are_drawn_one_above_the_other(void **state)
     free(made);
 }
 
+/* How often a word is in a drawing of the layout. */
+static int drawing_has(const struct font_layout *l, bool pdf, const char *word)
+{
+    struct font_drawing d = {.width_px = SIDE, .height_px = SIDE};
+    char *bytes = NULL;
+    size_t count;
+    int found = 0;
+    FILE *f = open_memstream(&bytes, &count);
+    assert_non_null(f);
+    assert_font((pdf ? font_drawing_pdf : font_drawing_svg)(&d, l, NULL, 20, 110, f));
+    fclose(f);
+    for (const char *at = bytes;
+         (at = memmem(at, count - (size_t)(at - bytes), word, strlen(word))); at++)
+        found++;
+    free(bytes);
+    return found;
+}
+
+static void drawings_have_colours(void **state)
+{
+    (void)state;
+    struct font_face *plain = face_open("DejaVuSans"), *face;
+    size_t count, made_count;
+    const uint8_t *bytes = font_face_bytes(plain, &count);
+    uint32_t a = font_face_glyph(plain, 'A');
+    uint8_t *made = layered_make(bytes, count, a, font_face_glyph(plain, 'O'),
+                                 font_face_glyph(plain, 'x'), &made_count);
+    assert_font(font_face_open_memory(made, made_count, 0, &face));
+    struct font_placed one = {.face = face, .glyph = a};
+    const struct font_layout layered = {.glyphs = &one, .glyphs_count = 1, .size_px = 70};
+    assert_int_equal(drawing_has(&layered, false, "rgb(255,0,0)"), 1);
+    assert_int_equal(drawing_has(&layered, false, "<use"), 2);
+    assert_int_equal(drawing_has(&layered, true, "1 0 0 rg"), 1);
+    font_face_close(face);
+    free(made);
+    struct font_shaper *s;
+    struct font_layout l;
+    frog_lay(plain, &s, 60, &l);
+    assert_int_equal(drawing_has(&l, false, "<image"), 1);
+    assert_int_equal(drawing_has(&l, true, "/SMask"), 1);
+    font_layout_finish(&l);
+    font_shaper_destroy(s);
+    font_face_close(plain);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -224,6 +270,7 @@ int main(void)
         cmocka_unit_test(pictures_are_turned_with_the_text),
         cmocka_unit_test(pictures_are_refused_where_nothing_draws_them),
         cmocka_unit_test(layers_are_drawn_one_above_the_other),
+        cmocka_unit_test(drawings_have_colours),
     };
     return cmocka_run_group_tests_name("colour", tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "gl_type.h"
 #include "display_internal.h"
 #include "gl_light.h"
+#include <colour.h>
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -45,6 +46,7 @@ struct gl_type {
     void (*(*function)(const char *name))(void);
     struct font_atlas *atlas;
     struct font_atlas_def def;
+    struct font_painter *painter; /* of glyphs that are pictures, once there is one */
     GLuint textures[PAGES_MAX];
     int textures_count;
     int width_px, height_px; /* of the viewport */
@@ -113,6 +115,7 @@ void gl_type_destroy(struct gl_type *t)
     if (t->textures_count)
         t->gl.DeleteTextures(t->textures_count, t->textures);
     font_atlas_destroy(t->atlas);
+    font_painter_destroy(t->painter);
     free(t);
 }
 
@@ -254,14 +257,14 @@ static enum display_status inks_set(struct gl_type *t, const struct font_layout 
     return DISPLAY_OK;
 }
 
-enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
-                                 const struct font_map *map, double x_px, double y_px,
-                                 const double ink[3])
+/* Glyphs that are outlines. */
+static enum display_status outlines_draw(struct gl_type *t, const struct font_layout *layout,
+                                         const struct font_map *map, double x_px, double y_px,
+                                         const double ink[3])
 {
     enum display_status status = DISPLAY_OK;
     bool emptied = false; /* the atlas was emptied, and nothing has been requested since */
     int first = 0;
-    state_set(t);
     t->gl.Color3f(mixed(t, ink[0]), mixed(t, ink[1]), mixed(t, ink[2]));
     while (status == DISPLAY_OK && first < layout->glyphs_count) {
         int count = 0;
@@ -281,6 +284,96 @@ enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *la
         emptied = placed == FONT_FULL;
         if (emptied) /* glyphs that have been drawn may be dropped */
             font_atlas_begin(t->atlas);
+    }
+    return status;
+}
+
+/* A picture's pixels as a texture of their own, for as long as it takes to draw them. */
+static enum display_status tile_draw(const struct gl_type *t, const struct font_tile *tile)
+{
+    const struct gl *gl = &t->gl;
+    const float x0 = (float)tile->left_px, y0 = (float)tile->top_px;
+    const float x1 = x0 + (float)tile->width_px, y1 = y0 + (float)tile->height_px;
+    GLuint texture;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    /* Light is mixed where the framebuffer is encoded: its numbers are decoded, too. */
+    gl->TexImage2D(GL_TEXTURE_2D, 0, t->light ? GL_SRGB8_ALPHA8 : GL_RGBA8, tile->width_px,
+                   tile->height_px, 0, GL_RGBA, GL_UNSIGNED_BYTE, tile->rgba);
+    bool good = gl->GetError() == GL_NO_ERROR;
+    gl->Color4f(1, 1, 1, 1);
+    gl->Begin(GL_QUADS);
+    corner(t, x0, y0, 0, 0);
+    corner(t, x1, y0, 1, 0);
+    corner(t, x1, y1, 1, 1);
+    corner(t, x0, y1, 0, 1);
+    gl->End();
+    gl->DeleteTextures(1, &texture);
+    return good ? DISPLAY_OK
+                : display_fail(DISPLAY_NO_MEMORY,
+                               "the display has no memory for a picture of %dx%d pixels",
+                               tile->width_px, tile->height_px);
+}
+
+static enum display_status picture_draw(struct gl_type *t, const struct font_layout *layout,
+                                        int i, const struct font_map *map, double x_px,
+                                        double y_px, const double ink[3])
+{
+    struct font_painter_def def = font_painter_def_default();
+    struct font_tile tile;
+    if (!t->painter && font_painter_create(&def, &t->painter) != FONT_OK)
+        return fail_font(FONT_NO_MEMORY);
+    enum font_status made = font_painter_tile(t->painter, layout, i, map, x_px, y_px, ink,
+                                              t->width_px, t->height_px, &tile);
+    if (made != FONT_OK)
+        return fail_font(made);
+    enum display_status status = tile.width_px ? tile_draw(t, &tile) : DISPLAY_OK;
+    free(tile.rgba);
+    return status;
+}
+
+/* Outlines as far as the next picture, that picture, and so on. */
+static enum display_status coloured_draw(struct gl_type *t, const struct font_layout *layout,
+                                         const struct font_map *map, double x_px, double y_px,
+                                         const double ink[3])
+{
+    enum display_status status = DISPLAY_OK;
+    for (int i = 0; i < layout->glyphs_count && status == DISPLAY_OK;) {
+        struct font_layout part = *layout;
+        int end = i;
+        while (end < layout->glyphs_count && !font_painter_is_picture(&layout->glyphs[end]))
+            end++;
+        part.glyphs += i;
+        part.glyphs_count = end - i;
+        status = outlines_draw(t, &part, map, x_px, y_px, ink);
+        if (status == DISPLAY_OK && end < layout->glyphs_count)
+            status = picture_draw(t, layout, end++, map, x_px, y_px, ink);
+        i = end;
+    }
+    return status;
+}
+
+enum display_status gl_type_draw(struct gl_type *t, const struct font_layout *layout,
+                                 const struct font_map *map, double x_px, double y_px,
+                                 const double ink[3])
+{
+    struct font_layout spread;
+    enum display_status status;
+    bool plain = true;
+    for (int i = 0; i < layout->glyphs_count && plain; i++)
+        plain =
+            font_colour_of(layout->glyphs[i].face, layout->glyphs[i].glyph) == FONT_COLOUR_NONE;
+    state_set(t);
+    if (plain) {
+        status = outlines_draw(t, layout, map, x_px, y_px, ink);
+    } else if (font_colour_spread(layout, &spread) == FONT_OK) {
+        status = coloured_draw(t, &spread, map, x_px, y_px, ink);
+        font_layout_finish(&spread);
+    } else {
+        status = fail_font(FONT_NO_MEMORY);
     }
     state_reset(t);
     return status;
