@@ -1,7 +1,7 @@
 /* Computes send addresses from coordinates, and coordinates from send addresses, in the
  * processors, for any geometry.
  *
- * All computations use 64-bit integers. Division by a constant is a multiplication: for n <
+ * Computations use 64-bit integers, or 32-bit ones where no bit of the result depends on more. Division by a constant is a multiplication: for n <
  * 2^31 and a divisor d, with k = 31 + the least s for which d <= 2^s, n / d is n * (2^k / d
  * + 1) >> k.
  */
@@ -58,6 +58,28 @@ static struct machine_value *index_of(struct machine *m, const struct paris_geom
         return address;
     return machine_binary(m, MACHINE_ADD, quotient(m, address, g->ratio),
                           times(m, rest(m, address, g->ratio), CM_physical_processors_limit));
+}
+
+/* The lowest 32 bits of the address of an index of at most 32 bits: the number of processors is a power of two. */
+static struct machine_value *short_address_of(struct machine *m, const struct paris_geometry *g,
+                                              struct machine_value *index)
+{
+    int log2 = 0;
+    while (UINT64_C(1) << log2 < CM_physical_processors_limit)
+        log2++;
+    if (g->layout.blocks)
+        return machine_layout_address_value(m, &g->layout, index);
+    if (g->layout.order == MACHINE_SEND_ORDER || g->ratio == 1)
+        return index;
+    if (log2 == 0 || log2 >= 32) /* all are its virtual ones, or it has none */
+        return index;
+    struct machine_value *vp =
+        machine_resize(m, machine_extract(m, index, log2, 32 - log2), 32, false);
+    struct machine_value *processor =
+        machine_resize(m, machine_resize(m, index, log2, false), 32, false);
+    struct machine_value *ratio =
+        machine_constant(m, MACHINE_UINT(32), (struct machine_scalar){g->ratio, 0});
+    return machine_binary(m, MACHINE_ADD, vp, machine_binary(m, MACHINE_MUL, processor, ratio));
 }
 
 static struct machine_value *address_of(struct machine *m, const struct paris_geometry *g,
@@ -119,11 +141,11 @@ static struct machine_value *load_address(struct machine *m, const struct paris_
 
 static void store_address(struct machine *m, const struct paris_instruction *self,
                           const struct paris_geometry *g, CM_field_id_t dest,
-                          struct machine_value *index)
+                          struct machine_value *address)
 {
     unsigned int bits = paris_address_bits(g);
-    struct machine_value *v = address_of(m, g, index);
-    paris_store(m, paris_u(dest, bits), machine_resize(m, v, (int)bits, false), self->scope);
+    paris_store(m, paris_u(dest, bits), machine_resize(m, address, (int)bits, false),
+                self->scope);
 }
 
 /* ---- the instructions ---- */
@@ -135,8 +157,12 @@ void paris_coordinate_make(const struct paris_instruction *self, CM_geometry_id_
     struct machine *m = paris_begin(self->name);
     const struct paris_geometry *g = geometry_of(geometry, axis);
     struct machine_value *v = g ? load(m, coordinate, slen, "coordinate") : NULL;
-    if (v)
-        store_address(m, self, g, dest, times(m, v, stride_of(g, axis)));
+    uint64_t stride = v ? stride_of(g, axis) : 0;
+    if (!v)
+        return;
+    v = stride == 1 ? short_address_of(m, g, machine_resize(m, v, 32, false))
+                    : address_of(m, g, times(m, v, stride));
+    store_address(m, self, g, dest, v);
 }
 
 void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_id_t geometry,
@@ -163,7 +189,7 @@ void paris_coordinate_deposit(const struct paris_instruction *self, CM_geometry_
     index = index_of(m, g, index);
     v = machine_binary(m, MACHINE_SUB, v, coordinate_of(m, g, index, axis));
     v = times(m, v, stride_of(g, axis));
-    store_address(m, self, g, dest, machine_binary(m, MACHINE_ADD, index, v));
+    store_address(m, self, g, dest, address_of(m, g, machine_binary(m, MACHINE_ADD, index, v)));
 }
 
 void paris_coordinate_extract(const struct paris_instruction *self, CM_geometry_id_t geometry,
