@@ -1,5 +1,6 @@
 /* keys_actor.c - see keys_actor.h. */
 #include "keys_actor.h"
+#include "keys_places.h"
 
 #include <keys_picture.h>
 #include <text.h>
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OCTAVE = 12, OWN_ROWS = 5, AXES = 2, CHANNEL_COLORS = 4 };
+enum { OWN_ROWS = 5, AXES = 2, CHANNEL_COLORS = 4 };
 
 static const double FILL = 0.94; /* of a picture's width is for letters, as in keys_picture.c */
 static const double FORGET_S = 0.5; /* between looks for notes that have faded */
@@ -158,6 +159,22 @@ static enum stage_status keys_restore(void *actor, const void *state)
     return status;
 }
 
+static enum stage_status keys_play(void *actor, const uint8_t *bytes)
+{
+    struct keys_actor *k = actor;
+    uint8_t played[3] = {bytes[0], bytes[1], 0};
+    if (bytes[0] < MIDI_NOTE_OFF || bytes[0] >= MIDI_SYSEX)
+        return STAGE_OK;
+    const int kind = bytes[0] & 0xf0;
+    if (kind != MIDI_PRESSURE && kind != MIDI_PROGRAM)
+        played[2] = bytes[2];
+    if (kind == MIDI_NOTE_ON || kind == MIDI_NOTE_OFF || kind == MIDI_POLY_PRESSURE)
+        played[1] = (uint8_t)keys_places_near(&k->score, bytes[1]);
+    return keys_score_take(&k->score, k->time_s, played)
+               ? STAGE_OK
+               : stage_fail(STAGE_NO_MEMORY, "no memory for notes");
+}
+
 /* ---- pictures ---- */
 
 static void size_fit(struct keys_actor *k, const struct stage_look *look)
@@ -233,38 +250,11 @@ static const struct stage_actor_kind keys_kind = {.name = "keys",
                                                   .controls = keys_controls,
                                                   .step = keys_step,
                                                   .draw = keys_draw,
+                                                  .play = keys_play,
                                                   .keep = keys_keep,
                                                   .restore = keys_restore,
                                                   .forget = free,
                                                   .destroy = keys_destroy};
-
-static enum stage_status letters_give(struct keys_actor *k, const struct keys_actor_def *def)
-{
-    keys_letters_names(&k->letters);
-    if (def->text && !keys_letters_text(&k->score, def->text, &k->letters))
-        return stage_fail(STAGE_BAD_ARGUMENT, "there is no letter in the text");
-    for (int i = 0; def->letters && i < MIDI_NOTES; i++)
-        if (def->letters->of[i][0])
-            memcpy(k->letters.of[i], def->letters->of[i], KEYS_LETTER_BYTES);
-    return STAGE_OK;
-}
-
-static enum stage_status keys_place(struct keys_actor *k, const struct keys_actor_def *def)
-{
-    if (def->score) {
-        memcpy(k->score.keys, def->score->keys, sizeof k->score.keys);
-        memcpy(k->score.rank, def->score->rank, sizeof k->score.rank);
-        k->score.keys_count = def->score->keys_count;
-        return STAGE_OK;
-    }
-    if (def->range[0] < 0 || def->range[1] >= MIDI_NOTES ||
-        def->range[1] - def->range[0] < OCTAVE - 1)
-        return stage_fail(STAGE_BAD_ARGUMENT,
-                          "the keys must be an octave or more, of notes 0..127 (got %d to %d)",
-                          def->range[0], def->range[1]);
-    keys_score_range(&k->score, def->range[0], def->range[1]);
-    return STAGE_OK;
-}
 
 enum stage_status keys_actor_create(const struct keys_actor_def *def, struct stage_actor *out)
 {
@@ -285,9 +275,7 @@ enum stage_status keys_actor_create(const struct keys_actor_def *def, struct sta
         font_shaper_create(k->face, &k->shaper) != FONT_OK)
         status = stage_fail(STAGE_NO_MEMORY, "no memory for letters");
     if (status == STAGE_OK)
-        status = keys_place(k, def);
-    if (status == STAGE_OK)
-        status = letters_give(k, def);
+        status = keys_places_make(def, &k->score, &k->letters);
     if (status != STAGE_OK) {
         keys_destroy(k);
         return status;
@@ -296,32 +284,9 @@ enum stage_status keys_actor_create(const struct keys_actor_def *def, struct sta
     return STAGE_OK;
 }
 
-/* A key that has a place: octaves away, where it has none. */
-static int key_within(const struct keys_score *s, int key)
-{
-    for (int away = 0; away < MIDI_NOTES; away += OCTAVE) {
-        if (key - away >= 0 && s->rank[key - away] >= 0)
-            return key - away;
-        if (key + away < MIDI_NOTES && s->rank[key + away] >= 0)
-            return key + away;
-    }
-    return key;
-}
-
 enum stage_status keys_actor_play(const struct stage_actor *actor, const uint8_t *bytes)
 {
-    struct keys_actor *k = actor->self;
-    uint8_t played[3] = {bytes[0], bytes[1], 0};
-    if (bytes[0] < MIDI_NOTE_OFF || bytes[0] >= MIDI_SYSEX)
-        return STAGE_OK;
-    const int kind = bytes[0] & 0xf0;
-    if (kind != MIDI_PRESSURE && kind != MIDI_PROGRAM)
-        played[2] = bytes[2];
-    if (kind == MIDI_NOTE_ON || kind == MIDI_NOTE_OFF || kind == MIDI_POLY_PRESSURE)
-        played[1] = (uint8_t)key_within(&k->score, bytes[1]);
-    return keys_score_take(&k->score, k->time_s, played)
-               ? STAGE_OK
-               : stage_fail(STAGE_NO_MEMORY, "no memory for notes");
+    return keys_play(actor->self, bytes);
 }
 
 double keys_actor_level(const struct stage_actor *actor, int key)

@@ -1,8 +1,6 @@
 /* live_player.c - see live_player.h. */
 #include "live_player.h"
 
-#include "keys_actor.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +11,7 @@ enum { MESSAGES_OF_A_TURN = 2000 }; /* more wait for the next picture: nobody ca
 struct live_player {
     struct live_player_def def;
     struct stage *stage;
-    struct stage_actor keys;
+    struct stage_actor actor; /* the stage's, which takes what is played */
     struct script_map *map;
     uint64_t last_ns;
     double began_s; /* when the first picture was due */
@@ -113,8 +111,7 @@ enum stage_status live_player_create(const struct live_player_def *def, struct s
         return stage_fail(STAGE_NO_MEMORY, "no memory for a player");
     p->def = *def;
     p->stage = stage;
-    if (def->keys)
-        p->keys = *def->keys;
+    p->actor = stage_actor(stage);
     enum stage_status status = STAGE_OK;
     if (def->script) {
         void (*told)(void *context, const char *text) = p->def.tell;
@@ -152,8 +149,8 @@ enum stage_status live_player_before(void *player, struct stage *stage, double n
         if (!live_source_next(p->def.source, now_s, &m))
             break;
         p->last_ns = m.time_ns;
-        if (p->keys.self)
-            status = keys_actor_play(&p->keys, m.bytes);
+        if (p->actor.kind->play)
+            status = p->actor.kind->play(p->actor.self, m.bytes);
         if (p->map)
             script_map_message(p->map, &m);
     }

@@ -1,4 +1,4 @@
-/* live_player.h - plays a stage: what comes from a source goes to letters and, through a script, to any control.
+/* live_player.h - plays a stage: what comes from a source goes to the stage's actor, if it plays, and, through a script, to any control.
  *
  *     struct live_player *player;
  *     live_player_create(&def, stage, &player);
@@ -15,8 +15,6 @@
 
 struct live_player_def {
     struct live_source *source;
-    const struct stage_actor
-        *keys;                /* letters (keys_actor.h) that take what is played; NULL: none */
     const char *script;       /* a file; NULL: none */
     const char *const *words; /* key=value for the script's param() */
     int words_count;

@@ -4,6 +4,7 @@
 #include "lutetia.h"
 
 #include <keys_actor.h>
+#include <paper_actor.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +25,35 @@ bool keys_live_range(const char *text, int range[2])
     return range[0] >= 0 && range[1] >= range[0] + 11;
 }
 
+/* So often a sheet is asked for its steps; a letter that is played waits no longer. */
+#define PAPER_STEP_S (1.0 / 60)
+
+static int paper_make(const struct keys_live *def, const struct keys_actor_def *keys,
+                      struct stage_actor *out)
+{
+    struct paper_actor_def actor = paper_actor_def_default();
+    actor.keys = *keys;
+    actor.width = def->size[0] / 2; /* two pixels a fiber */
+    actor.height = def->size[1] / 2;
+    if (def->stock)
+        actor.stock = def->stock;
+    if (def->pigments.count > PAPER_ACTOR_PIGMENTS)
+        return fail_usage("keys", "--pigment: at most %d", PAPER_ACTOR_PIGMENTS);
+    for (int i = 0; i < def->pigments.count; i++)
+        actor.pigments[i] = def->pigments.texts[i];
+    if (def->pigments.count)
+        actor.pigments_count = def->pigments.count;
+    int status =
+        machine_prepare("keys", actor.width, actor.height,
+                        paper_sheet_bytes(actor.width, actor.height, actor.pigments_count));
+    if (status != EXIT_SUCCESS)
+        return status;
+    const enum stage_status made = paper_actor_create(&actor, out);
+    return made == STAGE_OK             ? EXIT_SUCCESS
+           : made == STAGE_BAD_ARGUMENT ? fail_usage("keys", "%s", stage_error())
+                                        : fail("keys", "%s", stage_error());
+}
+
 static int stage_make(const struct keys_live *def, struct stage **out)
 {
     struct keys_actor_def actor = keys_actor_def_default();
@@ -37,7 +67,13 @@ static int stage_make(const struct keys_live *def, struct stage **out)
     actor.keys = def->keys;
     if (def->theme)
         stage.theme = def->theme;
-    enum stage_status status = keys_actor_create(&actor, &stage.actor);
+    if (def->wet) {
+        int made = paper_make(def, &actor, &stage.actor);
+        if (made != EXIT_SUCCESS)
+            return made;
+        stage.step_s = PAPER_STEP_S;
+    }
+    enum stage_status status = def->wet ? STAGE_OK : keys_actor_create(&actor, &stage.actor);
     if (status == STAGE_OK)
         status = stage_create(&stage, out);
     for (int i = 0; status == STAGE_OK && i < def->sets.count; i++)
@@ -53,8 +89,7 @@ static int both_make(const struct keys_live *def, struct stage **stage, struct l
     int status = stage_make(def, stage);
     if (status != EXIT_SUCCESS)
         return status;
-    const struct stage_actor actor = stage_actor(*stage);
-    return live_begin("keys", &def->live, def->song, def->range[0], &actor, *stage, live);
+    return live_begin("keys", &def->live, def->song, def->range[0], *stage, live);
 }
 
 int keys_live_window(const struct keys_live *def)

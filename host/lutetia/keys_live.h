@@ -11,6 +11,9 @@ struct keys_live {
     const struct keys_score *score; /* of the song; NULL: the keys of the range */
     const struct keys_letters *letters;
     const char *text, *theme;
+    bool wet;          /* on paper: */
+    const char *stock; /* NULL: the usual one */
+    struct option_texts pigments;
     int range[2];
     struct keys_def keys;
     struct option_texts sets;

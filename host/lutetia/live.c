@@ -17,8 +17,7 @@ static void said(void *context, const char *text)
 }
 
 int live_begin(const char *verb, const struct live_options *options, struct midi_song *song,
-               int lowest, const struct stage_actor *keys, struct stage *stage,
-               struct live *out)
+               int lowest, struct stage *stage, struct live *out)
 {
     const struct live_source_def source = {.song = song,
                                            .server = options->server,
@@ -29,7 +28,6 @@ int live_begin(const char *verb, const struct live_options *options, struct midi
     if (live_source_open(&source, &out->source) != MIDI_OK)
         return fail(verb, "%s", midi_error());
     const struct live_player_def player = {.source = out->source,
-                                           .keys = keys,
                                            .script = options->map,
                                            .words = options->params.texts,
                                            .words_count = options->params.count,

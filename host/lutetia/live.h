@@ -20,11 +20,10 @@ struct live {
     struct stage_window *window; /* where lines are said; NULL: standard error */
 };
 
-/* song: NULL: live. lowest: the computer's lowest key; keys: the actor that takes notes, or NULL. An exit status; what is wrong has been
+/* song: NULL: live. lowest: the computer's lowest key. An exit status; what is wrong has been
  * said. The caller ends *out, also then. */
 int live_begin(const char *verb, const struct live_options *options, struct midi_song *song,
-               int lowest, const struct stage_actor *keys, struct stage *stage,
-               struct live *out);
+               int lowest, struct stage *stage, struct live *out);
 void live_end(struct live *live);
 
 /* Opens a window for the stage and plays until somebody closes it. no_display: what to do where there is none. */

@@ -23,7 +23,9 @@ struct keys_work {
     const char *poster, *sheet, *still, *frames, *video, *sound;
     double size_px[2], second_px, at_s;
     int picture[2], fps, range[2];
-    bool silent, played; /* by a map in Lua */
+    bool silent, wet, played; /* played: on a stage, by a map in Lua or on wet paper */
+    const char *stock;
+    struct option_texts pigments;
     const char *range_text, *theme;
     struct option_texts sets;
     struct live_options live;
@@ -63,11 +65,14 @@ static int options_check(struct keys_work *w, const struct option_words *words,
         return fail_usage("keys",
                           "--range must be two notes, an octave or more: c3-c5 (got '%.40s')",
                           w->range_text);
-    w->played = is_script(w->map);
-    if (w->played) {
+    w->played = w->wet;
+    if (is_script(w->map)) {
+        w->played = true;
         w->live.map = w->map;
         w->map = NULL;
     }
+    if (!w->wet && (w->stock || w->pigments.count))
+        return fail_usage("keys", "--stock and --pigment go with --wet");
     if (!*song)
         return pictures_wanted(w)
                    ? fail_usage("keys",
@@ -75,8 +80,8 @@ static int options_check(struct keys_work *w, const struct option_words *words,
                    : EXIT_SUCCESS;
     if (w->played && (w->poster || w->sheet || !(w->still || w->frames || w->video)))
         return fail_usage("keys",
-                          "what a map in Lua makes of a song is seen by --still, --frames "
-                          "and --video");
+                          "what a map in Lua or wet paper makes of a song is seen by --still, "
+                          "--frames and --video");
     if (!pictures_wanted(w))
         w->poster = "out.png";
     return EXIT_SUCCESS;
@@ -115,6 +120,12 @@ static int options_read(struct keys_work *w, int argc, char **argv, const char *
          0, 0, 0},
         {"filter", 0, OPTION_TEXT, "WORDS",
          "what is heard of it: channels=1, transpose=12, ...", &w->live.filters, 0, 0, 0},
+        {"wet", 0, OPTION_FLAG, NULL, "print the letters on wet paper, in ink", &w->wet, 0, 0,
+         0},
+        {"stock", 0, OPTION_TEXT, "NAME", "the paper (cold press)", &w->stock, 0, 0, 0},
+        {"pigment", 0, OPTION_TEXTS, "NAME",
+         "of the ink; of several a map chooses (french ultramarine, ...)", &w->pigments, 0, 0,
+         0},
         {"theme", 0, OPTION_TEXT, "light|dark|FILE", "colours of a window", &w->theme, 0, 0, 0},
         {"poster", 'o', OPTION_TEXT, "FILE", "one line along which time runs, PNG (out.png)",
          &w->poster, 0, 0, 0},
@@ -419,6 +430,9 @@ static struct keys_live live_of(const struct keys_work *w)
                               .letters = w->map ? &w->letters : NULL,
                               .text = w->text,
                               .theme = w->theme,
+                              .wet = w->wet,
+                              .stock = w->stock,
+                              .pigments = w->pigments,
                               .range = {w->range[0], w->range[1]},
                               .keys = w->def,
                               .sets = w->sets,

@@ -214,7 +214,7 @@ static int map_begin(struct spring *s, struct stage *stage)
     enum { LOWEST = 48 };
     if (!s->live_options.map || s->live.source)
         return EXIT_SUCCESS;
-    return live_begin("spring", &s->live_options, s->song, LOWEST, NULL, stage, &s->live);
+    return live_begin("spring", &s->live_options, s->song, LOWEST, stage, &s->live);
 }
 
 static enum stage_status frame_before(void *context, struct stage *stage, double now_s)

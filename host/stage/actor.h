@@ -16,6 +16,7 @@
 #include "theme.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* How a picture of the actor is drawn. */
 struct stage_look {
@@ -64,6 +65,8 @@ struct stage_actor_kind {
     void (*draw)(void *actor, const struct stage_look *look, struct stage_draw_list *list);
     /* True: the actor took the event; then moves and the release go to it alone. */
     bool (*event)(void *actor, const struct stage_event *event);
+    /* Takes what is played, between two steps: a MIDI channel message with its status byte. */
+    enum stage_status (*play)(void *actor, const uint8_t *bytes);
     /* The box around the whole actor, in the world. */
     struct font_box (*extent)(void *actor);
     /* Copies everything that can change; restore() puts it back and forget() frees it.

@@ -168,6 +168,20 @@ void stage_draw_text(struct stage_draw_list *list, const struct font_layout *lay
     }
 }
 
+void stage_draw_image(struct stage_draw_list *list, const uint8_t *rgb, int width, int height,
+                      double x0, double y0, double x1, double y1)
+{
+    stage_view_to_px(list->view, x0, y0, &x0, &y0);
+    stage_view_to_px(list->view, x1, y1, &x1, &y1);
+    if (!is_near(x0, y0) || !is_near(x1, y1) || width < 1 || height < 1)
+        return;
+    struct stage_item *item =
+        item_add(list, STAGE_DRAW_IMAGE, (struct stage_color){.r = 1, .g = 1, .b = 1, .a = 1});
+    if (item)
+        item->image = (struct stage_image){
+            rgb, width, height, fmin(x0, x1), fmin(y0, y1), fmax(x0, x1), fmax(y0, y1)};
+}
+
 /* ---- again ---- */
 
 static void item_move(struct stage_item *item, double x_px, double y_px)
@@ -176,6 +190,11 @@ static void item_move(struct stage_item *item, double x_px, double y_px)
     if (item->kind == STAGE_DRAW_BAR) {
         item->bar.x_px += x_px;
         item->bar.y_px += y_px;
+    } else if (item->kind == STAGE_DRAW_IMAGE) {
+        item->image.x0_px += x_px;
+        item->image.x1_px += x_px;
+        item->image.y0_px += y_px;
+        item->image.y1_px += y_px;
     } else if (item->glyph.map.kind == FONT_AFFINE) {
         item->glyph.x_px += x_px;
         item->glyph.y_px += y_px;

@@ -1,5 +1,5 @@
 /* draw_list.h - a picture as a list of shapes, from back to front: letters under any map,
- * lines, discs, rings, boxes. Actors write it; renderer.h draws it by OpenGL and exact.h
+ * lines, discs, rings, boxes, images. Actors write it; renderer.h draws it by OpenGL and exact.h
  * through fontpipe's filter.
  *
  *     struct stage_draw_list list = {0};
@@ -32,7 +32,7 @@ struct stage_view {
 /* A view for places in pixels: y is downwards. */
 #define STAGE_VIEW_PIXELS ((struct stage_view){0, 0, 0})
 
-enum stage_draw_kind { STAGE_DRAW_BAR, STAGE_DRAW_GLYPH };
+enum stage_draw_kind { STAGE_DRAW_BAR, STAGE_DRAW_GLYPH, STAGE_DRAW_IMAGE };
 
 struct stage_bar {
     double x_px, y_px, ux, uy;
@@ -49,12 +49,20 @@ struct stage_glyph {
         y_px; /* of its origin, if the map is affine; the map's translation is then not used */
 };
 
+/* An image in a box; between its pixels it is linear. */
+struct stage_image {
+    const uint8_t *rgb; /* rows from the top, sRGB numbers; borrowed until the list is drawn */
+    int width, height;
+    double x0_px, y0_px, x1_px, y1_px;
+};
+
 struct stage_item {
     enum stage_draw_kind kind;
     struct stage_color color;
     union {
         struct stage_bar bar;
         struct stage_glyph glyph;
+        struct stage_image image;
     };
 };
 
@@ -105,6 +113,10 @@ void stage_draw_letter(struct stage_draw_list *list, const struct stage_letter *
 /* Draws a layout with its origin at that place, at its own size in pixels. */
 void stage_draw_text(struct stage_draw_list *list, const struct font_layout *layout, double x,
                      double y, struct stage_color color);
+
+/* An image that fills the box between two opposite corners and hides what is behind it. */
+void stage_draw_image(struct stage_draw_list *list, const uint8_t *rgb, int width, int height,
+                      double x0, double y0, double x1, double y1);
 
 /* Appends another list, or its letters only, moved by that many pixels. tint: in that
  * colour, with the product of the opacities; NULL: unchanged. fade: 0..1, a factor of the

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TO_NUMBER = 4096 };
+enum { TO_NUMBER = 4096, TO_LIGHT = 16 * 255 };
 
 struct stage_exact {
     struct font_painter *painter;
@@ -20,6 +20,7 @@ struct stage_exact {
     uint8_t to_number[TO_NUMBER +
                       1]; /* indexed by the root of light, so that dark numbers have as many
                            * entries as light ones */
+    float to_light[TO_LIGHT + 1]; /* of an image's numbers */
     int left_out;
 };
 
@@ -39,6 +40,8 @@ enum stage_status stage_exact_create(const char *filter, struct stage_exact **ou
         double root = (double)i / TO_NUMBER;
         e->to_number[i] = (uint8_t)lrint(255 * font_number(root * root, 0));
     }
+    for (int i = 0; i <= TO_LIGHT; i++)
+        e->to_light[i] = (float)font_light((double)i / TO_LIGHT, 0);
     *out = e;
     return STAGE_OK;
 }
@@ -195,6 +198,37 @@ static enum font_status glyph_draw(struct stage_exact *e, const struct stage_gly
     return status;
 }
 
+/* Between the middles of its pixels an image is linear in sRGB's numbers, as OpenGL's textures are; at its edges it goes on. */
+static void image_draw(struct stage_exact *e, const struct stage_image *i,
+                       const struct display_image *image)
+{
+    const double across = i->width / (i->x1_px - i->x0_px),
+                 down = i->height / (i->y1_px - i->y0_px);
+    if (!isfinite(across) || !isfinite(down))
+        return;
+    const int x0 = (int)fmax(0, ceil(i->x0_px - 0.5)), y0 = (int)fmax(0, ceil(i->y0_px - 0.5)),
+              x1 = (int)fmin(image->width_px, ceil(i->x1_px - 0.5)),
+              y1 = (int)fmin(image->height_px, ceil(i->y1_px - 0.5));
+    for (int y = y0; y < y1; y++) {
+        const double v = fmin(fmax((y + 0.5 - i->y0_px) * down - 0.5, 0), i->height - 1);
+        const int row = (int)v, next_row = row + 1 < i->height ? row + 1 : row;
+        for (int x = x0; x < x1; x++) {
+            const double u = fmin(fmax((x + 0.5 - i->x0_px) * across - 0.5, 0), i->width - 1);
+            const int column = (int)u, next = column + 1 < i->width ? column + 1 : column;
+            const double a = u - column, b = v - row;
+            for (int c = 0; c < 3; c++) {
+#define AT(x_, y_) i->rgb[3 * ((size_t)(y_) * (size_t)i->width + (size_t)(x_)) + (size_t)c]
+                const double number =
+                    (1 - b) * ((1 - a) * AT(column, row) + a * AT(next, row)) +
+                    b * ((1 - a) * AT(column, next_row) + a * AT(next, next_row));
+#undef AT
+                e->light[3 * ((size_t)y * (size_t)image->width_px + (size_t)x) + (size_t)c] =
+                    e->to_light[(int)(number * (TO_LIGHT / 255) + 0.5)];
+            }
+        }
+    }
+}
+
 static void numbers_put(const struct stage_exact *e, struct display_image *image)
 {
     size_t count = (size_t)image->width_px * (size_t)image->height_px * 3;
@@ -224,9 +258,13 @@ enum stage_status stage_exact_draw(struct stage_exact *e, const struct stage_dra
         e->light[i] = behind[i % 3];
     for (int i = 0; i < list->count; i++) {
         const struct stage_item *item = &list->items[i];
-        enum font_status status = item->kind == STAGE_DRAW_BAR
-                                      ? bar_draw(e, item->bar, item->color, image)
-                                      : glyph_draw(e, &item->glyph, item->color, image);
+        enum font_status status = FONT_OK;
+        if (item->kind == STAGE_DRAW_BAR)
+            status = bar_draw(e, item->bar, item->color, image);
+        else if (item->kind == STAGE_DRAW_GLYPH)
+            status = glyph_draw(e, &item->glyph, item->color, image);
+        else
+            image_draw(e, &item->image, image);
         if (status == FONT_NO_MEMORY)
             return stage_fail(STAGE_NO_MEMORY, "%s", font_error());
         e->left_out += status != FONT_OK;

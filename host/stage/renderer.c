@@ -178,6 +178,18 @@ static int glyphs_draw(struct stage_renderer *r, const struct stage_draw_list *l
     return i;
 }
 
+static void image_draw(struct stage_renderer *r, const struct stage_image *i)
+{
+    const struct gl_image image = {.rgb = i->rgb,
+                                   .width = i->width,
+                                   .height = i->height,
+                                   .x0_px = (float)i->x0_px,
+                                   .y0_px = (float)i->y0_px,
+                                   .x1_px = (float)i->x1_px,
+                                   .y1_px = (float)i->y1_px};
+    gl_shapes_image(r->shapes, &image);
+}
+
 static enum display_status frame_begin(struct stage_renderer *r)
 {
     enum display_status status = DISPLAY_OK;
@@ -204,8 +216,17 @@ enum stage_status stage_renderer_draw(struct stage_renderer *r,
     gl_shapes_begin(r->shapes, r->width_px, r->height_px);
     gl_shapes_clear(r->shapes, (const float[]){background.r, background.g, background.b});
     for (int i = 0; i < list->count && status == DISPLAY_OK;)
-        i = list->items[i].kind == STAGE_DRAW_BAR ? bars_draw(r, list, i)
-                                                  : glyphs_draw(r, list, i, &status);
+        switch (list->items[i].kind) {
+        case STAGE_DRAW_BAR:
+            i = bars_draw(r, list, i);
+            break;
+        case STAGE_DRAW_GLYPH:
+            i = glyphs_draw(r, list, i, &status);
+            break;
+        case STAGE_DRAW_IMAGE:
+            image_draw(r, &list->items[i++].image);
+            break;
+        }
     if (r->window) {
         gl_target_show(r->target);
         window_frame_end(r->window);

@@ -132,8 +132,7 @@ static void notes_are_seen_within_a_frame_and_5_ms(void **unused)
     keys.keys.release_s = 0.01;
     assert_int_equal(keys_actor_create(&keys, &stage_def.actor), STAGE_OK);
     assert_int_equal(stage_create(&stage_def, &stage), STAGE_OK);
-    const struct stage_actor actor = stage_actor(stage);
-    const struct live_player_def player_def = {.source = source, .keys = &actor};
+    const struct live_player_def player_def = {.source = source};
     struct live_player *player;
     assert_int_equal(live_player_create(&player_def, stage, &player), STAGE_OK);
     double took_us[NOTES];

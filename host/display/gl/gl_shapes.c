@@ -12,6 +12,7 @@
 #define GL_FUNCTIONS(X)                                                                        \
     X(void, AttachShader, (GLuint, GLuint))                                                    \
     X(void, Begin, (GLenum))                                                                   \
+    X(void, BindTexture, (GLenum, GLuint))                                                     \
     X(void, BlendFunc, (GLenum, GLenum))                                                       \
     X(void, Clear, (GLbitfield))                                                               \
     X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                  \
@@ -21,14 +22,21 @@
     X(GLuint, CreateShader, (GLenum))                                                          \
     X(void, DeleteProgram, (GLuint))                                                           \
     X(void, DeleteShader, (GLuint))                                                            \
+    X(void, DeleteTextures, (GLsizei, const GLuint *))                                         \
     X(void, Disable, (GLenum))                                                                 \
     X(void, Enable, (GLenum))                                                                  \
     X(void, End, (void))                                                                       \
+    X(void, GenTextures, (GLsizei, GLuint *))                                                  \
     X(void, GetProgramiv, (GLuint, GLenum, GLint *))                                           \
     X(void, LinkProgram, (GLuint))                                                             \
     X(void, MultiTexCoord2f, (GLenum, GLfloat, GLfloat))                                       \
     X(void, MultiTexCoord4f, (GLenum, GLfloat, GLfloat, GLfloat, GLfloat))                     \
+    X(void, PixelStorei, (GLenum, GLint))                                                      \
     X(void, ShaderSource, (GLuint, GLsizei, const char *const *, const GLint *))               \
+    X(void, TexCoord2f, (GLfloat, GLfloat))                                                    \
+    X(void, TexImage2D,                                                                        \
+      (GLenum, GLint, GLint, GLsizei, GLsizei, GLint, GLenum, GLenum, const void *))           \
+    X(void, TexParameteri, (GLenum, GLenum, GLint))                                            \
     X(void, UseProgram, (GLuint))                                                              \
     X(void, Vertex2f, (GLfloat, GLfloat))                                                      \
     X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))
@@ -41,7 +49,7 @@ struct gl {
 struct gl_shapes {
     struct gl gl;
     void (*(*function)(const char *name))(void);
-    GLuint program;
+    GLuint program, texture;
     int width_px, height_px;
     bool light;
 };
@@ -127,6 +135,8 @@ void gl_shapes_destroy(struct gl_shapes *s)
         return;
     if (s->program)
         s->gl.DeleteProgram(s->program);
+    if (s->texture)
+        s->gl.DeleteTextures(1, &s->texture);
     free(s);
 }
 
@@ -188,4 +198,35 @@ void gl_shapes_bars(struct gl_shapes *s, const struct gl_bar *bars, int count)
         gl->Disable(GL_FRAMEBUFFER_SRGB);
     gl->Disable(GL_BLEND);
     gl->UseProgram(0);
+}
+
+/* The framebuffer takes the image's numbers as they are: nothing is mixed. */
+void gl_shapes_image(struct gl_shapes *s, const struct gl_image *image)
+{
+    static const float corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const struct gl *gl = &s->gl;
+    if (!s->texture)
+        gl->GenTextures(1, &s->texture);
+    gl->UseProgram(0);
+    gl->Enable(GL_TEXTURE_2D);
+    gl->BindTexture(GL_TEXTURE_2D, s->texture);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, image->width, image->height, 0, GL_RGB,
+                   GL_UNSIGNED_BYTE, image->rgb);
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl->Color4f(1, 1, 1, 1);
+    gl->Begin(GL_QUADS);
+    for (int i = 0; i < 4; i++) {
+        float x = corners[i][0] > 0 ? image->x1_px : image->x0_px,
+              y = corners[i][1] > 0 ? image->y1_px : image->y0_px;
+        gl->TexCoord2f(corners[i][0], corners[i][1]);
+        gl->Vertex2f(2 * x / (float)s->width_px - 1, 1 - 2 * y / (float)s->height_px);
+    }
+    gl->End();
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    gl->Disable(GL_TEXTURE_2D);
 }

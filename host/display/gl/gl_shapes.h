@@ -1,4 +1,4 @@
-/* gl_shapes.h - lines, discs, rings and boxes on a display, by OpenGL, their edges smooth.
+/* gl_shapes.h - lines, discs, rings, boxes and images on a display, by OpenGL, their edges smooth.
  *
  *     struct gl_shapes *shapes;
  *     if (gl_shapes_create(glfwGetProcAddress, &shapes) != DISPLAY_OK)
@@ -29,11 +29,20 @@
 
 #include "display.h"
 
+#include <stdint.h>
+
 struct gl_bar {
     float x_px, y_px; /* the middle; y downwards */
     float ux, uy;     /* along its length; of length 1 */
     float half_length_px, half_width_px, radius_px, ring_px;
     float color[4]; /* sRGB numbers 0..1, and opacity */
+};
+
+/* An image in a box, linear between its pixels. */
+struct gl_image {
+    const uint8_t *rgb; /* rows from the top, sRGB numbers */
+    int width, height;
+    float x0_px, y0_px, x1_px, y1_px;
 };
 
 struct gl_shapes;
@@ -50,5 +59,8 @@ void gl_shapes_clear(struct gl_shapes *shapes, const float color[3]);
 
 /* Draws the bars in order, later ones over earlier ones. */
 void gl_shapes_bars(struct gl_shapes *shapes, const struct gl_bar *bars, int count);
+
+/* Draws the image over what is there. */
+void gl_shapes_image(struct gl_shapes *shapes, const struct gl_image *image);
 
 #endif
