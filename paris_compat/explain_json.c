@@ -1,4 +1,4 @@
-/* explain_json.c - the report as a JSON object; docs/engine.md explains its members. */
+/* explain_json.c - the report as a JSON object. */
 #include "explain.h"
 
 static void text(FILE *out, const char *s)

@@ -43,7 +43,7 @@ enum machine_plan_way {
     MACHINE_PLAN_WAYS
 };
 
-/* What one run of each takes, by the cost model; 0: it was not considered, or is not possible. */
+/* What one run of each takes, by the cost model, as plan/plans_compared.c notes it; 0: it was not considered, or is not possible. */
 struct machine_explained_plan {
     enum machine_plan_way chosen;
     bool forced; /* somebody asked for it (LUTETIA_STRIPS) */

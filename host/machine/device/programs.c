@@ -14,7 +14,7 @@ enum { PROGRAMS_SIZE = 1024 };
 #define KERNEL_ROOM_BYTES 1e6 /* the most disk space that compiling a kernel takes */
 
 struct program_entry {
-    char *key; /* options, then text */
+    char *key; /* cache_key() */
     cl_program program;
     cl_kernel kernel;
     struct program_entry *next;

@@ -8,5 +8,6 @@ enum {
     PENDING_MOST = 4096, /* also in a loop whose turns are being collected */
     PENDING_LOOP = 16384 /* also while a loop over slices is not at its end */
 };
+_Static_assert(5 * PENDING_MANY < PENDING_MOST, "loops may wait longer than straight code");
 
 #endif

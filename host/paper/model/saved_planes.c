@@ -32,7 +32,8 @@ static void plane_add(struct paper_plane *planes, struct place *places, int *cou
         snprintf(plane->name, sizeof plane->name, "%s", name);
 }
 
-/* Their order is that of files: it changes with the model's version only. */
+/* Their order is that of files: it changes with the model's version only (PAPER_MODEL_VERSION in
+ * sheet.h: new rows stand under config->model >= it). A new field is a member in model.h, made in fields.c, cleared in sheet_reset(). */
 static int planes_make(const struct paper_sheet_config *config, struct paper_plane *planes,
                        struct place *places)
 {
