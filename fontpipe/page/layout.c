@@ -15,7 +15,7 @@ static double baseline(const struct page_text *t, const struct paragraph *p,
 }
 
 struct output {
-    const struct page_text *t;
+    struct page_text *t;
     const struct page_template *template;
     struct font_layout *out;
     int *inks; /* of the layout, by style; 0: not yet */
@@ -83,14 +83,18 @@ static bool line_put(struct output *o, const struct paragraph *p, const struct s
         const struct set_run *run = &p->runs[g->run];
         const struct style *style = o->t->styles[run->style];
         struct font_placed *to = &out->glyphs[out->glyphs_count++];
+        struct font_face *face = style->shaper->faces[run->face].face;
+        float scale = g->scale;
+        if (run->face == 0 && !(frame->vertical && run->upright))
+            face = widths_face(o->t, style, g->glyph, &scale);
         *to = (struct font_placed){
-            .face = style->shaper->faces[run->face].face,
+            .face = face,
             .glyph = g->glyph,
             .cluster = o->begin + (g->letter >= 0 ? p->letters[g->letter].byte : p->bytes),
             .line = line,
             .size_px = (float)style->look.size_px,
             .ink = ink_of(o, run->style),
-            .map = map_of(o, frame->vertical, run->upright, g->scale)};
+            .map = map_of(o, frame->vertical, run->upright, scale)};
         if (g->glyph == 0 && g->letter >= 0)
             font_layout_missing_add(out, p->letters[g->letter].character);
         slot_point(o->template, slot, slot->u0 + (double)g->u, base - (double)g->v, &to->x_px,

@@ -69,7 +69,8 @@ struct page_manner {
     int right_to_left;                             /* as font_text_options has it */
     bool hyphenate;  /* by the dictionary of the style's language */
     double protrude; /* 0..1: how far small signs at a line's ends stand in the margin */
-    double expand;   /* 0..0.05: how much wider or narrower letters may be */
+    double
+        expand; /* 0..0.05: how much wider or narrower letters may be; by the font's axis of widths, where it has one */
     double
         tolerance; /* the badness a line may have before words are hyphenated more freely; 200 */
     bool keep_together, keep_with_next, begins_column;

@@ -144,11 +144,20 @@ struct shared_face {
     struct font_shaper *shaper;
 };
 
+/* A style's face, so many hundredths wider; NULL: it cannot be. */
+struct wide_face {
+    const struct font_face *of;
+    int steps;
+    struct font_face *face;
+};
+
 struct page_text {
     struct style **styles;
     int styles_count, styles_capacity;
     struct shared_face *faces; /* of styles, each once */
     int faces_count, faces_capacity;
+    struct wide_face *widths;
+    int widths_count, widths_capacity;
     bool colour;
     struct flow flows[FLOWS_MAX];
     struct paragraph **by_id;
@@ -226,6 +235,12 @@ enum font_status line_set(struct page_text *t, const struct paragraph *p,
 double signs_protrusion(uint32_t character, bool at_end);
 /* The width of a hyphen in the style of a letter; *glyph: 0 if its face has none. */
 double signs_hyphen(const struct page_text *t, const struct letter *l, uint32_t *glyph);
+
+/* widths.c: the face for a glyph of the style's own face that is so much wider along the line: one whose axis of widths is set so, if it
+ * has one. *scale: what is left to a map. */
+struct font_face *widths_face(struct page_text *t, const struct style *style, uint32_t glyph,
+                              float *scale);
+void widths_finish(struct page_text *t);
 
 /* slots.c: the next slot for a line so high in a frame from v on that ends above v_end. False: there is no more. */
 bool slots_next(const struct page_template *t, int frame, double *v, int *part, double v_end,

@@ -72,6 +72,7 @@ void page_text_destroy(struct page_text *t)
     templates_finish(t);
     free(t->styles);
     free(t->faces);
+    widths_finish(t);
     free(t->by_id);
     free(t->marks_of);
     free(t->pages);

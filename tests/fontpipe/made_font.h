@@ -43,4 +43,8 @@ size_t made_cpal(const uint8_t (*bgra)[4], int colours, uint8_t *out);
 /* An SVG table of one document for glyphs from first to last. */
 size_t made_svg(const char *document, unsigned first, unsigned last, uint8_t *out);
 
+/* The font with an axis `wdth` of 90..110, 100 usual, along which its outlines grow as the axis says: those of glyphs that are not put
+ * together of others. TrueType. Owns: the caller frees it. */
+uint8_t *made_wide(const uint8_t *from, size_t count, size_t *made_count);
+
 #endif

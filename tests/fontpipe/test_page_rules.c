@@ -2,6 +2,8 @@
  * pages as drawings. */
 #include "support.h"
 
+#include "made_font.h"
+
 #include <drawing.h>
 #include <page.h>
 #include <setup.h>
@@ -9,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char marsh[] =
     "The water of a marsh carries pigment through the fibers of a sheet; what it leaves at its "
@@ -191,6 +194,68 @@ static void letters_widen_a_little(void **state)
         }
     assert_true(scaled > l->glyphs_count / 2);
     end(&f);
+}
+
+/* A font with an axis of widths, in a file; what is set by it is written there. */
+static void wide_write(char path[], double *em)
+{
+    struct font_face *plain;
+    struct font_face_info info;
+    size_t count, made_count;
+    assert_font(font_face_open("DejaVuSerif", 0, &plain));
+    font_face_describe(plain, &info);
+    *em = info.units_per_em;
+    const uint8_t *bytes = font_face_bytes(plain, &count);
+    uint8_t *made = made_wide(bytes, count, &made_count);
+    int file = mkstemps(path, 4);
+    assert_true(file >= 0 && write(file, made, made_count) == (ssize_t)made_count);
+    close(file);
+    free(made);
+    font_face_close(plain);
+}
+
+/* Where a font has an axis of widths lines are as wide as without, and their letters set by it: maps have next to nothing to do. */
+static void letters_are_expanded_by_the_fonts_axis(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/wide-XXXXXX.ttf";
+    double em;
+    wide_write(path, &em);
+    struct fixture f;
+    struct page_template page = {.width_px = 500, .height_px = 500, .frames_count = 1};
+    struct page_style style = page_style_default();
+    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+    int id, varied = 0, mapped = 0, letters = 0;
+    f = (struct fixture){0};
+    page.frames[0] = column;
+    m.expand = 0.05;
+    assert_font(page_text_create(&f.text));
+    style.font = path;
+    style.size_px = 14;
+    assert_font(page_style_add(f.text, &style, &id));
+    assert_font(page_templates_set(f.text, &page, 1));
+    add(&f, marsh, &m);
+    const struct font_layout *l = look(&f, 0);
+    for (int i = 0; i + 1 < l->glyphs_count; i++) {
+        const struct font_placed *g = &l->glyphs[i];
+        const struct font_map *map = g->map ? &l->maps[g->map - 1] : NULL;
+        struct font_axis axis;
+        assert_font(font_face_axis(g->face, 0, &axis));
+        assert_string_equal(axis.tag, "wdth");
+        assert_true(axis.value >= 95 && axis.value <= 105);
+        varied += axis.value != 100;
+        mapped += map && fabs(map->m[0] - 1) > 0.0075; /* such as are put together of others */
+        letters++;
+        if (g[1].line == g->line || l->glyphs[l->glyphs_count - 1].line == g->line)
+            continue;
+        double map_part = map ? map->m[0] : 1, end_px;
+        end_px = g->x_px + (glyph_end(g) - g->x_px) * map_part;
+        if (fabs(end_px - (column.x + column.width)) > 0.05)
+            fail_msg("line %d ends at %g", g->line, end_px);
+    }
+    assert_true(varied > letters / 2 && mapped < letters / 10);
+    end(&f);
+    unlink(path);
 }
 
 /* The number of the paragraph's lines on a page. */
@@ -491,6 +556,7 @@ int main(void)
         cmocka_unit_test(justified_lines_fill_the_column),
         cmocka_unit_test(words_are_divided_by_patterns),
         cmocka_unit_test(letters_widen_a_little),
+        cmocka_unit_test(letters_are_expanded_by_the_fonts_axis),
         cmocka_unit_test(keeps_are_kept),
         cmocka_unit_test(notes_go_with_their_lines),
         cmocka_unit_test(text_keeps_off_shapes),
