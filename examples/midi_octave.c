@@ -1,4 +1,4 @@
-/* midi_octave.c - every key that is played sounds an octave higher, too. Ends with the server.
+/* midi_octave.c - also plays every key an octave higher. Ends with the server.
  *
  *     lutetia midi serve keys=raw:/dev/snd/midiC1D0 &
  *     cc midi_octave.c $(pkg-config --cflags --libs lutetia-midi) -o midi_octave && ./midi_octave keys keys */

@@ -1,8 +1,8 @@
-/* travelling_water.c - a line of pigment, and water that comes from the left: five moments, one above the other.
+/* travelling_water.c - a line of pigment, and water that moves over it from the left: five moments, one above the other.
  *
  *     build/examples/example_travelling_water out.png
  *
- * The line is dry where the water has not come yet, and stays crisp there. */
+ * The line stays crisp where the water has not arrived yet. */
 #include <display.h>
 #include <paper.h>
 
@@ -42,7 +42,7 @@ int main(int argc, char **argv)
         status = paper_view_read(sheet, PAPER_VIEW_COLOR,
                                  series.pixels + (size_t)moment * 3 * WIDTH * HEIGHT);
         for (int step = 0; step < STEPS_BETWEEN && status == PAPER_OK; step++) {
-            /* The water is poured a little further to the right each time. */
+            /* Each time the water is poured a little further to the right. */
             int front = WIDTH * (moment * STEPS_BETWEEN + step) / (MOMENTS * STEPS_BETWEEN);
             if (step % 8 == 0)
                 status = paper_rectangle(sheet, front - 40, 20, 40, HEIGHT - 40, &water);

@@ -1,4 +1,4 @@
-/* sheets.h - small sheets with two pigments, for tests that look at other things than what sheets are made of. */
+/* sheets.h - small sheets with two pigments, for tests in which the sheet's configuration does not matter. */
 #ifndef LUTETIA_TESTS_SHEETS_H
 #define LUTETIA_TESTS_SHEETS_H
 

@@ -1,4 +1,4 @@
-/* letters.c - each letter of a word in a quadrangle of its own, and words in inks that let each other shine through.
+/* letters.c - draws each letter of a word in its own quadrangle, and words in translucent inks.
  *
  *     examples/example_letters out.png */
 #include <display.h>
@@ -18,7 +18,7 @@ static int fail(void)
     return EXIT_FAILURE;
 }
 
-/* The corners of a letter's box, moved as if the word hung on a wave. */
+/* Moves the corners of a letter's box as if the word hung on a wave. */
 static bool letter_bend(struct font_layout *l, int i, double left, double right)
 {
     struct font_point to[4];
@@ -61,7 +61,7 @@ static bool word_bent(struct font_shaper *s, struct font_painter *p, struct font
     return good;
 }
 
-/* As light to the left, as numbers to the right. */
+/* Draws translucent words: to the left inks are mixed as light, to the right as numbers. */
 static bool words_over(struct font_shaper *s, struct font_painter *p, struct font_picture *to)
 {
     static const char *const words[] = {"cyan", "rose", "gold"};

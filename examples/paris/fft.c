@@ -1,11 +1,11 @@
 /* fft.c - the fast Fourier transform, a processor for each sample.
  *
- *     lutetia cc fft.c -o fft && ./fft [log2 of how many]
+ *     lutetia cc fft.c -o fft && ./fft [log2 of the number of samples]
  *
- * Shows: complex numbers and butterflies.  In pass b each processor meets the one whose coordinate differs
- * in bit b (CM_get_from_power_two): the lower takes the sum, the upper the difference times a root of
- * unity that each works out itself.  After all passes the coefficients are in bit-reversed order; a send
- * to the reversed address puts them right.
+ * Shows: complex numbers and butterflies.  In pass b each processor is paired with the one whose coordinate
+ * differs in bit b (CM_get_from_power_two).  The lower one takes the sum, the upper one the difference times
+ * a root of unity that it computes itself.  After all passes the coefficients are in bit-reversed order; a
+ * send to the reversed address puts them right.
  *
  * Compared with a direct transform of some coefficients, and transformed back. */
 #include <stdio.h>
@@ -19,7 +19,7 @@
 
 static int counts[1], zero[1], axis[1];
 
-/* Unnormalised; sign -1 there, 1 back. */
+/* The transform without normalisation; sign -1: forward, 1: back. */
 void transform (value, bits, sign)
     CM_field_id_t value; /* complex: real part, imaginary part */
     int bits, sign;
@@ -35,7 +35,7 @@ void transform (value, bits, sign)
         CM_load_context (CM_add_offset_to_field_id (place, b));
         CM_get_from_power_two_1L (other, value, 0, b, CM_downward, 128);
         CM_c_subtract_3_1L (value, other, value, DOUBLE);
-        if (b > 0) { /* the lower b bits of the place say which root */
+        if (b > 0) { /* the place's lower b bits number the root */
             CM_u_move_2L (low, place, ADDRESS, b);
             CM_f_u_float_2_2L (angle, low, ADDRESS, DOUBLE);
             CM_f_multiply_constant_2_1L (angle, sign * PI / (1 << b), DOUBLE);
@@ -79,7 +79,7 @@ void read_value (part, value)
                                       CM_float_double);
 }
 
-/* How far coefficient k is from the one in `got`, by the definition. */
+/* The distance of coefficient k in `got` from its value by the definition. */
 double apart (given, got, count, k)
     double *given[2], *got[2];
     int count, k;

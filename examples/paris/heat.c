@@ -2,12 +2,11 @@
  *
  *     lutetia cc heat.c -o heat && ./heat [steps [height width]]
  *
- * The rim is held at 0, a hot bar and a hot disk at 1; between them heat flows until the picture heat.ppm
- * is drawn, with lines of equal temperature.
+ * The rim is held at 0, a hot bar and a hot disk at 1; heat flows between them.  The picture heat.ppm shows
+ * the last step, with lines of equal temperature.
  *
- * Shows: floats, NEWS, and the context as boundary condition.  Points whose temperature is given switch
- * themselves off, once, and the loop does not know of them.  At the end every point is compared with a
- * plain loop's. */
+ * Shows: floats, NEWS, and the context as boundary condition.  Points whose temperature is given are made
+ * inactive once, before the loop.  At the end every point is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>
@@ -74,7 +73,7 @@ void plain_step (old, new, fixed, height, width)
         }
 }
 
-/* Black, red, yellow, white; a dark line at each tenth. */
+/* The colour of a temperature: black, red, yellow, white; a dark line at each tenth. */
 void colour (heat, pixel)
     float heat;
     unsigned char *pixel;

@@ -2,13 +2,13 @@
  *
  *     lutetia cc life.c -o life && ./life [generations [height width]]
  *
- * Five cells, the R-pentomino, take 1103 generations to settle down as 116.  Each dead cell keeps a glow
- * that fades, so that the picture life.pgm shows what has happened where.
+ * Five cells, the R-pentomino, take 1103 generations to settle down as 116.  A cell that dies keeps a glow
+ * that fades, so that the picture life.pgm shows where something has happened.
  *
- * Shows: NEWS.  Nine neighbours are summed with four fetches: three cells above each other first, then
- * three such sums beside each other.  With the cell itself counted, a sum of 3 is life, and 4 changes
- * nothing: two comparisons that narrow the context.  The lights on the front of the machine show what
- * lives (`lutetia leds ./life`).  At the end every cell is compared with a plain loop's. */
+ * Shows: NEWS.  Nine cells are summed with four fetches: first three cells above each other, then three
+ * such sums beside each other.  The cell itself is counted.  With a sum of 3 it lives, with 4 it stays as it
+ * is, else it is dead: two comparisons that narrow the context.  The lights on the front of the machine show
+ * the living cells (`lutetia leds ./life`).  At the end every cell is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,7 @@ static char *pattern[] = {
 
 static int sizes[2], zero[2], axes[2] = { 0, 1 };
 
-/* One generation: alive becomes what it is next. */
+/* Computes the next generation in alive, and lets glow fade. */
 void step (alive, glow, sum, side)
     CM_field_id_t alive, glow, sum, side;
 {
@@ -58,7 +58,7 @@ void step (alive, glow, sum, side)
     CM_set_context ();
 }
 
-/* The same, one cell after the other. */
+/* The next generation by a plain loop over the cells. */
 void plain_step (old, new, height, width)
     unsigned char *old, *new;
     int height, width;

@@ -2,11 +2,11 @@
  *
  *     lutetia cc mandelbrot.c -o mandelbrot && ./mandelbrot [most [height width]]
  *
- * z = z * z + c until |z| > 2, at most `most` times; mandelbrot.ppm is coloured by how often.
+ * z = z * z + c until |z| > 2, at most `most` times; the number of turns gives the colour in mandelbrot.ppm.
  *
- * Shows: a context that shrinks.  A point that has escaped switches itself off, and what it holds stays.
- * Now and then the front end asks how many are left (CM_global_count_context), and when nobody has left
- * for long it stops.  Every 37th row is compared with a plain loop's. */
+ * Shows: a context that shrinks.  A point that has escaped becomes inactive and keeps its numbers.  From
+ * time to time the front end asks how many are active (CM_global_count_context), and stops when none has
+ * escaped for long.  Every 37th row is compared with a plain loop's. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>
@@ -58,7 +58,7 @@ int plain_count (cx, cy, most)
     return count;
 }
 
-/* From blue through white to brown and back, slower and slower. */
+/* The colour of a count: from blue through white to brown and back, slower for larger counts. */
 void colour (count, pixel)
     int count;
     unsigned char *pixel;
@@ -83,7 +83,7 @@ void draw (counts, height, width)
     free (picture);
 }
 
-/* How many of every 37th row's points a plain loop counts otherwise. */
+/* The number of points, in every 37th row, for which a plain loop gives another count. */
 int compare (counts, height, width, pitch, most)
     unsigned short *counts;
     int height, width, most;

@@ -2,12 +2,12 @@
  *
  *     lutetia cc nbody.c -o nbody && ./nbody [steps [stars]]
  *
- * Two clouds that turn fall towards each other; nbody.pgm shows their paths from above.
+ * Two turning clouds fall towards each other; nbody.pgm shows their paths from above.
  *
- * Shows: the ring.  A copy of all stars' places and masses travels round, from neighbour to neighbour
- * along the only axis; at each of its stops every processor adds the pull of the star that is visiting.
- * After a whole turn each has met all others.  The first step's pulls are compared with a plain double
- * loop's, and the energy at the end with that at the beginning. */
+ * Shows: the ring.  A copy of all stars' places and masses moves round, from neighbour to neighbour along
+ * the only axis.  At each stop every processor adds the pull of the star whose copy it holds.  After a whole
+ * turn each star has met all others.  The first step's pulls are compared with a plain double loop's, and
+ * the energy at the end with that at the beginning. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "picture.h"
 
 #define SINGLE 23, 8
-#define SOFT 0.01  /* squared: stars are not points, and none gets infinitely near */
+#define SOFT 0.01  /* added to the squared distance, so that no pull is infinite */
 #define DT 0.01
 #define SIDE 400   /* of the picture */
 #define AXES 3
@@ -94,7 +94,7 @@ void drift (time)
     }
 }
 
-/* Of all stars, on the front end, in double; the pulls on star 0 go to `first`. */
+/* The energy of all stars, computed on the front end in double; `first` gets the pulls on star 0. */
 double energy (values, first)
     float *values[2 * AXES + 1]; /* places, speeds, mass */
     double *first;
@@ -128,7 +128,7 @@ double uniform () /* -1 to 1 */
     return 2.0 * (rand () / (RAND_MAX + 1.0)) - 1.0;
 }
 
-/* Star i, of a ball of radius 1 that turns; the odd ones' ball is elsewhere, and turns the other way. */
+/* Draws star i in a turning ball of radius 1; odd stars are in a second ball, which turns the other way. */
 void invent (i, values)
     int i;
     float *values[2 * AXES + 1];

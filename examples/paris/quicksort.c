@@ -1,12 +1,12 @@
-/* quicksort.c - quicksort, all parts at once, a processor for each key.
+/* quicksort.c - quicksort of all parts at the same time, a processor for each key.
  *
- *     lutetia cc quicksort.c -o quicksort && ./quicksort [how many]
+ *     lutetia cc quicksort.c -o quicksort && ./quicksort [number of keys]
  *
- * Shows: segments.  Every part that has still to be sorted is a segment of the only axis, and what is said
- * once happens in all of them: the first key of a segment is copied to the others, each key finds that
- * it is less, equal, or greater, counts how many of its kind come before it, and is sent to its place;
- * where one kind stops and the next begins, a new segment starts.  It ends when every key is at most its
- * right neighbour: after as many rounds as the recursion would be deep.  Compared with qsort. */
+ * Shows: segments.  Every part that is still to be sorted is a segment of the only axis, and each call works
+ * on all segments at once.  The first key of a segment, the pivot, is copied to the others.  Each key is
+ * less, equal or greater, counts the keys of its kind before it, and is sent to its place.  A new segment
+ * starts where one kind ends and the next begins.  The loop ends when every key is at most its right
+ * neighbour: after as many rounds as the recursion would be deep.  Compared with qsort. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@
 static int counts[1], zero[1], axis[1];
 static CM_field_id_t start; /* 1: a segment begins here */
 
-/* In all of a segment, what its last processor has. */
+/* Copies the value of each segment's last processor to the whole segment. */
 void from_last (dest, source)
     CM_field_id_t dest, source;
 {
@@ -42,7 +42,7 @@ int sorted (key, side)
 }
 
 int quicksort (key)
-    CM_field_id_t key; /* KEY bits, then KIND bits that are ours */
+    CM_field_id_t key; /* KEY bits, then KIND bits for this function */
 {
     CM_field_id_t kind = CM_add_offset_to_field_id (key, KEY), pivot, base, place, total, address;
     int k, rounds = 0;
@@ -69,7 +69,7 @@ int quicksort (key)
         CM_u_move_constant_1L (kind, 2, KIND);
         CM_set_context ();
 
-        /* base: where the keys of this kind begin, in all of the segment */
+        /* base: where the keys of this kind begin, the same in the whole segment */
         CM_my_news_coordinate_1L (base, 0, PLACE);
         CM_scan_with_copy_1L (base, base, 0, PLACE, CM_upward, CM_inclusive, CM_segment_bit, start);
         for (k = 0; k < 3; k++) {

@@ -3,9 +3,9 @@
  *     lutetia cc search.c -o search && ./search [word [file]]
  *
  * Shows: NEWS along a line of letters, and packing.  Each processor compares its letter with the word's
- * first, its right neighbour's with the second, and so on; who is wrong once drops out of the context.
- * Those that are left number themselves (CM_enumerate) and send their place to the processor of that
- * number, so the front end reads as many numbers as there are matches, not as there are letters.
+ * first, its right neighbour's letter with the second, and so on; a processor that finds a difference
+ * becomes inactive.  The others number themselves (CM_enumerate) and send their place to the processor of
+ * that number.  So the front end reads one number for each match, not one for each letter.
  * Compared with a search letter by letter. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static char *verse[] = {
 
 static int counts[1], zero[1], axis[1];
 
-/* The text in the file, or the verse many times; 0 bytes at the end keep words from running round. */
+/* Returns the file's text, or the verse many times; 0 bytes at the end prevent matches that wrap round. */
 char *get_text (name, margin)
     char *name;
     int margin;

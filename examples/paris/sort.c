@@ -1,15 +1,15 @@
 /* sort.c - a million keys sorted twice, a processor for each.
  *
- *     lutetia cc sort.c -o sort && ./sort [log2 of how many]
+ *     lutetia cc sort.c -o sort && ./sort [log2 of the number of keys]
  *
  * Shows: two ways to sort.
  *
- * Bitonic: in round k, blocks of 2^k keys that rise and then fall become blocks that only rise, or only
- * fall: each processor compares its key with that of the processor 2^(k-1) away, then 2^(k-2), ... 1
- * (CM_get_from_power_two), and takes it if it is to have the lesser, or the greater, and has not.  Nobody
- * needs to know an address.
+ * Bitonic: in round k, blocks of 2^k keys that rise and then fall become blocks that only rise or only
+ * fall.  Each processor compares its key with that of the processor 2^(k-1) away, then 2^(k-2), ... 1
+ * (CM_get_from_power_two).  One of the two is to have the lesser key, the other the greater; both take the
+ * other's key where that is not so.  No addresses are needed.
  *
- * By rank: CM_u_rank_2L gives each processor the place of its key among all; a send takes it there.
+ * By rank: CM_u_rank_2L gives each processor the place of its key among all; a send moves the key there.
  *
  * Both are compared with the front end's qsort. */
 #include <stdio.h>
@@ -33,7 +33,7 @@ void test_bit (place, b)
     CM_deallocate_stack_through (bit);
 }
 
-/* Returns how many pairs were the wrong way round. */
+/* Sorts key; returns the number of exchanged pairs. */
 double bitonic (key, bits)
     CM_field_id_t key;
     int bits;
@@ -46,7 +46,7 @@ double bitonic (key, bits)
     CM_my_news_coordinate_1L (place, 0, KEY);
     for (k = 1; k <= bits; k++)
         for (b = k - 1; b >= 0; b--) {
-            /* Bit b: the upper one of two.  Bit k: the block is to fall. */
+            /* Bit b of the place: the upper one of a pair.  Bit k: the block is to fall. */
             CM_get_from_power_two_1L (other, key, 0, b, CM_upward, KEY);
             test_bit (place, b);
             CM_store_test (takes_greater);

@@ -1,4 +1,4 @@
-/* test_confine.c - a confined process reads and writes what it has open, and can do nothing else. (security.md 8) */
+/* test_confine.c - a confined process reads and writes its open files, and can do nothing else. (security.md 8) */
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -21,7 +21,7 @@
 
 enum { SKIPPED = 77 };
 
-/* A child's status is the line number of the first claim that does not hold. */
+/* Ends the child with the line number of a claim that does not hold as its status. */
 #define HOLDS(claim)                                                                           \
     do {                                                                                       \
         if (!(claim))                                                                          \
@@ -76,7 +76,7 @@ static void memory_is_limited(void **state)
     if (child == 0) {
         confine_resources(parent, 10, 64 << 20);
         void *volatile some =
-            malloc(32 << 20); /* volatile: compilers may leave out what nobody reads */
+            malloc(32 << 20); /* volatile: compilers may remove unused memory */
         void *volatile more = malloc(128 << 20);
         _exit(some && !more ? 0 : 1);
     }
@@ -85,7 +85,7 @@ static void memory_is_limited(void **state)
 }
 #endif
 
-/* A parent that is killed takes its child with it: the child's end of a pipe closes. */
+/* A child ends when its parent is killed, and its end of a pipe closes. */
 static void it_ends_with_its_parent(void **state)
 {
     (void)state;

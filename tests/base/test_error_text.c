@@ -1,4 +1,4 @@
-/* test_error_text.c - a module's last failure in words, each thread its own. */
+/* test_error_text.c - the text of a module's last failure; each thread has its own. */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>

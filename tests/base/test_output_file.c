@@ -1,4 +1,5 @@
-/* test_output_file.c - files appear whole under their name, or not at all; whatever else has the name is refused. (security.md 11, 12, 13) */
+/* test_output_file.c - files appear whole under their name or not at all. A name that is no regular file is refused.
+ * (security.md 11, 12, 13) */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -20,7 +21,7 @@
 
 #include <output_file.h>
 
-/* Each test has a folder of its own and stands in it. */
+/* Makes a new folder for each test and changes into it. */
 static int folder_enter(void **state)
 {
     char *folder = strdup("/tmp/test-output-file-XXXXXX");
@@ -90,7 +91,7 @@ static void commit_gives_the_name(void **state)
     snprintf(path, sizeof path, "%s/b.png", (char *)*state); /* a path with folders */
     text_write(path, "third");
     content_is("b.png", "third");
-    output_file_abandon(&out); /* of a file that was committed: nothing */
+    output_file_abandon(&out); /* does nothing after a commit */
 }
 
 static void abandon_leaves_what_was_there(void **state)
@@ -174,7 +175,7 @@ static void long_names_are_refused(void **state)
     text_write(name, "x");
 }
 
-/* A limit of a file's size stands for a full disk: the error of a write long before the commit is the one reported. */
+/* A limit on the file's size stands for a full disk. The reported error is that of the write, long before the commit. */
 static void failed_write_is_reported(void **state)
 {
     (void)state;
@@ -196,7 +197,7 @@ static void failed_write_is_reported(void **state)
     assert_int_equal(names_count(), 1);
 }
 
-/* In a child: begins a file, writes, says so, and is killed. */
+/* Forks a child that begins a file, writes, reports, and is killed. */
 static void die_while_writing(const char *name)
 {
     int ends[2];
@@ -222,9 +223,7 @@ static void part_files_of_the_dead_are_swept(void **state)
 {
     (void)state;
     struct output_file living;
-    text_write(
-        "a.png",
-        "first"); /* this process has swept here before: the child's is not its own to forget */
+    text_write("a.png", "first"); /* this process has swept here once already */
     assert_true(output_file_open(&living, "living.png"));
     die_while_writing("a.png");
     FILE *other = fopen(".a.png.tooshort.part", "wb"); /* not of our kind */
@@ -238,7 +237,7 @@ static void part_files_of_the_dead_are_swept(void **state)
     content_is("a.png", "first");
 }
 
-/* The first file that a process opens in a folder does it by itself. */
+/* The first file that a process opens in a folder sweeps the folder. */
 static void next_process_sweeps(void **state)
 {
     (void)state;
@@ -256,7 +255,7 @@ static void next_process_sweeps(void **state)
     content_is("b.png", "");
 }
 
-/* Several processes write the same two names, and sweep all the time: each file is always somebody's whole one. */
+/* Several processes write the same two names and sweep all the time. Each file is always the whole file of one of them. */
 static void writers_do_not_disturb_each_other(void **state)
 {
     (void)state;

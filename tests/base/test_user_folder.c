@@ -1,4 +1,4 @@
-/* test_user_folder.c - caches are where nobody else can put a file, or private to the process. (security.md 15) */
+/* test_user_folder.c - caches are in folders where no other user can put a file, or private to the process. (security.md 15) */
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
@@ -20,7 +20,7 @@
 
 static char home[PATH_MAX];
 
-/* Runs a shell command in the test's home; what it is given is the test's own text. */
+/* Runs a shell command, always a literal of this test, in the test's home. */
 static void shell(const char *command)
 {
     assert_int_equal(chdir(home), 0);
@@ -67,7 +67,7 @@ static void cache_is_in_home_and_for_its_user_alone(void **state)
     assert_true(is_in(folder, wanted));
 }
 
-/* What is wrong with it is told, and a temporary one takes its place. */
+/* Checks that the folder is refused with this reason and that a temporary one replaces it. */
 static void is_refused(const char *expected)
 {
     char folder[USER_FOLDER_MAX];
@@ -94,7 +94,7 @@ static void folders_of_others_are_refused(void **state)
     char folder[USER_FOLDER_MAX];
     const char *why;
     assert_true(user_cache_folder("lutetia", folder,
-                                  &why)); /* as in /tmp: others cannot replace what is ours */
+                                  &why)); /* as in /tmp, others cannot replace our files */
     assert_null(why);
     if (geteuid() == 0) {
         shell("chown 65534 .cache/lutetia");
@@ -118,7 +118,7 @@ static void home_behind_a_link_is_checked_where_it_leads(void **state)
     is_refused("others may write to a folder above it");
 }
 
-/* What a process with no HOME says: its cache's path. */
+/* Starts a process without HOME and reads its cache's path. */
 static pid_t homeless_start(char path[static USER_FOLDER_MAX], bool killed)
 {
     int ends[2];
@@ -167,8 +167,7 @@ static void temporary_folder_goes_with_its_process(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        CASE(
-            temporary_folder_goes_with_its_process), /* first: this process has none to hand to its children */
+        CASE(temporary_folder_goes_with_its_process), /* first: children inherit the folder */
         CASE(cache_is_in_home_and_for_its_user_alone),
         CASE(home_behind_a_link_is_checked_where_it_leads),
         CASE(folders_of_others_are_refused),

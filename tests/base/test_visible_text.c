@@ -35,7 +35,7 @@ static void what_does_something_is_shown(void **state)
         {"\xe2\x80\xa8", "\\u{2028}"},
         {"\xef\xbb\xbf", "\\u{feff}"},
         {"\xff\xfe", "\\xff\\xfe"},
-        {"\xc0\x9b", "\\xc0\\x9b"}, /* an escape in more bytes than it takes */
+        {"\xc0\x9b", "\\xc0\\x9b"}, /* an escape in overlong UTF-8 */
         {"\xe0\x80\x9b", "\\xe0\\x80\\x9b"},
         {"\xed\xa0\x80", "\\xed\\xa0\\x80"}, /* half a character */
         {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},

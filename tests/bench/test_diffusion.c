@@ -1,5 +1,4 @@
-/* test_diffusion.c - the benchmark's peers against a plain double loop, operation by operation
- * as the listing. */
+/* test_diffusion.c - compares the benchmark's peers with a plain double loop that has the listing's operations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +16,7 @@ enum { STEPS = 7 };
 
 /* ---- the sheets ---- */
 
-/* The rectangle's distance from each edge: left, top, right, bottom. */
+/* rim: the rectangle's distances from the left, top, right and bottom edge. */
 static const struct {
     int width, height, rim[4];
 } sheets[] = {

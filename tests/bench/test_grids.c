@@ -1,5 +1,4 @@
-/* test_grids.c - Life and heat, in Paris and in C with OpenMP, against a plain double loop: the same
- * bits. */
+/* test_grids.c - Life and heat in Paris and in C with OpenMP give the bits of a plain double loop. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

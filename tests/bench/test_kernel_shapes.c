@@ -1,5 +1,5 @@
-/* test_kernel_shapes.c - the listing in strips, and in tiles of local memory, which are forced on a CPU: one turn and many, on
- * sheets that vectors and tiles do not fit, against the plain double loop. */
+/* test_kernel_shapes.c - compares the listing in strips, and in tiles that are forced on a CPU, with the plain double loop:
+ * one turn and many in a kernel, on sheets whose sides are no multiples of a vector's or tile's. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,7 +90,7 @@ static struct machine_stats agrees(const struct sheet *t)
     return stats;
 }
 
-/* Larger, smaller than a tile, odd, and with what the rectangle leaves out at some edges. */
+/* Sheets larger and smaller than a tile, of odd sizes, and with rectangles that leave out some edges. */
 static void one_turn_in_tiles(void **state)
 {
     static const struct sheet sheets[] = {
@@ -111,13 +111,13 @@ static void many_turns_in_tiles(void **state)
     const struct sheet sheet = {37, 29, {0, 0, 0, 0}, 40, "2", "16x8", NULL, NULL};
     (void)state;
     force("LUTETIA_VECTOR", "1");
-    force("LUTETIA_BOX_AFTER", "0"); /* they are of plans as good as can be */
+    force("LUTETIA_BOX_AFTER", "0"); /* many turns need optimised kernels */
     struct machine_stats stats = agrees(&sheet);
     assert_true(stats.kernels_in_tiles > 0 && stats.kernels_run < 35);
 }
 
-/* As wide as rows that vectors fit and do not fit, and narrower ones beside each other; rectangles that end inside a vector,
- * and none; in place, too. */
+/* Strips as wide as the rows, of whole vectors and not, and narrower ones beside each other. Rectangles end inside a vector, or
+ * there is none. Some strips write in place. */
 static void in_strips(void **state)
 {
     static const struct sheet sheets[] = {

@@ -26,7 +26,7 @@ static void what_is_chosen_is_fast(void **state)
         struct model_result r[MODEL_FORMS];
         if (!model_measure(p, SIDE, SIDE, ROUNDS, r))
             fail_msg("%s: %s", model_program_name(p), bench_error());
-        /* A form that is chosen was measured twice. */
+        /* The chosen form was measured twice. */
         const bool in_strips = r[MODEL_CHOSEN].in_strips;
         const double rows = r[MODEL_ROWS].processor.min, strips = r[MODEL_STRIPS].processor.min,
                      chosen = lesser(r[MODEL_CHOSEN].processor.min, in_strips ? strips : rows),

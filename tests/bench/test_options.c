@@ -1,4 +1,4 @@
-/* test_options.c - the benchmarks' options, and the picture of their rows. */
+/* test_options.c - the benchmarks' options, and the diagram of their rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

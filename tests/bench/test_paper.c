@@ -1,5 +1,5 @@
-/* test_paper.c - the sheet in Paris against the same rule in plain C: the same bits, for sheets that are tori and that are
- * not, with all that pulls. */
+/* test_paper.c - the sheet in Paris and the same rule in plain C give the same bits, on tori and other sheets, with all
+ * forces. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,7 @@ static struct paper_air air_that_pulls(void)
     return air;
 }
 
-/* One kind of kernels for both: torus or not is in the faces. */
+/* Torus or not is a matter of the faces' values, so both have the same kernels. */
 static void steps_agree_with_openmp(void **state)
 {
     (void)state;
@@ -63,7 +63,7 @@ static void thesis_agrees_with_openmp(void **state)
     run(&s, 20);
     diffusion_openmp_steps(s.thesis, 20);
     check(paper_scene_agrees(&s, "thesis"));
-    /* and the comparison finds a difference */
+    /* checks that the comparison finds a difference */
     run(&s, 1);
     assert_false(paper_scene_agrees(&s, "thesis"));
     paper_scene_finish(&s);

@@ -1,5 +1,4 @@
-/* test_peer.c - the peers in Python, where they are installed; and the report where a peer is
- * missing or fails. */
+/* test_peer.c - the peers in Python, where they are installed, and the message where a peer is missing or fails. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -32,7 +31,7 @@ static int scene_drop(void **state)
     return 0;
 }
 
-/* Beside openmp, which test_diffusion compares with the oracle. */
+/* Compares a peer with openmp, which test_diffusion compares with the oracle. */
 static void peer_agrees(const char *script, const char *argument)
 {
     static float mine[COUNT], theirs[COUNT];
@@ -87,7 +86,7 @@ static void failure_is_told(void **state)
     assert_non_null(strstr(bench_error(), "status 9"));
 }
 
-/* Says that it is ready, and is gone at the first command. */
+/* A peer that reports ready and ends at the first command. */
 static void end_in_between_is_told(void **state)
 {
     bool missing;
@@ -96,14 +95,14 @@ static void end_in_between_is_told(void **state)
         &missing);
 
     (void)state;
-    if (!p) /* it may have gone before all was sent */
+    if (!p) /* it may have ended before the scene was sent */
         skip();
     assert_false(bench_peer_steps(p, 1));
     assert_string_equal(bench_error(), "a peer in Python has ended");
     bench_peer_stop(p);
 }
 
-/* The second must not hold the first one's input open. */
+/* The second peer must not inherit the first one's input, or the first would never end. */
 static void two_stop_in_any_order(void **state)
 {
     static const char patient[] = "import sys\n"

@@ -1,5 +1,5 @@
-/* test_rolling.c - the yardsticks in rolling rows, in OpenCL and in C, against the oracle: bit for
- * bit, but for the relaxed ones. */
+/* test_rolling.c - compares the yardsticks in rolling rows, in OpenCL and in C, with the oracle: bit for bit, except the relaxed
+ * ones. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@
 #include "harness.h"
 #include "rolling.h"
 
-/* The rectangle's distance from each edge: left, top, right, bottom; the steps taken, in two
- * calls; and the size of the pieces that the sheet is cut into. */
+/* rim: the rectangle's distances from the left, top, right and bottom edge; steps: those of two calls; tiling: the size of the
+ * sheet's pieces. */
 static const struct {
     int width, height, rim[4], steps[2];
     struct rolling_tiling tiling;
@@ -50,8 +50,7 @@ static void scene_make(int n, struct diffusion_scene *s)
         s->field[k / 7 % DIFFUSION_FIELDS_COUNT][k] = k % 3 ? 0.0f : 1.0f;
 }
 
-/* Between 0 and 1, a step of rounding is 6e-8, and a step of diffusion makes it no larger than
- * some times that. */
+/* Numbers between 0 and 1 are rounded by 6e-8 at most, and a step of diffusion makes the error only a few times larger. */
 static void compare_relaxed(const struct oracle *o, const char *what, int n, int field,
                             const float *mine)
 {
@@ -71,7 +70,7 @@ static void hand_agrees(enum diffusion_rolling_kind kind, const char *what, bool
         struct diffusion_scene s;
         struct oracle o;
 
-        if (relaxed && n % 3) /* what differs is the arithmetic; one gravity, one build */
+        if (relaxed && n % 3) /* only the arithmetic differs: one gravity, one build */
             continue;
         scene_make(n, &s);
         if (relaxed)
@@ -154,7 +153,7 @@ static void openmp_agrees(void **state)
         openmp_agrees_with(n, &cases[n].tiling);
 }
 
-/* As many steps at a time as there may be, and every number below. */
+/* Every number of steps in a call, up to the most. */
 static void openmp_agrees_for_any_steps(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_quad.c - maps of the unit square onto quads: a million random quads, against a second way to compute them, the inverse, and
- * moving corners. */
+/* test_quad.c - maps of the unit square onto quads: a million random quads, against a second way to compute them, the
+ * inverse, and moving corners. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

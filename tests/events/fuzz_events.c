@@ -1,4 +1,5 @@
-/* fuzz_events.c - bytes by chance as the arguments of an event: what decodes encodes to the same bytes. `fuzz_events ROUNDS` */
+/* fuzz_events.c - decodes random bytes as the arguments of an event. An event that is decoded encodes to the same bytes.
+ * `fuzz_events ROUNDS` */
 #include "wind.h"
 
 #include <stdio.h>
@@ -26,7 +27,7 @@ int main(int argc, char **argv)
         for (uint64_t i = chance() % 4; i > 0; i--)
             b.at[chance() % b.count] = (uint8_t)chance();
         size_t count = chance() % 8 ? b.count : chance() % (b.count + 1);
-        uint8_t *exact = malloc(count ? count : 1); /* so that a read past the end is found */
+        uint8_t *exact = malloc(count ? count : 1); /* exact: finds reads beyond it */
         if (!exact)
             return 1;
         memcpy(exact, b.at, count);

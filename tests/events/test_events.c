@@ -1,4 +1,4 @@
-/* test_events.c - checks, bytes, scales and logs that follow from rows. */
+/* test_events.c - checks, bytes, scales and logs of events, which follow from their rows. */
 #include "wind.h"
 
 #include <log.h>
@@ -61,7 +61,7 @@ static void bytes_come_back(void **state)
     assert_memory_equal(back->leaves, three, sizeof three);
     assert_string_equal(back->name, "sirocco");
     event_free(&wind_kind, back);
-    /* every shorter one is damaged, and so is a longer one */
+    /* every shorter encoding is damaged, and so is a longer one */
     for (size_t count = 0; count < b.count; count++) {
         assert_int_equal(event_decode(b.at, count, &wind_kind, NULL, (void **)&back),
                          EVENT_DAMAGED);

@@ -1,4 +1,5 @@
-/* test_paints.c - graphs of paints (COLR 1) and SVG in fonts made here, beside what their colours must be by their definitions. */
+/* test_paints.c - graphs of paints (COLR 1) and SVG in fonts made here, beside what their colours must be by their
+ * definitions. */
 #include "support.h"
 
 #include "made_font.h"

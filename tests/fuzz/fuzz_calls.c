@@ -1,10 +1,9 @@
-/* fuzz_calls.c - bytes become C/Paris calls, most of them nearly right.
+/* fuzz_calls.c - makes C/Paris calls from bytes; most calls are nearly right.
  *
- * The target of libFuzzer (LLVMFuzzerTestOneInput), and of seeds.c. Of an input, the first byte is
- * the mode: bit 0 safety, and where it is 0xff or 0xfe calls that make and run kernels are made too:
- * rarely, for they take long. Then a call is two bytes for its row of the table, and the bytes that
- * its arguments take; there are at most CALLS_MAX. A wrong call must be told of in one line that
- * begins with its name; nothing else may happen to the host. */
+ * libFuzzer and seeds.c call LLVMFuzzerTestOneInput(). The first byte of input is the mode. Its bit 0 is the safety mode.
+ * 0xfe and 0xff also allow calls that build and run kernels; these values are rare, because kernels take long. A call is two
+ * bytes for its row of the table and the bytes of its arguments. There are at most CALLS_MAX calls. A wrong call must give
+ * one line that begins with its name; the host must not be harmed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,11 +24,11 @@ enum {
 
 struct fuzz {
     const uint8_t *at, *end;
-    CM_field_id_t fields[FIELDS]; /* some may be gone: it is so in wrong programs */
+    CM_field_id_t fields[FIELDS]; /* some may be deallocated, as in wrong programs */
     CM_vp_set_id_t sets[IDS];
     CM_geometry_id_t geometries[IDS];
     unsigned int kept;        /* how many ids, of all kinds */
-    unsigned int significand; /* of the pair s, e that is being made */
+    unsigned int significand; /* s of the pair s, e that is being drawn */
 };
 
 struct fuzz_row {
@@ -65,7 +64,7 @@ static unsigned int word32(struct fuzz *f)
     return x << 8 | byte(f);
 }
 
-/* Numbers that are wrong nearly everywhere. */
+/* Draws a number that is wrong for nearly every argument. */
 static unsigned int wild(struct fuzz *f)
 {
     static const unsigned int numbers[] = {
@@ -168,7 +167,7 @@ static CM_geometry_id_t fuzz_geometry(struct fuzz *f)
     return x >= 240 ? (int)wild(f) : f->geometries[x % IDS];
 }
 
-/* Several are alive at once: each call of one of these has the next array. */
+/* Returns the next of several arrays, because a call has several vectors at once. */
 static int *vector_next(void)
 {
     static int vectors[16][VECTOR];
@@ -187,7 +186,7 @@ static CM_vector_t fuzz_vector(struct fuzz *f)
     return (CM_vector_t){.ints = x == 244 ? NULL : v};
 }
 
-/* Lengths: of an array too, which is the fuzzer's own, so they are never beyond it. */
+/* Draws lengths. They may be those of the fuzzer's own array, so they never exceed it. */
 static CM_vector_t fuzz_dimensions(struct fuzz *f)
 {
     unsigned int x = byte(f);

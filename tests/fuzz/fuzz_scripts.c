@@ -1,12 +1,12 @@
-/* fuzz_scripts.c - scripts by chance, run by the library: whatever they do ends, with a line where it failed, and takes nothing along.
+/* fuzz_scripts.c - runs random scripts by the library. Each ends, with one line where it fails, and does the process no harm.
  *
- *     fuzz_scripts                     SEEDS scripts, always the same
- *     fuzz_scripts FIRST COUNT         those, from FIRST on; it says which one runs
+ *     fuzz_scripts                     SEEDS scripts, the same in every run
+ *     fuzz_scripts FIRST COUNT         scripts from seed FIRST on; prints which one runs
  *     fuzz_scripts --seconds S FIRST   as many as there is time for
  *     fuzz_scripts --show SEED         prints one
- *     fuzz_scripts FILE...             what libFuzzer found
+ *     fuzz_scripts FILE...             inputs that libFuzzer found
  *
- * Some are trusted, have finalizers, or are stopped by the host, the clock or a lack of memory at some moment. */
+ * Some scripts are trusted, some have finalizers, and some are stopped by the host, the clock or a lack of memory. */
 #include "script_grammar.h"
 
 #include <script.h>
@@ -22,7 +22,7 @@
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t count);
 
-/* What the host does, and what it was told. */
+/* The host's behaviour, and the calls that it got. */
 struct meeting {
     long asked, stops_after; /* calls of interrupted(); 0: never */
     long steps, fails_after;
@@ -136,7 +136,7 @@ enum { SEEDS = 35, BYTES = 500 };
 
 static void bytes_make(uint64_t seed, uint8_t bytes[BYTES])
 {
-    uint64_t state = sample_mixed(seed); /* not a multiple of what sample_word() adds */
+    uint64_t state = sample_mixed(seed); /* mixed, because sample_word() adds a constant */
     for (int i = 0; i < BYTES; i++)
         bytes[i] = (uint8_t)(sample_word(&state) >> 24);
 }

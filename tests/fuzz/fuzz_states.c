@@ -1,11 +1,11 @@
-/* fuzz_states.c - saved states that are well-formed and say what cannot be: a good one is taken apart, members of it are changed, it
- * is put together again, its checksums mended. It must be refused as a bad file, or load and then be as good as any: its past
- * can be undone, redone, changed, rendered and saved again.
+/* fuzz_states.c - forges well-formed saved states with impossible contents. It takes a good state apart, changes members,
+ * puts it together again and corrects its checksums. The state must be refused as a bad file, or load and then work like any
+ * other: its history can be undone, redone, changed, rendered and saved again.
  *
- *     fuzz_states [SECONDS]              seeds, always the same; or new ones for so long
+ *     fuzz_states [SECONDS]              fixed seeds; or new ones for that long
  *
- * Bytes say what is changed, so libFuzzer can look for more. Most states are given to the decoder itself; every sixteenth goes through
- * a file, HDF5 and the confined reader. (security.md 7, 10) */
+ * Bytes choose the changes, so that libFuzzer can search, too. Most states go straight to the decoder; every sixteenth goes
+ * through a file, HDF5 and the confined reader. (security.md 7, 10) */
 #include "state_pieces.h"
 
 #include "../plain/state_sample.h"
@@ -79,7 +79,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 /* ---- changes ---- */
 
-/* A number in a piece: where members are, mostly from the beginning, now and then anywhere. */
+/* Changes a number in a piece: mostly near its beginning, where members are, sometimes anywhere. */
 static void number_change(struct choices *c, struct piece *p)
 {
     static const uint8_t sizes[] = {8, 8, 4, 1};
@@ -93,7 +93,7 @@ static void number_change(struct choices *c, struct piece *p)
     memcpy(p->at + choose(c, (uint32_t)near), &bits, size);
 }
 
-/* Its length changes, and where it says how long it is, mostly that, too. */
+/* Changes a piece's length, and mostly also the number in it that gives its length. */
 static void length_change(struct choices *c, struct piece *p, int kind)
 {
     size_t cut = choose(c, 64);
@@ -111,7 +111,7 @@ static void length_change(struct choices *c, struct piece *p, int kind)
     }
 }
 
-/* Changes the pieces, whose bytes are copies of its own; returns how many there are then. */
+/* Changes the pieces, whose bytes are copies; returns their new number. */
 static int pieces_change(struct choices *c, struct piece *piece, int count)
 {
     int which = (int)choose(c, (uint32_t)count);
@@ -151,7 +151,7 @@ static int pieces_change(struct choices *c, struct piece *piece, int count)
 
 static long loaded_count;
 
-/* How often something that takes long may ask before it is stopped. */
+/* The calls of watch() that are left before it stops a long computation. */
 static int looks;
 
 static bool watch(void *context, long done, long total)
@@ -174,7 +174,7 @@ static void wrong(const char *what, enum paper_status status)
     abort();
 }
 
-/* It is as it should be, or was stopped because it took long. */
+/* Aborts unless status is OK, or the work was stopped because it took long. */
 static void fine(const char *what, enum paper_status status)
 {
     bool stopped = status == PAPER_MACHINE_FAILED && strcmp(paper_error(), "stopped") == 0;
@@ -255,7 +255,7 @@ static void loaded(struct choices *c, const struct state_pieces *s, const uint8_
     struct paper_sheet *sheet;
     enum paper_status status = paper_history_describe(run->at, run->count, &config);
     if (status == PAPER_OK && (config.width > SIDE_MOST || config.height > SIDE_MOST))
-        return; /* whoever loads it sees whether there is memory for it */
+        return; /* a large sheet is not an error: loading it would check memory */
     if (status == PAPER_OK) {
         struct planes from = {s, words, 4 * (size_t)config.width * (size_t)config.height};
         status = paper_history_decode(run->at, run->count, choose(c, 2), choose(c, 2) ? 1e6 : 0,

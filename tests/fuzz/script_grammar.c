@@ -1,7 +1,7 @@
 /* script_grammar.c - see script_grammar.h.
  *
- * A script has papers, brushes, masks and pictures in globals, and functions to be called back, which close, collect, fail, yield, recurse
- * and paint. Then come statements; most call a function of the library with what it wants, some with whatever. */
+ * A script begins with papers, brushes, masks and pictures in globals, and with callbacks that close, collect, fail, yield,
+ * recurse and paint. Statements follow. Most call a function of the library with arguments of the right kinds, some with any. */
 #include "script_grammar.h"
 
 #include <script_internal.h>
@@ -12,7 +12,7 @@
 
 enum { STATEMENTS_MAX = 14, DEPTH_MAX = 4 };
 
-/* What a function takes, a letter an argument:
+/* The kinds of a function's arguments, a letter each:
  *   n number   i small whole number   b boolean   c two numbers   m mask   q picture   A amounts   O options   U a stroke's options
  *   L layer   l a layer's value   P pigment   W substance   f function   t corners   D path   S text   s a picture's file
  *   h a paper's file   r render's numbers   C a control of springs   v anything */
@@ -211,7 +211,7 @@ static void mask(struct script_source *s, int depth)
     }
 }
 
-/* A function; what it returns suits most that ask. */
+/* Writes a function; its results suit most callers. */
 static void function(struct script_source *s, int depth)
 {
     static const char *const known[] = {"close", "close",  "collect", "fail",  "again",
@@ -245,7 +245,7 @@ static void options_write(struct script_source *s, const char *keys, int depth)
     say(s, "}");
 }
 
-/* A table, sometimes one that answers. */
+/* Writes a table, sometimes one with metamethods. */
 static void table(struct script_source *s, const char *keys, int depth)
 {
     bool answers = script_byte(s) % 6 == 0;
@@ -324,7 +324,7 @@ static void anything(struct script_source *s, int depth)
         say(s, "%s", ONE_OF(s, words));
 }
 
-/* Letters that stand for one of a list. */
+/* Kinds of arguments that are one of a list. */
 static const struct {
     char what;
     bool quoted;
@@ -471,7 +471,7 @@ static void statement(struct script_source *s, int depth)
         "collectgarbage() ", "collectgarbage('step', 100) ", "collectgarbage('generational') ",
         "collectgarbage('incremental', 1, 1000) ", "collectgarbage('setpause', 0) "};
     switch (depth < 3 ? script_byte(s) % 16 : 0) {
-    case 1: /* what it makes is kept, whatever it is */
+    case 1: /* keeps the call's result, if it is an object */
         say(s, "pcall(function() local v = ");
         call(s, depth);
         say(s, " if type(v) == 'userdata' then %s = v end end) ", ONE_OF(s, kept));

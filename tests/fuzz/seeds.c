@@ -1,8 +1,8 @@
-/* seeds.c - the fuzzer's target over fixed random inputs, without libFuzzer.
+/* seeds.c - calls the fuzzer's target with fixed random inputs, without libFuzzer.
  *
  *     fuzz_calls                     SEEDS inputs
- *     fuzz_calls FIRST COUNT         those, from FIRST on: the one that fails is its number
- *     fuzz_calls FILE...             what libFuzzer found */
+ *     fuzz_calls FIRST COUNT         inputs from number FIRST on
+ *     fuzz_calls FILE...             inputs that libFuzzer found */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@ static void seed_run(unsigned long seed, unsigned long observing)
     for (int i = 0; i < BYTES; i++)
         bytes[i] = (uint8_t)(sample_linear(&state) >> 23);
     if (bytes[0] >= 0xfe)
-        bytes[0] &= 1; /* kernels take long to make: not by chance */
+        bytes[0] &= 1; /* no kernels by chance: they take long */
     if (seed % observing == 0)
         bytes[0] = seed / observing % 2 ? 0xfe : 0xff;
     LLVMFuzzerTestOneInput(bytes, seed % observing ? BYTES : 120);

@@ -25,7 +25,7 @@ static uint64_t number_at(const uint8_t *bytes, int count)
     return event_get_number(&r, count);
 }
 
-/* Arguments as they are before they are deflated, so that their members can be changed. */
+/* Takes an operation with its arguments inflated, so that their members can be changed. */
 static void operation_take(struct state_pieces *s, const uint8_t **at)
 {
     size_t raw = (size_t)number_at(*at + 5, 8), stored = (size_t)number_at(*at + 13, 8);
@@ -154,8 +154,8 @@ static struct paper_sheet *sheet_made(int which)
     return sheet;
 }
 
-/* The planes without filters and in a piece, the run without deflated arguments: where they are in the file is where they can be
- * changed. */
+/* Writes a file whose planes are contiguous and without filters, and whose run has no deflated arguments, so that their bytes
+ * can be changed in the file. */
 static void file_make(struct state_pieces *s, const struct paper_plane *planes,
                       const char *path)
 {
@@ -197,7 +197,7 @@ static void file_make(struct state_pieces *s, const struct paper_plane *planes,
     H5Sclose(space);
     H5Fclose(file);
     s->file = sample_file_read(path, &s->file_count);
-    for (int i = 0; i < s->planes_count; i++) /* addresses may be from the userblock's end */
+    for (int i = 0; i < s->planes_count; i++) /* addresses may count from the userblock's end */
         if (s->plane_at[i] + 4 * SAMPLE_WIDTH * SAMPLE_HEIGHT > s->file_count ||
             memcmp(s->file + s->plane_at[i], s->planes[i], 4 * SAMPLE_WIDTH * SAMPLE_HEIGHT) !=
                 0)

@@ -1,4 +1,4 @@
-/* test_live.c - what is played: songs, the computer's keyboard, letters that follow, maps in Lua. */
+/* test_live.c - live playing: songs, the computer's keyboard, letters that follow notes, maps in Lua. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -110,7 +110,7 @@ static void keys_of_the_computer_are_two_octaves(void **unused)
 
 /* ---- letters ---- */
 
-/* How high the ink is on a picture of the stage, in pixels. */
+/* The height of the ink on a picture of the stage, in pixels. */
 static int ink_height(struct stage *stage)
 {
     struct stage_draw_list list = {0};
@@ -180,7 +180,7 @@ static void keys_outside_are_played_by_octaves(void **unused)
     assert_true(keys_actor_level(&actor, 48) == 1);
     assert_true(keys_actor_level(&actor, 62) == 1);
     assert_true(keys_actor_level(&actor, 60) == 0);
-    /* Pressed on the channel, all of it; nothing that is no channel message does anything. */
+    /* "All notes off" releases the whole channel. Messages that are no channel messages do nothing. */
     keys_actor_play(&actor, (const uint8_t[]){0xf8, 0, 0});
     keys_actor_play(&actor, (const uint8_t[]){0xb0, 123, 0}); /* all notes off */
     stage_frame(stage, 3, NULL);

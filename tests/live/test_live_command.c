@@ -1,5 +1,5 @@
-/* test_live_command.c - `lutetia keys` and `lutetia spring`, played: a map's film differs from one without where the song says so; and
- * what cannot be is said in a line. */
+/* test_live_command.c - `lutetia keys` and `lutetia spring`, played live. A film with a map differs from one without where
+ * the song has events. Errors get one line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
 static const char *lutetia, *maps;
 
-/* A note at 0.5 s and the wheel at 1 s. */
+/* Writes a song with a note at 0.5 s and the wheel at 1 s. */
 static const char *song_written(void)
 {
     static char path[400];
@@ -57,7 +57,7 @@ static void must_run(struct child *child)
         fail_msg("exit %d: %s", child->status, child->errors);
 }
 
-/* Two pictures of a film, whether they are the same. */
+/* Whether two pictures of a film are the same. */
 static bool same(const char *a, const char *b)
 {
     struct display_image one = {0}, other = {0};
@@ -81,7 +81,7 @@ static const char *frame_of(const char *folder, int frame)
     return paths[at];
 }
 
-/* Gravity turns when the wheel does, at 1 s and not before. */
+/* Gravity turns with the wheel, at 1 s and not before. */
 static void words_do_what_a_song_says(void **unused)
 {
     (void)unused;
@@ -99,7 +99,7 @@ static void words_do_what_a_song_says(void **unused)
         must_run(&child);
     }
     for (int frame = 0; frame <= 15; frame++)
-        if (frame != 10) /* the wheel's own: its message may be due before or after it */
+        if (frame != 10) /* the wheel's frame: the message may come before or after it */
             assert_int_equal(same(frame_of(folders[0], frame), frame_of(folders[1], frame)),
                              frame < 10);
 }
@@ -168,7 +168,7 @@ static void what_cannot_be_is_said(void **unused)
     }
 }
 
-/* A pattern that tries for years, which no hook interrupts. */
+/* A Lua pattern that would take years; no hook of Lua interrupts it. */
 static void maps_that_hang_are_ended(void **unused)
 {
     (void)unused;

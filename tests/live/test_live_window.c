@@ -1,7 +1,7 @@
-/* test_live_window.c - from a note on the MIDI server's socket to the picture in a window on an Xvfb: how long that takes.
+/* test_live_window.c - measures the time from a note on the MIDI server's socket to its picture in a window on an Xvfb.
  *
- * A program of its own sends notes at any moment; each has gone from the picture before the next one comes. The picture is read after each
- * turn, and the turn that has ink first is the one that counts. */
+ * Another process sends notes at random moments; each note has disappeared from the picture before the next one comes. The
+ * picture is read after each turn. The first turn with ink ends the measurement. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,13 +31,13 @@
 enum { NOTES = 40, FPS = 60, BESIDE_US = 5000 };
 
 struct shared {
-    _Atomic uint64_t sent_ns; /* of the note that is not seen yet; 0: none is */
+    _Atomic uint64_t sent_ns; /* when the unseen note was sent; 0: none */
     _Atomic bool clear;       /* the picture has no ink any more */
 };
 
 static struct font_face *face;
 
-/* Notes at moments that have nothing to do with the frames. */
+/* Sends notes at moments that are independent of the frames. */
 static void notes_send(const struct served *served, struct shared *shared)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -77,7 +77,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Plays in a window until all notes have been seen; how long each took, in us. */
+/* Plays in a window until all notes have been seen. took_us: the time of each, in us. */
 static void window_play(struct live_player *player, struct stage *stage, struct shared *shared,
                         double took_us[NOTES])
 {
@@ -142,7 +142,7 @@ static void notes_are_seen_within_a_frame_and_5_ms(void **unused)
            "%.1f ms; a frame is %.1f ms\n",
            took_us[NOTES / 2] / 1e3, took_us[NOTES * 95 / 100] / 1e3, took_us[NOTES - 1] / 1e3,
            1e3 / FPS);
-    /* half of them: the others may have met another process's turn of this machine */
+    /* only the median is asserted, because other processes may delay some notes */
     assert_true(took_us[NOTES / 2] <= 1e6 / FPS + BESIDE_US);
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);

@@ -239,8 +239,8 @@ static void programs_are_shown_and_the_last_picture_stays(void **state)
     display_image_destroy(&last);
 }
 
-/* Frames wait for their time on the window's clock. The second frame is hours away; the key `.` shows it at once. With --close the
- * command then ends, and -o still writes the picture. */
+/* Frames wait for their time on the window's clock. The second frame is hours away; the key `.` shows it at once. With
+ * --close the command then ends, and -o still writes the picture. */
 static void recordings_wait_for_the_clock(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_time.c - scripts and the command edit time: a moment has the same bits however one gets there. Tests also films, sweeps, and
- * their errors. */
+/* test_time.c - scripts and the command edit time: a moment has the same bits however one gets there. Tests also films,
+ * sweeps, and their errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
-/* The transcendental functions of kernels/math.cl, compiled as C, against MPFR: within 1 ulp in
- * single and 2 ulp in double of the correctly rounded result; and their special cases against
- * Annex F of C, written down here. LUTETIA_MATH_POINTS=n takes n points of each kind. */
+/* Compares the transcendental functions of kernels/math.cl, compiled as C, with MPFR. They are within 1 ulp in single and 2
+ * ulp in double of the correctly rounded result. Special cases are compared with Annex F of C, which is written down here.
+ * LUTETIA_MATH_POINTS=n takes n points of each kind. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@ struct function {
     int op, operands;
     int (*one)(mpfr_t, const mpfr_t, mpfr_rnd_t);
     int (*two)(mpfr_t, const mpfr_t, const mpfr_t, mpfr_rnd_t);
-    double low, high; /* where its values are numbers and vary */
+    double low, high; /* the range where it is finite and varies */
 };
 
 static int power(mpfr_t r, const mpfr_t a, const mpfr_t b, mpfr_rnd_t round)
@@ -104,11 +104,11 @@ static float single_of(uint64_t bits)
     return x;
 }
 
-/* Of all sizes, of about 1, in the range where the function varies, near small multiples of
- * pi/2 and other places where functions are 0 or bend. */
+/* Draws a point. The kinds: numbers of all sizes, numbers near 1, numbers in the function's range, and numbers near small
+ * multiples of pi/2 and other places where functions are 0 or bend. */
 static double point(const struct function *f, bool single, int kind)
 {
-    /* nearest to a multiple of pi/2 of all doubles, and others that lie near one; the ends */
+    /* the double nearest to a multiple of pi/2, others near one, and the range's ends */
     static const double hard[] = {0x1.6ac5b262ca1ffp+849,
                                   0x1.921fb54442d18p+0,
                                   0x1.921fb54442d18p+1,
@@ -157,7 +157,7 @@ static double point(const struct function *f, bool single, int kind)
 
 /* ---- comparing ---- */
 
-/* How many numbers of the type lie between them. */
+/* The distance of a and b in numbers of the type. */
 static uint64_t apart(double a, double b, bool single)
 {
     int64_t i, j;
@@ -177,7 +177,7 @@ static uint64_t apart(double a, double b, bool single)
     return i < j ? (uint64_t)j - (uint64_t)i : (uint64_t)i - (uint64_t)j;
 }
 
-/* Rounded once to the type, subnormals too. */
+/* MPFR's result, rounded once to the type, also where it is subnormal. */
 static double reference(const struct function *f, double a, double b, bool single)
 {
     mpfr_t x, y, r;
@@ -188,7 +188,7 @@ static double reference(const struct function *f, double a, double b, bool singl
     mpfr_set_emax(single ? 128 : 1024);
     mpfr_set_d(x, a, MPFR_RNDN);
     mpfr_set_d(y, b, MPFR_RNDN);
-    if (single) { /* operands are singles: their range is the result's */
+    if (single) { /* single operands: exact in a wider range */
         mpfr_set_emin(-1073);
         mpfr_set_emax(1024);
         mpfr_set_d(x, a, MPFR_RNDN);

@@ -1,6 +1,5 @@
-/* The transcendental operations on the device give the bits that kernels/math.cl gives as C:
- * doubles and singles, whatever the vector width, fused with other work or alone, operands of
- * all sizes. All of one width are one kernel. */
+/* The transcendental operations on the device give the bits of kernels/math.cl as C: in double and single, at any vector width,
+ * fused with other operations or alone, for operands of all sizes. All operations of one width are one kernel. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +16,7 @@
 
 enum { COLUMNS = 272, ROWS = 16, COUNT = COLUMNS * ROWS };
 
-/* The functions among the operations, as the table of operations has them. */
+/* The operations that the table of operations calls functions. */
 static enum machine_op functions[MACHINE_OP_COUNT_PUBLIC];
 static int functions_count;
 
@@ -84,7 +83,7 @@ static void upload(struct machine *m, uint32_t field, struct machine_type type, 
         MACHINE_OK);
 }
 
-/* Every ops_step-th operation: singles differ only in what is round the same functions. */
+/* Compares every ops_step-th operation: singles use the same functions, with conversions around them. */
 static void compare(int width, int eager, int ops_step)
 {
     struct machine *m = start(eager);

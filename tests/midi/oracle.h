@@ -1,7 +1,7 @@
 /* oracle.h - the parser's slow twin: has all bytes at once, and reads real-time messages and the others separately.
  *
- * It takes out the real-time bytes first, each with its place. It cuts the rest at its status bytes and reads each part by itself;
- * a message has the place of its last byte. The places then give the order of all messages. */
+ * It takes out the real-time bytes first, each with its place. It cuts the rest at its status bytes and reads each part by
+ * itself; a message has the place of its last byte. The places then give the order of all messages. */
 #ifndef LUTETIA_TESTS_MIDI_ORACLE_H
 #define LUTETIA_TESTS_MIDI_ORACLE_H
 

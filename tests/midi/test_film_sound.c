@@ -1,5 +1,5 @@
-/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard at its time in the network, within a picture's time. Songs
- * and devices also become sound. Skips where FluidSynth or its SoundFont is not installed. */
+/* test_film_sound.c - `lutetia spring --sound`: the first clank is heard at its time in the network, within a picture's time.
+ * Songs and devices also become sound. Skips where FluidSynth or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

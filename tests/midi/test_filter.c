@@ -118,8 +118,8 @@ static void filters_do_as_they_say(void **unused)
     }
 }
 
-/* Random messages: the thinned ones are some of the original ones, and each controller's last value is the same. Other messages are
- * unchanged and in order. Between two other messages of its channel no controller comes more often than it may. */
+/* Random messages: the thinned ones are some of the original ones, and each controller's last value is the same. Other
+ * messages are unchanged and in order. Between two other messages of its channel no controller comes more often than it may. */
 static void thinning_keeps_every_last_value(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
-/* test_jack.c - the server's JACK ports. The test runs its own JACK server with the dummy driver, and skips where there is none. */
+/* test_jack.c - the server's JACK ports. The test runs its own JACK server with the dummy driver, and skips where there is
+ * none. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

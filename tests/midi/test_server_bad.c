@@ -128,7 +128,8 @@ static void garbage_is_answered_and_others_go_on(void **unused)
     instrument_unplug(&keys);
 }
 
-/* A client that never reads loses messages, is told so when it reads at last, and its notes end. The others receive everything. */
+/* A client that never reads loses messages, is told so when it reads at last, and its notes end. The others receive
+ * everything. */
 static void who_does_not_read_is_told_what_it_lost(void **unused)
 {
     (void)unused;

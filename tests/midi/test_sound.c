@@ -1,5 +1,5 @@
-/* test_sound.c - events to sound: three bounces give three onsets at their times, louder for faster bounces. Skips where FluidSynth
- * or its SoundFont is not installed. */
+/* test_sound.c - events to sound: three bounces give three onsets at their times, louder for faster bounces. Skips where
+ * FluidSynth or its SoundFont is not installed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* Devices: one is chosen by number or by part of a name; PoCL's threads each have a processor unless somebody said
+/* Devices: a number or part of a name chooses one. Each of PoCL's threads is bound to a processor unless the environment says
  * otherwise. (security.md 15) */
 #include "devices.h"
 
@@ -58,7 +58,7 @@ static void one_is_chosen_by_number_or_name(void **state)
     unsetenv("LUTETIA_DEVICE");
 }
 
-/* How many of this process's threads but the first may run on one processor alone. */
+/* Counts this process's threads, except the first, that may run on one processor only. */
 static int threads_tied(void)
 {
     DIR *tasks = opendir("/proc/self/task");
@@ -75,8 +75,8 @@ static int threads_tied(void)
     return tied;
 }
 
-/* The exit status of a process that opens a device and runs something: 1 where threads are tied, else 0. The
- * threads tie themselves as they begin. */
+/* Opens a device in a child process. Returns 1 where its threads are bound to processors, else 0. Threads bind themselves when
+ * they begin. */
 static int tied_in_child(const char *name, const char *value, bool one_processor)
 {
     pid_t pid = fork();
@@ -101,7 +101,7 @@ static int tied_in_child(const char *name, const char *value, bool one_processor
             _exit(77);
         for (int i = 0; i < 50 && !tied; i++, usleep(10000))
             tied = threads_tied();
-        if (one_processor) /* all of them are on the one: what matters is that none was moved off it */
+        if (one_processor) /* all threads are on the one processor: checks that none was moved off it */
             tied = getenv("POCL_AFFINITY") != NULL;
         (void)context;
         _exit(tied > 0);
@@ -128,8 +128,8 @@ static void threads_have_a_processor_each_unless_told(void **state)
     assert_int_equal(0, tied_in_child(NULL, NULL, true));
 }
 
-/* Runs in a child: which cache PoCL is told, given what the environment says (NULL: nothing). Its path, or "" where there was no
- * answer: the child has ended by a signal. */
+/* Finds, in a child, the cache folder that PoCL gets where the environment says `said` (NULL: nothing). path: "" if the child
+ * ended by a signal. */
 static void pocl_cache_of(const char *home, const char *said, char path[static 512],
                           mode_t *mode)
 {
@@ -161,7 +161,7 @@ static void pocl_cache_of(const char *home, const char *said, char path[static 5
     assert_int_equal(waitpid(child, NULL, 0), child);
 }
 
-/* What lies in the cache is loaded as code: it is never where another user can put something. */
+/* Files in the cache are loaded as code, so it is never in a folder where another user can put a file. */
 static void pocl_keeps_its_programs_where_only_we_can_write(void **state)
 {
     (void)state;
@@ -176,7 +176,7 @@ static void pocl_keeps_its_programs_where_only_we_can_write(void **state)
     pocl_cache_of(home, NULL, path, &mode);
     assert_string_equal(path, wanted);
     assert_int_equal(mode & 0777, 0700);
-    pocl_cache_of(home, "", path, &mode); /* PoCL ends the program if it sees an empty one */
+    pocl_cache_of(home, "", path, &mode); /* an empty name would make PoCL abort */
     assert_string_equal(path, wanted);
     pocl_cache_of(home, open_to_all, path, &mode);
     assert_string_equal(path, wanted);

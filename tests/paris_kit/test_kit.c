@@ -1,4 +1,4 @@
-/* test_kit.c - Paris's complaints as a status, and grids against plain loops. */
+/* test_kit.c - Paris's error messages as a status, and grids against plain loops. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -71,7 +71,7 @@ static void first_complaint_is_heard_and_the_rest_runs(void **state)
         assert_true(out[i] == 2);
 }
 
-/* Fields have room for 2^31 bits in all; the words of it are the machine's, and say nothing of memory. */
+/* All fields together may have 2^31 bits. The machine's message for this does not mention memory, but the status does. */
 static void lack_of_room_is_a_status_whatever_the_words(void **state)
 {
     (void)state;
@@ -88,7 +88,7 @@ static void lack_of_room_is_a_status_whatever_the_words(void **state)
     assert_int_equal(kit_finish(grid.vp_set), KIT_OK);
 }
 
-/* A grid that cannot be: what follows on no VP set is not what is told. */
+/* A grid that is too large: the error is the first message, not those of later calls without a VP set. */
 static void first_complaint_of_a_grid_is_its_size(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* fields_tables.c - prints the fields that rows describe as tables of Markdown, each after a line "== NAME". */
+/* fields_tables.c - prints the fields of event rows as Markdown tables, each after a line "== NAME". */
 #include <describe.h>
 
 #include <sheet.h>
@@ -41,7 +41,7 @@ static void table_print(const char *name, const struct members *members)
     }
 }
 
-/* What rows call the default is what a new sheet's air is. */
+/* Whether the rows' defaults are those of a new sheet's air. */
 static bool defaults_hold(void)
 {
     struct paper_air air = paper_air_default();

@@ -1,4 +1,4 @@
-/* scripted.h - a script run by the library in this process, and what its host was told.
+/* scripted.h - runs a script by the library in this process, and keeps the texts that its host gets.
  *
  *     struct scripted s = {.config = scripted_config()};
  *     assert_int_equal(scripted_run(&s, "print(1 + 1)"), SCRIPT_OK);
@@ -19,7 +19,7 @@ enum { SCRIPTED_TEXT_MAX = 8192 };
 
 struct scripted {
     struct script_config config;
-    struct script_host host; /* functions besides those below; its context is this struct */
+    struct script_host host; /* more host functions; their context is this struct */
     char path[512];
     char prints[SCRIPTED_TEXT_MAX], errors[SCRIPTED_TEXT_MAX], notes[SCRIPTED_TEXT_MAX];
 };
@@ -49,7 +49,7 @@ static inline void scripted_note(void *context, const char *text)
     scripted_append(((struct scripted *)context)->notes, "\n", 1);
 }
 
-/* Pictures are read and written in the scratch folder. */
+/* A configuration whose scripts read and write pictures in the scratch folder. */
 static inline struct script_config scripted_config(void)
 {
     scratch_path("");

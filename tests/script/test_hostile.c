@@ -1,5 +1,5 @@
-/* test_hostile.c - scripts that mean harm: each does something to what the library is using. Under ASan none may touch what is gone;
- * each gets what its row says. */
+/* test_hostile.c - hostile scripts: each changes or closes an object that the library is using. Under ASan none may use freed
+ * memory, and each must end as its row says. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,8 +12,8 @@
 
 #include "scripted.h"
 
-/* What rows have to hand: a paper, a brush, a mask, a picture; a call that must work afterwards; a table that answers whatever it
- * is asked by closing the paper; one that answers with a text that nobody holds. */
+/* Every row can use: a paper p, a brush b, a mask m and a picture q; open(), which must work afterwards; closing(), a table whose
+ * __index closes the paper; texts(), a table whose __index returns a string that nothing else refers to. */
 static const char prelude[] =
     "p = paper{width = 16, height = 12, pigments = {'cyan'}, model = {'infused'}} "
     "b = p:brush{width = 3, bristles = 8} m = rect(1, 1, 5, 5) "
@@ -33,11 +33,11 @@ static const char prelude[] =
 
 static const struct {
     const char *script;
-    const char *says;   /* part of the error; NULL: it ends well */
+    const char *says;   /* part of the error; NULL: no error */
     const char *prints; /* all of it; NULL: whatever */
     bool trusted;
 } rows[] = {
-    /* closed in a function that it was given */
+    /* a callback closes the paper that has called it */
     {"p:stroke{brush = b, pace = 0, points = {{1, 1}, {9, 9}}, pressure = close}", IN_USE, "",
      false},
     {"p:stroke{brush = b, pace = 0, path = 'M1 1L9 9M2 2L7 3', pressure = close}", IN_USE, "",
@@ -52,7 +52,7 @@ static const struct {
      false},
     {"p:layer('height', function() p:at(0, close) end)", IN_USE, "", false},
     {"p:layer('height', function() p:layer('resist', close) end)", IN_USE, "", false},
-    /* and what was in use can be closed afterwards, however the call ended */
+    /* after the call, however it ended, the paper can be closed */
     {"pcall(p.layer, p, 'height', close) open() close() p:put(m, {water = 1})",
      "this paper is closed", OPEN, false},
     {"pcall(p.layer, p, 'height', error) close() print(pcall(b.dip, b, {water = 1}))", NULL,
@@ -65,7 +65,7 @@ static const struct {
     {"local c = coroutine.create(function() p:layer('height', error) end) "
      "local d = coroutine.wrap(function() coroutine.resume(c) end) d() close() print('closed')",
      NULL, "closed\n", false},
-    /* a coroutine that failed is let go of while it closes what it held */
+    /* a failed coroutine loses its last reference while it closes its variables */
     {"K = coroutine.create(function() local x <close> = setmetatable({}, {__close = function() "
      "K = nil "
      "for i = 1, 9 do collectgarbage() coroutine.wrap(litter)() end end}) error('x') end) "
@@ -78,7 +78,7 @@ static const struct {
      NULL, OPEN, false},
     {"coroutine.resume(5)", "coroutine expected", "", false},
     {"coroutine.resume()", "coroutine expected", "", false},
-    /* papers that are done something else to in such a function */
+    /* a callback changes the paper that has called it */
     {"p:layer('height', function(x, y) p:put(m, {water = 0.01}) return x / 99 end) open()",
      NULL, OPEN, false},
     {"p:layer('height', function(x, y) if x + y == 3 then p:undo() p:redo() p:to(0) end return "
@@ -97,7 +97,7 @@ static const struct {
     {"p:stroke{brush = b, pace = 0, path = 'M1 1L9 9M2 2L7 3', pressure = function(u) "
      "p:undo(9) return u end}",
      "no brush 0", "", false},
-    /* functions that yield, fail, give what is no number */
+    /* callbacks that yield, fail, or return no number */
     {"coroutine.wrap(function() p:layer('height', coroutine.yield) end)()", "attempt to yield",
      "", false},
     {"coroutine.wrap(function() p:stroke{brush = b, pace = 0, way = coroutine.yield} end)()",
@@ -116,12 +116,12 @@ static const struct {
      "3', "
      "pressure = function(u) if n then error'' end n = u == 1 or nil return u end}) "
      "print(p:total('water'))",
-     NULL, "0.0\n0.0\n", false}, /* nothing was painted of what failed in its second line */
+     NULL, "0.0\n0.0\n", false}, /* a stroke that fails in its second line paints nothing */
     {"p:layer('height', tostring)", "a layer's value", "", false},
     {"p:layer('height', 1.5)", "a layer's value (height) must be", "", false},
     {"p:layer('grip', function() return 0 end)", "a layer's value (grip)", "", false},
     {"mask(3, 3, function() return {} end)", NULL, "", false},
-    /* tables that answer: they are not asked */
+    /* the library reads tables without their metamethods */
     {"p:splatter(closing{drops = 3}, {water = 0.1}) open()", NULL, OPEN, false},
     {"p:brush(closing{width = 4, bristles = 8}) open()", NULL, OPEN, false},
     {"p:wash({water = 0.1}, closing()) open()", NULL, OPEN, false},
@@ -148,7 +148,7 @@ static const struct {
     {"paper(closing{width = 8, height = 8}) open()", NULL, OPEN, false},
     {"polygon(closing{{1, 1}, {5, 5}, closing{2, 8}}) open()", NULL, OPEN, false},
     {"line(closing{closing{1, 1}, {5, 5}}) open()", NULL, OPEN, false},
-    /* texts that only such a table would hold */
+    /* strings that only a metamethod would return */
     {"p:frame('hostile.png', texts()) open()", NULL, OPEN, false},
     {"p:type('a', texts{size = 9}, {water = 0.1}) open()", NULL, OPEN, false},
     {"text('a', texts{size = 9})", NULL, "", false},
@@ -178,7 +178,7 @@ static const struct {
      false},
     {"print(pcall(print, setmetatable({}, {__tostring = close}))) b:dip{water = 1}",
      "this paper is closed", NULL, false},
-    /* finalizers: none in the sandbox, however it is tried */
+    /* the sandbox has no finalizers, by any way */
     {"setmetatable({}, {__gc = close})", "have no __gc", "", false},
     {"local t = {} setmetatable(t, {__gc = true})", "have no __gc", "", false},
     {"local mt = {} local t = setmetatable({}, mt) mt.__gc = close t = nil litter() litter() "
@@ -194,7 +194,7 @@ static const struct {
     {"p.close(b)", "lutetia paper expected", "", false},
     {"b.dip(p, {water = 1})", "lutetia brush expected", "", false},
     {"m.bounds(q)", "lutetia mask expected", "", false},
-    /* closed variables close while the paper is in use, and when it is not */
+    /* to-be-closed variables close the paper while it is in use, and when it is not */
     {"p:layer('height', function() local x <close> = setmetatable({}, {__close = close}) "
      "return 1 end)",
      IN_USE, "", false},
@@ -202,7 +202,7 @@ static const struct {
      "this paper is closed", "", false},
     {"p:layer('height', function() local x <close> = p return 1 end)", "non-closable", "",
      false},
-    /* a trusted script's finalizers run in the midst of calls: what is in use stays, and they may use the library */
+    /* a trusted script's finalizers run during calls: they cannot close objects in use, and may use the library */
     {"setmetatable({}, {__gc = close}) p:layer('height', function() collectgarbage() return 1 "
      "end) open()",
      NULL, OPEN, true},
@@ -280,7 +280,7 @@ static void each_gets_what_its_row_says(void **state)
     }
 }
 
-/* ---- what nothing in the process stops ---- */
+/* ---- scripts that nothing in the process can stop ---- */
 
 static const struct {
     const char *script;
@@ -347,7 +347,7 @@ int main(void)
     scratch_path("");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(
-            what_nothing_stops_is_told), /* first: it forks, and has no machine yet */
+            what_nothing_stops_is_told), /* first: it forks before there is a machine */
         cmocka_unit_test(each_gets_what_its_row_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

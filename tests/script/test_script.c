@@ -1,4 +1,4 @@
-/* test_script.c - the library of scripts as a program meets it: what its host is told, asked, and handed at the end. */
+/* test_script.c - the library of scripts as a program uses it: the calls that its host gets, and the papers at the end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,7 +60,7 @@ static void words_are_read_and_must_be_asked_for(void **state)
     assert_non_null(strstr(s.errors, "up to 64"));
 }
 
-/* A paper and a word, and nothing else: it stands in the middle, four fifths as wide as the sheet. */
+/* A word that is typed without options stands in the middle and is four fifths as wide as the sheet. */
 static void type_needs_no_options(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void type_needs_no_options(void **state)
     assert_non_null(strstr(s.errors, "without pigments needs amounts"));
 }
 
-/* Each script ends with an error that has this in it. */
+/* Each script ends with an error that contains its text. */
 static void wrong_names_and_numbers_are_answered(void **state)
 {
     (void)state;
@@ -133,7 +133,7 @@ static void values_and_type_beyond_are_said(void **state)
         strstr(s.notes, "script.lua:4: mask: 8 of its 16 values were not within 0..1"));
 }
 
-/* Values of masks: n / 255, read back by a layer. */
+/* A layer reads back the values of masks, which are n / 255. */
 static void masks_are_scaled_and_shifted_in_value(void **state)
 {
     (void)state;
@@ -197,7 +197,7 @@ static void what_the_state_takes_is_limited(void **state)
     assert_int_equal(scripted_run(&s, "string.rep('x', 1 << 21)"), SCRIPT_FAILED);
     assert_int_equal(scripted_run(&s, "mask(1025, 1025, print)"), SCRIPT_FAILED);
     assert_non_null(strstr(s.errors, "not enough memory: 1 MB for a mask"));
-    /* what is no longer held is given back: a hundred times the memory, one after the other */
+    /* masks that are no longer referenced are freed: one after the other they need far more than the limit */
     assert_int_equal(scripted_run(&s, "for i = 1, 200 do rect(0, 0, 300, 300):soften(1) end"),
                      SCRIPT_OK);
 }
@@ -263,7 +263,7 @@ static void the_host_sees_each_step(void **state)
     assert_int_equal(seen.camera.show, PAPER_SHOW_WET);
     assert_true(seen.camera.x == 2 && seen.camera.y == 0 && seen.camera.width == 9 &&
                 seen.camera.height == 12);
-    /* what it says stops the script, in its line */
+    /* the host's error stops the script at that line */
     seen.papers_count = 0;
     seen.stop_after = 3;
     assert_int_equal(scripted_run(&seen.s, "local p = paper" SMALL "\np:step(9)"),
@@ -335,7 +335,7 @@ static void the_end_has_all_open_papers(void **state)
     assert_memory_equal(end.numbers, numbers, sizeof numbers);
     assert_int_equal(end.status, SCRIPT_OK);
     assert_true(end.water > 0);
-    /* however it ended; and what the host says is how it did */
+    /* finish() is called after a failure, too, and its status is the run's */
     assert_int_equal(scripted_run(&end.s, "P = paper" SMALL " error('x')"), SCRIPT_FAILED);
     assert_int_equal(end.status, SCRIPT_FAILED);
     assert_int_equal(end.count, 1);
@@ -345,7 +345,7 @@ static void the_end_has_all_open_papers(void **state)
     assert_string_equal(end.s.errors, "");
 }
 
-/* The loop is stopped by the clock, and what is open then is saved, and can be resumed. */
+/* The time limit stops an endless loop; the open papers are saved and can be resumed. */
 static void papers_without_end_are_saved(void **state)
 {
     (void)state;
@@ -370,7 +370,7 @@ static void papers_without_end_are_saved(void **state)
     char water[40];
     snprintf(water, sizeof water, "%.17g\n", end.water);
     assert_string_equal(next.prints, water);
-    /* those that are held cannot be more than can be saved */
+    /* a script cannot hold more papers than can be saved */
     end.s.config.timeout_s = 60;
     assert_int_equal(scripted_run(&end.s, "t = {} for i = 1, 65 do t[i] = paper" SMALL " end"),
                      SCRIPT_FAILED);
@@ -383,7 +383,7 @@ static bool said_so(void *context)
     return ((struct ending *)context)->s.prints[0] != '\0';
 }
 
-/* A stroke asks whether to stop between its steps; but not when it is computed again for the end. */
+/* A stroke asks between its steps whether to stop, but not when it is computed for the end. */
 static void what_was_stopped_is_computed_for_the_end(void **state)
 {
     (void)state;
@@ -417,7 +417,7 @@ static void nested(void *context, const char *text, size_t length)
     assert_non_null(strstr(inner.errors, "stopped after 0.05"));
 }
 
-/* What one run does is nobody else's: its time, its memory, its papers. */
+/* Two runs share nothing: not the clock, not memory, not papers. */
 static void nothing_is_shared_between_runs(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* test_frame_rate.c - measures the frame rate of a line of 40 letters in a window of 1280x1024 on an Xvfb, whose OpenGL is
- * software, and that of an empty window. Prints rates by the wall clock and processor time per picture. Asserts only that the simulation
- * keeps real time at that rate. */
+ * software, and that of an empty window. Prints rates by the wall clock and processor time per picture. Asserts only that the
+ * simulation keeps real time at that rate. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

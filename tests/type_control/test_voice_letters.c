@@ -1,4 +1,4 @@
-/* test_voice_letters.c - what a voice plays: which letters, how large, where; measured on the pictures. */
+/* test_voice_letters.c - the letters that a voice plays: their choice, sizes and places, measured on the pictures. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -85,7 +85,7 @@ static void letters_share_the_time(void **state)
     struct voice_score two = sounds(begin_s, 2, 5);
     struct voice_words words;
     bool empty;
-    /* one word lasts for both sounds: a second for each letter */
+    /* one word is spread over both sounds, a second for each letter */
     assert_true(voice_words_make("\xc2\xab"
                                  "Aa\xcc\x81gh!\xc2\xbb",
                                  &words, &empty));
@@ -149,7 +149,7 @@ static double correlation(const double *x, const double *y, int n)
     return (n * sxy - sx * sy) / sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
 }
 
-/* Rows that have ink, the first and last by how dark they are. */
+/* The height of the ink in rows; the first and last row count by their darkness. */
 static double ink_height(double *middle)
 {
     int first = -1, last = -1;
@@ -183,7 +183,7 @@ static void heights_follow_the_envelope(void **state)
     def.size_px[0] = 8;
     def.size_px[1] = 220;
     for (int played = 0; played < 2; played++) {
-        if (played) { /* size stays, the baseline goes with the pitch */
+        if (played) { /* the size is constant, the baseline follows the pitch */
             assert_true(voice_mapping_read(&def.mapping, "size=nothing,baseline=pitch",
                                            (char[200]){0}, 200));
             def.size_px[1] = 60;
@@ -229,7 +229,7 @@ static void every_letter_is_on_the_line(void **state)
     assert_true(fabs(narrow - 100 * seconds) < 60 && fabs(wide - 200 * seconds) < 60);
     voice_type_destroy(type);
     voice_words_finish(&words);
-    /* more letters than the time has room for */
+    /* more letters than fit into the time */
     assert_true(voice_words_make("the quick brown fox jumps over the lazy dog and the quick "
                                  "brown fox jumps over the lazy dog",
                                  &words, &empty));

@@ -1,4 +1,4 @@
-/* fuzz_sounds.c - damaged WAV files: each is refused in one line, or heard without harm. `fuzz_sounds FILE [ROUNDS]` */
+/* fuzz_sounds.c - reads damaged WAV files. Each is refused in one line, or analysed without harm. `fuzz_sounds FILE [ROUNDS]` */
 #include <voice.h>
 #include <voice_sound.h>
 

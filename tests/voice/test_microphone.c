@@ -1,5 +1,5 @@
-/* test_microphone.c - a microphone of JACK's, on a JACK server of the test's own with the dummy driver: a sound that this program plays is
- * what is heard, and letters in a window follow it. Skips where there is no jackd. */
+/* test_microphone.c - JACK's microphone, on the test's own JACK server with the dummy driver. It hears the sound that this
+ * program plays, and letters in a window follow it. Skips where there is no jackd. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,7 +44,7 @@ static struct {
     uint64_t at;
 } player;
 
-/* A buzz of ten harmonics: it has a pitch, and attacks where it begins. */
+/* Plays a buzz of ten harmonics: it has a pitch, and an attack at its beginning. */
 static int play(uint32_t frames, void *context)
 {
     (void)context;
@@ -93,7 +93,7 @@ static bool player_begin(pid_t jackd)
     return true;
 }
 
-/* Until the microphone's port is there. */
+/* Tries to connect the player until the microphone's port exists. */
 static void player_connect(void)
 {
     const double until_s = clock_now_s() + 10;
@@ -151,7 +151,7 @@ static void what_is_played_is_heard(void)
     for (int i = 10; i < frames_count - 10; i++)
         right += fabs(frames[i].pitch_hz - PITCH_HZ) < 0.02 * PITCH_HZ &&
                  frames[i].level > 0.1 && frames[i].level < 0.6;
-    assert_true(right > 0.8 * (frames_count - 20)); /* a busy machine may leave periods out */
+    assert_true(right > 0.8 * (frames_count - 20)); /* a busy machine may skip periods */
     player.level = 0;
     (void)hear(m, samples, COUNT / 4);
     assert_true(hear(m, samples, COUNT / 8) > 0);

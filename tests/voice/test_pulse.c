@@ -1,5 +1,5 @@
-/* test_pulse.c - a microphone of PulseAudio's, on a server of the test's own whose only source is what is played to its only
- * sink: a buzz that is played is what is heard, and a server that ends is noticed. Skips where there is no pulseaudio. */
+/* test_pulse.c - PulseAudio's microphone, on the test's own server, whose only source is the monitor of its only sink. It
+ * hears the buzz that is played, and notices when the server ends. Skips where there is no pulseaudio. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -57,7 +57,7 @@ static pid_t pulseaudio_begin(void)
     return child;
 }
 
-/* Plays SECONDS of a buzz of ten harmonics; waits for nothing. */
+/* Starts playing SECONDS of a buzz of ten harmonics; does not wait. */
 static pid_t player_begin(void)
 {
     int ends[2];
@@ -92,7 +92,7 @@ static pid_t player_begin(void)
     return pacat;
 }
 
-/* A microphone, as soon as the server runs; NULL: there is no server. */
+/* Opens a microphone as soon as the server runs; NULL: there is no server. */
 static struct microphone *microphone_wait(pid_t pulseaudio)
 {
     const double until_s = clock_now_s() + 10;

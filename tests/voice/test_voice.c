@@ -1,4 +1,4 @@
-/* test_voice.c - a voice that is known is heard as it is. */
+/* test_voice.c - analyses synthetic voices, whose pitch, level and vowels are known. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -184,7 +184,7 @@ static void vowels_are_told_apart(void **state)
         struct voice_frame *f = heard(&cry, &count);
         for (int i = 5; i < count - 5; i++, all++) {
             int nearest = -1;
-            double least = 0.35; /* octaves: what is further from all three is none */
+            double least = 0.35; /* octaves; a sound farther from all three is no vowel */
             for (int k = 0; k < 3 && f[i].formant_hz[1] > 0; k++) {
                 double away = hypot(log2(f[i].formant_hz[0] / vowels[k][0]),
                                     log2(f[i].formant_hz[1] / vowels[k][1]));
@@ -203,7 +203,7 @@ static void vowels_are_told_apart(void **state)
 static void pieces_make_no_difference(void **state)
 {
     (void)state;
-    /* what is behind the last member may be anything */
+    /* the padding after the last member is not compared */
     const size_t whole = offsetof(struct voice_frame, attack) + sizeof(bool);
     struct voice_cry cry = {1.2, 22050, three_cries, rising, vowel_700};
     struct voice_def def = voice_def_default();
@@ -226,7 +226,7 @@ static void pieces_make_no_difference(void **state)
             assert_true(one.time_s <= (double)at / 22050 + 1e-9);
             assert_memory_equal(&one, &f[taken++], whole);
         }
-        /* it is no later than the header says */
+        /* the delay is within the header's bound */
         assert_true((double)at / 22050 - (double)taken / def.frames_hz <=
                     VOICE_DELAY_S + 0.011);
     }
