@@ -34,7 +34,7 @@
 
 #define DYN_SPEED_MAX 1e4
 #define DYN_TIME_MAX 1e12 /* s; of networks in files */
-#define DYN_EDGE 1e6      /* edge of the plane: masses bounce there */
+#define DYN_EDGE 1e6      /* edge of the plane: masses stop there */
 
 /* Keeps the text for dyn_error() and returns the status. */
 extern _Thread_local struct error_text dyn_last_error;
@@ -83,10 +83,30 @@ struct dyn_packed {
     int count;
 };
 
+/* A mass of more restitution bounces again and again; others rest where a leap would be shorter than a part. */
+#define DYN_ELASTIC 0.95
+
+/* A mass that has met a side in this part: bounce.h. */
+struct dyn_bounce {
+    int mass;
+    enum dyn_side side;
+    double gained[2]; /* what its velocity gained in the part */
+};
+
+/* Of each mass i, which of the packed springs it has: at[from[i]] .. at[from[i + 1] - 1]. */
+struct dyn_ends {
+    int32_t *from, *at;
+    int from_capacity, at_capacity;
+};
+
 struct dyn_prepared {
-    double *kick, *keep, *push_x, *push_y; /* v = keep v + kick f + push */
-    double *restitution, *friction;
+    double *kick, *keep, *push_x, *push_y;    /* v = keep v + kick f + push */
+    double *restitution, *friction, *inverse; /* inverse: 1/m; 0 if the mass is fixed */
     struct dyn_packed springs;
+    struct dyn_ends ends;       /* bounce.c: where something can bounce */
+    struct dyn_bounce *bounces; /* room for as many as there can be in a part */
+    struct dyn_met *met;
+    int bounces_capacity, met_capacity;
     double pull_soft[DYN_PULLS_MAX]; /* of the pulls' strength */
     double dt_s, h;
     struct dyn_plan plan;
@@ -174,15 +194,20 @@ struct dyn_job {
     double least_x, most_x, least_y,
         most_y; /* the places of the sides; infinite where there are none */
     double slow_speed, clank_speed, speed_limit;
+    struct dyn_bounce *bounces; /* those of the part, in the order of masses */
+    int bounces_count;
     bool verlet;      /* kick, keep and push are for half of h */
     int parts, steps; /* parts in each of the steps */
     bool stop; /* stop after the step in which it was set; `steps` holds the remaining steps */
     double time_s; /* of the part's end */
     struct dyn_network *network;
-    void (*on_clank)(struct dyn_job *job, int mass, enum dyn_side side, double speed);
+    void (*bounce)(struct dyn_job *job); /* makes them, at the part's end */
     void (*on_snap)(struct dyn_job *job, int packed, double length);
     void (*pull)(struct dyn_job *job); /* adds pulls to the forces; NULL: no pulls */
 };
+
+/* step.c: a job of that many of the prepared steps. */
+struct dyn_job dyn_job_make(struct dyn_network *n, int steps);
 
 void dyn_kernel_plain(struct dyn_job *job);
 void dyn_kernel_avx2(struct dyn_job *job);

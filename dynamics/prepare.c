@@ -1,22 +1,26 @@
 /* prepare.c - computes the parameters that a step reads from those that were set: see
  * internal.h and step.h. */
-#include "internal.h"
+#include "bounce.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Of what would just be stable, where masses bounce and lose nothing. */
+#define ELASTIC_PART (1.0 / 32)
+
 enum { MASS_ROWS = 10, SPRING_ROWS = 4, SPRING_NUMBERS = 3 };
 
 /* For each mass, values that the kernels do not read. */
 struct sums {
-    double *inverse;             /* 1/m; 0 if the mass is fixed */
+    double *inverse;             /* that of dyn_prepared */
     double *stiffness, *damping; /* K and C of step.h */
     double *soft;                /* the factor by which its springs must be softened */
 };
 
 void dyn_prepared_finish(struct dyn_prepared *p)
 {
+    dyn_bounces_finish(p);
     free(p->mass_block);
     free(p->spring_block);
     *p = (struct dyn_prepared){0};
@@ -51,6 +55,7 @@ static bool room_make(struct dyn_network *n, struct sums *sums)
     for (size_t i = 0; i < MASS_ROWS; i++)
         *rows[i] = p->mass_block + i * masses;
     memset(p->mass_block, 0, masses * MASS_ROWS * sizeof(double));
+    p->inverse = sums->inverse;
     struct dyn_packed *s = &p->springs;
     double **spring_rows[SPRING_ROWS] = {&s->k, &s->k_rest, &s->c, &s->limit};
     for (size_t i = 0; i < SPRING_ROWS; i++)
@@ -151,6 +156,19 @@ static int soften(struct dyn_network *n, const struct sums *sums, double h)
     return softened;
 }
 
+/* True if a mass that can bounce keeps nearly all of its speed: then nothing but the length of
+ * a part says how well energy is kept. */
+static bool elastic(const struct dyn_network *n)
+{
+    double most = 0;
+    if (!dyn_bounces_possible(&n->world))
+        return false;
+    for (int i = 0; i < n->masses_count; i++)
+        if (n->hold[i] == DYN_FREE)
+            most = fmax(most, n->prepared.restitution[i]);
+    return most > DYN_ELASTIC;
+}
+
 static void parts_find(struct dyn_network *n, const struct sums *sums, double dt_s)
 {
     struct dyn_prepared *p = &n->prepared;
@@ -162,8 +180,10 @@ static void parts_find(struct dyn_network *n, const struct sums *sums, double dt
     if (parts > DYN_PARTS_MAX) {
         p->plan.parts = DYN_PARTS_MAX;
         p->plan.softened = soften(n, sums, dt_s / DYN_PARTS_MAX);
-    } else if (parts > 1) {
-        p->plan.parts = (int)parts;
+    } else {
+        if (elastic(n))
+            parts = fmax(parts, fmin(ceil(dt_s / (ELASTIC_PART * stable)), DYN_PARTS_MAX));
+        p->plan.parts = (int)fmax(parts, 1);
     }
     p->dt_s = dt_s;
     p->h = dt_s / p->plan.parts;
@@ -200,6 +220,11 @@ enum dyn_status dyn_prepare(struct dyn_network *n, double dt_s)
     }
     masses_scale(n, &sums);
     springs_pack(n, &sums);
+    if (!dyn_bounces_prepare(n)) {
+        n->changed = true;
+        return dyn_fail(DYN_NO_MEMORY, "no memory for the bounces of %d masses",
+                        n->masses_count);
+    }
     parts_find(n, &sums, dt_s);
     kicks_make(n, &sums);
     n->changed = false;

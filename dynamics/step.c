@@ -1,6 +1,6 @@
 /* step.c - steps as jobs for the kernels: see step.h. */
 #include "step.h"
-#include "internal.h"
+#include "bounce.h"
 
 #include <math.h>
 
@@ -55,18 +55,6 @@ static void snapped(struct dyn_job *job, int packed, double length)
     job->stop = true;
 }
 
-static void clanked(struct dyn_job *job, int mass, enum dyn_side side, double speed)
-{
-    dyn_event_add(job->network, (struct dyn_event){.kind = DYN_CLANK,
-                                                   .side = side,
-                                                   .time_s = job->time_s,
-                                                   .mass = mass,
-                                                   .spring = -1,
-                                                   .strength = speed,
-                                                   .x = job->state[mass].x,
-                                                   .y = job->state[mass].y});
-}
-
 static void pull(struct dyn_job *job)
 {
     const struct dyn_network *n = job->network;
@@ -82,7 +70,7 @@ static void pull(struct dyn_job *job)
 
 /* ---- steps ---- */
 
-static struct dyn_job job_make(struct dyn_network *n, int steps)
+struct dyn_job dyn_job_make(struct dyn_network *n, int steps)
 {
     const struct dyn_prepared *p = &n->prepared;
     const struct dyn_world *w = &n->world;
@@ -111,7 +99,8 @@ static struct dyn_job job_make(struct dyn_network *n, int steps)
         .steps = steps,
         .time_s = n->time_s,
         .network = n,
-        .on_clank = clanked,
+        .bounces = p->bounces,
+        .bounce = dyn_bounces_make,
         .on_snap = snapped,
         .pull = n->pulls_count ? pull : NULL,
     };
@@ -138,7 +127,7 @@ enum dyn_status dyn_network_step(struct dyn_network *n, double dt_s, int count)
         status = dyn_prepare(n, dt_s);
         if (status != DYN_OK)
             break;
-        struct dyn_job job = job_make(n, count);
+        struct dyn_job job = dyn_job_make(n, count);
         kernel(&job);
         n->time_s = job.time_s;
         count = job.steps;

@@ -20,15 +20,13 @@
  * needed, springs on the masses that need them are softened until that many suffice, and
  * counted.
  *
- * Sides. A mass that is below the floor and moves down is reflected. A part's speed s is that
- * in its middle. A mass that gains A in a part and meets the floor at the fraction r of the
- * part before its end met it with s + c, c = A (1/2 - r), both downwards. It leaves with
- * e (s + c), e its restitution; in the part's middle it would have had e (s + c) + c upwards,
- * which is its new speed, and its place is where that leads from the floor in r. Without c
- * each bounce would be wrong by up to half of what a part gains. An A of more than half of s
- * comes from stiff springs, and counts as 0: a bounce must not lend speed. If s is slower than
- * gravity makes a mass in two parts, e is 0, and it comes to rest;
- * where e is 0, so is A.
+ * If a mass can bounce with a restitution above 0.95, h is at most a 32nd of that least: then
+ * only the length of parts decides how energy is kept.
+ *
+ * Sides. A mass that is below the floor and moves down bounces as bounce.h says: at the place and
+ * the speed of the smooth motion on which the parts' places lie. If it is slower than gravity
+ * makes a mass in two parts, or its springs both turned it round and brought it there in one
+ * part, and its restitution is at most 0.95, it comes to rest.
  * Friction reduces the tangential velocity by at most the coefficient of friction times the
  * change of the normal velocity. Walls and ceiling act in the same way.
  *

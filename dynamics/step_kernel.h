@@ -37,76 +37,64 @@ INLINE void springs_pass(struct dyn_job *job)
     }
 }
 
-/* Bounces to report, of LANES masses: reported mass by mass, so that the order does not
- * depend on LANES. */
-struct heard {
-    unsigned any, of_side[DYN_RIGHT + 1];
-    double speed[DYN_RIGHT + 1][LANES];
-};
-
-/* Reflects at one side, as step.h says: p is the place across it and v the velocity, gained
- * what v gains in a part; t is the velocity along it. inwards: 1 if p grows inwards, else
- * -1. */
-INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
-                      lanes *p, lanes *v, lanes gained, lanes *t, struct heard *heard)
+/* Notes what bounces.c makes of it: `which` of LANES masses meet the side. */
+static void bounces_note(struct dyn_job *job, int i, enum dyn_side side, unsigned which,
+                         struct lanes_force gained)
 {
+    double x[LANES], y[LANES];
+    lanes_store(x, gained.x);
+    lanes_store(y, gained.y);
+    for (; which; which &= which - 1) {
+        int lane = __builtin_ctz(which);
+        job->bounces[job->bounces_count++] =
+            (struct dyn_bounce){i + lane, side, {x[lane], y[lane]}};
+    }
+}
+
+/* Stops at one side, or at the plane's edge, what does not bounce, and notes what does: p is the place across it and
+ * v the velocity, t the velocity along it. inwards: 1 if p grows inwards, else -1. */
+INLINE void side_meet(struct dyn_job *job, int i, enum dyn_side side, double at, int inwards,
+                      lanes *p, lanes *v, lanes *t, struct lanes_force gained)
+{
+    lanes across = side <= DYN_CEILING ? gained.y : gained.x;
     const lanes none = lanes_all(0), bound = lanes_all(at);
     lanes beyond = inwards > 0 ? bound - *p : *p - bound;
     lanes speed = inwards > 0 ? -*v : *v;
     lanes_mask hit = lanes_both(lanes_less(none, beyond), lanes_less(none, speed));
-    heard->of_side[side] = 0;
     if (!lanes_bits(hit))
         return;
-    lanes e = lanes_pick(lanes_less(lanes_all(job->slow_speed), speed),
-                         lanes_load(job->restitution + i), none);
-    const lanes half = lanes_all(0.5), h = lanes_all(job->h), most = half * speed;
-    /* what changes the speed by more than half comes from elsewhere: stiff springs */
-    lanes gain = inwards > 0 ? -gained : gained;
-    gain =
-        lanes_pick(lanes_either(lanes_less(most, gain), lanes_less(gain, -most)), none, gain);
-    gain = lanes_pick(lanes_less(none, e), gain, none);
-    /* the time from the side to the part's end, in parts: at a steady speed, then as it is */
-    lanes left = lanes_min(beyond / (h * speed), lanes_all(1));
-    left =
-        lanes_min(beyond / (h * (speed + half * gain * (lanes_all(1) - left))), lanes_all(1));
-    lanes change = gain * (half - left), met = speed + change, after = e * met;
-    lanes middle = lanes_min(lanes_max(after + change, none), lanes_all(job->speed_limit));
-    lanes back = lanes_max(h * left * (after - half * gain * left), none);
-    *p = lanes_pick(hit, inwards > 0 ? bound + back : bound - back, *p);
-    *v = lanes_pick(hit, inwards > 0 ? middle : -middle, *v);
-    lanes grip = lanes_load(job->friction + i) * (met + after);
-    *t = lanes_pick(hit, *t - lanes_max(lanes_min(*t, grip), -grip), *t);
-    heard->of_side[side] =
-        lanes_bits(lanes_both(hit, lanes_less(lanes_all(job->clank_speed), after)));
-    heard->any |= heard->of_side[side];
-    lanes_store(heard->speed[side], after);
+    const double slow = fabs(at) < DYN_EDGE ? job->slow_speed : INFINITY;
+    lanes e = lanes_load(job->restitution + i);
+    lanes had = inwards > 0 ? -(*v - across) : *v - across;
+    lanes_mask comes =
+        lanes_either(lanes_less(none, had), lanes_less(lanes_all(DYN_ELASTIC), e));
+    lanes_mask bounces =
+        lanes_both(lanes_both(hit, comes),
+                   lanes_both(lanes_less(lanes_all(slow), speed), lanes_less(none, e)));
+    unsigned noted = lanes_bits(bounces);
+    lanes grip = lanes_load(job->friction + i) * speed;
+    lanes slid = *t - lanes_max(lanes_min(*t, grip), -grip);
+    *p = lanes_pick(bounces, *p, lanes_pick(hit, bound, *p));
+    *v = lanes_pick(bounces, *v, lanes_pick(hit, none, *v));
+    *t = lanes_pick(bounces, *t, lanes_pick(hit, slid, *t));
+    if (__builtin_expect(noted != 0, 0))
+        bounces_note(job, i, side, noted, gained);
 }
 
 /* gained: what velocities gain in a part. */
 INLINE void sides_meet(struct dyn_job *job, int i, struct lanes_state *s,
-                       struct lanes_force gained, struct heard *heard)
+                       struct lanes_force gained)
 {
     lanes_mask out = lanes_either(lanes_either(lanes_less(s->y, lanes_all(job->least_y)),
                                                lanes_less(lanes_all(job->most_y), s->y)),
                                   lanes_either(lanes_less(s->x, lanes_all(job->least_x)),
                                                lanes_less(lanes_all(job->most_x), s->x)));
-    heard->any = 0;
     if (!lanes_bits(out))
         return;
-    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, gained.y, &s->vx, heard);
-    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, gained.y, &s->vx, heard);
-    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, gained.x, &s->vy, heard);
-    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, gained.x, &s->vy, heard);
-}
-
-static void clanks_tell(struct dyn_job *job, int i, const struct heard *heard)
-{
-    for (unsigned rest = heard->any; rest; rest &= rest - 1) {
-        int lane = __builtin_ctz(rest);
-        for (enum dyn_side side = DYN_FLOOR; side <= DYN_RIGHT; side++)
-            if (heard->of_side[side] >> lane & 1)
-                job->on_clank(job, i + lane, side, heard->speed[side][lane]);
-    }
+    side_meet(job, i, DYN_FLOOR, job->least_y, 1, &s->y, &s->vy, &s->vx, gained);
+    side_meet(job, i, DYN_CEILING, job->most_y, -1, &s->y, &s->vy, &s->vx, gained);
+    side_meet(job, i, DYN_LEFT, job->least_x, 1, &s->x, &s->vx, &s->vy, gained);
+    side_meet(job, i, DYN_RIGHT, job->most_x, -1, &s->x, &s->vx, &s->vy, gained);
 }
 
 /* Computes velocities from forces; if `moves`, also places from velocities, and sets forces
@@ -118,7 +106,6 @@ INLINE void masses_pass(struct dyn_job *job, bool moves)
     for (int i = 0; i < job->masses; i += LANES) {
         struct lanes_state s = states_load(job->state + i);
         struct lanes_force f = forces_load(job->force + i);
-        struct heard heard;
         lanes keep = lanes_load(job->keep + i), kick = lanes_load(job->kick + i);
         struct lanes_force gained = {s.vx, s.vy};
         s.vx = keep * s.vx + kick * f.x + lanes_load(job->push_x + i);
@@ -130,13 +117,13 @@ INLINE void masses_pass(struct dyn_job *job, bool moves)
             s.y = s.y + h * s.vy;
             gained.x = whole * (s.vx - gained.x);
             gained.y = whole * (s.vy - gained.y);
-            sides_meet(job, i, &s, gained, &heard);
+            sides_meet(job, i, &s, gained);
             forces_clear(job->force + i);
         }
         states_store(job->state + i, s);
-        if (moves && __builtin_expect(heard.any != 0, 0))
-            clanks_tell(job, i, &heard);
     }
+    if (moves && job->bounces_count)
+        job->bounce(job);
 }
 
 INLINE void forces_find(struct dyn_job *job)

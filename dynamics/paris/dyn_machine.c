@@ -2,6 +2,8 @@
 #include "dyn_machine.h"
 #include "dyn_machine_program.h"
 
+#include <bounce.h>
+
 #include <kit.h>
 #include <math.h>
 #include <stdlib.h>
@@ -209,6 +211,33 @@ static void numbers_set(struct dyn_machine *m, const struct dyn_network *n, doub
     m->of_springs = n->springs_count;
 }
 
+/* Bounces are few and each is a small computation of its own, on its springs, too: the front
+ * end makes them, with the library's own function, on a copy. */
+static enum dyn_status bouncing_make(struct dyn_machine *m, struct dyn_network *n, double dt_s)
+{
+    struct dyn_masses *masses = &m->masses;
+    struct dyn_plan plan;
+    if (!dyn_bounces_possible(&n->world))
+        return DYN_OK;
+    m->values = malloc((STATES + 2) * (size_t)n->masses_count * sizeof *m->values);
+    if (!m->values)
+        return dyn_fail(DYN_NO_MEMORY, "no memory for the bounces of %d masses",
+                        n->masses_count);
+    enum dyn_status status = dyn_network_create(&m->bouncing);
+    if (status == DYN_OK)
+        status = dyn_network_copy(m->bouncing, n);
+    if (status == DYN_OK)
+        status = dyn_network_plan(m->bouncing, dt_s, &plan);
+    if (status != DYN_OK)
+        return status;
+    m->bouncing->world.clank_speed = INFINITY; /* nothing is heard */
+    CM_set_vp_set(masses->set);
+    masses->gained[0] = real_field();
+    masses->gained[1] = real_field();
+    masses->bounces = CM_allocate_heap_field(1);
+    return DYN_OK;
+}
+
 enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dyn_machine **out)
 {
     struct dyn_plan plan;
@@ -225,9 +254,11 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
     struct dyn_machine *m = calloc(1, sizeof *m);
     double *row = malloc(most * sizeof *row);
     int32_t *numbers = malloc(3 * most * sizeof *numbers);
-    if (m)
+    if (m) {
         m->which = malloc((size_t)springs * sizeof *m->which);
-    if (!m || !row || !numbers || !m->which) {
+        m->broken = calloc((size_t)springs + 1, sizeof *m->broken);
+    }
+    if (!m || !row || !numbers || !m->which || !m->broken) {
         free(row);
         free(numbers);
         dyn_machine_destroy(m);
@@ -244,7 +275,10 @@ enum dyn_status dyn_machine_create(struct dyn_network *n, double dt_s, struct dy
         slots_make(&m->masses, &m->springs, &n->prepared.springs, end, &room);
     free(row);
     free(numbers);
+    enum dyn_status bouncing = bouncing_make(m, n, dt_s);
     status = said(kit_leave());
+    if (status == DYN_OK)
+        status = bouncing;
     if (status == DYN_OK)
         *out = m;
     else
@@ -266,25 +300,11 @@ void dyn_machine_destroy(struct dyn_machine *m)
         return;
     set_free(m->springs.set, m->springs.geometry);
     set_free(m->masses.set, m->masses.geometry);
+    dyn_network_destroy(m->bouncing);
+    free(m->values);
     free(m->which);
+    free(m->broken);
     free(m);
-}
-
-enum dyn_status dyn_machine_step(struct dyn_machine *m, int count)
-{
-    if (count < 0)
-        return dyn_fail(DYN_BAD_ARGUMENT, "the count of steps cannot be %d", count);
-    kit_enter(m->springs.set);
-    for (int step = 0; step < count; step++)
-        for (int part = 0; part < m->parts; part++)
-            dyn_machine_part(m);
-    m->steps += count;
-    return said(kit_leave());
-}
-
-enum dyn_status dyn_machine_finish(struct dyn_machine *m)
-{
-    return said(kit_finish(m->masses.set));
 }
 
 static void real_read(double *values, int count, CM_field_id_t field)
@@ -294,16 +314,103 @@ static void real_read(double *values, int count, CM_field_id_t field)
                                  CM_float_double);
 }
 
+/* Springs that have broken on the machine pull no more. */
+static void broken_forget(struct dyn_machine *m, uint32_t *broken)
+{
+    struct dyn_packed *s = &m->bouncing->prepared.springs;
+    int counts[1] = {m->springs.count};
+    CM_set_vp_set(m->springs.set);
+    CM_u_read_from_news_array_1L(broken, zero, zero, counts, axis, m->springs.broken, 1, 1,
+                                 counts, CM_32_bit);
+    CM_set_vp_set(m->masses.set);
+    for (int i = 0; i < m->springs.count; i++)
+        if (broken[i])
+            s->k[i] = s->k_rest[i] = 0;
+}
+
+/* Reads the masses, and finds those that the machine left beyond a side. */
+static void bounces_note(struct dyn_machine *m, struct dyn_job *job)
+{
+    int count = m->masses.count;
+    size_t row = (size_t)count;
+    double *v = m->values;
+    for (int i = 0; i < STATES; i++)
+        real_read(v + (size_t)i * row, count, m->masses.state[i]);
+    for (int i = 0; i < 2; i++)
+        real_read(v + (size_t)(STATES + i) * row, count, m->masses.gained[i]);
+    for (int i = 0; i < count; i++, v++) {
+        struct dyn_state s = {v[0], v[row], v[2 * row], v[3 * row]};
+        double hx = s.vx - v[4 * row], hy = s.vy - v[5 * row];
+        const struct {
+            enum dyn_side side;
+            double beyond, speed, had;
+        } sides[] = {{DYN_FLOOR, job->least_y - s.y, -s.vy, -hy},
+                     {DYN_CEILING, s.y - job->most_y, s.vy, hy},
+                     {DYN_LEFT, job->least_x - s.x, -s.vx, -hx},
+                     {DYN_RIGHT, s.x - job->most_x, s.vx, hx}};
+        job->state[i] = s;
+        for (int k = 0; k < 4 && job->restitution[i] > 0; k++)
+            if (sides[k].beyond > 0 && sides[k].speed > job->slow_speed &&
+                (sides[k].had > 0 || job->restitution[i] > DYN_ELASTIC))
+                job->bounces[job->bounces_count++] =
+                    (struct dyn_bounce){i, sides[k].side, {v[4 * row], v[5 * row]}};
+    }
+}
+
+static void state_write(struct dyn_machine *m, const struct dyn_state *state)
+{
+    int count = m->masses.count, counts[1] = {count};
+    for (int i = 0; i < STATES; i++) {
+        for (int k = 0; k < count; k++)
+            m->values[k] = (&state[k].x)[i];
+        CM_f_write_to_news_array_1L(m->values, zero, zero, counts, axis, m->masses.state[i],
+                                    REAL, 1, counts, CM_float_double);
+    }
+}
+
+/* The bounces of the part that was made. */
+static void bounces_make(struct dyn_machine *m)
+{
+    CM_set_vp_set(m->masses.set);
+    CM_set_context();
+    if (!CM_global_logior_1L(m->masses.bounces, 1))
+        return;
+    struct dyn_job job = dyn_job_make(m->bouncing, 0);
+    if (m->springs.any_breaks)
+        broken_forget(m, m->broken);
+    bounces_note(m, &job);
+    dyn_bounces_make(&job);
+    state_write(m, job.state);
+}
+
+enum dyn_status dyn_machine_step(struct dyn_machine *m, int count)
+{
+    if (count < 0)
+        return dyn_fail(DYN_BAD_ARGUMENT, "the count of steps cannot be %d", count);
+    kit_enter(m->springs.set);
+    for (int step = 0; step < count; step++)
+        for (int part = 0; part < m->parts; part++) {
+            dyn_machine_part(m);
+            if (m->bouncing)
+                bounces_make(m);
+        }
+    m->steps += count;
+    return said(kit_leave());
+}
+
+enum dyn_status dyn_machine_finish(struct dyn_machine *m)
+{
+    return said(kit_finish(m->masses.set));
+}
+
 enum dyn_status dyn_machine_read(struct dyn_machine *m, struct dyn_network *n)
 {
     size_t masses = (size_t)m->masses.count, springs = (size_t)m->springs.count;
     if (n->masses_count != m->of_masses || n->springs_count != m->of_springs)
         return dyn_fail(DYN_BAD_ARGUMENT, "it is not the network that the machine has");
     double *values = malloc(STATES * masses * sizeof *values);
-    uint32_t *broken = calloc(springs + 1, sizeof *broken);
-    if (!values || !broken) {
-        free(values);
-        free(broken);
+    uint32_t *broken = m->broken;
+    if (!values) {
         return dyn_fail(DYN_NO_MEMORY, "no memory to read %zu masses", masses);
     }
     kit_enter(m->masses.set);
@@ -326,6 +433,5 @@ enum dyn_status dyn_machine_read(struct dyn_machine *m, struct dyn_network *n)
         n->time_s += m->dt_s;
     n->changed = true;
     free(values);
-    free(broken);
     return status;
 }

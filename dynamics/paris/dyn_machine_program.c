@@ -1,6 +1,8 @@
 /* dyn_machine_program.c - a part of a step, in C/Paris: see dyn_machine.h and step.h. */
 #include "dyn_machine_program.h"
 
+#include <internal.h>
+
 /* What a spring needs for a while: fields that are new each time are in no memory unless they are looked at. */
 struct between {
     CM_field_id_t force[2], d[STATES], other, length, inverse, pull;
@@ -133,21 +135,23 @@ static void forces_get(const struct between *b, const struct dyn_masses *m)
     CM_deallocate_stack_through(got);
 }
 
-/* gained: what they gain, of each axis. */
-static void speeds_change(const struct dyn_machine *machine, const CM_field_id_t gained[2])
+static void speeds_change(const struct dyn_machine *machine)
 {
     const struct dyn_masses *m = &machine->masses;
+    const CM_field_id_t *gained = m->gained;
     CM_field_id_t way = real_for_a_while();
     for (int axis = 0; axis < 2; axis++) {
         CM_field_id_t v = m->state[STATE_VX + axis], f = m->force[axis];
-        CM_f_negate_2_1L(gained[axis], v, REAL);
+        if (machine->bouncing)
+            CM_f_negate_2_1L(gained[axis], v, REAL);
         CM_f_multiply_2_1L(v, m->keep, REAL);
         CM_f_multiply_2_1L(f, m->kick, REAL);
         CM_f_add_2_1L(v, f, REAL);
         CM_f_add_2_1L(v, m->push[axis], REAL);
         CM_f_min_constant_2_1L(v, machine->speed_limit, REAL);
         CM_f_max_constant_2_1L(v, -machine->speed_limit, REAL);
-        CM_f_add_2_1L(gained[axis], v, REAL);
+        if (machine->bouncing)
+            CM_f_add_2_1L(gained[axis], v, REAL);
         CM_f_move_constant_1L(f, 0, REAL);
     }
     for (int axis = 0; axis < 2; axis++) {
@@ -157,89 +161,15 @@ static void speeds_change(const struct dyn_machine *machine, const CM_field_id_t
     CM_deallocate_stack_through(way);
 }
 
-/* A gain of more than half of the speed comes from elsewhere: stiff springs. It counts as
- * none. other: for its use. */
-static void gain_limit(CM_field_id_t speed, CM_field_id_t gain, CM_field_id_t other)
-{
-    const CM_field_id_t context = CM_allocate_stack_field(1);
-    CM_store_context(context);
-    CM_f_multiply_constant_3_1L(other, speed, 0.5, REAL);
-    CM_f_gt_1L(gain, other, REAL);
-    CM_logand_context_with_test();
-    CM_f_move_constant_1L(gain, 0, REAL);
-    CM_load_context(context);
-    CM_f_negate_1_1L(other, REAL);
-    CM_f_lt_1L(gain, other, REAL);
-    CM_logand_context_with_test();
-    CM_f_move_constant_1L(gain, 0, REAL);
-    CM_load_context(context);
-    CM_deallocate_stack_through(context);
-}
-
-/* In the active processors: what a mass with this speed outwards, which gains `gain` in a
- * part and is `beyond` a side, has when it meets the side (in speed), its new place inwards
- * (in beyond), and its new speed inwards (in gain); after: its restitution, then the speed
- * with which it leaves.
- * Formulas: dynamics/step.h. */
-static void bounce_find(const struct dyn_machine *machine, CM_field_id_t speed,
-                        CM_field_id_t gain, CM_field_id_t beyond, CM_field_id_t after)
-{
-    const CM_field_id_t left = real_for_a_while(), other = real_for_a_while();
-    gain_limit(speed, gain, other);
-    CM_f_multiply_constant_3_1L(other, speed, machine->h, REAL);
-    CM_f_divide_3_1L(left, beyond, other, REAL);
-    CM_f_min_constant_2_1L(left, 1, REAL);
-    CM_f_subfrom_constant_3_1L(other, left, 1, REAL);
-    CM_f_multiply_2_1L(other, gain, REAL);
-    CM_f_multiply_constant_2_1L(other, 0.5, REAL);
-    CM_f_add_2_1L(other, speed, REAL);
-    CM_f_multiply_constant_2_1L(other, machine->h, REAL);
-    CM_f_divide_3_1L(left, beyond, other, REAL);
-    CM_f_min_constant_2_1L(left, 1, REAL);
-    CM_f_subfrom_constant_3_1L(other, left, 0.5, REAL);
-    CM_f_multiply_2_1L(other, gain, REAL); /* the change */
-    CM_f_add_2_1L(speed, other, REAL);
-    CM_f_multiply_2_1L(after, speed, REAL);
-    CM_f_multiply_3_1L(beyond, gain, left, REAL);
-    CM_f_multiply_constant_2_1L(beyond, -0.5, REAL);
-    CM_f_add_2_1L(beyond, after, REAL);
-    CM_f_multiply_2_1L(beyond, left, REAL);
-    CM_f_multiply_constant_2_1L(beyond, machine->h, REAL);
-    CM_f_max_constant_2_1L(beyond, 0, REAL);
-    CM_f_add_3_1L(gain, after, other, REAL);
-    CM_f_max_constant_2_1L(gain, 0, REAL);
-    CM_f_min_constant_2_1L(gain, machine->speed_limit, REAL);
-    CM_deallocate_stack_through(left);
-}
-
-/* bounce: each active mass's restitution, 0 where it is slow. Who does not bounce gains
- * nothing. */
-static void bounces_find(const struct dyn_machine *machine, CM_field_id_t speed,
-                         CM_field_id_t bounce, CM_field_id_t gain)
-{
-    const CM_field_id_t context = CM_allocate_stack_field(1);
-    CM_store_context(context);
-    CM_f_move_1L(bounce, machine->masses.restitution, REAL);
-    CM_f_le_constant_1L(speed, machine->slow_speed, REAL);
-    CM_logand_context_with_test();
-    CM_f_move_constant_1L(bounce, 0, REAL);
-    CM_load_context(context);
-    CM_f_le_constant_1L(bounce, 0, REAL);
-    CM_logand_context_with_test();
-    CM_f_move_constant_1L(gain, 0, REAL);
-    CM_load_context(context);
-    CM_deallocate_stack_through(context);
-}
-
-/* Reflects masses at one side of an axis; inwards: 1 if coordinates grow inwards, else -1. */
-static void side_meet(const struct dyn_machine *machine, int axis, double bound, int inwards,
-                      CM_field_id_t gained)
+/* Reflects masses at one side of an axis; inwards: 1 if coordinates grow inwards, else -1.
+ * Those that bounce are left as they are: dyn_machine.c. */
+static void side_meet(const struct dyn_machine *machine, int axis, double bound, int inwards)
 {
     const struct dyn_masses *m = &machine->masses;
     CM_field_id_t p = m->state[axis], v = m->state[STATE_VX + axis];
     CM_field_id_t t = m->state[STATE_VX + !axis];
-    CM_field_id_t speed = real_for_a_while(), after = real_for_a_while(),
-                  back = real_for_a_while(), gain = real_for_a_while();
+    CM_field_id_t speed = real_for_a_while(), grip = real_for_a_while();
+    const CM_field_id_t hit = CM_allocate_stack_field(1), came = CM_allocate_stack_field(1);
     if (inwards > 0)
         CM_f_lt_constant_1L(p, bound, REAL);
     else
@@ -250,33 +180,43 @@ static void side_meet(const struct dyn_machine *machine, int axis, double bound,
     else
         CM_f_gt_constant_1L(v, 0, REAL);
     CM_logand_context_with_test();
+    CM_store_context(hit);
     CM_f_multiply_constant_3_1L(speed, v, -inwards, REAL);
-    CM_f_multiply_constant_3_1L(gain, gained, -inwards, REAL);
-    CM_f_subtract_constant_3_1L(back, p, bound, REAL);
-    CM_f_multiply_constant_2_1L(back, -inwards, REAL);
-    bounces_find(machine, speed, after, gain);
-    bounce_find(machine, speed, gain, back, after);
-    CM_f_multiply_constant_3_1L(p, back, inwards, REAL);
-    CM_f_add_constant_2_1L(p, bound, REAL);
-    CM_f_multiply_constant_3_1L(v, gain, inwards, REAL);
+    if (machine->bouncing) {
+        CM_f_gt_constant_1L(speed, machine->slow_speed, REAL);
+        CM_logand_context_with_test();
+        CM_f_gt_constant_1L(m->restitution, 0, REAL);
+        CM_logand_context_with_test();
+        /* which moved so before the part, or are elastic */
+        CM_f_subtract_3_1L(grip, v, m->gained[axis], REAL);
+        CM_f_multiply_constant_2_1L(grip, -inwards, REAL);
+        CM_f_gt_constant_1L(grip, 0, REAL);
+        CM_store_test(came);
+        CM_f_gt_constant_1L(m->restitution, DYN_ELASTIC, REAL);
+        CM_logior_test(came);
+        CM_logand_context_with_test();
+        CM_u_move_constant_1L(m->bounces, 1, 1);
+        CM_invert_context();
+        CM_logand_context(hit);
+    }
+    CM_f_move_constant_1L(p, bound, REAL);
+    CM_f_move_constant_1L(v, 0, REAL);
     /* friction */
-    CM_f_add_2_1L(after, speed, REAL);
-    CM_f_multiply_2_1L(after, m->friction, REAL);
-    CM_f_min_3_1L(speed, t, after, REAL);
-    CM_f_negate_1_1L(after, REAL);
-    CM_f_max_2_1L(speed, after, REAL);
+    CM_f_multiply_3_1L(grip, speed, m->friction, REAL);
+    CM_f_min_3_1L(speed, t, grip, REAL);
+    CM_f_negate_1_1L(grip, REAL);
+    CM_f_max_2_1L(speed, grip, REAL);
     CM_f_subtract_2_1L(t, speed, REAL);
     CM_set_context();
     CM_deallocate_stack_through(speed);
 }
 
-static void bound_meet(const struct dyn_machine *machine, int axis, int inwards,
-                       CM_field_id_t gained)
+static void bound_meet(const struct dyn_machine *machine, int axis, int inwards)
 {
     const struct dyn_bound *bound = inwards > 0 ? &machine->least[axis] : &machine->most[axis];
     CM_field_id_t place = machine->masses.state[axis];
     if (bound->side)
-        side_meet(machine, axis, bound->at, inwards, gained);
+        side_meet(machine, axis, bound->at, inwards);
     else if (inwards > 0)
         CM_f_max_constant_2_1L(place, bound->at, REAL);
     else
@@ -292,13 +232,13 @@ void dyn_machine_part(const struct dyn_machine *machine)
     forces_send(springs, &machine->masses, &b);
     CM_set_vp_set(machine->masses.set);
     forces_get(&b, &machine->masses);
-    const CM_field_id_t gained[2] = {real_for_a_while(), real_for_a_while()};
-    speeds_change(machine, gained);
+    speeds_change(machine);
+    if (machine->bouncing)
+        CM_u_move_constant_1L(machine->masses.bounces, 0, 1);
     for (int axis = 1; axis >= 0; axis--) {
-        bound_meet(machine, axis, 1, gained[axis]);
-        bound_meet(machine, axis, -1, gained[axis]);
+        bound_meet(machine, axis, 1);
+        bound_meet(machine, axis, -1);
     }
-    CM_deallocate_stack_through(gained[0]);
     flags_clear();
     CM_set_vp_set(springs->set);
     CM_deallocate_stack_through(b.force[0]);

@@ -21,7 +21,8 @@ struct dyn_masses {
     int count;
     CM_field_id_t state[STATES], force[2];
     CM_field_id_t kick, keep, push[2], restitution, friction;
-    int slots[2]; /* in use */
+    CM_field_id_t gained[2], bounces; /* in the part; a bit. Where something can bounce */
+    int slots[2];                     /* in use */
     CM_field_id_t slot
         [2]
         [SLOTS_MOST]; /* where the spring is; one that pulls at nothing where there is none */
@@ -47,14 +48,17 @@ struct dyn_machine {
         double at;
         bool side;       /* masses bounce there; else it is the plane's edge, where they stop */
     } least[2], most[2]; /* along x, y */
+    struct dyn_network *bouncing; /* a copy, which makes the bounces; NULL: nothing bounces */
+    double *values;               /* room for all that it needs of the masses */
     int parts;
     double dt_s;
+    uint32_t *broken;          /* of each spring, as it was read last */
     int32_t *which;            /* of each spring: its number in the network */
     int of_masses, of_springs; /* the network's counts */
     int steps;                 /* steps since the network's time was read */
 };
 
-/* dyn_machine_program.c: one part of a step. */
+/* dyn_machine_program.c: one part of a step, but for the bounces. */
 void dyn_machine_part(const struct dyn_machine *m);
 
 #endif

@@ -9,7 +9,7 @@
  *   - Speeds are within GROWTH times (√(2 E / m) + g t + w). E is the first energy of motion and springs, m the least mass, g the
  *     greatest acceleration by gravity, t the time, w the wind. A network that only loses energy stays within the parenthesis. A
  *     step near the bound of stability may exceed it for a while: with a safety of 0.95 a single oscillator's speed grows up to
- *     √(1.95 / 0.05) = 6.2 times, and a bounce may turn that speed round. The most of a million settings is 29.3. This is not
+ *     √(1.95 / 0.05) = 6.2 times, and a bounce may turn that speed round. This is not
  *     asserted where a mass begins beyond a side, because a force puts it back.
  * The thesis's step is not tested here: it is kept as it was, and explodes. */
 #include <math.h>
@@ -147,7 +147,7 @@ static double step_choose(uint64_t *state, struct dyn_network *n)
     struct dyn_plan plan;
     scene_must(dyn_network_plan(n, dt, &plan));
     if (plan.parts > few)
-        dt = fmin(dt, plan.stable_s * dyn_network_world(n)->safety * few);
+        dt = fmin(dt * few / plan.parts, plan.stable_s * dyn_network_world(n)->safety * few);
     return dt < 1e-9 ? 0 : dt;
 }
 
