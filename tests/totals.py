@@ -1,7 +1,7 @@
-"""totals.py TESTLOG.json: reads what `meson test` logged and prints `N passed, N failed[, N skipped]`.
+"""totals.py TESTLOG.json: reads the log of `meson test` and prints `N passed, N failed[, N skipped]`.
 
-Counts the cases of cmocka programs (of which one runs many); any other test, and a program that ended
-before it could count, is one. Ends with 1 if anything failed.
+Counts the cases of cmocka programs, which have many each. Any other test counts as one, and so does a program that ended
+before its total. Ends with 1 if anything failed.
 """
 import json
 import re
@@ -18,7 +18,7 @@ def cases(test):
     text = test.get("stdout", "") + "\n" + test.get("stderr", "")
     lines = CASE.findall(text)
     found = [(name, "passed") for outcome, name in lines if outcome == "OK"]
-    # cmocka lists what failed or was skipped once more at the end: once is enough.
+    # cmocka lists failed and skipped cases again at the end; count them once.
     found += sorted({(name, "skipped" if outcome == "SKIPPED" else "failed")
                      for outcome, name in lines if outcome != "OK"})
     failed = any(outcome == "failed" for _, outcome in found)

@@ -19,7 +19,7 @@ function message(m)
   end
 end
 
--- Each key that is held makes the word twice as stiff, within some pictures.
+-- Each key that is held makes the word twice as stiff, over a few pictures.
 function frame()
   local wanted = math.min(tight, loose * 2 ^ count)
   stiffness = stiffness + 0.3 * (wanted - stiffness)

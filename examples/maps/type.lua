@@ -1,4 +1,4 @@
--- The modulation wheel is how bold letters are where the font varies, else how large; bend is their slant; low keys let them stay.
+-- The modulation wheel sets the weight of letters where the font varies, else their size; bend sets their slant; low keys let them stay.
 --
 --   lutetia keys --map examples/maps/type.lua --font "A variable font"
 

@@ -1,4 +1,4 @@
--- bounce.lua - letters that print themselves on wet paper: each clank presses the word into the sheet, the louder the wetter.
+-- bounce.lua - letters print themselves on wet paper: each clank presses the word into the sheet, a louder one with more water.
 --
 --     lutetia run examples/scripts/bounce.lua [scale=1] [steps=12] [word=bounce]
 local scale = param("scale", 1)

@@ -1,4 +1,4 @@
--- breakdown.lua - the word hangs from its ends by links that do not bear it; where they snap a drop of red falls on the paper.
+-- breakdown.lua - a word hangs by links that are too weak for it. Where a link snaps, a drop of red falls on the paper.
 --
 --     lutetia run examples/scripts/breakdown.lua [scale=1] [steps=30] [word=breakdown]
 local scale = param("scale", 1)
@@ -21,7 +21,7 @@ s:on(function(e)
   end
 end)
 
--- A breath of ink for each moment, and a word of it where it lies in the end.
+-- Prints the word with little ink at each moment, and with much ink where it lies in the end.
 for i = 1, 9 do
   p:put(s:mask(at), {water = 0.02 + 0.01 * i, ["french ultramarine"] = 0.02 + 0.006 * i})
   s:step(48)

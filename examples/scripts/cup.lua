@@ -1,4 +1,4 @@
--- cup.lua - a sentence poured into a cup: cut to letters that push each other apart, and lie as they fall.
+-- cup.lua - a sentence is cut into letters that fall into a cup, push each other apart, and come to rest.
 --
 --     lutetia run examples/scripts/cup.lua [scale=1] [steps=80] [words="..."]
 local scale = param("scale", 1)

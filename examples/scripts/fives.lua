@@ -16,7 +16,7 @@ local function five(size, x, y, angle, ink)
   p:put(text("5", {size = size * scale, x = x * scale, y = y * scale, align = "center", font = "DejaVuSerif"}):rotate(angle, x * scale, (y - size * 0.36) * scale), ink)
 end
 
--- rain: where it was poured the figures will run
+-- water poured on the sheet: there the figures will run
 local poured = rect(0, 0, 1, 1) - rect(0, 0, 1, 1)
 for i = 1, 7 do
   local x, wide = w * (0.08 + 0.14 * (i - 1)) + (math.random() - 0.5) * 40 * scale, (8 + 26 * math.random()) * scale
@@ -38,7 +38,7 @@ for pour = 1, 3 do  -- more water, in the same places, pulls them down
 end
 p:step(steps // 4)
 
--- varnish where it is wettest now; then the sheet dries under it
+-- varnish where the sheet is wettest; then the sheet dries under it
 local wet = p:mask("infused water", 0.36, 0.46):soften(math.max(1, 1.5 * scale))
 p:put(text("one two three four five", {size = 30 * scale, x = w / 2, y = h - 26 * scale, align = "center", tracking = 0.12}),
   {cyan = 0.9, magenta = 0.9, yellow = 0.8})

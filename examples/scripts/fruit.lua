@@ -1,5 +1,5 @@
--- fruit.lua - a picture separated into pigments: oranges and a plum, lit by a window, as light would fall on them; each colour
--- becomes the amounts of six pigments that make it, printed on wet paper, which bleeds a little.
+-- fruit.lua - a picture separated into pigments: oranges and a plum, lit by a window. Each colour becomes amounts of six pigments,
+-- which are printed on wet paper and bleed a little.
 --
 --     lutetia run examples/scripts/fruit.lua [scale=0.5] [steps=90]
 local scale = param("scale", 1)
@@ -15,7 +15,7 @@ local balls = {
 local light = {-0.55, -0.68, 0.48}
 local ratio = w / h
 local function clamp(v) return v < 0 and 0 or v > 1 and 1 or v end
--- Pores of a peel: one somewhere in each square of its skin. Waves instead, however mixed, are seen as waves.
+-- Pores of a peel: one at a random place in each square of its skin. Any sum of waves would be visible as waves.
 local pores = {}
 for i = 0, 64 * 64 - 1 do pores[i] = {math.random(), math.random(), 0.25 + 0.3 * math.random()} end
 local function pitted(u, v, n)

@@ -1,4 +1,4 @@
--- kinds.lua - the six kinds of brushes, each with one dip until it runs dry; the second wave of each is quick and light.
+-- kinds.lua - the six kinds of brushes, each dipped once and used until it is dry. The second wave of each is quick and light.
 --
 --     lutetia run examples/scripts/kinds.lua [scale=0.5] [steps=120]
 local scale = param("scale", 1)

@@ -1,4 +1,4 @@
--- laundry.lua - lines of type on a line: words hung up side by side, wet, in gusts of wind.
+-- laundry.lua - wet words hang side by side on a clothes-line, in gusts of wind.
 --
 --     lutetia run examples/scripts/laundry.lua [scale=1] [steps=60]
 local scale = param("scale", 1)

@@ -1,5 +1,5 @@
 -- line.lua - a line of pigment, and water that travels from left to right: five moments, one above the other, by the thesis's
--- rule (its figure 17). Each strip gets the water that its moment has seen.
+-- rule (its figure 17). Each strip gets the water that has come until its moment.
 --
 --     lutetia run examples/scripts/line.lua [scale=0.5] [steps=400]
 local scale = param("scale", 1)

@@ -1,4 +1,4 @@
--- page.lua - a page of type printed around a puddle, before the paper is dry: at the puddle's side the ink runs.
+-- page.lua - a page of type printed around a puddle on paper that is still wet: beside the puddle the ink runs.
 --
 --     lutetia run examples/scripts/page.lua [scale=1] [steps=40]
 local scale = param("scale", 1)

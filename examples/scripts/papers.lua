@@ -1,7 +1,7 @@
 -- papers.lua - a poster of one word in every paper: the same ink, water and time on five stocks.
 --
 --     lutetia run examples/scripts/papers.lua [scale=0.5] [steps=500] [word=Lutetia]
--- Each strip is a paper of its own. Dried and sealed its ink is part of it, and its colours are copied into the poster's layers.
+-- Each strip is a paper of its own. It is dried and sealed, and its colours are copied into the poster's layers.
 local scale = param("scale", 1)
 local steps = param("steps", 500)
 local word = param("word", "Lutetia")

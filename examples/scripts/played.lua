@@ -1,5 +1,5 @@
--- played.lua - a song paints: notes move two brushes, velocity is how hard they press, bend tilts the paper, the wheel is how damp
--- the air is.
+-- played.lua - a song paints: notes move two brushes, velocity sets their pressure, bend tilts the paper, and the wheel sets the
+-- air's humidity.
 --
 --     lutetia run examples/scripts/played.lua [scale=1] [steps=500] [song=played.mid]
 --
@@ -17,7 +17,7 @@ local brushes = {                                  -- a channel has a brush of i
   p:brush{kind = "mop", width = math.max(3, 46 * scale)},
 }
 
--- Where a note lies: time runs to the right, higher notes stand higher.
+-- A note's place: time runs to the right, higher notes are higher.
 local low, high = 127, 0
 for _, m in ipairs(tune) do
   if m.note then low, high = math.min(low, m.note), math.max(high, m.note) end

@@ -1,4 +1,4 @@
--- rain.lua - type that rains: a word in ink on paper that drinks little, hung up; where drops are heavy they run.
+-- rain.lua - type that rains: a word in ink on upright paper that absorbs little. Heavy drops run down.
 --
 --     lutetia run examples/scripts/rain.lua [scale=0.5] [steps=2400] [word=rain]
 local scale = param("scale", 1)
@@ -16,7 +16,7 @@ p:air{
   humidity = 0.0001, edge = 4, edge_width = 3, settling = 0.05, absorption = 0.03,
 }
 
--- The word; then drops in it, which stand high enough to enter the dry paper below.
+-- Puts the word, then drops in it, which are high enough to flow into the dry paper below.
 local type = text(word, {size = 270 * scale, x = w / 2, y = 240 * scale, align = "center"})
 p:put(type, {water = 0.35, ["french ultramarine"] = 0.75, ["phthalo green"] = 0.3})
 for i = 1, 26 do

@@ -20,7 +20,7 @@ local function glaze(shape, inks, water)
   p:seal()
 end
 
--- ground and shadow, then the ball from light to dark; each glaze leaves the light of the one before uncovered
+-- ground and shadow, then the ball from light to dark; each glaze leaves the lightest part of the one before uncovered
 glaze(rect(0, cy + 0.45 * r, w, h):soften(10 * scale) - ball, {["cerulean blue"] = 0.22, ["burnt umber"] = 0.05})
 glaze((ellipse(cx + 0.55 * r, cy + 1.02 * r, 1.15 * r, 0.20 * r):soften(8 * scale)) - ball,
   {["french ultramarine"] = 0.55, ["burnt umber"] = 0.35})

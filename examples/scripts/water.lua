@@ -1,5 +1,5 @@
--- What water does that flows: a picture of each effect, or of one: what=backrun.
--- All are on one kind of paper, but for the ink, in the same air: only water, pigment, gravity and time differ.
+-- Effects of flowing water: a picture of each, or of one: what=backrun.
+-- All but the ink are on one kind of paper, and all in the same air: only water, pigment, gravity and time differ.
 
 local scale, what, most = param("scale", 1), param("what", "all"), param("steps", 2000)
 local side = math.floor(256 * scale)
@@ -14,7 +14,7 @@ end
 local everywhere = rect(0, 0, side, side)
 local effects = {}
 
--- Clean water into a wash that is still damp: it pushes pigment before it, into lobes with a dark edge.
+-- Clean water in a damp wash pushes the pigment before it, into lobes with a dark edge.
 function effects.backrun(p)
   p:put(everywhere, {water = 0.3, [blue] = 0.5, [rose] = 0.1})
   p:step(math.min(most, 300))
@@ -22,7 +22,7 @@ function effects.backrun(p)
   p:step(math.min(most, 700))
 end
 
--- Colour into clean water: it goes where the water carries it.
+-- A drop of colour in clean water spreads with the water.
 function effects.drop(p)
   p:put(everywhere, {water = 0.35})
   p:put(ellipse(middle - 30 * scale, middle, 20 * scale), {water = 2, [rose] = 1.6})

@@ -1,6 +1,6 @@
 """Writes the listing of the thesis's appendix 7.1 as a C function, from the thesis's text: listing.py TEXT OUT.
 
-The text has the listing in pieces between commentary; a line that was too long is broken, "->" in two where it fell there."""
+In the text the listing is in pieces between commentary. Lines that were too long are broken, some in the middle of "->"."""
 import re
 import sys
 

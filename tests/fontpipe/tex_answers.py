@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes tex_answers.h of what TeX said: for each paragraph its demerits, and which piece each line ends with and how bad it is.
+"""Makes tex_answers.h from TeX's log: each paragraph's demerits, and each line's last piece and badness.
 
     build/tests/fontpipe/test_tex --tex > paragraphs.tex
     tex -ini paragraphs.tex                                   (INITEX of any TeX; no format and no fonts are needed)
@@ -10,7 +10,7 @@ import sys
 
 
 def ways(trace):
-    """The chain of breaks with the fewest demerits: how bad each of its lines is, and the demerits of all."""
+    """The chain of breaks with the fewest demerits: the badness of each line, and the sum of demerits."""
     nodes, group, finals, manners = {}, {}, [], {0: (2, False)}
     at_end = False
     for line in trace:

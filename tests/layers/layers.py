@@ -40,7 +40,7 @@ WORD = re.compile(r"(?<![\w.])(?<!->)(?<!struct )(?<!enum )(?<!union )[A-Za-z_]\
 
 
 class TableError(Exception):
-    """A row of the table that cannot be what was meant."""
+    """A wrong row of the table."""
 
 
 class Table:
@@ -184,7 +184,7 @@ class File:
 
     @staticmethod
     def signature(lines, open_line):
-        """The first line of what stands above a brace; of 1978's definitions the declarations of parameters, too."""
+        """The first line of the definition above a brace, including the parameters' declarations in K&R style."""
         first = open_line
         while first > 0:
             line = lines[first - 1].rstrip()
@@ -202,7 +202,7 @@ class File:
 
 
 def variables(text):
-    """The names of the variables that a text without functions defines, but for static ones."""
+    """The names of the non-static variables that a text without functions defines."""
     while text != (text := NESTED.sub(" ", ARGUMENTS.sub("()", text))):
         pass
     found = set()
@@ -214,7 +214,7 @@ def variables(text):
 
 
 class House:
-    """All files, and what is wrong between them."""
+    """All files, and the offences between them."""
 
     def __init__(self, root, table):
         self.table = table
@@ -255,7 +255,7 @@ class House:
         self.seen = {}  # file -> the project's headers that it includes, directly or not
 
     def find_variables(self):
-        """Variables with external linkage: of those outside functions the ones that a header promises as `extern`."""
+        """Finds variables with external linkage: those outside functions that a header declares `extern`."""
         promised = {name for file in self.files.values() if not file.path.endswith(".c") for name in file.promised}
         for file in self.files.values():
             if file.path.endswith(".c"):
@@ -272,7 +272,7 @@ class House:
         return self.seen[path]
 
     def paths(self, root):
-        """All C files below the root, but for builds and what begins with a dot."""
+        """All C files below the root, except in build folders and in names that begin with a dot."""
         for top in root.iterdir():
             if top.is_dir() and not re.match(r"\.|build", top.name) and not (top / "meson-private").exists():
                 for path in top.rglob("*"):
@@ -306,7 +306,7 @@ class House:
                                      % (self.table.name, number, " ".join(row)))
 
     def check_tour(self):
-        """Each folder stands in the tour: by its path, or as a line `    name/` of a list; what is listed is there."""
+        """Checks that the tour names each folder, by its path or as a line `    name/` of a list, and lists no others."""
         listed = set(TOUR_LINE.findall(self.tour))
         for folder in self.table.folders:
             name = folder[:-2] if folder.endswith("/*") else folder
@@ -342,7 +342,7 @@ class House:
                     self.edges[file.path].add(path)
 
     def headers_named(self, file, name):
-        """The project's headers that an include may mean: beside the file, or in the nearest folder above it, or all."""
+        """The project's headers that an include may mean: beside the file, else in the nearest folder above it, else all."""
         folder = file.folder
         while True:
             parts = (folder + "/" + name).lstrip("/").split("/")
@@ -396,7 +396,7 @@ class House:
                             "%s() has %d lines; at most %d" % (name, last - first + 1, FUNCTION_LINES))
 
     def check_circles(self):
-        """Each file of a circle of uses offends: strongly connected parts of more than one file, by Tarjan."""
+        """Each file in a circle of uses is an offence: finds strongly connected components of several files by Tarjan's algorithm."""
         for part in strong_parts(self.edges):
             if len(part) > 1:
                 for path in part:
@@ -404,7 +404,7 @@ class House:
                                 % (len(part), " ".join(self.way_round(path, part))))
 
     def way_round(self, start, part):
-        """The shortest way from a file back to itself."""
+        """The shortest path of uses from a file back to itself."""
         before = {}
         queue = collections.deque([start])
         while queue:
@@ -422,7 +422,7 @@ class House:
         return [start]
 
     def check_namesakes(self):
-        """A name with external linkage in two folders."""
+        """Finds names with external linkage that two folders define."""
         for name, paths in self.definers.items():
             places = {}
             for path in paths:

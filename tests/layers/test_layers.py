@@ -1,4 +1,4 @@
-"""Tests of layers.py on small trees made up for each case."""
+"""Tests layers.py on small trees of files, one for each case."""
 import contextlib
 import io
 import pathlib

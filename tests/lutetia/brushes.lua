@@ -1,4 +1,4 @@
--- brushes.lua - brushes and techniques as scripts meet them: what they do, and one line for what they cannot. Run by `lutetia run`.
+-- brushes.lua - brushes and techniques in scripts: their effects, and one line for each error. Run by `lutetia run`.
 local p = paper{width = 48, height = 32, pigments = {"quinacridone rose", "phthalo green"}, model = {"infused"}, seed = 3}
 local b = p:brush{width = 6, bristles = 24, reach = 60}
 local checks = 0
@@ -9,7 +9,7 @@ local function same(what, found, wanted)
 end
 local function held(what) return p:total(what) + b:holds(what) + (what == "water" and p:total("dried") or 0) end
 
--- every way of a stroke, and nothing lost
+-- strokes with every form of path lose nothing
 b:dip{water = 1, ["quinacridone rose"] = 0.5}
 b:dip({water = 0.5, ["phthalo green"] = 1}, {part = 0.5, side = {-1, 0}})
 local water, rose, green = held("water"), held("quinacridone rose"), held("phthalo green")
@@ -52,7 +52,7 @@ before = p:total("quinacridone rose")
 p:separate(rows, {x = 4, y = 4, width = 20, height = 10, pigments = {"quinacridone rose"}, water = 0.1})
 assert(p:total("quinacridone rose") > before)
 
--- what cannot be
+-- errors
 local function wrong(said, f, ...)
   checks = checks + 1
   local ok, text = pcall(f, ...)

@@ -1,8 +1,8 @@
-"""fuzz_lines.py LUTETIA [SECONDS]: whole command lines by chance, from the rows that each verb's --help lists, with values that are
-wrong, huge, empty, other files, or right. (security.md 19)
+"""fuzz_lines.py LUTETIA [SECONDS]: runs random command lines, made from the options that each verb's --help lists, with values that
+are wrong, huge, empty, other files, or right. (security.md 19)
 
-Each ends in time, with 0, 1, 2 or (when it is interrupted) 130; what is wrong is said in a line that does nothing to a terminal; only
-files that the line names are written. Seeds, always the same; or new ones for so many seconds, printed where one is wrong.
+Each command ends in time, with status 0, 1, 2 or (when interrupted) 130. An error is one line without control characters. Only files
+that the line names are written. The seeds are fixed; or new ones for that many seconds, printed where a command fails the test.
 """
 import os
 import pathlib
@@ -18,7 +18,7 @@ import time
 
 LINES = 30
 SECONDS = 20
-# what takes long, opens windows or waits for others is only given lines that are wrong at once
+# verbs that take long, open windows or wait for others only get lines that are refused at once
 SLOW = {"bench", "tune", "demo", "leds", "explain", "spring", "play", "record", "midi", "sound", "voice", "keys", "studio", "read", "cc"}
 BAD = re.compile(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]")
 ROW = re.compile(r"^\s+(?:-(\w), )?--([a-z][\w-]*)(?:[ =](\S+))?")
@@ -28,7 +28,7 @@ VALUES = ["", "0", "1", "-1", "2", "0.5", "1e3", "1e308", "-1e308", "nan", "inf"
           "8x8", "16x16", "16384x16384", "0x0", "x", ",", "--", "-", "%s%n%n", "a=1", "=", "a=1..3", "a=1..1e9", "a\x1b[2Jb", "\u202ex", "é漢",
           "/no/such/", "./made", "made/", "/dev/null", "/dev/full", "/dev/zero", "pipe", "folder", "link", "picture.png", "script.lua", "no/such",
           "out.png", "out.h5", "out.y4m", "made", "box:2", "gauss:1.5", "samples:1,2", "DejaVuSans", "wght=400", "A" * 300, "x" * 5000]
-# what is right where the help names a value so
+# good values, by the name that the help gives a value
 RIGHT = {"FILE": ["out.png", "out.h5", "script.lua"], "DIR": ["made", "folder"], "N": ["1", "2", "3"], "S": ["1", "5"], "PX": ["12", "40"],
          "F": ["box:2", "DejaVuSans", "triangle:3"], "WxH": ["16x16", "40x20"], "W": ["0.5"], "A": ["left", "0.5"], "B": ["1"],
          "C,M,Y": ["0.1,0.5,1"], "X,Y": ["3,4"], "R,G,B": ["0,0.5,1"], "DEG": ["30"], "G": ["1.5"], "H": ["0.1"], "C": ["g"],
@@ -59,7 +59,7 @@ class Lines:
                               check=True).stdout.splitlines()
 
     def line(self):
-        """A line, and whether something on it is wrong for certain."""
+        """Draws a line; returns it, and whether it is certainly wrong."""
         chance = self.chance
         quick = [verb for verb in self.verbs if verb not in SLOW]
         verb = chance.choice(list(self.verbs)) if chance.random() < 0.15 else chance.choice([*quick, "type", "font", "run"])

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""LUTETIA_TRACE, LUTETIA_EXPLAIN and `lutetia explain`, as a user meets them.
+"""Tests LUTETIA_TRACE, LUTETIA_EXPLAIN and `lutetia explain` as a user runs them.
 
     test_explain.py LUTETIA EXPLAINED SOURCE
 
-EXPLAINED is explained.c, built: its kernels and bytes are known by hand.
+EXPLAINED is the program explained.c, whose kernels and bytes are known by hand.
 """
 import json
 import os
@@ -25,7 +25,7 @@ def run(*command, **variables):
 
 
 def one_line(text, *words):
-    """What went wrong is one line, and says so much."""
+    """Checks that an error is one line that contains these words."""
     assert text.count("\n") == 1 and text.endswith("\n"), repr(text)
     for word in words:
         assert word in text, (word, text)
@@ -38,7 +38,7 @@ def load_cut(path):
 
 
 def nested(events, track):
-    """Spans of a track lie beside or within each other. Returns {index: index of the one around it}."""
+    """Checks that a track's spans lie beside or within each other. Returns {index: index of the span around it}."""
     spans = sorted((e for e in events if e["ph"] == "X" and e["tid"] == track),
                    key=lambda e: (round(e["ts"] * 1000), -round(e["dur"] * 1000)))
     around, parents = [], []
@@ -73,7 +73,7 @@ def trace_has_every_part_in_its_place(folder):
             assert e["ts"] + e["dur"] <= took_us, e
 
     front, device = nested(events, 1), nested(events, 2)
-    # Each instruction, and each step: it was recorded, or it was noted and performed at once.
+    # Each instruction, and each step, was either recorded or foreseen and performed at once.
     evaluations = [e for e, _ in front if e["name"] == "evaluate"]
     replays = [e for e, _ in front if e["name"] == "replay"]
     recorded = named(events, "CM_f_add_2_1L")
@@ -101,7 +101,7 @@ def trace_has_every_part_in_its_place(folder):
         assert re.fullmatch(r"field \d+ = FADD", e["name"]), e
         assert e["args"]["processors"] == PROCESSORS and e["args"]["operations a processor"] == 1
         assert e["args"]["bytes read"] == 8 * PROCESSORS and e["args"]["bytes written"] == 4 * PROCESSORS
-    # A step's kernel has ended when its look has: clocks agree to a tenth of a millisecond.
+    # A step's kernel ends before the read that waits for it; the clocks agree to a tenth of a millisecond.
     if device:
         ends = sorted(e["ts"] + e["dur"] for e, _ in device)
         for end, look in zip(ends, sorted(looks, key=lambda e: e["ts"])):

@@ -1,7 +1,8 @@
-"""test_hostile.py LUTETIA: the command where somebody or something means harm.
+"""test_hostile.py LUTETIA: runs the command in hostile surroundings.
 
-Closed and full streams, pipes and devices where files should be, names and texts with escapes, links and folders in the place of
-what is written. Whatever it is: one clear line, a status that says so, in time, and nothing lost or replaced. (security.md 2, 5, 6, 12, 17, 18)
+Closed and full streams, pipes and devices instead of files, names and texts with escapes, links and folders in the place of output
+files. Each command ends in time with one clear line and an exit status for the error, and no file is lost or replaced.
+(security.md 2, 5, 6, 12, 17, 18)
 """
 import os
 import pathlib
@@ -34,7 +35,7 @@ class Hostile(unittest.TestCase):
         return name
 
     def run_it(self, *arguments, close=(), full=False, **variables):
-        """The command, with those of its streams closed, or its output on a full disk."""
+        """Runs the command with these streams closed, or with its output on a full disk."""
         def streams():
             for number in close:
                 os.close(number)
@@ -48,7 +49,7 @@ class Hostile(unittest.TestCase):
         return done
 
     def refused(self, done, *says, status=1):
-        """One line that does nothing to a terminal, and a status."""
+        """Checks for one line without control characters, and for the exit status."""
         self.assertEqual(done.returncode, status, done.words)
         self.assertEqual(done.words.count("\n"), 1, done.words)
         self.assertIsNone(BAD.search(done.words), repr(done.words))
@@ -78,7 +79,7 @@ class Hostile(unittest.TestCase):
                 self.refused(self.run_it(*arguments, full=True), "standard output")
 
     def test_a_full_disk_is_named(self):
-        """Where kernels are compiled: PoCL would end the process, and what was to be saved with it."""
+        """A full disk in the cache folder: PoCL would abort the process, and unsaved work would be lost."""
         small = self.at / "small"
         small.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=100k", "none", small], capture_output=True, check=False).returncode:
@@ -96,10 +97,11 @@ class Hostile(unittest.TestCase):
         self.refused(self.run_it("run", "early.lua", "-q", "--save", "all.h5"), "early")
         self.assertEqual((self.at / "all.h5").read_bytes(), before)
 
-    # ---- what is read ----
+    # ---- input ----
 
     def test_programs_appear_whole_whatever_else_the_compiler_writes(self):
-        """(security.md 11) What is derived from the program's name is there as without us; a program that was there stays after a failure."""
+        """(security.md 11) Files whose names the compiler derives from the program's are the same as without `lutetia cc`; an old program
+        stays after a failure."""
         self.script("good.c", "#include <stdio.h>\n#include <cm/paris.h>\nint main() { puts(\"good\"); return 0; }\n")
         self.script("bad.c", "int nothing_has_this(); int main() { return nothing_has_this(); }\n")
         more = {"-MD": "*.d", "-save-temps": "*.s", "--coverage": "*.gcno", "-flto": "good.c"}
@@ -144,7 +146,7 @@ class Hostile(unittest.TestCase):
                 with self.subTest(arguments=arguments):
                     self.refused(self.run_it(*arguments), what)
 
-    # ---- what is printed ----
+    # ---- printed text ----
 
     def test_escapes_are_shown(self):
         evil = "a\x1b]0;owned\x07\x9b2J\x7f\r\n\u202egnp"
@@ -174,7 +176,7 @@ class Hostile(unittest.TestCase):
                 self.assertGreater(len(done.words), 0)
                 self.assertIsNone(BAD.search(done.words), repr(done.words))
 
-    # ---- what is written ----
+    # ---- written files ----
 
     def test_only_files_are_replaced(self):
         os.mkfifo(self.at / "pipe.png")

@@ -1,8 +1,8 @@
-"""test_kills.py LUTETIA [MOMENTS [SEED]]: the command killed at moments by chance, and on disks that are full.
+"""test_kills.py LUTETIA [MOMENTS [SEED]]: kills the command at random moments, and runs it on full disks.
 
-Saves, paints, films, compiles, measures (with many moments), begins with empty caches; SIGKILL somewhere on the way, or the disk is
-full from some byte on. Whatever there was must be as it was, or as a whole run leaves it: each task writes one of two known
-versions, by turns. After the next start no part file is left, and what it makes is right. (security.md 11, 13, 16)
+The tasks save, paint, film, compile, measure (with many moments), and start with empty caches. SIGKILL comes at some moment, or the
+disk is full from some byte on. Each old file must then be unchanged, or as a whole run leaves it; each task writes two known versions
+in turn. After the next start no part file is left, and its results are right. (security.md 11, 13, 16)
 """
 import os
 import pathlib
@@ -31,7 +31,7 @@ TUNE_EVERY = 100  # moments; it takes long
 
 
 class Task:
-    """A command line in two versions, and the files that it leaves, in `folder`."""
+    """A command line in two versions, and the files that it writes in `folder`."""
 
     def __init__(self, name, files, arguments):
         self.name, self.files, self.arguments = name, files, arguments
@@ -86,7 +86,7 @@ class Place:
         assert child.returncode == 0, (arguments, said)
 
     def learn(self):
-        """What whole runs leave; the second version stays."""
+        """Reads the files that whole runs write; those of the second version stay."""
         for task in self.tasks:
             for version in (1, 2):
                 began = time.monotonic()
@@ -101,7 +101,7 @@ class Place:
         return [whole for (file, _), whole in task.whole.items() if file == name]
 
     def is_saved(self, name):
-        """A state that a run left that failed on the way: what was done until then, whole."""
+        """Whether a failed run's state can be resumed: it must hold all that was done until then."""
         (self.at / "nothing.lua").write_text("")
         child = self.begin(["run", "nothing.lua", "-q", "--resume", name])
         child.communicate(timeout=SECONDS)

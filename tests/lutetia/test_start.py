@@ -1,5 +1,5 @@
-"""The first picture from the command, with warm caches: `lutetia bench start`, and that it takes no more processor time
-than a few times what finding the device takes."""
+"""Measures the command's first picture with warm caches by `lutetia bench start`. It takes at most a few times the processor time
+of finding the device."""
 import json
 import os
 import subprocess

@@ -1,5 +1,5 @@
-"""test_fields.py PROGRAM DOCUMENT [--write] - the document's tables between "<!-- fields NAME -->" and "<!-- end -->" are those that
-the program prints from the rows; --write puts them there."""
+"""test_fields.py PROGRAM DOCUMENT [--write] - compares the document's tables between "<!-- fields NAME -->" and "<!-- end -->" with
+those that the program prints from the rows; --write replaces them."""
 import re
 import subprocess
 import sys

@@ -1,7 +1,7 @@
 """test_promises.py ROOT: each numbered sentence of docs/security.md is quoted by a test.
 
-A test quotes a sentence by its number, in a comment: `security.md 8, 9`. Numbers run from 1 without gaps; one that no sentence has is
-wrong, too.
+A test quotes a sentence by its number, in a comment: `security.md 8, 9`. The sentences are numbered from 1 without gaps. A quoted
+number without a sentence is an error, too.
 """
 import pathlib
 import re
@@ -13,7 +13,7 @@ SUFFIXES = (".c", ".h", ".py", ".sh")
 
 
 def wrongs(page, tests):
-    """What is wrong, a line each. tests: (name, text) of each test's file."""
+    """The errors, one line each. tests: (name, text) of each test's file."""
     numbers = [int(number) for number in SENTENCE.findall(page)]
     found = ["docs/security.md: sentence %d stands where %d should" % (got, wanted)
              for wanted, got in enumerate(numbers, 1) if got != wanted]
@@ -29,7 +29,7 @@ def wrongs(page, tests):
 
 
 def checked():
-    """It finds what it should."""
+    """Tests wrongs()."""
     page = "1. One.\n\ntext\n2. Two.\n"
     assert wrongs(page, [("a.c", "/* (security.md 1, 2) */")]) == []
     assert len(wrongs(page, [("a.c", "/* security.md 1 */")])) == 1
