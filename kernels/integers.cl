@@ -153,14 +153,14 @@ HEAVY VL square_root_L(VL a)
         VI fits = CMP(p < limit) | (negative & CMP(p == limit));                               \
         return ~fits | u_power_beyond_##X(m, b, w);                                            \
     }                                                                                          \
-    HEAVY V u_shifted_##X(V a, VU count)                                                       \
+    inline V u_shifted_##X(V a, VU count)                                                      \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V s = FROM_U(AS_U(by & (VI)(BITS - 1)));                                               \
         V r = SEL(left, a << s, a >> s);                                                       \
         return SEL(CMP_U(by >= (VI)(BITS)), (V)(0), r);                                        \
     }                                                                                          \
-    HEAVY V s_shifted_##X(V a, VU count, int w)                                                \
+    inline V s_shifted_##X(V a, VU count, int w)                                               \
     {                                                                                          \
         VI n = AS_S(count), left = CMP_U(n >= (VI)(0)), by = SEL_U(left, n, -n);               \
         V l = FROM_U(AS_U(by & (VI)(BITS - 1))), r = FROM_U(AS_U(min(by, (VI)(BITS - 1))));    \
@@ -168,7 +168,7 @@ HEAVY VL square_root_L(VL a)
         V moved = SEL(left, a << l, AS_V(x >> AS_S_(r)));                                      \
         return SEL(left & CMP_U(by >= (VI)(BITS)), (V)(0), moved);                             \
     }                                                                                          \
-    HEAVY V rotated_##X(V a, VU count, int w)                                                  \
+    inline V rotated_##X(V a, VU count, int w)                                                 \
     {                                                                                          \
         V n = FROM_U(count);                                                                   \
         return (a << n) | (a >> (((V)(ONE * w) - n) & (V)(BITS - 1)));                         \

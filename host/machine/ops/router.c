@@ -376,14 +376,18 @@ static struct machine_value *transmit(struct machine *m, const struct message *g
     struct rows rows = geometry_rows(g->to, type);
     size_t bytes = rows.bytes;
     double start;
-    rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
     struct device_buffer *out = device_rows_get(m, rows);
+    bool near = out && route_near(m, g->to, out, &start);
+    if (out && !near) {
+        device_buffer_unref(m, out);
+        rows.bytes += shares(m, g->to) * 64 * type_bytes(type); /* thrown away */
+        out = device_rows_get(m, rows);
+    }
     if (!out)
         return NULL;
     enum machine_status status =
-        route_near(m, g->to, out, &start)
-            ? transmit_near(m, g, combiner, out, bytes, start, notification)
-            : transmit_far(m, g, combiner, out, bytes, notification);
+        near ? transmit_near(m, g, combiner, out, bytes, start, notification)
+             : transmit_far(m, g, combiner, out, bytes, notification);
     if (status) {
         device_buffer_unref(m, out);
         return NULL;
