@@ -337,13 +337,14 @@ static enum font_status notes_take(struct filling *f, struct paragraph *p, int f
                                    sizeof *f->notes))
                     return font_fail(FONT_NO_MEMORY, "no memory for notes");
                 f->notes[f->notes_count++] = n->paragraph;
-            } else if (frame->margin_width > 0 && !frame->vertical) {
+            } else if (frame->margin_width > 0) {
+                double beside = frame->margin_x - (frame->vertical ? frame->y : frame->x);
                 double height, v = f->page->slots[first_slot + i - from].v;
                 status = note_height(f, n->paragraph, frame->margin_width, &height);
                 v = fmax(v, f->margin_v);
                 if (status == FONT_OK)
-                    status = note_place(f, n->paragraph, frame->margin_x - frame->x,
-                                        frame->margin_x - frame->x + frame->margin_width, v);
+                    status =
+                        note_place(f, n->paragraph, beside, beside + frame->margin_width, v);
                 if (status != FONT_OK)
                     return status;
                 f->margin_v = v + height;

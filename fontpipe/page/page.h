@@ -129,9 +129,11 @@ enum { PAGE_FRAMES_MAX = 12, PAGE_SHAPES_MAX = 16 };
 struct page_frame {
     double x, y, width, height;
     int flow;
-    bool vertical;                 /* lines go down, from the right to the left */
-    double margin_x, margin_width; /* of the box for its margin notes; width 0: there is none */
-    double foot_gap_px;            /* between text and notes at its foot */
+    bool vertical; /* lines go down, from the right to the left */
+    /* Of the box for its margin notes: from where, and how wide; width 0: there is none. In a vertical frame it lies above or under it:
+     * these are its y and its height. */
+    double margin_x, margin_width;
+    double foot_gap_px; /* between text and notes at its foot */
 };
 
 /* A polygon (x, y, ...). Obstacles: text goes around, at a distance; else text stays inside of all that there are. */

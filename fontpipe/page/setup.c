@@ -37,7 +37,7 @@ struct making {
     } * spans;
     int spans_count, spans_capacity;
     struct {
-        int byte, from, end;
+        int byte, from, end, number;
         bool margin;
     } * notes;
     int notes_count, notes_capacity, number;
@@ -141,13 +141,13 @@ static enum font_status template_make(const struct making *m)
     if (s->shapes_count > PAGE_SHAPES_MAX)
         return font_fail(FONT_BAD_ARGUMENT, "a page has at most %d shapes (got %d)",
                          PAGE_SHAPES_MAX, s->shapes_count);
-    double inner = s->width_px - 2 * s->margin_px - s->notes_px;
-    double width = (inner - (s->columns - 1) * s->gap_px) / s->columns;
-    double height = s->height_px - 2 * s->margin_px;
-    if (s->vertical) { /* columns lie above each other */
-        width = inner;
-        height = (height - (s->columns - 1) * s->gap_px) / s->columns;
-    }
+    double width = s->width_px - 2 * s->margin_px, height = s->height_px - 2 * s->margin_px;
+    double beside = s->vertical ? s->height_px : s->width_px; /* the page along its lines */
+    double between = (s->columns - 1) * s->gap_px;
+    if (s->vertical) /* columns lie above each other */
+        height = (height - s->notes_px - between) / s->columns;
+    else
+        width = (width - s->notes_px - between) / s->columns;
     if (!(width >= s->size_px && height >= s->size_px))
         return font_fail(FONT_BAD_ARGUMENT,
                          "columns of %.0fx%.0f pixels are too small for letters of %g", width,
@@ -159,7 +159,7 @@ static enum font_status template_make(const struct making *m)
             .width = width,
             .height = height,
             .vertical = s->vertical,
-            .margin_x = s->width_px - s->margin_px - s->notes_px + s->gap_px / 2,
+            .margin_x = beside - s->margin_px - s->notes_px + s->gap_px / 2,
             .margin_width = s->notes_px > 0 ? fmax(0, s->notes_px - s->gap_px / 2) : 0,
             .foot_gap_px = 0.6 * s->size_px};
     for (int i = 0; i < s->shapes_count; i++)
@@ -232,13 +232,14 @@ static bool signs_read(struct making *m, const char *s, int at, int end, enum lo
             bool margin = s[at + 1] == '>' && m->setup->notes_px > 0;
             int last = note_end(s, at + 2, end);
             if (!margin)
-                ok = number_add(m, m->number + m->notes_count + 1, RAISED, now);
+                ok = number_add(m, ++m->number, RAISED, now);
             ok = ok && array_reserve(&m->notes, &m->notes_capacity, m->notes_count + 1,
                                      sizeof *m->notes);
             if (ok) {
                 m->notes[m->notes_count].byte = m->count;
                 m->notes[m->notes_count].from = at + 2;
                 m->notes[m->notes_count].end = last;
+                m->notes[m->notes_count].number = m->number;
                 m->notes[m->notes_count++].margin = margin;
             }
             at = last;
@@ -299,7 +300,7 @@ static enum font_status notes_make(struct making *m, const char *s, int id)
         if (margin)
             manner.align = FONT_ALIGN_START;
         bool ok = margin ||
-                  (number_add(m, m->number + i + 1, NOTE_RAISED, NOTE) && letter_add(m, ' '));
+                  (number_add(m, m->notes[i].number, NOTE_RAISED, NOTE) && letter_add(m, ' '));
         if (!ok || !signs_read(m, s, m->notes[i].from, m->notes[i].end, NOTE, NOTE_ITALIC,
                                NOTE_BOLD, false))
             return font_fail(FONT_NO_MEMORY, "no memory for a note");
@@ -309,7 +310,6 @@ static enum font_status notes_make(struct making *m, const char *s, int id)
         if (status == FONT_OK)
             status = spans_apply(m, note);
     }
-    m->number += notes;
     return status;
 }
 

@@ -21,7 +21,7 @@ struct page_setup {
     double width_px, height_px, margin_px, gap_px;
     int columns;
     double
-        notes_px; /* the width of a margin for notes, beside the margin; 0: notes in the margin are set at the foot */
+        notes_px; /* the width of a margin for notes, beside the text (under it where lines go down); 0: notes in the margin are set at the foot */
     enum font_align align;
     double indent_em; /* of paragraphs that do not stand behind a heading */
     bool hyphenate, vertical;

@@ -521,6 +521,7 @@ enum font_status page_note_add(struct page_text *t, int id, int byte, enum page_
     if (status != FONT_OK)
         return status;
     p->owner = id;
+    p->vertical = owner->vertical;
     int at = owner->notes_count++; /* in the order of their places */
     for (; at > 0 && owner->notes[at - 1].byte > byte; at--)
         owner->notes[at] = owner->notes[at - 1];

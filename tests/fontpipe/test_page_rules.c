@@ -1,10 +1,10 @@
-/* test_page_rules.c - the rules of pages: lines fill their column, hyphenation, keeps, notes, shapes, tabs, vertical lines; and
- * pages as drawings. */
+/* test_page_rules.c - the rules of pages: lines fill their column, hyphenation, keeps, notes, shapes, tabs, vertical lines. */
 #include "support.h"
 
 #include "made_font.h"
 
-#include <drawing.h>
+#include <edges.h>
+
 #include <page.h>
 #include <setup.h>
 
@@ -339,6 +339,37 @@ static void notes_go_with_their_lines(void **state)
     }
 }
 
+/* Under the line that goes down, in lines that go down. */
+static void notes_stand_under_vertical_lines(void **state)
+{
+    (void)state;
+    struct fixture f;
+    struct page_frame frame = {.x = 30,
+                               .y = 40,
+                               .width = 300,
+                               .height = 190,
+                               .vertical = true,
+                               .margin_x = 250,
+                               .margin_width = 120,
+                               .foot_gap_px = 6};
+    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
+    struct page_caret a, b;
+    int foot, margin;
+    begin(&f, &frame, 1, NULL);
+    int id = add(&f, marsh, &m);
+    assert_font(
+        page_note_add(f.text, id, 120, PAGE_NOTE_FOOT, "At the left.", 12, 0, &m, &foot));
+    assert_font(page_note_add(f.text, id, 120, PAGE_NOTE_MARGIN, "Under its line.", 15, 0, &m,
+                              &margin));
+    assert_font(page_caret_get(f.text, (struct page_place){id, 120}, true, &a));
+    assert_font(page_caret_get(f.text, (struct page_place){margin, 0}, false, &b));
+    assert_true(b.page == a.page && b.y0 >= 250 && fabs(b.x0 - a.x0) < 1e-6);
+    assert_font(page_caret_get(f.text, (struct page_place){foot, 0}, false, &b));
+    assert_true(b.page == a.page && fmax(b.x0, b.x1) <= fmin(a.x0, a.x1) + 1e-6 &&
+                fmin(b.x0, b.x1) >= 30 - 1e-6);
+    end(&f);
+}
+
 static void text_keeps_off_shapes(void **state)
 {
     (void)state;
@@ -460,96 +491,6 @@ static void thai_words_are_broken(void **state)
     end(&f);
 }
 
-/* ---- drawings ---- */
-
-static char *drawn(const struct font_layout *l, bool pdf, size_t *bytes)
-{
-    const struct font_drawing d = {
-        .width_px = 500, .height_px = 500, .text = marsh, .bytes = strlen(marsh)};
-    char *out = NULL;
-    FILE *file = open_memstream(&out, bytes);
-    assert_non_null(file);
-    assert_font(pdf ? font_drawing_pdf(&d, l, NULL, 0, 0, file)
-                    : font_drawing_svg(&d, l, NULL, 0, 0, file));
-    fclose(file);
-    return out;
-}
-
-static int count_of(const char *in, const char *what)
-{
-    int n = 0;
-    for (const char *at = in; (at = strstr(at, what)); at += strlen(what))
-        n++;
-    return n;
-}
-
-static void drawings_have_all_letters(void **state)
-{
-    (void)state;
-    struct fixture f;
-    struct page_manner m = manner_of(FONT_ALIGN_JUSTIFY);
-    size_t bytes;
-    begin(&f, &column, 1, NULL);
-    add(&f, marsh, &m);
-    const struct font_layout *l = look(&f, 0);
-    char *svg = drawn(l, false, &bytes);
-    assert_int_equal(count_of(svg, "<use "), l->glyphs_count);
-    assert_int_equal(count_of(svg, "<text "),
-                     l->glyphs_count); /* DejaVu's ligatures are off here */
-    assert_true(count_of(svg, "<path ") < 40);
-    free(svg);
-    char *pdf = drawn(l, true, &bytes);
-    assert_memory_equal(pdf, "%PDF-1.5", 8);
-    /* Each object begins at its offset in the xref table. */
-    const char *table = strstr(pdf + atol(strstr(pdf, "startxref") + 10), "xref");
-    assert_ptr_equal(table, pdf + atol(strstr(pdf, "startxref") + 10));
-    const char *row = strstr(table, "65535 f \n") + 9;
-    for (int i = 1; row[11] == '0' && row[17] == 'n'; i++, row += 20) {
-        char wanted[32];
-        snprintf(wanted, sizeof wanted, "%d 0 obj", i);
-        assert_memory_equal(pdf + atol(row), wanted, strlen(wanted));
-    }
-    free(pdf);
-    end(&f);
-}
-
-/* Drawings define each gradient once, in the page's coordinates, and fill letters with it. */
-static void drawings_have_gradients(void **state)
-{
-    (void)state;
-    struct font_face *face = face_open("DejaVuSans");
-    struct font_shaper *s = shaper_make(face);
-    struct font_layout l;
-    const struct font_ink inks[] = {
-        {.kind = FONT_INK_LINEAR,
-         .x1 = 100,
-         .stops_count = 3,
-         .stops = {{0, {1, 0, 0, 1}}, {0.25, {0, 1, 0, 1}}, {1, {0, 0, 1, 1}}}},
-        {.kind = FONT_INK_RADIAL,
-         .x0 = 80,
-         .x1 = 40,
-         .stops_count = 2,
-         .stops = {{0, {1, 1, 0, 1}}, {1, {0, 1, 1, 1}}}},
-    };
-    size_t bytes;
-    assert_font(font_shaper_layout(s, "abcdef", 6, 30, NULL, &l));
-    for (int i = 0; i < l.glyphs_count; i++) {
-        if (i % 3 == 0)
-            assert_true(font_layout_ink_add(&l, &inks[i / 3]) > 0);
-        l.glyphs[i].ink = i / 3 + 1;
-    }
-    char *pdf = drawn(&l, true, &bytes);
-    assert_int_equal(count_of(pdf, "/ShadingType 2 /Coords [0 0 100 0]"), 1);
-    assert_int_equal(count_of(pdf, "/ShadingType 3 /Coords [80 0 0 80 0 40]"), 1);
-    assert_int_equal(count_of(pdf, "/Bounds [ 0.0000010 0.2500000 0.9999990 ]"), 1);
-    assert_int_equal(count_of(pdf, "/Pattern cs /P1 scn"), 1);
-    assert_int_equal(count_of(pdf, "/Pattern cs /P2 scn"), 1);
-    free(pdf);
-    font_layout_finish(&l);
-    font_shaper_destroy(s);
-    font_face_close(face);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -559,12 +500,11 @@ int main(void)
         cmocka_unit_test(letters_are_expanded_by_the_fonts_axis),
         cmocka_unit_test(keeps_are_kept),
         cmocka_unit_test(notes_go_with_their_lines),
+        cmocka_unit_test(notes_stand_under_vertical_lines),
         cmocka_unit_test(text_keeps_off_shapes),
         cmocka_unit_test(tabs_are_stops),
         cmocka_unit_test(lines_go_down),
         cmocka_unit_test(thai_words_are_broken),
-        cmocka_unit_test(drawings_have_all_letters),
-        cmocka_unit_test(drawings_have_gradients),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
