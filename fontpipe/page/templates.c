@@ -121,7 +121,7 @@ enum font_status page_templates_set(struct page_text *t, const struct page_templ
     t->templates_count = count;
     for (int i = 0; i < t->ids_count; i++) {
         struct paragraph *p = t->by_id[i];
-        const struct paragraph *owner = p && p->flow < 0 ? story_paragraph(t, p->owner) : p;
+        const struct paragraph *owner = p && p->flow < 0 ? t->by_id[p->owner] : p;
         if (!owner || owner->flow < 0 || p->vertical == templates_vertical(t, owner->flow))
             continue;
         p->vertical = !p->vertical;
